@@ -1,0 +1,110 @@
+# rattle: make, make run, make test. Everything else: make help.
+#
+#   NATIVE=1     compile for this very processor instead of any x86-64-v3
+#   BUILD=DIR    build folder (default: build)
+#   PREFIX=DIR   where make install puts the program
+
+BUILD ?= build
+PREFIX ?= /usr/local
+VERSION := $(shell cat fsrc/VERSION)
+FC := gfortran
+PYTHON_ENV := .venv
+PYTHON := $(PYTHON_ENV)/bin/python
+
+UNAME_MACHINE := $(shell uname -m)
+ARCHITECTURE := $(if $(NATIVE),-march=native,$(if $(filter x86_64,$(UNAME_MACHINE)),-march=x86-64-v3,))
+FFTW_INCLUDE := $(firstword $(wildcard /usr/include/fftw3.f03 $(CONDA_PREFIX)/include/fftw3.f03 $(FFTW_ROOT)/include/fftw3.f03))
+LIBRARIES := $(if $(FFTW_ROOT),-L$(FFTW_ROOT)/lib) $(if $(CONDA_PREFIX),-L$(CONDA_PREFIX)/lib) -lfftw3 -llapack -lblas
+
+# Not -ffast-math: it drops the tests for NaN, and at link time sets flush-to-zero for the whole process.
+# -flto lets the film kernels become part of the loops over time, which live in other files.
+WARNINGS := -std=f2018 -Wall -Wextra
+RELEASE_FLAGS := -O3 $(ARCHITECTURE) -fno-math-errno -fno-trapping-math -flto=auto -fopenmp -fPIC
+DEBUG_FLAGS := -O1 -g -fcheck=all -finit-real=snan -ffpe-trap=invalid,overflow,zero -fbacktrace -fopenmp -fPIC
+FFLAGS := $(WARNINGS) $(if $(DEBUG),$(DEBUG_FLAGS),$(RELEASE_FLAGS)) -I$(dir $(FFTW_INCLUDE))
+
+ROOMS := foundation scene film film/coefficients motion orbit spectrum verdict files run campaign
+SOURCES := $(foreach room,$(ROOMS),$(sort $(wildcard fsrc/$(room)/*.f90)))
+OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(SOURCES)))
+UNIT_SOURCES := $(sort $(wildcard tests/unit/*.f90))
+UNIT_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(UNIT_SOURCES)))
+BENCH_SOURCES := $(sort $(wildcard tests/benchmarks/*.f90))
+BENCH_PROGRAMS := $(patsubst %.f90,$(BUILD)/%,$(notdir $(BENCH_SOURCES)))
+
+VPATH := $(addprefix fsrc/,$(ROOMS)) fsrc tests/unit tests/benchmarks
+
+.DEFAULT_GOAL := all
+.PHONY: all run test unit user lint debug python bench stress clean install help format system pages FORCE
+
+all: $(BUILD)/rattle
+
+help:
+	@echo 'make              build the program as $(BUILD)/rattle'
+	@echo 'make run          solve the two scenes of the paper, draw its figures, compare idle with creep'
+	@echo 'make test         unit tests (release and debug build) and user tests'
+	@echo 'make lint         compiler warnings, house rules, style of Fortran and Python'
+	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
+	@echo 'make python       Python environment and the module of the Fortran kernels'
+	@echo 'make bench        speed of the program, as a table'
+	@echo 'make pages        write input/README.md anew from the key table'
+	@echo 'make install      install the program into PREFIX/bin (PREFIX=$(PREFIX))'
+	@echo 'make clean        remove everything that was built'
+
+# --- set-up: only looks, unless something is missing -------------------------------------------------
+
+system:
+	@scripts/setup_system.sh
+
+$(PYTHON_ENV)/installed: pyproject.toml scripts/setup_python.sh | system
+	@scripts/setup_python.sh $(PYTHON_ENV)
+
+# --- program ----------------------------------------------------------------------------------------
+
+# A change of compiler or flags changes this file, and with it rebuilds everything.
+$(BUILD)/flags: FORCE | system
+	@mkdir -p $(BUILD)
+	@{ $(FC) --version | head -1; echo '$(FFLAGS) $(LIBRARIES)'; } > $@.new
+	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+
+# Which object needs which module, read off the use statements.
+$(BUILD)/depends.mk: $(SOURCES) $(UNIT_SOURCES) fsrc/main.f90 Makefile
+	@mkdir -p $(BUILD)
+	@awk -v build=$(BUILD) 'FNR == 1 { name = FILENAME; sub(/.*\//, "", name); sub(/\.f90$$/, "", name); known[name] = 1 } \
+	  tolower($$1) == "use" && $$2 !~ /^,/ { module = tolower($$2); sub(/,.*/, "", module); needs[name] = needs[name] " " module } \
+	  END { for (name in needs) { count = split(needs[name], list, " "); \
+	    for (i = 1; i <= count; i++) if ((list[i] in known) && list[i] != name) print build "/" name ".o: " build "/" list[i] ".o" } }' \
+	  $(SOURCES) $(UNIT_SOURCES) fsrc/main.f90 > $@
+
+ifeq ($(filter clean help system lint format python install,$(MAKECMDGOALS)),)
+-include $(BUILD)/depends.mk
+endif
+
+$(BUILD)/%.o: %.f90 $(BUILD)/flags
+	@echo 'compile $<'
+	@$(FC) $(FFLAGS) -J$(BUILD) -c $< -o $@
+
+$(BUILD)/version.o: FFLAGS += -cpp -DPROGRAM_VERSION='"$(VERSION)"'
+$(BUILD)/version.o: fsrc/VERSION
+
+$(BUILD)/rattle: $(OBJECTS) $(BUILD)/main.o
+	@echo 'link $@'
+	@$(FC) $(FFLAGS) $^ $(LIBRARIES) -o $@
+
+$(BUILD)/unit_tests: $(OBJECTS) $(UNIT_OBJECTS)
+	@echo 'link $@'
+	@$(FC) $(FFLAGS) $^ $(LIBRARIES) -o $@
+
+$(BENCH_PROGRAMS): $(BUILD)/%: %.f90 $(OBJECTS)
+	@echo 'link $@'
+	@$(FC) $(FFLAGS) -I$(BUILD) $< $(OBJECTS) $(LIBRARIES) -o $@
+
+debug:
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/debug DEBUG=1 all
+
+install: all
+	install -D -m 755 $(BUILD)/rattle $(DESTDIR)$(PREFIX)/bin/rattle
+
+clean:
+	rm -rf $(BUILD) scripts/rattle/*.so
+
+FORCE:

@@ -1,0 +1,109 @@
+!> Where the files of a scene go, and whether they may go there. Looked at before anything runs.
+module output_place
+   use errors, only: fault_list_t
+   use file_system, only: first_bytes, is_directory, is_writable, make_directory, path_exists
+   use log_file, only: log_magic
+   use result_format, only: result_magic
+   use scene_types, only: scene_t
+   use summary_file, only: summary_magic
+   implicit none (type, external)
+   private
+
+   public :: result_path, summary_path, log_path, check_output_place
+
+contains
+
+   !> Path of the time series.
+   pure function result_path(scene) result(path)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: path
+
+      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.rattle'
+   end function result_path
+
+   !> Path of the summary.
+   pure function summary_path(scene) result(path)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: path
+
+      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.summary.nml'
+   end function summary_path
+
+   !> Path of the log.
+   pure function log_path(scene) result(path)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: path
+
+      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.log'
+   end function log_path
+
+   !> Make the folder if it is missing, and see that every file of the scene can be written there.
+   subroutine check_output_place(scene, file, may_make, faults)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> Whether a missing folder is made now; .false.: only what stands already is looked at
+      logical, intent(in) :: may_make
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: directory
+      logical :: made
+
+      directory = trim(scene%output%directory)
+      if (path_exists(directory)) then
+         if (.not. is_directory(directory)) then
+            call faults%add(file, 0, 'output', 'directory', "'"//directory//"' is a file; a folder is needed")
+            return
+         end if
+      else if (may_make) then
+         call make_directory(directory, made)
+         if (.not. made) then
+            call faults%add(file, 0, 'output', 'directory', "the folder '"//directory//"' cannot be made")
+            return
+         end if
+      else
+         return
+      end if
+      if (.not. is_writable(directory)) then
+         call faults%add(file, 0, 'output', 'directory', "the folder '"//directory//"' is not writable")
+         return
+      end if
+      if (scene%output%series) call check_file(result_path(scene), result_magic)
+      call check_file(summary_path(scene), summary_magic)
+      call check_file(log_path(scene), log_magic)
+
+   contains
+
+      subroutine check_file(path, magic)
+         character(*), intent(in) :: path
+         character(*), intent(in) :: magic
+         character(len(magic)) :: start
+         integer :: got
+
+         if (.not. path_exists(path)) return
+         call first_bytes(path, start, got)
+         if (is_directory(path) .or. got < len(magic) .or. start /= magic) then
+            call faults%add(file, 0, 'output', '', path//' exists and was not written by rattle; it is never replaced')
+         else if (.not. scene%output%overwrite) then
+            call faults%add(file, 0, 'output', 'overwrite', path//' exists; --overwrite replaces it')
+         else if (.not. is_writable_file(path)) then
+            call faults%add(file, 0, 'output', '', path//' exists and may not be replaced')
+         end if
+      end subroutine check_file
+
+      logical function is_writable_file(path)
+         character(*), intent(in) :: path
+         integer :: unit, stat
+
+         open (newunit=unit, file=path, access='stream', status='old', action='readwrite', iostat=stat)
+         is_writable_file = stat == 0
+         if (stat == 0) close (unit)
+      end function is_writable_file
+
+   end subroutine check_output_place
+
+end module output_place

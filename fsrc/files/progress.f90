@@ -1,0 +1,79 @@
+!> Progress of a motion: on a terminal one line that is written over, elsewhere a timed line now and then.
+module progress
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use clock, only: wall_seconds
+   use file_system, only: is_terminal
+   use integrate_motion, only: motion_watcher_t
+   use kinds, only: dp
+   use log_file, only: log_t
+   use text, only: integer_text, short_text
+   implicit none (type, external)
+   private
+
+   real(dp), parameter :: terminal_interval = 0.2_dp, line_interval = 10.0_dp
+
+   !> Watcher of a motion.
+   type, extends(motion_watcher_t), public :: progress_t
+      private
+      type(log_t), pointer :: log => null()
+      logical :: quiet = .false., on_terminal = .false., shown = .false.
+      real(dp) :: started = 0.0_dp, last = 0.0_dp
+   contains
+      procedure :: start => start_progress
+      procedure :: period_done
+      procedure :: clear => clear_progress
+   end type progress_t
+
+contains
+
+   !> Begin to watch.
+   subroutine start_progress(self, log, quiet)
+      class(progress_t), intent(inout) :: self
+      !> Log of the scene
+      type(log_t), target, intent(in) :: log
+      !> Nothing to the terminal
+      logical, intent(in) :: quiet
+
+      self%log => log
+      self%quiet = quiet
+      self%on_terminal = is_terminal()
+      self%started = wall_seconds()
+      self%last = self%started
+   end subroutine start_progress
+
+   !> A period is done.
+   subroutine period_done(self, done, all)
+      class(progress_t), intent(inout) :: self
+      !> Periods solved
+      integer, intent(in) :: done
+      !> Periods asked for
+      integer, intent(in) :: all
+      character(:), allocatable :: line
+      real(dp) :: now
+      integer :: ignored
+
+      now = wall_seconds()
+      if (now - self%last < merge(terminal_interval, line_interval, self%on_terminal)) return
+      self%last = now
+      line = '  '//integer_text(done)//' of '//integer_text(all)//' periods after '// &
+             short_text(now - self%started, 3)//' s, '// &
+             short_text((now - self%started)*real(all - done, dp)/real(done, dp), 2)//' s left'
+      if (.not. self%on_terminal) then
+         call self%log%line(line)
+      else if (.not. self%quiet) then
+         write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//line//'    '
+         flush (output_unit, iostat=ignored)
+         self%shown = .true.
+      end if
+   end subroutine period_done
+
+   !> Wipe the line on the terminal.
+   subroutine clear_progress(self)
+      class(progress_t), intent(inout) :: self
+      integer :: ignored
+
+      if (self%shown) write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//repeat(' ', 72)//achar(13)
+      self%shown = .false.
+   end subroutine clear_progress
+
+end module progress

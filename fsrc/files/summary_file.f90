@@ -1,0 +1,137 @@
+!> NAME.summary.nml: one group &summary, readable by Fortran and f90nml. Unknown values are left out.
+module summary_file
+   use errors, only: error_t, exit_system, raise
+   use kinds, only: dp, int64
+   use text, only: integer_text, logical_text, quoted, real_text
+   implicit none (type, external)
+   private
+
+   !> First word of every summary, by which one is known.
+   character(*), parameter, public :: summary_magic = '&summary'
+
+   !> A summary that is being put together.
+   type, public :: summary_t
+      private
+      character(:), allocatable :: body
+   contains
+      generic :: add => add_real, add_reals, add_integer, add_long, add_logical, add_text
+      procedure :: write => write_summary
+      procedure, private :: add_real
+      procedure, private :: add_reals
+      procedure, private :: add_integer
+      procedure, private :: add_long
+      procedure, private :: add_logical
+      procedure, private :: add_text
+      procedure, private :: add_line
+   end type summary_t
+
+contains
+
+   !> Add a real value; a number that is not finite has no namelist spelling and is unknown by rule.
+   subroutine add_real(self, name, value)
+      class(summary_t), intent(inout) :: self
+      !> Key
+      character(*), intent(in) :: name
+      !> Finite value
+      real(dp), intent(in) :: value
+
+      if (abs(value) < huge(1.0_dp)) call self%add_line(name, real_text(value))
+   end subroutine add_real
+
+   !> Add a list of real values, four to a line.
+   subroutine add_reals(self, name, values)
+      class(summary_t), intent(inout) :: self
+      !> Key
+      character(*), intent(in) :: name
+      !> Values, none: the key is left out
+      real(dp), intent(in) :: values(:)
+      character(:), allocatable :: text
+      integer :: i
+
+      if (size(values) == 0) return
+      text = real_text(values(1))
+      do i = 2, size(values)
+         text = text//', '
+         if (mod(i, 4) == 1) text = text//new_line('a')//repeat(' ', 6)
+         text = text//real_text(values(i))
+      end do
+      call self%add_line(name, text)
+   end subroutine add_reals
+
+   !> Add an integer.
+   subroutine add_integer(self, name, value)
+      class(summary_t), intent(inout) :: self
+      !> Key
+      character(*), intent(in) :: name
+      !> Value
+      integer, intent(in) :: value
+
+      call self%add_line(name, integer_text(value))
+   end subroutine add_integer
+
+   !> Add a long integer.
+   subroutine add_long(self, name, value)
+      class(summary_t), intent(inout) :: self
+      !> Key
+      character(*), intent(in) :: name
+      !> Value
+      integer(int64), intent(in) :: value
+
+      call self%add_line(name, integer_text(value))
+   end subroutine add_long
+
+   !> Add a logical.
+   subroutine add_logical(self, name, value)
+      class(summary_t), intent(inout) :: self
+      !> Key
+      character(*), intent(in) :: name
+      !> Value
+      logical, intent(in) :: value
+
+      call self%add_line(name, logical_text(value))
+   end subroutine add_logical
+
+   !> Add a text.
+   subroutine add_text(self, name, value)
+      class(summary_t), intent(inout) :: self
+      !> Key
+      character(*), intent(in) :: name
+      !> Value
+      character(*), intent(in) :: value
+
+      call self%add_line(name, quoted(value))
+   end subroutine add_text
+
+   subroutine add_line(self, name, value)
+      class(summary_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      character(*), intent(in) :: value
+
+      if (.not. allocated(self%body)) self%body = ''
+      self%body = self%body//'   '//name//' = '//value//new_line('a')
+   end subroutine add_line
+
+   !> Write the file; one that stands there is replaced.
+   subroutine write_summary(self, path, error)
+      class(summary_t), intent(in) :: self
+      !> Path of the file
+      character(*), intent(in) :: path
+      !> Set if it cannot be written
+      type(error_t), allocatable, intent(out) :: error
+      character(200) :: message
+      integer :: unit, stat, ignored
+
+      open (newunit=unit, file=path, access='stream', form='formatted', status='replace', action='write', iostat=stat, &
+            iomsg=message)
+      if (stat == 0) then
+         write (unit, '(a)', iostat=stat, iomsg=message) summary_magic//new_line('a')//self%body//'/'
+         if (stat == 0) then
+            close (unit, iostat=stat, iomsg=message)
+         else
+            close (unit, iostat=ignored)
+         end if
+      end if
+      if (stat /= 0) call raise(error, exit_system, path//' cannot be written: '//trim(message))
+   end subroutine write_summary
+
+end module summary_file

@@ -1,0 +1,62 @@
+!> Pressure of the exact iso-viscous film, the corrected (16), and the reduced-pressure relation (31).
+module film_pressure
+   use film_integrals, only: pressure_integrals
+   use kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: pressure_group, pressure_group_maximum, pressure_scale, barus_pressure
+
+contains
+
+   !> p*(xbar) of (16) between -pi/2 and x_e.
+   elemental real(dp) function pressure_group(tangent, rupture_tangent, a) result(p)
+      !> t = tan(xbar) [-]
+      real(dp), intent(in) :: tangent
+      !> t_e = tan(x_e) [-]
+      real(dp), intent(in) :: rupture_tangent
+      !> Squeeze group A [-]
+      real(dp), intent(in) :: a
+      real(dp) :: j, k
+
+      call pressure_integrals(tangent, j, k)
+      p = j - rupture_tangent*(rupture_tangent + a)*k - a/(4.0_dp*(1.0_dp + tangent*tangent)**2)
+   end function pressure_group
+
+   !> Largest p*, at t = -t_e - A where (14) has its other zero.
+   elemental real(dp) function pressure_group_maximum(rupture_tangent, a) result(p)
+      !> t_e = tan(x_e) [-]
+      real(dp), intent(in) :: rupture_tangent
+      !> Squeeze group A [-]
+      real(dp), intent(in) :: a
+
+      p = pressure_group(-rupture_tangent - a, rupture_tangent, a)
+   end function pressure_group_maximum
+
+   !> p/p* = 6 sqrt(2R) u eta0 h0^(-3/2) [Pa], the corrected scale of (12).
+   elemental real(dp) function pressure_scale(radius, speed, viscosity, film) result(scale)
+      !> Equivalent radius R [m]
+      real(dp), intent(in) :: radius
+      !> Speed u of the film's model [m/s]
+      real(dp), intent(in) :: speed
+      !> Viscosity at ambient pressure eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> Film thickness h0 [m]
+      real(dp), intent(in) :: film
+
+      scale = 6.0_dp*sqrt(2.0_dp*radius)*speed*viscosity/(film*sqrt(film))
+   end function pressure_scale
+
+   !> alpha q of (31) for alpha p < 1; huge where no rigid piezo-viscous film exists.
+   elemental real(dp) function barus_pressure(alpha_p) result(alpha_q)
+      !> Reduced pressure times Barus coefficient [-]
+      real(dp), intent(in) :: alpha_p
+
+      if (alpha_p < 1.0_dp) then
+         alpha_q = -log(1.0_dp - alpha_p)
+      else
+         alpha_q = huge(1.0_dp)
+      end if
+   end function barus_pressure
+
+end module film_pressure

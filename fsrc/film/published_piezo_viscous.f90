@@ -1,0 +1,67 @@
+!> The published piezo-viscous film: load (37) with the contact length as a factor and the squeeze velocity
+!> (printed: the acceleration) in the exponent; it is the film-thickness regression (32) turned round.
+module published_piezo_viscous
+   use kinds, only: dp
+   implicit none (type, external)
+   private
+
+   !> Factors as printed in (37); (32) gives 12*0.787^2.5 = 6.5935 and 2.5*281.2 = 703.
+   real(dp), parameter :: load_factor = 6.6_dp, squeeze_factor = 703.0_dp
+
+   !> Exponents beyond this would overflow. The load is held there, far above `overflow_load`,
+   !> by which the motion knows that the law has no value.
+   real(dp), parameter :: largest_exponent = 550.0_dp
+
+   public :: piezo_coefficient, squeeze_exponent_rate, piezo_viscous_load
+
+contains
+
+   !> Coefficient of h^(-7/2) in (37) [N m^(7/2)].
+   elemental real(dp) function piezo_coefficient(length, speed, viscosity, radius, pressure_viscosity)
+      !> Contact length l [m]
+      real(dp), intent(in) :: length
+      !> Speed u [m/s]
+      real(dp), intent(in) :: speed
+      !> Viscosity eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> Equivalent radius R [m]
+      real(dp), intent(in) :: radius
+      !> Barus coefficient alpha [1/Pa]
+      real(dp), intent(in) :: pressure_viscosity
+
+      piezo_coefficient = load_factor*length*(speed*viscosity)**2.75_dp*(radius*pressure_viscosity)**1.75_dp
+   end function piezo_coefficient
+
+   !> Factor 703/u of the film velocity in the exponent of (37) [s/m].
+   elemental real(dp) function squeeze_exponent_rate(speed)
+      !> Speed u [m/s]
+      real(dp), intent(in) :: speed
+
+      squeeze_exponent_rate = squeeze_factor/speed
+   end function squeeze_exponent_rate
+
+   !> Load of (37) and its slopes.
+   elemental subroutine piezo_viscous_load(coefficient, rate, film, velocity, load, load_by_film, load_by_velocity)
+      !> Coefficient of h^(-7/2) [N m^(7/2)]
+      real(dp), intent(in) :: coefficient
+      !> 703/u [s/m]
+      real(dp), intent(in) :: rate
+      !> Film thickness h > 0 [m]
+      real(dp), intent(in) :: film
+      !> Film velocity w = dh/dt [m/s]
+      real(dp), intent(in) :: velocity
+      !> Load W [N]
+      real(dp), intent(out) :: load
+      !> dW/dh [N/m]
+      real(dp), intent(out) :: load_by_film
+      !> dW/dw [N s/m]
+      real(dp), intent(out) :: load_by_velocity
+      real(dp) :: inverse
+
+      inverse = 1.0_dp/film
+      load = coefficient*inverse*inverse*inverse*sqrt(inverse)*exp(min(-rate*velocity, largest_exponent))
+      load_by_film = -3.5_dp*load*inverse
+      load_by_velocity = -rate*load
+   end subroutine piezo_viscous_load
+
+end module published_piezo_viscous

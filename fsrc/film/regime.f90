@@ -1,0 +1,180 @@
+!> Which lubrication regime a line contact is in: contact groups of eqs (2) to (4), Grubin's film (33), the
+!> regime map of Johnson (1970) and the rule by which a computed film is called iso-viscous, piezo-viscous or
+!> elastohydrodynamic.
+!>
+!> Regime map, with w = W/l, U = (u1 + u2)/2 and E' = 2/((1-nu1^2)/E1 + (1-nu2^2)/E2), which is E* =
+!> E/(1-nu^2) of eq (3) for two bodies of one material:
+!>
+!>     h^ = h w/(eta0 U R) ,   g_v = alpha sqrt(w^3/(eta0 U R^2)) ,   g_e = w/sqrt(eta0 U E' R)
+!>
+!>     rigid, iso-viscous       h^ = 4.9                          Martin (1916), minimum film
+!>     rigid, piezo-viscous     h^ = 1.66 g_v^(2/3)               Blok (1950), film of unbounded reduced load
+!>     elastic, iso-viscous     h^ = 3.10 g_e^0.8                 Herrebrugh (1968), minimum film
+!>     elastic, piezo-viscous   h^ = 2.65 g_v^0.54 g_e^0.06       Dowson (1968), minimum film
+!>
+!> The four limits are drawn into one map, and the largest film taken to rule, by K. L. Johnson, Regimes of
+!> elastohydrodynamic lubrication, J. Mech. Eng. Sci. 12 (1970) 9-16, and C. J. Hooke, The elastohydrodynamic
+!> lubrication of heavily loaded contacts, J. Mech. Eng. Sci. 19 (1977) 149-156. With u1 + u2 in place of U
+!> the first two coefficients read 2.45 and 1.05, the third 2.05.
+module regime
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: equivalent_radius, plane_strain_modulus, contact_deflection, grubin_film
+   public :: viscosity_group, elasticity_group, film_parameter, limiting_films, mapped_regime, film_regime
+
+   !> Codes of the regime map, in the order of `limiting_films`.
+   integer, parameter, public :: map_iso_viscous_rigid = 1, map_piezo_viscous_rigid = 2, &
+      map_iso_viscous_elastic = 3, map_piezo_viscous_elastic = 4
+
+   !> Codes of a computed film. Unknown: a number that is negative, not a number, or a film that is not
+   !> positive.
+   integer, parameter, public :: film_regime_unknown = 0, film_iso_viscous = 1, film_piezo_viscous = 2, &
+      film_elastohydrodynamic = 3
+
+   !> alpha p below which a film counts as iso-viscous. At alpha p = 0.1 the exact piezo-viscous load in pure
+   !> rolling is 3.2 % above the iso-viscous one.
+   real(dp), parameter, public :: iso_viscous_limit = 0.1_dp
+   !> alpha p from which no rigid piezo-viscous film exists: the pressure -ln(1 - alpha p)/alpha of eq (31) is
+   !> infinite.
+   real(dp), parameter, public :: rigid_limit = 1.0_dp
+   !> Share of the film by which the surfaces may be pressed in, eq (4), and still count as rigid.
+   real(dp), parameter, public :: deflection_limit = 0.1_dp
+
+contains
+
+   !> Radius of the cylinder that over a plane has the gap of two cylinders, eq (2): 1/R = 1/r1 + 1/r2.
+   elemental function equivalent_radius(radius_1, radius_2) result(radius)
+      real(dp), intent(in) :: radius_1  !> r1 [m]; negative for a hollow surface
+      real(dp), intent(in) :: radius_2  !> r2 [m], r1 + r2 /= 0
+      real(dp) :: radius                !> R [m]
+
+      radius = radius_1/(1.0_dp + radius_1/radius_2)
+   end function equivalent_radius
+
+   !> Modulus of plane strain, eq (3).
+   elemental function plane_strain_modulus(young_modulus, poisson_ratio) result(modulus)
+      real(dp), intent(in) :: young_modulus  !> E [Pa]
+      real(dp), intent(in) :: poisson_ratio  !> nu [-]
+      real(dp) :: modulus                    !> E* [Pa]
+
+      modulus = young_modulus/(1.0_dp - poisson_ratio**2)
+   end function plane_strain_modulus
+
+   !> Depth by which a pressure flattens the contact, eq (4): 4 R p^2/E*^2.
+   elemental function contact_deflection(radius, pressure, modulus) result(deflection)
+      real(dp), intent(in) :: radius    !> R [m]
+      real(dp), intent(in) :: pressure  !> Largest pressure that acts on the surfaces [Pa]
+      real(dp), intent(in) :: modulus   !> E* [Pa]
+      real(dp) :: deflection            !> delta [m]
+
+      deflection = 4.0_dp*radius*(pressure/modulus)**2
+   end function contact_deflection
+
+   !> Elastohydrodynamic film of Grubin as printed in eq (33), h0/R = 2.076 u*^0.72 Wbar^-0.091. Its load
+   !> group is Wbar = W/(E' R l), not the group of eq (20), and E' = E* of eq (3); its speed is the
+   !> entrainment speed.
+   elemental function grubin_film( &
+      radius, length, speed, viscosity, pressure_viscosity, modulus, load) result(film)
+      real(dp), intent(in) :: radius              !> R [m]
+      real(dp), intent(in) :: length              !> l [m]
+      real(dp), intent(in) :: speed               !> Entrainment speed U = (u1 + u2)/2 [m/s]
+      real(dp), intent(in) :: viscosity           !> eta0 [Pa s]
+      real(dp), intent(in) :: pressure_viscosity  !> alpha [1/Pa]
+      real(dp), intent(in) :: modulus             !> E* [Pa]
+      real(dp), intent(in) :: load                !> W [N]
+      real(dp) :: film                            !> h0 [m]
+
+      film = radius*2.076_dp*(speed*viscosity*pressure_viscosity/radius)**0.72_dp &
+         *(load/(modulus*radius*length))**(-0.091_dp)
+   end function grubin_film
+
+   !> Viscosity group g_v of the regime map.
+   elemental function viscosity_group(radius, speed, viscosity, pressure_viscosity, line_load) result(group)
+      real(dp), intent(in) :: radius              !> R [m]
+      real(dp), intent(in) :: speed               !> Entrainment speed U [m/s]
+      real(dp), intent(in) :: viscosity           !> eta0 [Pa s]
+      real(dp), intent(in) :: pressure_viscosity  !> alpha [1/Pa]
+      real(dp), intent(in) :: line_load           !> w = W/l [N/m]
+      real(dp) :: group                           !> g_v [-]
+
+      group = pressure_viscosity*(line_load/radius)*sqrt(line_load/(viscosity*speed))
+   end function viscosity_group
+
+   !> Elasticity group g_e of the regime map.
+   elemental function elasticity_group(radius, speed, viscosity, modulus, line_load) result(group)
+      real(dp), intent(in) :: radius     !> R [m]
+      real(dp), intent(in) :: speed      !> Entrainment speed U [m/s]
+      real(dp), intent(in) :: viscosity  !> eta0 [Pa s]
+      real(dp), intent(in) :: modulus    !> E* [Pa]
+      real(dp), intent(in) :: line_load  !> w = W/l [N/m]
+      real(dp) :: group                  !> g_e [-]
+
+      group = line_load/sqrt(viscosity*speed*modulus*radius)
+   end function elasticity_group
+
+   !> Film parameter h^ of the regime map.
+   elemental function film_parameter(radius, speed, viscosity, line_load, film) result(value)
+      real(dp), intent(in) :: radius     !> R [m]
+      real(dp), intent(in) :: speed      !> Entrainment speed U [m/s]
+      real(dp), intent(in) :: viscosity  !> eta0 [Pa s]
+      real(dp), intent(in) :: line_load  !> w = W/l [N/m]
+      real(dp), intent(in) :: film       !> h0 [m]
+      real(dp) :: value                  !> h^ [-]
+
+      value = film*line_load/(viscosity*speed*radius)
+   end function film_parameter
+
+   !> The four limiting films of the map, in the order of the map's codes.
+   pure function limiting_films(g_viscosity, g_elasticity) result(films)
+      real(dp), intent(in) :: g_viscosity   !> g_v >= 0 [-]
+      real(dp), intent(in) :: g_elasticity  !> g_e >= 0 [-]
+      real(dp) :: films(4)                 !> h^ of each limit [-]
+
+      films(map_iso_viscous_rigid) = 4.9_dp
+      films(map_piezo_viscous_rigid) = 1.66_dp*g_viscosity**(2.0_dp/3.0_dp)
+      films(map_iso_viscous_elastic) = 3.10_dp*g_elasticity**0.8_dp
+      films(map_piezo_viscous_elastic) = 2.65_dp*g_viscosity**0.54_dp*g_elasticity**0.06_dp
+   end function limiting_films
+
+   !> Regime of a point of the map: the limit with the largest film; of equal ones the first.
+   pure function mapped_regime(g_viscosity, g_elasticity) result(code)
+      real(dp), intent(in) :: g_viscosity   !> g_v >= 0 [-]
+      real(dp), intent(in) :: g_elasticity  !> g_e >= 0 [-]
+      integer :: code                       !> One of map_..., 0 where a group is negative or not a number
+
+      code = 0
+      if (ieee_is_nan(g_viscosity) .or. ieee_is_nan(g_elasticity)) return
+      if (min(g_viscosity, g_elasticity) < 0.0_dp) return
+      code = maxloc(limiting_films(g_viscosity, g_elasticity), dim=1)
+   end function mapped_regime
+
+   !> Regime of a computed film. The pressure is that of the constant-viscosity film, the p of eq (31): it
+   !> stays finite where the piezo-viscous pressure does not exist.
+   elemental function film_regime(alpha_p_maximum, deflection, film) result(code)
+      real(dp), intent(in) :: alpha_p_maximum  !> alpha times the largest constant-viscosity pressure [-]
+      real(dp), intent(in) :: deflection       !> delta of eq (4) [m]; read only below alpha p = 1
+      real(dp), intent(in) :: film             !> Thinnest film [m]
+      integer :: code                          !> One of film_...
+
+      code = film_regime_unknown
+      if (ieee_is_nan(alpha_p_maximum) .or. ieee_is_nan(film)) return
+      if (alpha_p_maximum < 0.0_dp .or. film <= 0.0_dp) return
+      if (alpha_p_maximum >= rigid_limit) then
+         code = film_elastohydrodynamic
+         return
+      end if
+      if (ieee_is_nan(deflection)) return
+      if (deflection < 0.0_dp) return
+      if (deflection > deflection_limit*film) then
+         code = film_elastohydrodynamic
+      else if (alpha_p_maximum >= iso_viscous_limit) then
+         code = film_piezo_viscous
+      else
+         code = film_iso_viscous
+      end if
+   end function film_regime
+
+end module regime

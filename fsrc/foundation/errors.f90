@@ -1,0 +1,149 @@
+!> Errors as values: one error, and a list of faults found in an input.
+!> Only the main program turns them into an exit code.
+module errors
+   use text, only: integer_text
+   implicit none (type, external)
+   private
+
+   !> Exit codes of the program.
+   integer, parameter, public :: exit_complete = 0
+   integer, parameter, public :: exit_scene_failed = 1
+   integer, parameter, public :: exit_bad_input = 2
+   integer, parameter, public :: exit_system = 3
+
+   !> One failure: what exit code it leads to and a plain sentence.
+   type, public :: error_t
+      integer :: exit_code = exit_system
+      character(:), allocatable :: message
+   end type error_t
+
+   !> A file that is no input at all could have millions of faults.
+   integer, parameter :: most_faults = 1000
+
+   type :: fault_t
+      character(:), allocatable :: sentence
+      integer :: line = 0
+   end type fault_t
+
+   !> All faults of the inputs of a call, each a full sentence that starts with its place.
+   type, public :: fault_list_t
+      private
+      type(fault_t), allocatable :: faults(:)
+      !> How many are kept, and how many came after the list was full
+      integer :: used = 0
+      integer :: beyond = 0
+   contains
+      procedure :: add => add_fault
+      procedure :: count => count_faults
+      procedure :: not_kept => count_faults_beyond
+      procedure :: sentence => fault_sentence
+      procedure :: sort_since => sort_faults_by_line
+   end type fault_list_t
+
+   public :: raise
+
+contains
+
+   !> Set an error.
+   pure subroutine raise(error, exit_code, message)
+      !> Error to set
+      type(error_t), allocatable, intent(out) :: error
+      !> Exit code that the failure leads to
+      integer, intent(in) :: exit_code
+      !> Plain sentence
+      character(*), intent(in) :: message
+
+      allocate (error)
+      error%exit_code = exit_code
+      error%message = message
+   end subroutine raise
+
+   !> Append a fault as 'file:line: &group key: message'; what is not known is left out.
+   pure subroutine add_fault(self, file, line, group, key, message)
+      class(fault_list_t), intent(inout) :: self
+      !> Name of the input, as the user gave it
+      character(*), intent(in) :: file
+      !> Line in the input; 0: not tied to a line
+      integer, intent(in) :: line
+      !> Namelist group, or empty
+      character(*), intent(in) :: group
+      !> Key in the group, or empty
+      character(*), intent(in) :: key
+      !> What is wrong and what is allowed
+      character(*), intent(in) :: message
+      type(fault_t), allocatable :: grown(:)
+      character(:), allocatable :: place
+
+      if (self%used == most_faults) then
+         self%beyond = self%beyond + 1
+         return
+      end if
+      if (.not. allocated(self%faults)) allocate (self%faults(16))
+      if (self%used == size(self%faults)) then
+         allocate (grown(2*self%used))
+         grown(:self%used) = self%faults
+         call move_alloc(grown, self%faults)
+      end if
+      place = file
+      if (line > 0) place = place//':'//integer_text(line)
+      place = place//':'
+      if (len(group) > 0) place = place//' &'//group
+      if (len(key) > 0) place = place//' '//key
+      if (len(group) > 0 .or. len(key) > 0) place = place//':'
+      self%used = self%used + 1
+      self%faults(self%used)%sentence = place//' '//message
+      self%faults(self%used)%line = line
+   end subroutine add_fault
+
+   !> Number of faults that are counted but not kept.
+   pure integer function count_faults_beyond(self)
+      class(fault_list_t), intent(in) :: self
+
+      count_faults_beyond = self%beyond
+   end function count_faults_beyond
+
+   !> Number of faults that are kept.
+   pure integer function count_faults(self)
+      class(fault_list_t), intent(in) :: self
+
+      count_faults = self%used
+   end function count_faults
+
+   !> Sentence of one fault.
+   pure function fault_sentence(self, index) result(sentence)
+      class(fault_list_t), intent(in) :: self
+      !> 1 to count()
+      integer, intent(in) :: index
+      character(:), allocatable :: sentence
+
+      sentence = self%faults(index)%sentence
+   end function fault_sentence
+
+   !> Bring the faults after the first `before` into the order of their lines, unplaced ones last.
+   pure subroutine sort_faults_by_line(self, before)
+      class(fault_list_t), intent(inout) :: self
+      !> Faults of earlier inputs, left where they are
+      integer, intent(in) :: before
+      type(fault_t) :: moving
+      integer :: i, j
+
+      do i = before + 2, self%used
+         moving = self%faults(i)
+         do j = i - 1, before + 1, -1
+            if (line_rank(self%faults(j)) <= line_rank(moving)) exit
+            self%faults(j + 1) = self%faults(j)
+         end do
+         self%faults(j + 1) = moving
+      end do
+
+   contains
+
+      pure integer function line_rank(fault)
+         type(fault_t), intent(in) :: fault
+
+         line_rank = merge(fault%line, huge(1), fault%line > 0)
+      end function line_rank
+
+   end subroutine sort_faults_by_line
+
+end module errors

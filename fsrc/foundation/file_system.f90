@@ -1,0 +1,204 @@
+!> What Fortran lacks of the file system: whole files as text, folders, permissions, terminals.
+!> Thin calls of the C library.
+module file_system
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
+   implicit none (type, external)
+   private
+
+   public :: read_whole_file, first_bytes, path_exists, is_directory, is_writable, make_directory, rename_file, &
+             delete_file, is_terminal
+
+   integer(c_int), parameter :: standard_input = 0, standard_output = 1
+   integer(c_int), parameter :: read_only = 0, test_exists = 0, test_write_and_enter = 3
+
+   interface
+      function c_open(path, flags) bind(c, name='open') result(descriptor)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: flags
+         integer(c_int) :: descriptor
+      end function c_open
+
+      function c_read(descriptor, buffer, count) bind(c, name='read') result(got)
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: count
+         integer(c_size_t) :: got
+      end function c_read
+
+      function c_close(descriptor) bind(c, name='close') result(stat)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: stat
+      end function c_close
+
+      function c_access(path, mode) bind(c, name='access') result(stat)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+         integer(c_int) :: stat
+      end function c_access
+
+      function c_mkdir(path, mode) bind(c, name='mkdir') result(stat)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+         integer(c_int) :: stat
+      end function c_mkdir
+
+      function c_rename(from, to) bind(c, name='rename') result(stat)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: from(*)
+         character(kind=c_char), intent(in) :: to(*)
+         integer(c_int) :: stat
+      end function c_rename
+
+      function c_unlink(path) bind(c, name='unlink') result(stat)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int) :: stat
+      end function c_unlink
+
+      function c_isatty(descriptor) bind(c, name='isatty') result(answer)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: answer
+      end function c_isatty
+   end interface
+
+contains
+
+   !> Read a file, a pipe, or standard input ('-') as it is, byte by byte.
+   subroutine read_whole_file(path, limit, content, stat)
+      !> Path; '-' is standard input
+      character(*), intent(in) :: path
+      !> Largest number of bytes that is accepted
+      integer, intent(in) :: limit
+      !> All bytes
+      character(:), allocatable, intent(out) :: content
+      !> 0: read; 1: cannot be opened; 2: cannot be read (a directory, say); 3: larger than the limit
+      integer, intent(out) :: stat
+      integer, parameter :: block = 65536
+      character(block) :: buffer
+      character(:), allocatable :: grown
+      integer(c_int) :: descriptor, ignored
+      integer(c_size_t) :: got
+      integer :: used
+
+      stat = 0
+      descriptor = standard_input
+      if (path /= '-') descriptor = c_open(trim(path)//c_null_char, read_only)
+      if (descriptor < 0) then
+         stat = 1
+         return
+      end if
+      allocate (character(block) :: content)
+      used = 0
+      do
+         got = c_read(descriptor, buffer, int(block, c_size_t))
+         if (got < 0) stat = 2
+         if (got <= 0) exit
+         if (used + int(got) > limit) then
+            stat = 3
+            exit
+         end if
+         if (used + int(got) > len(content)) then
+            allocate (character(2*len(content)) :: grown)
+            grown(:used) = content(:used)
+            call move_alloc(grown, content)
+         end if
+         content(used + 1:used + int(got)) = buffer(:got)
+         used = used + int(got)
+      end do
+      if (path /= '-') ignored = c_close(descriptor)
+      content = content(:used)
+   end subroutine read_whole_file
+
+   !> The first bytes of a file, fewer if it is shorter, none if it cannot be read.
+   subroutine first_bytes(path, bytes, got)
+      !> Path of the file
+      character(*), intent(in) :: path
+      !> Filled from the left
+      character(*), intent(out) :: bytes
+      !> How many bytes were filled
+      integer, intent(out) :: got
+      integer(c_int) :: descriptor, ignored
+
+      got = 0
+      bytes = ''
+      descriptor = c_open(trim(path)//c_null_char, read_only)
+      if (descriptor < 0) return
+      got = max(0, int(c_read(descriptor, bytes, int(len(bytes), c_size_t))))
+      ignored = c_close(descriptor)
+   end subroutine first_bytes
+
+   !> Whether anything stands at a path.
+   logical function path_exists(path)
+      !> Any path
+      character(*), intent(in) :: path
+
+      path_exists = c_access(trim(path)//c_null_char, test_exists) == 0
+   end function path_exists
+
+   !> Whether a path is a directory.
+   logical function is_directory(path)
+      !> Any path
+      character(*), intent(in) :: path
+
+      is_directory = c_access(trim(path)//'/.'//c_null_char, test_exists) == 0
+   end function is_directory
+
+   !> Whether files can be made in a directory.
+   logical function is_writable(directory)
+      !> Existing directory
+      character(*), intent(in) :: directory
+
+      is_writable = c_access(trim(directory)//c_null_char, test_write_and_enter) == 0
+   end function is_writable
+
+   !> Make a directory and those above it that are missing.
+   subroutine make_directory(path, made)
+      !> Path of the directory
+      character(*), intent(in) :: path
+      !> Whether it stands now
+      logical, intent(out) :: made
+      integer(c_int), parameter :: mode = 511
+      integer(c_int) :: ignored
+      integer :: i
+
+      do i = 2, len_trim(path)
+         if (path(i:i) /= '/') cycle
+         ignored = c_mkdir(path(:i - 1)//c_null_char, mode)
+      end do
+      ignored = c_mkdir(trim(path)//c_null_char, mode)
+      made = is_directory(path)
+   end subroutine make_directory
+
+   !> Move a file over another in one step.
+   subroutine rename_file(from, to, moved)
+      !> Present path
+      character(*), intent(in) :: from
+      !> New path; a file that stands there is replaced
+      character(*), intent(in) :: to
+      !> Whether it worked
+      logical, intent(out) :: moved
+
+      moved = c_rename(trim(from)//c_null_char, trim(to)//c_null_char) == 0
+   end subroutine rename_file
+
+   !> Delete a file, if it is there.
+   subroutine delete_file(path)
+      !> Path of the file
+      character(*), intent(in) :: path
+      integer(c_int) :: ignored
+
+      ignored = c_unlink(trim(path)//c_null_char)
+   end subroutine delete_file
+
+   !> Whether standard output is a terminal.
+   logical function is_terminal()
+      is_terminal = c_isatty(standard_output) /= 0
+   end function is_terminal
+
+end module file_system

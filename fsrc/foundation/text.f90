@@ -1,0 +1,195 @@
+!> Text helpers: numbers to text, lower case, quoting, nearest known word.
+module text
+   use kinds, only: dp, int64
+   implicit none (type, external)
+   private
+
+   public :: integer_text, real_text, short_text, logical_text, lower, quoted, quoted_words, edit_distance, is_word_character
+
+   interface integer_text
+      module procedure integer_text_default
+      module procedure integer_text_long
+   end interface integer_text
+
+contains
+
+   !> Decimal digits of an integer.
+   pure function integer_text_default(number) result(text)
+      !> Any integer
+      integer, intent(in) :: number
+      character(:), allocatable :: text
+
+      text = integer_text_long(int(number, int64))
+   end function integer_text_default
+
+   !> Decimal digits of a long integer.
+   pure function integer_text_long(number) result(text)
+      !> Any integer
+      integer(int64), intent(in) :: number
+      character(:), allocatable :: text
+      character(20) :: buffer
+
+      write (buffer, '(i0)') number
+      text = trim(buffer)
+   end function integer_text_long
+
+   !> Shortest decimal text that reads back to the same number.
+   pure function real_text(number) result(text)
+      !> Any finite number
+      real(dp), intent(in) :: number
+      character(:), allocatable :: text
+      character(32) :: buffer
+      real(dp) :: back
+      integer :: digits, stat
+
+      if (.not. abs(number) > 0.0_dp) then
+         text = '0.0'
+         return
+      end if
+      if (abs(number) >= 1.0e-3_dp .and. abs(number) < 1.0e6_dp) then
+         do digits = 1, 17
+            write (buffer, '(f32.'//integer_text(digits)//')') number
+            read (buffer, *, iostat=stat) back
+            if (stat == 0 .and. transfer(back, 1_int64) == transfer(number, 1_int64)) then
+               text = trim(adjustl(buffer))
+               if (text(1:1) == '.') text = '0'//text
+               return
+            end if
+         end do
+      end if
+      do digits = 0, 17
+         write (buffer, '(es32.'//integer_text(digits)//'e3)') number
+         read (buffer, *, iostat=stat) back
+         if (stat == 0 .and. transfer(back, 1_int64) == transfer(number, 1_int64)) exit
+      end do
+      text = plain_exponent(trim(adjustl(buffer)))
+   end function real_text
+
+   !> Number with a given count of significant digits, for tables and sentences.
+   pure function short_text(number, digits) result(text)
+      !> Any finite number
+      real(dp), intent(in) :: number
+      !> Significant digits, 1 to 17
+      integer, intent(in) :: digits
+      character(:), allocatable :: text
+      character(40) :: buffer
+      integer :: decimals
+
+      if (.not. abs(number) > 0.0_dp) then
+         text = '0'
+      else if (abs(number) >= 1.0e-3_dp .and. abs(number) < 1.0e6_dp) then
+         decimals = max(0, digits - 1 - floor(log10(abs(number))))
+         write (buffer, '(f40.'//integer_text(decimals)//')') number
+         text = trim(adjustl(buffer))
+         if (decimals == 0) text = text(:len(text) - 1)
+      else
+         write (buffer, '(es40.'//integer_text(digits - 1)//'e3)') number
+         text = plain_exponent(trim(adjustl(buffer)))
+      end if
+   end function short_text
+
+   !> Exponent without its leading zeros: 1.5E-007 becomes 1.5E-7.
+   pure function plain_exponent(long) result(text)
+      character(*), intent(in) :: long
+      character(:), allocatable :: text
+      integer :: mark, exponent, stat
+
+      mark = index(long, 'E')
+      text = long
+      if (mark == 0) return
+      read (long(mark + 1:), *, iostat=stat) exponent
+      if (stat /= 0) return
+      text = long(:mark - 1)
+      if (text(len(text):) == '.') text = text//'0'
+      text = text//'E'//integer_text(exponent)
+   end function plain_exponent
+
+   !> Namelist spelling of a logical.
+   pure function logical_text(flag) result(text)
+      !> Flag to spell
+      logical, intent(in) :: flag
+      character(:), allocatable :: text
+
+      text = trim(merge('.true. ', '.false.', flag))
+   end function logical_text
+
+   !> ASCII lower case.
+   pure function lower(mixed) result(text)
+      !> Any text
+      character(*), intent(in) :: mixed
+      character(len(mixed)) :: text
+      integer :: i
+
+      text = mixed
+      do i = 1, len(mixed)
+         if (mixed(i:i) >= 'A' .and. mixed(i:i) <= 'Z') text(i:i) = achar(iachar(mixed(i:i)) + 32)
+      end do
+   end function lower
+
+   !> Text in namelist quotes, quotes inside doubled.
+   pure function quoted(plain) result(text)
+      !> Any text
+      character(*), intent(in) :: plain
+      character(:), allocatable :: text
+      integer :: i
+
+      text = "'"
+      do i = 1, len(plain)
+         text = text//plain(i:i)
+         if (plain(i:i) == "'") text = text//"'"
+      end do
+      text = text//"'"
+   end function quoted
+
+   !> Words of a list, each in namelist quotes, commas between.
+   pure function quoted_words(words, separator) result(text)
+      !> The list
+      character(*), intent(in) :: words
+      !> What stands between its words
+      character(1), intent(in) :: separator
+      character(:), allocatable :: text
+      integer :: i, start
+
+      text = ''
+      start = 1
+      do i = 1, len(words) + 1
+         if (i <= len(words)) then
+            if (words(i:i) /= separator) cycle
+         end if
+         if (start > 1) text = text//', '
+         text = text//quoted(words(start:i - 1))
+         start = i + 1
+      end do
+   end function quoted_words
+
+   !> Letters, digits and underscore make up keys and group names.
+   elemental logical function is_word_character(letter)
+      !> One character
+      character(1), intent(in) :: letter
+
+      is_word_character = (letter >= 'a' .and. letter <= 'z') .or. (letter >= 'A' .and. letter <= 'Z') .or. &
+                          (letter >= '0' .and. letter <= '9') .or. letter == '_'
+   end function is_word_character
+
+   !> Levenshtein distance, for the nearest known key to a misspelt one.
+   pure integer function edit_distance(left, right)
+      !> Misspelt word
+      character(*), intent(in) :: left
+      !> Known word
+      character(*), intent(in) :: right
+      integer :: row(0:len(right)), diagonal, above, i, j
+
+      row = [(j, j=0, len(right))]
+      do i = 1, len(left)
+         diagonal = row(0)
+         row(0) = i
+         do j = 1, len(right)
+            above = row(j)
+            row(j) = min(above + 1, row(j - 1) + 1, diagonal + merge(0, 1, left(i:i) == right(j:j)))
+            diagonal = above
+         end do
+      end do
+      edit_distance = row(len(right))
+   end function edit_distance
+
+end module text

@@ -1,0 +1,42 @@
+!> rattle: transient oil film and tooth motion of a loose gear pair, and the class of its rattle.
+program main
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use batch, only: print_faults, run_batch
+   use command_line, only: command_t, read_arguments, usage_text
+   use errors, only: exit_bad_input, exit_complete, fault_list_t
+   use key_page, only: page_text, template_text
+   use key_table, only: known_group, nearest_group
+   use signals, only: catch_signals
+   use version, only: program_version
+   implicit none (type, external)
+   type(command_t) :: command
+   type(fault_list_t) :: faults
+   integer :: exit_code
+
+   exit_code = exit_complete
+   call read_arguments(command, faults)
+   if (command%template .and. command%template_group /= '' .and. .not. known_group(command%template_group)) &
+      call faults%add('--template', 0, command%template_group, '', &
+                      'unknown group; the nearest known group is &'//nearest_group(command%template_group))
+   if (faults%count() > 0) then
+      call print_faults(faults)
+      exit_code = exit_bad_input
+   else if (command%help) then
+      write (output_unit, '(a)') usage_text()
+   else if (command%version) then
+      write (output_unit, '(a)') 'rattle '//program_version
+   else if (command%template) then
+      write (output_unit, '(a)', advance='no') template_text(command%template_group)
+   else if (command%page) then
+      write (output_unit, '(a)', advance='no') page_text()
+   else if (size(command%files) == 0) then
+      call faults%add('rattle', 0, '', '', 'no input file is given'//new_line('a')//usage_text())
+      call print_faults(faults)
+      exit_code = exit_bad_input
+   else
+      call catch_signals()
+      call run_batch(command, exit_code)
+   end if
+   flush (output_unit)
+   stop exit_code, quiet=.true.
+end program main

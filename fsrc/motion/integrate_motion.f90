@@ -1,0 +1,137 @@
+!> Whole motion of a scene: from the first state through all periods, samples handed to a sink.
+module integrate_motion
+   use errors, only: error_t
+   use film_law, only: film_kernel, film_t, kernel_half_pi, kernel_solved_fast, kernel_solved_successive, load_half_pi, &
+                       load_piezo, load_solved_fast, load_solved_successive
+   use forcing, only: applied_force, force_of_period
+   use kinds, only: dp, int64
+   use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
+   use sample_sink, only: sample_sink_t
+   use scene_status, only: status_complete, status_interrupted
+   use scene_types, only: iteration_newton, predictor_extrapolated, scene_t
+   use signals, only: caught_signal
+   implicit none (type, external)
+   private
+
+   !> How the motion ended.
+   type, public :: motion_end_t
+      integer :: status = status_complete
+      !> Time reached [s]
+      real(dp) :: time = 0.0_dp
+      !> Film there [m]
+      real(dp) :: film = 0.0_dp
+      type(motion_count_t) :: count
+   end type motion_end_t
+
+   !> Watcher of the motion, told after every period.
+   type, abstract, public :: motion_watcher_t
+   contains
+      procedure(watch_period), deferred :: period_done
+   end type motion_watcher_t
+
+   abstract interface
+      !> Told how far the motion is.
+      subroutine watch_period(self, done, all)
+         import :: motion_watcher_t
+         class(motion_watcher_t), intent(inout) :: self
+         !> Periods solved
+         integer, intent(in) :: done
+         !> Periods asked for
+         integer, intent(in) :: all
+      end subroutine watch_period
+   end interface
+
+   public :: solve_motion
+
+contains
+
+   !> Solve the motion of a scene. The film law is chosen here, once.
+   subroutine solve_motion(scene, film, initial_film, sink, watcher, ending, error)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Its film
+      type(film_t), intent(in) :: film
+      !> Film at t = 0 [m]
+      real(dp), intent(in) :: initial_film
+      !> Takes the samples
+      class(sample_sink_t), intent(inout) :: sink
+      !> Told of progress
+      class(motion_watcher_t), intent(inout) :: watcher
+      !> How it ended
+      type(motion_end_t), intent(out) :: ending
+      !> Set if the sink failed
+      type(error_t), allocatable, intent(out) :: error
+
+      select case (film%kernel)
+      case (kernel_half_pi)
+         call run_periods(load_half_pi, scene, film, initial_film, sink, watcher, ending, error)
+      case (kernel_solved_fast)
+         call run_periods(load_solved_fast, scene, film, initial_film, sink, watcher, ending, error)
+      case (kernel_solved_successive)
+         call run_periods(load_solved_successive, scene, film, initial_film, sink, watcher, ending, error)
+      case default
+         call run_periods(load_piezo, scene, film, initial_film, sink, watcher, ending, error)
+      end select
+   end subroutine solve_motion
+
+   !> All periods with one kernel.
+   subroutine run_periods(kernel, scene, film, initial_film, sink, watcher, ending, error)
+      procedure(film_kernel) :: kernel
+      type(scene_t), intent(in) :: scene
+      type(film_t), intent(in) :: film
+      real(dp), intent(in) :: initial_film
+      class(sample_sink_t), intent(inout) :: sink
+      class(motion_watcher_t), intent(inout) :: watcher
+      type(motion_end_t), intent(out) :: ending
+      type(error_t), allocatable, intent(out) :: error
+      type(newmark_t) :: method
+      type(motion_state_t) :: state
+      real(dp), allocatable :: force(:), films(:), velocities(:), accelerations(:)
+      integer(int64) :: first_step
+      integer :: period, steps, done
+
+      method = newmark_of(scene)
+      steps = scene%solver%steps_per_period
+      allocate (force(steps), films(steps), velocities(steps), accelerations(steps))
+      call force_of_period(method%steady_force, method%force_amplitude, force)
+
+      call start_motion(kernel, film, method, initial_film, scene%film%initial_velocity, state, ending%count, ending%status)
+      ending%film = state%film
+      if (ending%status /= status_complete) return
+      call sink%take(0_int64, [applied_force(method%steady_force, method%force_amplitude, 0.0_dp)], [state%film], &
+                     [state%velocity], [state%acceleration], error)
+      if (allocated(error)) return
+
+      do period = 1, scene%solver%periods
+         first_step = int(period - 1, int64)*steps + 1
+         call advance_period(kernel, film, method, force, state, ending%count, films, velocities, accelerations, done, &
+                             ending%status)
+         call sink%take(first_step, force(:done), films(:done), velocities(:done), accelerations(:done), error)
+         ending%film = state%film
+         ending%time = real(first_step - 1 + done, dp)/(method%frequency*real(steps, dp))
+         if (allocated(error) .or. ending%status /= status_complete) return
+         call watcher%period_done(period, scene%solver%periods)
+         if (caught_signal() /= 0 .and. period < scene%solver%periods) then
+            ending%status = status_interrupted
+            return
+         end if
+      end do
+   end subroutine run_periods
+
+   !> Constants of the method from the scene.
+   pure function newmark_of(scene) result(method)
+      type(scene_t), intent(in) :: scene
+      type(newmark_t) :: method
+
+      method%mass = scene%load%mass
+      method%weight = scene%load%mass*scene%load%gravity
+      method%steady_force = scene%load%steady_force
+      method%force_amplitude = scene%load%force_amplitude
+      method%frequency = scene%load%frequency
+      method%tolerance = scene%solver%tolerance
+      method%iteration_limit = scene%solver%iteration_limit
+      method%by_newton = scene%solver%iteration == iteration_newton
+      method%extrapolate = scene%solver%predictor == predictor_extrapolated
+   end function newmark_of
+
+end module integrate_motion

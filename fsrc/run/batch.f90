@@ -1,0 +1,131 @@
+!> All scenes of a call: everything is read and checked before anything runs.
+module batch
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use command_line, only: command_t
+   use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
+   use output_place, only: check_output_place
+   use resolved_scene, only: resolve
+   use run_scene, only: run_one_scene
+   use scene_reader, only: read_scene
+   use scene_report, only: law_sentence, resolved_lines
+   use scene_status, only: is_success, status_interrupted
+   use scene_types, only: scene_t
+   use signals, only: caught_signal
+   use text, only: integer_text
+   implicit none (type, external)
+   private
+
+   public :: run_batch, print_faults
+
+contains
+
+   !> Read, check and run the scenes of a call.
+   subroutine run_batch(command, exit_code)
+      !> What the arguments ask for
+      type(command_t), intent(in) :: command
+      !> Exit code of the program
+      integer, intent(out) :: exit_code
+      type(scene_t), allocatable :: scenes(:)
+      type(fault_list_t) :: faults
+      integer :: i
+
+      exit_code = exit_complete
+      allocate (scenes(size(command%files)))
+      do i = 1, size(scenes)
+         call read_scene(command%files(i)%text, command%overrides, scenes(i), faults)
+      end do
+      if (faults%count() == 0) call check_names(command, scenes, faults)
+      if (.not. command%check) then
+         ! Look first, make folders after, so that a fault in one scene leaves nothing behind for another.
+         if (faults%count() == 0) call check_places(command, scenes, .false., faults)
+         if (faults%count() == 0) call check_places(command, scenes, .true., faults)
+      end if
+      if (faults%count() > 0) then
+         call print_faults(faults)
+         exit_code = exit_bad_input
+      else if (command%check) then
+         call show_resolved(command, scenes)
+      else
+         call run_all(command, scenes, exit_code)
+      end if
+   end subroutine run_batch
+
+   !> Run one scene after the other; a failed one does not stop the others.
+   subroutine run_all(command, scenes, exit_code)
+      type(command_t), intent(in) :: command
+      type(scene_t), intent(in) :: scenes(:)
+      integer, intent(out) :: exit_code
+      type(error_t), allocatable :: error
+      integer :: i, status
+
+      exit_code = exit_complete
+      do i = 1, size(scenes)
+         call run_one_scene(scenes(i), command%quiet, status, error)
+         if (allocated(error)) then
+            write (error_unit, '(a)') error%message
+            exit_code = error%exit_code
+            return
+         end if
+         if (status == status_interrupted) then
+            exit_code = 128 + caught_signal()
+            return
+         end if
+         if (.not. is_success(status)) exit_code = exit_scene_failed
+      end do
+   end subroutine run_all
+
+   !> Two scenes of one name and folder would write the same files.
+   subroutine check_names(command, scenes, faults)
+      type(command_t), intent(in) :: command
+      type(scene_t), intent(in) :: scenes(:)
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i, j
+
+      do i = 2, size(scenes)
+         do j = 1, i - 1
+            if (scenes(i)%name /= scenes(j)%name) cycle
+            call faults%add(command%files(i)%text, 0, 'scene', 'name', &
+                            "'"//trim(scenes(i)%name)//"' is also the name of "//command%files(j)%text)
+            exit
+         end do
+      end do
+   end subroutine check_names
+
+   subroutine check_places(command, scenes, may_make, faults)
+      type(command_t), intent(in) :: command
+      type(scene_t), intent(in) :: scenes(:)
+      logical, intent(in) :: may_make
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i
+
+      do i = 1, size(scenes)
+         call check_output_place(scenes(i), command%files(i)%text, may_make, faults)
+      end do
+   end subroutine check_places
+
+   !> --check: every key with its value, and what follows from them.
+   subroutine show_resolved(command, scenes)
+      type(command_t), intent(in) :: command
+      type(scene_t), intent(in) :: scenes(:)
+      integer :: i
+
+      do i = 1, size(scenes)
+         write (output_unit, '(a)') '! '//command%files(i)%text//': valid; '//law_sentence(scenes(i))
+         write (output_unit, '(a)') resolved_lines(resolve(scenes(i)))
+         write (output_unit, '(a)', advance='no') scenes(i)%resolved_input
+      end do
+   end subroutine show_resolved
+
+   !> Faults to standard error, one line each.
+   subroutine print_faults(faults)
+      !> All faults
+      type(fault_list_t), intent(in) :: faults
+      integer :: i
+
+      do i = 1, faults%count()
+         write (error_unit, '(a)') faults%sentence(i)
+      end do
+      if (faults%not_kept() > 0) write (error_unit, '(a)') 'and '//integer_text(faults%not_kept())//' faults more'
+   end subroutine print_faults
+
+end module batch

@@ -1,0 +1,159 @@
+!> Arguments of the program.
+module command_line
+   use errors, only: fault_list_t
+   use key_table, only: find_key, keys, list_kind, text_kind
+   use scene_reader, only: override_t
+   use text, only: lower, quoted, quoted_words
+   implicit none (type, external)
+   private
+
+   !> A text of its own length.
+   type, public :: argument_t
+      character(:), allocatable :: text
+   end type argument_t
+
+   !> What the arguments ask for.
+   type, public :: command_t
+      type(argument_t), allocatable :: files(:)
+      type(override_t), allocatable :: overrides(:)
+      logical :: check = .false., template = .false., page = .false., quiet = .false., version = .false., help = .false.
+      !> Group of --template, empty for all
+      character(:), allocatable :: template_group
+   end type command_t
+
+   public :: read_arguments, usage_text
+
+contains
+
+   !> Read the arguments; faults are appended.
+   subroutine read_arguments(command, faults)
+      !> What they ask for
+      type(command_t), intent(out) :: command
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: argument
+      integer :: i
+      logical :: options_over
+
+      allocate (command%files(0), command%overrides(0))
+      command%template_group = ''
+      options_over = .false.
+      i = 0
+      do while (i < command_argument_count())
+         i = i + 1
+         argument = argument_text(i)
+         if (options_over .or. argument == '-' .or. len(argument) == 0) then
+            command%files = [command%files, argument_t(argument)]
+         else if (argument(1:1) /= '-') then
+            command%files = [command%files, argument_t(argument)]
+         else
+            select case (argument)
+            case ('--')
+               options_over = .true.
+            case ('--check')
+               command%check = .true.
+            case ('--quiet')
+               command%quiet = .true.
+            case ('--version')
+               command%version = .true.
+            case ('--help', '-h')
+               command%help = .true.
+            case ('--keys')
+               command%page = .true.
+            case ('--overwrite')
+               call add_override('output.overwrite=.true.', argument)
+            case ('--template')
+               command%template = .true.
+               if (i < command_argument_count()) then
+                  i = i + 1
+                  command%template_group = lower(argument_text(i))
+               end if
+            case ('--set')
+               if (value_follows()) call add_override(argument_text(i), argument//' '//argument_text(i))
+            case ('--output')
+               if (value_follows()) call add_override('output.directory='//quoted(argument_text(i)), &
+                                                      argument//' '//argument_text(i))
+            case default
+               call faults%add(argument, 0, '', '', 'unknown option; rattle --help lists all')
+            end select
+         end if
+      end do
+
+   contains
+
+      !> Step on to the value of an option.
+      logical function value_follows()
+         value_follows = i < command_argument_count()
+         if (value_follows) then
+            i = i + 1
+         else
+            call faults%add(argument, 0, '', '', 'a value must follow this option')
+         end if
+      end function value_follows
+
+      !> Turn group.key=value into namelist text.
+      subroutine add_override(setting, source)
+         character(*), intent(in) :: setting
+         character(*), intent(in) :: source
+         integer :: dot, equals
+
+         equals = index(setting, '=')
+         dot = index(setting(:max(equals, 1)), '.')
+         if (equals < 4 .or. dot < 2 .or. dot > equals - 2) then
+            call faults%add(source, 0, '', '', 'write it as group.key=value')
+            return
+         end if
+         command%overrides = [command%overrides, override_t(source, '&'//setting(:dot - 1)//' '// &
+                                                            setting(dot + 1:equals)//value_of(setting(:dot - 1), &
+                                                            setting(dot + 1:equals - 1), setting(equals + 1:))//' /')]
+      end subroutine add_override
+
+   end subroutine read_arguments
+
+   !> Value of an override; quotes around a text may be left out, the shell has eaten them.
+   pure function value_of(group, key, given) result(value)
+      character(*), intent(in) :: group
+      character(*), intent(in) :: key
+      character(*), intent(in) :: given
+      character(:), allocatable :: value
+      integer :: position
+
+      value = given
+      position = find_key(lower(group), lower(key))
+      if (position == 0 .or. len(given) == 0) return
+      if (scan(given(1:1), '''"') > 0) return
+      if (keys(position)%kind == text_kind) value = quoted(given)
+      if (keys(position)%kind == list_kind) value = quoted_words(given, ',')
+   end function value_of
+
+   !> One argument in its full length.
+   function argument_text(position) result(text)
+      integer, intent(in) :: position
+      character(:), allocatable :: text
+      integer :: length
+
+      call get_command_argument(position, length=length)
+      allocate (character(length) :: text)
+      if (length > 0) call get_command_argument(position, text)
+   end function argument_text
+
+   !> What --help prints.
+   pure function usage_text() result(text)
+      character(:), allocatable :: text
+      character(1), parameter :: end_of_line = new_line('a')
+
+      text = 'rattle [options] FILE.nml [FILE.nml ...]      - reads standard input'//end_of_line// &
+             '  --check                validate, show resolved and derived values, run nothing'//end_of_line// &
+             '  --template [group]     print a commented input'//end_of_line// &
+             '  --keys                 print the page of all keys'//end_of_line// &
+             '  --set group.key=value  override a key in every file; may be repeated'//end_of_line// &
+             '  --output DIR           folder of the output files'//end_of_line// &
+             '  --overwrite            replace output files of an earlier run'//end_of_line// &
+             '  --quiet                nothing to the terminal but faults'//end_of_line// &
+             '  --version              print the version'//end_of_line// &
+             '  --help                 print this'//end_of_line// &
+             'exit code: 0 complete; 1 a scene failed; 2 bad input, nothing was run; 3 system trouble;'//end_of_line// &
+             '           128 + signal when interrupted'
+   end function usage_text
+
+end module command_line

@@ -1,0 +1,73 @@
+!> One scene from input to files: resolve, solve, judge, record.
+module run_scene
+   use clock, only: wall_seconds
+   use errors, only: error_t
+   use integrate_motion, only: solve_motion
+   use kinds, only: dp
+   use log_file, only: log_t
+   use output_place, only: log_path, result_path, summary_path
+   use progress, only: progress_t
+   use resolved_scene, only: resolve, resolved_scene_t
+   use sample_recorder, only: sample_recorder_t
+   use scene_report, only: report_ending, report_start
+   use scene_result, only: judge, scene_result_t
+   use scene_status, only: status_complete
+   use scene_summary, only: write_scene_summary
+   use scene_types, only: scene_t
+   implicit none (type, external)
+   private
+
+   public :: run_one_scene
+
+contains
+
+   !> Run a scene and write its files. An error is one of the system (disk); how the physics ended
+   !> stands in the status.
+   subroutine run_one_scene(scene, quiet, status, error)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Nothing to the terminal
+      logical, intent(in) :: quiet
+      !> Status of scene_status
+      integer, intent(out) :: status
+      !> Set if a file could not be written
+      type(error_t), allocatable, intent(out) :: error
+      type(resolved_scene_t) :: resolved
+      type(scene_result_t) :: result
+      type(sample_recorder_t) :: recorder
+      type(progress_t) :: watcher
+      type(log_t), target :: log
+      type(error_t), allocatable :: write_error, ignored
+      real(dp) :: started
+
+      status = status_complete
+      started = wall_seconds()
+      resolved = resolve(scene)
+      call log%open(log_path(scene), quiet, error)
+      if (allocated(error)) return
+      call report_start(log, scene, resolved)
+
+      call recorder%open(scene, result_path(scene), error)
+      if (.not. allocated(error)) then
+         call watcher%start(log, quiet)
+         call solve_motion(scene, resolved%film, resolved%initial_film, recorder, watcher, result%ending, error)
+         call watcher%clear()
+         result%solve_seconds = wall_seconds() - started
+         if (.not. allocated(error)) call judge(scene, resolved, recorder, result)
+         result%judge_seconds = wall_seconds() - started - result%solve_seconds
+         call recorder%close(write_error)
+         if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
+      end if
+      status = result%ending%status
+
+      if (allocated(error)) then
+         call log%line('  '//error%message)
+         call write_scene_summary(summary_path(scene), scene, resolved, result, ignored)
+      else
+         call write_scene_summary(summary_path(scene), scene, resolved, result, error)
+         call report_ending(log, scene, result)
+      end if
+      call log%close()
+   end subroutine run_one_scene
+
+end module run_scene

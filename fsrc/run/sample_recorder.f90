@@ -1,0 +1,129 @@
+!> Keeps of the samples of a motion what the scene asks for: the window at the end, and the time series
+!> in its file. A scene without a series keeps nothing beyond the window, however long it runs.
+module sample_recorder
+   use errors, only: error_t
+   use kinds, only: dp, int64
+   use result_writer, only: result_writer_t
+   use sample_sink, only: sample_sink_t
+   use scene_types, only: column_acceleration, column_applied_force, column_film_load, column_film_thickness, &
+                          column_names, column_squeeze_velocity, column_time, column_units, scene_t
+   implicit none (type, external)
+   private
+
+   !> Recorder of a motion.
+   type, extends(sample_sink_t), public :: sample_recorder_t
+      private
+      !> Samples of the window [m], [m/s], [m/s2]
+      real(dp), allocatable, public :: films(:), velocities(:), accelerations(:)
+      integer(int64) :: window_start = 0
+      real(dp) :: steps_per_second = 0.0_dp, mass = 0.0_dp, gravity = 0.0_dp
+      logical :: series = .false.
+      integer :: stride = 1
+      integer, allocatable :: columns(:)
+      real(dp), allocatable :: rows(:, :)
+      type(result_writer_t) :: writer
+   contains
+      procedure :: open => open_recorder
+      procedure :: take => take_samples
+      procedure :: close => close_recorder
+   end type sample_recorder_t
+
+contains
+
+   !> Prepare for the samples of a scene; its series is opened if it is asked for.
+   subroutine open_recorder(self, scene, path, error)
+      class(sample_recorder_t), intent(inout) :: self
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Path of the series
+      character(*), intent(in) :: path
+      !> Set if the file cannot be written
+      type(error_t), allocatable, intent(out) :: error
+      integer :: window
+
+      window = scene%spectrum%periods*scene%solver%steps_per_period
+      allocate (self%films(window), self%velocities(window), self%accelerations(window))
+      self%window_start = int(scene%solver%periods - scene%spectrum%periods, int64)*scene%solver%steps_per_period
+      self%steps_per_second = scene%load%frequency*real(scene%solver%steps_per_period, dp)
+      self%mass = scene%load%mass
+      self%gravity = scene%load%gravity
+      self%series = scene%output%series
+      if (.not. self%series) return
+      self%stride = scene%output%stride
+      self%columns = scene%output%columns
+      allocate (self%rows(size(self%columns), scene%solver%steps_per_period/self%stride + 1))
+      call self%writer%open(path, scene%resolved_input, column_names(self%columns), column_units(self%columns), error)
+   end subroutine open_recorder
+
+   !> Keep what belongs to the window, write what belongs to the series.
+   subroutine take_samples(self, first_step, force, film, velocity, acceleration, error)
+      class(sample_recorder_t), intent(inout) :: self
+      !> Step of the first sample
+      integer(int64), intent(in) :: first_step
+      !> Applied force F [N]
+      real(dp), intent(in) :: force(:)
+      !> Film thickness h [m]
+      real(dp), intent(in) :: film(:)
+      !> Film velocity z' [m/s]
+      real(dp), intent(in) :: velocity(:)
+      !> Acceleration z'' [m/s2]
+      real(dp), intent(in) :: acceleration(:)
+      !> Set if the series could not be written
+      type(error_t), allocatable, intent(out) :: error
+      integer :: place
+
+      if (first_step > self%window_start) then
+         place = int(first_step - self%window_start)
+         self%films(place:place + size(film) - 1) = film
+         self%velocities(place:place + size(film) - 1) = velocity
+         self%accelerations(place:place + size(film) - 1) = acceleration
+      end if
+      if (self%series) call write_series(self, first_step, force, film, velocity, acceleration, error)
+   end subroutine take_samples
+
+   !> Every stride-th step as a row of the chosen columns.
+   subroutine write_series(self, first_step, force, film, velocity, acceleration, error)
+      class(sample_recorder_t), intent(inout) :: self
+      integer(int64), intent(in) :: first_step
+      real(dp), intent(in) :: force(:)
+      real(dp), intent(in) :: film(:)
+      real(dp), intent(in) :: velocity(:)
+      real(dp), intent(in) :: acceleration(:)
+      type(error_t), allocatable, intent(out) :: error
+      integer :: column, first, i, last
+
+      first = 1 + int(modulo(-first_step, int(self%stride, int64)))
+      last = (size(film) - first)/self%stride + 1
+      if (first > size(film)) return
+      do column = 1, size(self%columns)
+         select case (self%columns(column))
+         case (column_time)
+            do i = 1, last
+               self%rows(column, i) = real(first_step + first - 1 + (i - 1)*self%stride, dp)/self%steps_per_second
+            end do
+         case (column_applied_force)
+            self%rows(column, :last) = force(first::self%stride)
+         case (column_film_thickness)
+            self%rows(column, :last) = film(first::self%stride)
+         case (column_squeeze_velocity)
+            self%rows(column, :last) = velocity(first::self%stride)
+         case (column_acceleration)
+            self%rows(column, :last) = acceleration(first::self%stride)
+         case (column_film_load)
+            ! Read off the equation of motion (1), which the sample fulfils.
+            self%rows(column, :last) = self%mass*(acceleration(first::self%stride) + self%gravity) + force(first::self%stride)
+         end select
+      end do
+      call self%writer%write_rows(self%rows(:, :last), error)
+   end subroutine write_series
+
+   !> Complete the series.
+   subroutine close_recorder(self, error)
+      class(sample_recorder_t), intent(inout) :: self
+      !> Set if the file could not be completed
+      type(error_t), allocatable, intent(out) :: error
+
+      if (self%series) call self%writer%close(error)
+   end subroutine close_recorder
+
+end module sample_recorder

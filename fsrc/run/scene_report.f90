@@ -1,0 +1,132 @@
+!> What the terminal and the log tell of a scene.
+module scene_report
+   use kinds, only: dp
+   use log_file, only: log_magic, log_t
+   use output_place, only: result_path, summary_path
+   use rattle_class, only: class_name
+   use regime_words, only: regime_sentence
+   use resolved_scene, only: resolved_scene_t
+   use scene_result, only: scene_result_t
+   use scene_status, only: is_success, status_name, status_sentence
+   use scene_types, only: law_iso_viscous, rupture_solved, scene_t
+   use text, only: integer_text, short_text
+   use version, only: program_version
+   implicit none (type, external)
+   private
+
+   public :: report_start, report_ending, law_sentence, resolved_lines
+
+contains
+
+   !> Head of a scene: what will be solved, and what is known beforehand.
+   subroutine report_start(log, scene, resolved)
+      !> Log of the scene
+      type(log_t), intent(in) :: log
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> What follows from it
+      type(resolved_scene_t), intent(in) :: resolved
+
+      call log%line(log_magic//program_version//', scene '//trim(scene%name)//': '//law_sentence(scene))
+      call log%line('  steady film '//micrometres(resolved%steady_film)//' um, natural frequency '// &
+                    short_text(resolved%natural_frequency, 5)//' Hz, damping ratio '//short_text(resolved%damping_ratio, 4))
+   end subroutine report_start
+
+   !> The film law of a scene in words.
+   pure function law_sentence(scene) result(sentence)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: sentence
+
+      if (scene%film%law /= law_iso_viscous) then
+         sentence = 'published piezo-viscous film (37)'
+      else if (scene%film%rupture == rupture_solved) then
+         sentence = 'published iso-viscous film (24), rupture angle solved from (18)'
+      else
+         sentence = 'published iso-viscous film (35), rupture angle pi/2'
+      end if
+   end function law_sentence
+
+   !> What follows from a scene, for --check.
+   pure function resolved_lines(resolved) result(lines)
+      !> What follows from the scene
+      type(resolved_scene_t), intent(in) :: resolved
+      character(:), allocatable :: lines
+      character(1), parameter :: end_of_line = new_line('a')
+
+      lines = '! steady film                        '//short_text(resolved%steady_film, 10)//' m'//end_of_line// &
+              '! natural frequency                  '//short_text(resolved%natural_frequency, 6)//' Hz'//end_of_line// &
+              '! damping ratio                      '//short_text(resolved%damping_ratio, 5)//end_of_line// &
+              '! film at t = 0                      '//short_text(resolved%initial_film, 10)//' m'//end_of_line// &
+              '! squeeze group A at t = 0           '//short_text(resolved%initial_squeeze_group, 5)//end_of_line// &
+              '! pressure group B at the steady film '//short_text(resolved%pressure_group, 5)//end_of_line// &
+              '! largest alpha p at the steady film '//short_text(resolved%alpha_p, 5)//end_of_line// &
+              '! (A, B, alpha p: exact film, with u = '//short_text(resolved%film%speed, 6)//' m/s, the entrainment speed)'
+   end function resolved_lines
+
+   !> How the scene ended and what it amounts to.
+   subroutine report_ending(log, scene, result)
+      !> Log of the scene
+      type(log_t), intent(in) :: log
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Its result
+      type(scene_result_t), intent(in) :: result
+
+      associate (count => result%ending%count)
+         call log%line('  '//integer_text(count%steps)//' steps in '//short_text(result%solve_seconds, 3)//' s, '// &
+                       passes_text()//' passes a step, '//integer_text(count%cuts)//' steps cut to keep the film positive')
+      end associate
+      if (.not. is_success(result%ending%status)) call log%line('  '//status_name(result%ending%status)//' at t = '// &
+                           short_text(result%ending%time, 6)//' s, film '//micrometres(result%ending%film)//' um: '// &
+                                                                status_sentence(result%ending%status))
+      if (result%judged) call report_window(log, result)
+      if (scene%output%series) call log%line('  '//result_path(scene))
+      call log%line('  '//summary_path(scene))
+
+   contains
+
+      pure function passes_text() result(words)
+         character(:), allocatable :: words
+
+         words = '0'
+         associate (count => result%ending%count)
+            if (count%steps > 0) words = short_text(real(count%evaluations, dp)/real(count%steps, dp), 3)
+         end associate
+      end function passes_text
+
+   end subroutine report_ending
+
+   !> The window: extremes, spectrum, class, regime.
+   subroutine report_window(log, result)
+      type(log_t), intent(in) :: log
+      type(scene_result_t), intent(in) :: result
+
+      call log%line('  film '//micrometres(result%film_minimum)//' to '//micrometres(result%film_maximum)// &
+                    ' um, acceleration '//short_text(result%acceleration_minimum, 5)//' to '// &
+                    short_text(result%acceleration_maximum, 5)//' m/s2')
+      associate (rattle => result%rattle, lines => result%rattle%lines)
+         if (lines%moving) then
+            call log%line('  '//integer_text(lines%line_count)//' lines, harmonic distortion '// &
+                          short_text(lines%harmonic_distortion, 3)//', '// &
+                          short_text(rattle%reversals_per_period, 3)//' reversals a period: '//class_name(rattle%class))
+         else
+            call log%line('  no motion but rounding: '//class_name(rattle%class))
+         end if
+         if (.not. lines%sampling_sufficient) &
+            call log%line('  warning: too few samples a period for the highest lines; raise steps_per_period')
+      end associate
+      call log%line('  '//regime_sentence(result%regime))
+      if (result%regime%law_contradicted) &
+         call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted)')
+   end subroutine report_window
+
+   !> A length [m] as a number of micrometres.
+   pure function micrometres(length) result(words)
+      real(dp), intent(in) :: length
+      character(:), allocatable :: words
+
+      words = short_text(1.0e6_dp*length, 5)
+   end function micrometres
+
+end module scene_report

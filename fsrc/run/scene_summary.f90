@@ -1,0 +1,94 @@
+!> Result of a scene as the &summary group.
+module scene_summary
+   use errors, only: error_t
+   use film_law, only: film_t
+   use kinds, only: dp
+   use rattle_class, only: class_name
+   use regime_words, only: regime_name
+   use resolved_scene, only: resolved_scene_t
+   use scene_result, only: scene_result_t
+   use scene_status, only: is_success, status_name, status_sentence
+   use scene_types, only: law_iso_viscous, scene_t
+   use summary_file, only: summary_t
+   use version, only: program_version
+   implicit none (type, external)
+   private
+
+   !> Harmonics that the summary lists.
+   integer, parameter :: most_harmonics = 40
+
+   public :: write_scene_summary
+
+contains
+
+   !> Write the summary of a scene.
+   subroutine write_scene_summary(path, scene, resolved, result, error)
+      !> Path of the summary
+      character(*), intent(in) :: path
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> What follows from it
+      type(resolved_scene_t), intent(in) :: resolved
+      !> Its result
+      type(scene_result_t), intent(in) :: result
+      !> Set if the file cannot be written
+      type(error_t), allocatable, intent(out) :: error
+      type(summary_t) :: summary
+
+      call summary%add('name', trim(scene%name))
+      call summary%add('program_version', program_version)
+      call summary%add('status', status_name(result%ending%status))
+      call summary%add('status_time', result%ending%time)
+      call summary%add('status_text', status_sentence(result%ending%status))
+      call summary%add('law', trim(merge('iso-viscous  ', 'piezo-viscous', scene%film%law == law_iso_viscous)))
+      call summary%add('model', 'published')
+      call summary%add('speed_used', resolved%film%speed)
+      call summary%add('speed_meaning', 'entrainment speed U = (u1 + u2)/2')
+      call summary%add('steady_film', resolved%steady_film)
+      call summary%add('natural_frequency', resolved%natural_frequency)
+      call summary%add('damping_ratio', resolved%damping_ratio)
+      if (result%judged) call add_window(summary, scene, result)
+      if (.not. is_success(result%ending%status)) call summary%add('film_at_status_time', result%ending%film)
+      associate (count => result%ending%count)
+         call summary%add('evaluations', count%evaluations)
+         call summary%add('steps', count%steps)
+         call summary%add('steps_cut', count%cuts)
+         if (count%steps > 0) call summary%add('iterations_per_step', real(count%evaluations, dp)/real(count%steps, dp))
+      end associate
+      call summary%add('wall_seconds', result%solve_seconds + result%judge_seconds)
+      call summary%write(path, error)
+   end subroutine write_scene_summary
+
+   !> What was judged from the window.
+   subroutine add_window(summary, scene, result)
+      type(summary_t), intent(inout) :: summary
+      type(scene_t), intent(in) :: scene
+      type(scene_result_t), intent(in) :: result
+
+      call summary%add('window_periods', scene%spectrum%periods)
+      call summary%add('samples_per_period', scene%solver%steps_per_period)
+      call summary%add('film_minimum', result%film_minimum)
+      call summary%add('film_maximum', result%film_maximum)
+      call summary%add('acceleration_minimum', result%acceleration_minimum)
+      call summary%add('acceleration_maximum', result%acceleration_maximum)
+      associate (rattle => result%rattle, lines => result%rattle%lines)
+         call summary%add('reversals_per_period', rattle%reversals_per_period)
+         call summary%add('harmonics', lines%harmonics(:min(most_harmonics, size(lines%harmonics))))
+         if (lines%moving) then
+            call summary%add('line_count', lines%line_count)
+            call summary%add('harmonic_distortion', lines%harmonic_distortion)
+            call summary%add('irregular_fraction', lines%irregular_fraction)
+            call summary%add('sampling_sufficient', lines%sampling_sufficient)
+         end if
+         call summary%add('rattle_class', class_name(rattle%class))
+      end associate
+      associate (regime => result%regime)
+         if (regime%pressure_exists) call summary%add('pressure_maximum', regime%pressure_maximum)
+         call summary%add('alpha_p_maximum', regime%alpha_p_maximum)
+         call summary%add('deflection', regime%deflection)
+         call summary%add('film_regime', regime_name(regime%regime))
+         call summary%add('law_contradicted', regime%law_contradicted)
+      end associate
+   end subroutine add_window
+
+end module scene_summary

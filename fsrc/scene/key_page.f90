@@ -1,0 +1,122 @@
+!> The key table as text: a commented input (--template) and the page of all keys (--keys).
+module key_page
+   use key_table, only: allowed_text, key_t, keys, list_kind, text_kind
+   use text, only: quoted, quoted_words
+   implicit none (type, external)
+   private
+
+   character(1), parameter :: end_of_line = new_line('a')
+
+   public :: template_text, page_text
+
+contains
+
+   !> A valid input with every key, its unit and its meaning; keys that need not be set are commented out.
+   function template_text(group) result(text)
+      !> One group, or empty for all
+      character(*), intent(in) :: group
+      character(:), allocatable :: text
+      integer :: i
+
+      text = ''
+      do i = 1, size(keys)
+         if (len(group) > 0 .and. keys(i)%group /= group) cycle
+         if (starts_group(i)) text = text//'&'//trim(keys(i)%group)//end_of_line
+         text = text//template_line(keys(i))
+         if (starts_group(i + 1)) text = text//'/'//end_of_line//end_of_line
+      end do
+   end function template_text
+
+   !> Meaning, then the assignment.
+   function template_line(key) result(text)
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: text
+      character(:), allocatable :: value, unit
+
+      value = trim(key%default)
+      if (key%example /= '') value = trim(key%example)
+      if (key%kind == list_kind) value = quoted_words(value, ' ')
+      if (key%kind == text_kind .and. len(value) > 0) value = quoted(value)
+      unit = trim(key%unit)
+      if (unit == '-') unit = ''
+      if (len(unit) > 0) unit = ' ['//unit//']'
+      text = '   ! '//trim(key%sentence)//unit//' Allowed: '//allowed_text(key)//'.'//end_of_line
+      if (key%example /= '') then
+         text = text//'   '//trim(key%name)//' = '//value//end_of_line
+      else
+         text = text//'   ! '//trim(key%name)//' = '//value//end_of_line
+      end if
+   end function template_line
+
+   !> Page of all keys in Markdown: one table per group, then how the class is found.
+   function page_text() result(text)
+      character(:), allocatable :: text
+      integer :: i
+
+      text = '# Input keys'//end_of_line//end_of_line// &
+             'An input is a file of namelist groups. SI units throughout; `!` begins a comment. This page is written by'// &
+             end_of_line//'`rattle --keys`, a commented input by `rattle --template`. Every key of every ready scene in'// &
+             end_of_line//'this folder is explained here.'//end_of_line
+      do i = 1, size(keys)
+         if (starts_group(i)) text = text//end_of_line//'## &'//trim(keys(i)%group)//end_of_line//end_of_line// &
+                                     '| key | unit | default | allowed | meaning |'//end_of_line// &
+                                     '|---|---|---|---|---|'//end_of_line
+         text = text//page_row(keys(i))
+      end do
+      text = text//class_text()
+   end function page_text
+
+   function page_row(key) result(text)
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: text
+      character(:), allocatable :: default, meaning
+
+      default = trim(key%default)
+      if (default == 'required') default = '**required**'
+      if (default == '') default = '-'
+      meaning = trim(key%sentence)
+      if (key%used_when /= '') meaning = meaning//' Only with `'//trim(key%used_when)//'`.'
+      text = '| `'//trim(key%name)//'` | '//trim(key%unit)//' | '//default//' | '//allowed_text(key)//' | '// &
+             meaning//' |'//end_of_line
+   end function page_row
+
+   !> How the class is found, and why the limits are what they are.
+   pure function class_text() result(text)
+      character(:), allocatable :: text
+
+      text = end_of_line//'## How the class is found'//end_of_line//end_of_line// &
+         'The window is the last `&spectrum periods` whole periods of the force. a_n is the single-sided amplitude of'// &
+         end_of_line//'the acceleration at n times the forcing frequency, for every n that the samples resolve (the'// &
+         end_of_line//'summary lists the first 40). The questions are asked in this order:'//end_of_line//end_of_line// &
+         '1. irregular, if the share of power off the harmonics exceeds `irregular_limit`. A periodic motion leaves'// &
+         end_of_line//'   less than 1e-6 there once it is steady; a doubled period or a chaotic motion leaves far more'// &
+         end_of_line//'   than 1 %, so the limit of 0.01 is not delicate.'//end_of_line// &
+         '2. quiet, if the harmonic distortion sqrt(a_2^2 + a_3^2 + ...)/a_1 is below `quiet_limit`. With a tenth of'// &
+         end_of_line//'   the static load as amplitude the canonical scenes have 0.25 (idle) and 0.12 (creep), with nine'// &
+         end_of_line//'   tenths of it 2.8 and 1.9; 0.35 lies between.'//end_of_line// &
+         '3. idle, if at least `idle_lines` lines exceed `line_threshold` times the first. The canonical idle scene'// &
+         end_of_line//'   has 30 such lines, 21 even with the exact film; the canonical creep scene has 12; 20 lies between.'// &
+         end_of_line//'4. creep otherwise.'//end_of_line//end_of_line// &
+         'A class counts only if it does not change when the time step and the tolerance shrink: see the figure on'// &
+         end_of_line//'the tolerance in the README. `sampling_sufficient` in the summary is false where the samples a'// &
+         end_of_line//'period are too few for the highest lines. A scene without motion (below 1e-12 of the load over'// &
+         end_of_line//'the mass) is quiet and has no ratios.'//end_of_line//end_of_line// &
+         '## How the regime is found'//end_of_line//end_of_line// &
+         'After the motion the exact pressure of the iso-viscous film is taken at every sample of the window. Below'// &
+         end_of_line//'alpha p = 0.1 the film is iso-viscous (the exact piezo-viscous load is then 3.2 % higher), below 1'// &
+         end_of_line//'piezo-viscous; from 1 on no piezo-viscous film of rigid flanks exists, and neither does where the'// &
+         end_of_line//'flanks give way by more than a tenth of the film (4): elastohydrodynamic. `law_contradicted` is'// &
+         end_of_line//'true where the law of the scene is not the one of its regime. `pressure_maximum` is p for an'// &
+         end_of_line//'iso-viscous law and q of (31) for a piezo-viscous one, left out where q does not exist; the'// &
+         end_of_line//'deflection is then that of p, a lower bound.'//end_of_line
+   end function class_text
+
+   !> Whether a key is the first of its group; the place behind the last key counts as one.
+   pure logical function starts_group(position)
+      integer, intent(in) :: position
+
+      starts_group = position == 1 .or. position == size(keys) + 1
+      if (.not. starts_group) starts_group = keys(position)%group /= keys(position - 1)%group
+   end function starts_group
+
+end module key_page

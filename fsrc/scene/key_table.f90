@@ -1,0 +1,286 @@
+!> The one table of input keys. Reader, checker, nearest-key suggestion, template, the page of all keys
+!> and the keys that a campaign may vary all come from here. A new key is a new line in this file
+!> and one line where its group is read (scene_reader).
+module key_table
+   use kinds, only: dp
+   use text, only: edit_distance, real_text
+   implicit none (type, external)
+   private
+
+   integer, parameter, public :: real_kind = 1, integer_kind = 2, logical_kind = 3, text_kind = 4, list_kind = 5
+
+   !> Allowed numbers; an open bound itself is not allowed.
+   type, public :: range_t
+      real(dp) :: lower = -huge(1.0_dp)
+      logical :: lower_open = .true.
+      real(dp) :: upper = huge(1.0_dp)
+      logical :: upper_open = .true.
+   end type range_t
+
+   !> One key.
+   type, public :: key_t
+      !> Namelist group
+      character(12) :: group
+      !> Name in the group
+      character(24) :: name
+      !> Type of its value
+      integer :: kind
+      !> SI unit, '-' for a pure number, empty where it does not apply
+      character(8) :: unit
+      !> 'required', a value, or empty: optional, its absence means what the sentence says
+      character(48) :: default
+      !> Allowed numbers
+      type(range_t) :: range
+      !> Allowed words, separated by blanks; empty: any text that the reader accepts
+      character(112) :: choices
+      !> 'group.key=word[|word]': legal only then; empty: always
+      character(40) :: used_when
+      !> What it means
+      character(240) :: sentence
+      !> Value in the template where there is no default
+      character(16) :: example = ''
+   end type key_t
+
+   type(range_t), parameter :: any_number = range_t()
+   type(range_t), parameter :: positive = range_t(lower=0.0_dp)
+   type(range_t), parameter :: not_negative = range_t(lower=0.0_dp, lower_open=.false.)
+   type(range_t), parameter :: poisson = range_t(lower=-1.0_dp, upper=0.5_dp, upper_open=.false.)
+   type(range_t), parameter :: at_least_1 = range_t(1.0_dp, .false., 1.0e9_dp, .false.)
+   type(range_t), parameter :: at_least_8 = range_t(8.0_dp, .false., 1.0e7_dp, .false.)
+   type(range_t), parameter :: fraction = range_t(0.0_dp, .true., 1.0_dp, .false.)
+
+   !> Longest text value.
+   integer, parameter, public :: name_limit = 64, path_limit = 512
+
+   type(key_t), parameter, public :: keys(*) = [ &
+      key_t('scene', 'name', text_kind, '', '', any_number, '', '', &
+            'Name of the scene and stem of its output files: letters, digits, . _ - only; absent: the stem of the input file.'), &
+      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion', '', &
+            'What is computed: motion solves the transient film and tooth motion.'), &
+      key_t('contact', 'radius', real_kind, 'm', '', positive, '', '', &
+            'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', &
+            example='0.0127'), &
+      key_t('contact', 'radius_1', real_kind, 'm', '', positive, '', '', &
+            'Radius of the first tooth flank; 1/R = 1/radius_1 + 1/radius_2 (2).'), &
+      key_t('contact', 'radius_2', real_kind, 'm', '', positive, '', '', &
+            'Radius of the second tooth flank.'), &
+      key_t('contact', 'length', real_kind, 'm', 'required', positive, '', '', &
+            'Length l of the line contact.', &
+            example='0.010'), &
+      key_t('contact', 'young_modulus', real_kind, 'Pa', '205.66e9', positive, '', '', &
+            'Young''s modulus E of the teeth, for the deflection (4); with the default Poisson ratio E* is 226 GPa.'), &
+      key_t('contact', 'poisson_ratio', real_kind, '-', '0.3', poisson, '', '', &
+            'Poisson ratio of the teeth; E* = E/(1 - nu^2) (3).'), &
+      key_t('lubricant', 'viscosity', real_kind, 'Pa s', 'required', positive, '', '', &
+            'Dynamic viscosity eta0 at ambient pressure.', &
+            example='0.3'), &
+      key_t('lubricant', 'pressure_viscosity', real_kind, '1/Pa', 'required', positive, '', '', &
+            'Barus coefficient alpha (29): the piezo-viscous laws and the regime check need it.', &
+            example='2.0e-8'), &
+      key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'barus', '', &
+            'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29).'), &
+      key_t('kinematics', 'entrainment_speed', real_kind, 'm/s', '', positive, '', '', &
+            'Entrainment speed U, the mean of the two surface speeds; give this, rolling_speed, or both surface speeds.', &
+            example='1.905'), &
+      key_t('kinematics', 'rolling_speed', real_kind, 'm/s', '', positive, '', '', &
+            'Sum u_r of the two surface speeds, twice the entrainment speed.'), &
+      key_t('kinematics', 'surface_speed_1', real_kind, 'm/s', '', any_number, '', '', &
+            'Surface speed of the first flank; the sum of both must be positive.'), &
+      key_t('kinematics', 'surface_speed_2', real_kind, 'm/s', '', any_number, '', '', &
+            'Surface speed of the second flank.'), &
+      key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', '', &
+            'Equivalent mass m of the impacting tooth pair.', &
+            example='3.0'), &
+      key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', '', &
+            'Steady force Q of (34), of either sign as long as Q + m g is positive.', &
+            example='199.2'), &
+      key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', '', &
+            'Amplitude F0 of the oscillating force of (34).', &
+            example='205.7'), &
+      key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', '', &
+            'Frequency f_exc of the oscillating force.', &
+            example='600.0'), &
+      key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', '', &
+            'Acceleration of free fall g.'), &
+      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', '', &
+            'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
+            example='iso-viscous'), &
+      key_t('film', 'model', text_kind, '', 'published', any_number, 'published', '', &
+            'Whose film: published takes the formulas of the paper, with the entrainment speed as their u.'), &
+      key_t('film', 'rupture', text_kind, '', 'half-pi', any_number, 'half-pi solved', 'film.law=iso-viscous', &
+            'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
+      key_t('film', 'rupture_solver', text_kind, '', 'fast', any_number, 'fast successive', 'film.rupture=solved', &
+            'Root finder of (18): fast is Newton''s method, successive the paper''s successive substitution; same root.'), &
+      key_t('film', 'initial_film', real_kind, 'm', '', positive, '', '', &
+            'Film at t = 0; absent: the steady film under Q + m g.'), &
+      key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', '', &
+            'Film velocity dh/dt at t = 0, negative on approach.'), &
+      key_t('solver', 'method', text_kind, '', 'newmark', any_number, 'newmark', '', &
+            'Time integration: newmark is the paper''s average acceleration method.'), &
+      key_t('solver', 'iteration', text_kind, '', 'newton', any_number, 'newton successive', 'solver.method=newmark', &
+            'Iteration in a step: newton with the exact slopes of the film, or the paper''s successive one.'), &
+      key_t('solver', 'predictor', text_kind, '', 'extrapolated', any_number, 'extrapolated previous', &
+            'solver.method=newmark', &
+            'First iterate of a step: extrapolated with the present acceleration, or the previous state as it stands.'), &
+      key_t('solver', 'tolerance', real_kind, 'm', '1.0e-14', positive, '', 'solver.method=newmark', &
+            'Tolerance eps of (36) on the film between two passes; it lets through an acceleration error of about 4 eps/dt^2.'), &
+      key_t('solver', 'iteration_limit', integer_kind, '-', '100', at_least_1, '', 'solver.method=newmark', &
+            'Most passes in a step; a step that needs more ends the scene as not_converged.'), &
+      key_t('solver', 'steps_per_period', integer_kind, '-', '512', at_least_8, '', 'solver.method=newmark', &
+            'Time steps in one period of the force.'), &
+      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', '', &
+            'Periods of the force that are solved; at least the periods of the spectrum window.'), &
+      key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', '', &
+            'Whole periods at the end of the run that spectrum, extremes and regime are taken from.'), &
+      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', '', &
+            'A harmonic counts as a line if it exceeds this share of the first.'), &
+      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', '', &
+            'From this many lines on the motion is idle rattle.'), &
+      key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', '', &
+            'Below this harmonic distortion the motion is quiet.'), &
+      key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', '', &
+            'Above this share of power off the harmonics the motion is irregular.'), &
+      key_t('output', 'directory', text_kind, '', 'results', any_number, '', '', &
+            'Folder of the output files, relative to the working directory; made if missing.'), &
+      key_t('output', 'series', logical_kind, '', '.true.', any_number, '', '', &
+            'Whether the time series is written to NAME.rattle.'), &
+      key_t('output', 'columns', list_kind, '', 'time applied_force film_thickness acceleration', any_number, &
+            'time applied_force film_thickness squeeze_velocity acceleration film_load', '', &
+            'Columns of the time series, any of these, in this order.'), &
+      key_t('output', 'stride', integer_kind, '-', '1', at_least_1, '', '', &
+            'Every how many steps a row is written; 1 writes all.'), &
+      key_t('output', 'overwrite', logical_kind, '', '.false.', any_number, '', '', &
+            'Whether output files of an earlier run may be replaced; files of any other kind never are.') &
+      ]
+
+   public :: find_key, nearest_key, known_group, nearest_group, allowed_text, in_range
+
+contains
+
+   !> Position of a key in the table, 0 if there is none.
+   pure integer function find_key(group, name)
+      !> Namelist group, lower case
+      character(*), intent(in) :: group
+      !> Name in the group, lower case
+      character(*), intent(in) :: name
+
+      do find_key = 1, size(keys)
+         if (keys(find_key)%group == group .and. keys(find_key)%name == name) return
+      end do
+      find_key = 0
+   end function find_key
+
+   !> Whether any key lives in this group.
+   pure logical function known_group(group)
+      !> Namelist group, lower case
+      character(*), intent(in) :: group
+
+      known_group = any(keys%group == group)
+   end function known_group
+
+   !> 'did you mean ...' for a misspelt key: one of its own group, or the group where the key lives.
+   pure function nearest_key(group, name) result(hint)
+      !> Known group
+      character(*), intent(in) :: group
+      !> Name that is not in it
+      character(*), intent(in) :: name
+      character(:), allocatable :: hint
+      integer :: i, distance, best, nearest
+
+      best = huge(1)
+      nearest = 0
+      do i = 1, size(keys)
+         if (keys(i)%name == name) then
+            hint = 'this key belongs to &'//trim(keys(i)%group)
+            return
+         end if
+         if (keys(i)%group /= group) cycle
+         distance = edit_distance(name(:min(len(name), 40)), trim(keys(i)%name))
+         if (distance >= best) cycle
+         best = distance
+         nearest = i
+      end do
+      hint = 'the nearest known key is '//trim(keys(nearest)%name)
+   end function nearest_key
+
+   !> Known group nearest to a misspelt one.
+   pure function nearest_group(group) result(nearest)
+      !> Name that is not a group
+      character(*), intent(in) :: group
+      character(:), allocatable :: nearest
+      integer :: i, distance, best
+
+      best = huge(1)
+      nearest = ''
+      do i = 1, size(keys)
+         distance = edit_distance(group(:min(len(group), 40)), trim(keys(i)%group))
+         if (distance >= best) cycle
+         best = distance
+         nearest = trim(keys(i)%group)
+      end do
+   end function nearest_group
+
+   !> Whether a number is allowed for a key.
+   pure logical function in_range(key, number)
+      !> Key with a range
+      type(key_t), intent(in) :: key
+      !> Finite number
+      real(dp), intent(in) :: number
+
+      in_range = merge(number > key%range%lower, number >= key%range%lower, key%range%lower_open) .and. &
+                 merge(number < key%range%upper, number <= key%range%upper, key%range%upper_open)
+   end function in_range
+
+   !> Allowed values in words.
+   pure function allowed_text(key) result(allowed)
+      !> Any key of the table
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: allowed
+      logical :: bounded_below, bounded_above
+
+      select case (key%kind)
+      case (logical_kind)
+         allowed = '.true. or .false.'
+      case (text_kind, list_kind)
+         allowed = choices_text(key)
+      case default
+         bounded_below = key%range%lower > -huge(1.0_dp)
+         bounded_above = key%range%upper < huge(1.0_dp)
+         allowed = merge('an integer', 'a number  ', key%kind == integer_kind)
+         allowed = trim(allowed)
+         if (bounded_below) allowed = allowed//trim(merge(' >  ', ' >= ', key%range%lower_open))// &
+                                      ' '//bound_text(key%range%lower, key%kind)
+         if (bounded_below .and. bounded_above) allowed = allowed//' and'
+         if (bounded_above) allowed = allowed//trim(merge(' <  ', ' <= ', key%range%upper_open))// &
+                                      ' '//bound_text(key%range%upper, key%kind)
+      end select
+   end function allowed_text
+
+   pure function bound_text(bound, kind) result(words)
+      real(dp), intent(in) :: bound
+      integer, intent(in) :: kind
+      character(:), allocatable :: words
+
+      words = real_text(bound)
+      if (kind == integer_kind .and. index(words, '.0') == len(words) - 1) words = words(:len(words) - 2)
+   end function bound_text
+
+   pure function choices_text(key) result(words)
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: words
+      integer :: i, start
+
+      if (len_trim(key%choices) == 0) then
+         words = 'a text in quotes'
+         return
+      end if
+      words = trim(merge('any of', 'one of', key%kind == list_kind))
+      start = 1
+      do i = 1, len_trim(key%choices) + 1
+         if (key%choices(i:i) /= ' ') cycle
+         words = words//" '"//key%choices(start:i - 1)//"'"
+         start = i + 1
+      end do
+   end function choices_text
+
+end module key_table

@@ -1,0 +1,190 @@
+!> What must hold between the keys of a scene. What a single key must be stands in the key table.
+module scene_checker
+   use errors, only: fault_list_t
+   use key_table, only: allowed_text, find_key, keys
+   use kinds, only: dp
+   use scene_input, only: scene_input_t, word_position
+   use text, only: integer_text
+   implicit none (type, external)
+   private
+
+   public :: check_together, in_use
+
+contains
+
+   !> Add a fault for every rule that the input breaks.
+   subroutine check_together(input, faults)
+      !> Typed values
+      type(scene_input_t), intent(in) :: input
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+
+      call check_required(input, faults)
+      call check_used(input, faults)
+      call check_radius(input, faults)
+      call check_speed(input, faults)
+      call check_static_load(input, faults)
+      call check_window(input, faults)
+      call check_columns(input, faults)
+   end subroutine check_together
+
+   !> Every required key is there.
+   subroutine check_required(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i
+
+      do i = 1, size(keys)
+         if (keys(i)%default /= 'required' .or. input%entries(i)%given) cycle
+         call faults%add(input%file, 0, trim(keys(i)%group), trim(keys(i)%name), &
+                         'this key is required; allowed: '//allowed_text(keys(i)))
+      end do
+   end subroutine check_required
+
+   !> No key is set that the chosen law or method would not read.
+   subroutine check_used(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i
+
+      do i = 1, size(keys)
+         if (.not. input%entries(i)%given .or. in_use(input, i)) cycle
+         call input%add_fault(trim(keys(i)%group), trim(keys(i)%name), 'this key is used only with '// &
+                              trim(keys(i)%used_when)//'; leave it out', faults)
+      end do
+   end subroutine check_used
+
+   !> Whether the choices of the input make use of a key. Where the deciding key is itself in doubt, yes.
+   pure recursive logical function in_use(input, position) result(used)
+      !> Typed values
+      type(scene_input_t), intent(in) :: input
+      !> Position in the key table
+      integer, intent(in) :: position
+      character(:), allocatable :: rule
+      integer :: dot, equals, decider
+
+      used = .true.
+      rule = trim(keys(position)%used_when)
+      if (len(rule) == 0) return
+      dot = index(rule, '.')
+      equals = index(rule, '=')
+      decider = find_key(rule(:dot - 1), rule(dot + 1:equals - 1))
+      if (.not. input%entries(decider)%present .or. input%entries(decider)%faulty) return
+      used = index('|'//rule(equals + 1:)//'|', '|'//input%entries(decider)%word//'|') > 0
+      if (used) used = in_use(input, decider)
+   end function in_use
+
+   !> Exactly one way to give the radius.
+   subroutine check_radius(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      character(*), parameter :: rule = 'give either radius or both radius_1 and radius_2'
+      logical :: single, first, second
+
+      single = input%is_given('contact', 'radius')
+      first = input%is_given('contact', 'radius_1')
+      second = input%is_given('contact', 'radius_2')
+      if (single .and. (first .or. second)) then
+         call input%add_fault('contact', 'radius', rule, faults)
+      else if (first .neqv. second) then
+         if (first) call input%add_fault('contact', 'radius_1', rule, faults)
+         if (second) call input%add_fault('contact', 'radius_2', rule, faults)
+      else if (.not. (single .or. first)) then
+         call input%add_fault('contact', 'radius', 'a radius is required: '//rule, faults)
+      end if
+   end subroutine check_radius
+
+   !> Exactly one way to give the speed, and a positive sum.
+   subroutine check_speed(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      character(*), parameter :: rule = 'give exactly one of: entrainment_speed; rolling_speed; surface_speed_1 and surface_speed_2'
+      logical :: mean, sum_, first, second
+
+      mean = input%is_given('kinematics', 'entrainment_speed')
+      sum_ = input%is_given('kinematics', 'rolling_speed')
+      first = input%is_given('kinematics', 'surface_speed_1')
+      second = input%is_given('kinematics', 'surface_speed_2')
+      if (count([mean, sum_, first .or. second]) > 1) then
+         if (mean) then
+            call input%add_fault('kinematics', 'entrainment_speed', rule, faults)
+         else
+            call input%add_fault('kinematics', 'rolling_speed', rule, faults)
+         end if
+      else if (first .neqv. second) then
+         if (first) call input%add_fault('kinematics', 'surface_speed_1', rule, faults)
+         if (second) call input%add_fault('kinematics', 'surface_speed_2', rule, faults)
+      else if (first) then
+         if (faulty('surface_speed_1') .or. faulty('surface_speed_2')) return
+         if (.not. input%number('kinematics', 'surface_speed_1') + input%number('kinematics', 'surface_speed_2') > 0.0_dp) &
+            call input%add_fault('kinematics', 'surface_speed_1', 'the sum of both surface speeds must be positive', faults)
+      else if (.not. (mean .or. sum_)) then
+         call input%add_fault('kinematics', 'entrainment_speed', 'a speed is required: '//rule, faults)
+      end if
+
+   contains
+
+      pure logical function faulty(name)
+         character(*), intent(in) :: name
+
+         faulty = input%entries(find_key('kinematics', name))%faulty
+      end function faulty
+
+   end subroutine check_speed
+
+   !> The static load presses the flanks together.
+   subroutine check_static_load(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i
+
+      associate (places => [find_key('load', 'mass'), find_key('load', 'steady_force'), find_key('load', 'gravity')])
+         do i = 1, size(places)
+            if (.not. input%entries(places(i))%present .or. input%entries(places(i))%faulty) return
+         end do
+      end associate
+      if (.not. input%number('load', 'steady_force') + &
+          input%number('load', 'mass')*input%number('load', 'gravity') > 0.0_dp) &
+         call input%add_fault('load', 'steady_force', 'the static load steady_force + mass*gravity must be positive', faults)
+   end subroutine check_static_load
+
+   !> The window fits into the run.
+   subroutine check_window(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      !> Samples in the window; the transform and its work space then stay below 10 GB
+      real(dp), parameter :: most_samples = 2.0e8_dp
+
+      if (input%count('solver', 'periods') < input%count('spectrum', 'periods')) then
+         call input%add_fault('solver', 'periods', 'at least &spectrum periods ('// &
+                              integer_text(input%count('spectrum', 'periods'))//') must be solved', faults)
+      end if
+      if (real(input%count('spectrum', 'periods'), dp)*real(input%count('solver', 'steps_per_period'), dp) > most_samples) then
+         call input%add_fault('solver', 'steps_per_period', &
+                              'the window of &spectrum periods would hold more than 200000000 samples', faults)
+      end if
+   end subroutine check_window
+
+   !> No column twice.
+   subroutine check_columns(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: rest
+      integer :: blank
+
+      associate (entry => input%entries(find_key('output', 'columns')))
+         if (entry%faulty) return
+         rest = entry%words
+      end associate
+      do
+         blank = index(rest, ' ')
+         if (blank == 0) return
+         if (word_position(rest(blank + 1:), rest(:blank - 1)) > 0) then
+            call input%add_fault('output', 'columns', "'"//rest(:blank - 1)//"' is named twice", faults)
+            return
+         end if
+         rest = rest(blank + 1:)
+      end do
+   end subroutine check_columns
+
+end module scene_checker

@@ -1,0 +1,414 @@
+!> The input of one scene as typed values, one per line of the key table, each with its place.
+module scene_input
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use errors, only: fault_list_t
+   use key_table, only: allowed_text, find_key, in_range, integer_kind, key_t, keys, known_group, list_kind, &
+                        logical_kind, nearest_group, nearest_key, path_limit, real_kind, text_kind
+   use kinds, only: dp
+   use namelist_text, only: assignment_t, value_t
+   use text, only: integer_text, logical_text, lower, quoted, quoted_words, real_text
+   implicit none (type, external)
+   private
+
+   !> Value of one key.
+   type, public :: entry_t
+      !> Whether the user set it, and whether it has any value
+      logical :: given = .false., present = .false.
+      !> Whether it was set but could not be read: a fault stands for it already
+      logical :: faulty = .false.
+      !> Input it was set in, and the line there (0: on the command line)
+      character(:), allocatable :: file
+      integer :: line = 0
+      real(dp) :: number = 0.0_dp
+      integer :: count = 0
+      logical :: flag = .false.
+      character(:), allocatable :: word
+      !> Blank-separated words of a list
+      character(:), allocatable :: words
+   end type entry_t
+
+   !> All keys of one scene.
+   type, public :: scene_input_t
+      !> Name of the input for the faults
+      character(:), allocatable :: file
+      type(entry_t), allocatable :: entries(:)
+   contains
+      procedure :: set_all
+      procedure :: is_given
+      procedure :: number => number_of
+      procedure :: count => count_of
+      procedure :: choice => choice_of
+      procedure :: flag => flag_of
+      procedure :: word => word_of
+      procedure :: words => words_of
+      procedure :: add_fault
+   end type scene_input_t
+
+   public :: new_scene_input, value_text, word_position
+
+contains
+
+   !> Input without any value but the defaults.
+   function new_scene_input(file) result(input)
+      !> Name of the input for the faults
+      character(*), intent(in) :: file
+      type(scene_input_t) :: input
+      type(fault_list_t) :: none
+      integer :: i
+
+      input%file = file
+      allocate (input%entries(size(keys)))
+      do i = 1, size(keys)
+         input%entries(i)%file = file
+         input%entries(i)%word = ''
+         input%entries(i)%words = ''
+         if (keys(i)%default == '' .or. keys(i)%default == 'required') cycle
+         select case (keys(i)%kind)
+         case (list_kind)
+            input%entries(i)%words = trim(keys(i)%default)
+         case default
+            call read_value(keys(i), value_t(trim(keys(i)%default), keys(i)%kind == text_kind), input%entries(i), file, none)
+         end select
+         input%entries(i)%present = .true.
+      end do
+   end function new_scene_input
+
+   !> Take the assignments of a text; later calls (overrides) replace earlier values.
+   subroutine set_all(self, assignments, file, overriding, faults)
+      class(scene_input_t), intent(inout) :: self
+      !> Assignments in their order
+      type(assignment_t), intent(in) :: assignments(:)
+      !> Name of their source for the faults
+      character(*), intent(in) :: file
+      !> Whether a key may be set that an earlier call has set
+      logical, intent(in) :: overriding
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: reported
+      integer :: i, position
+
+      reported = ''
+      do i = 1, size(assignments)
+         associate (assignment => assignments(i))
+            if (.not. known_group(assignment%group)) then
+               if (assignment%group /= reported) call faults%add(file, assignment%line, assignment%group, '', &
+                                               'unknown group; the nearest known group is &'//nearest_group(assignment%group))
+               reported = assignment%group
+               cycle
+            end if
+            position = find_key(assignment%group, assignment%key)
+            if (position == 0) then
+               call faults%add(file, assignment%line, assignment%group, assignment%key, &
+                               'unknown key; '//nearest_key(assignment%group, assignment%key))
+               cycle
+            end if
+            if (self%entries(position)%given .and. .not. overriding) then
+               call faults%add(file, assignment%line, assignment%group, assignment%key, &
+                               'this key is set in line '//integer_text(self%entries(position)%line)//' already')
+               cycle
+            end if
+            call set_entry(keys(position), assignment, self%entries(position), file, faults)
+         end associate
+      end do
+   end subroutine set_all
+
+   !> Read the value of one assignment into its entry.
+   subroutine set_entry(key, assignment, entry, file, faults)
+      type(key_t), intent(in) :: key
+      type(assignment_t), intent(in) :: assignment
+      type(entry_t), intent(inout) :: entry
+      character(*), intent(in) :: file
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i
+
+      entry%given = .true.
+      entry%file = file
+      entry%line = assignment%line
+      entry%faulty = .false.
+      if (assignment%first_element /= 0 .and. key%kind /= list_kind) then
+         call refuse('takes no index')
+         return
+      end if
+      if (assignment%first_element > 1) then
+         call refuse('give the whole list at once, without an index')
+         return
+      end if
+      if (size(assignment%values) > 1 .and. key%kind /= list_kind) then
+         call refuse('takes one value, '//integer_text(size(assignment%values))//' are given')
+         return
+      end if
+      entry%words = ''
+      do i = 1, size(assignment%values)
+         call read_value(key, assignment%values(i), entry, file, faults)
+         if (entry%faulty) return
+      end do
+      entry%present = .true.
+
+   contains
+
+      subroutine refuse(message)
+         character(*), intent(in) :: message
+
+         entry%faulty = .true.
+         call faults%add(file, assignment%line, assignment%group, assignment%key, message)
+      end subroutine refuse
+
+   end subroutine set_entry
+
+   !> Read one value as its key asks.
+   subroutine read_value(key, value, entry, file, faults)
+      type(key_t), intent(in) :: key
+      type(value_t), intent(in) :: value
+      type(entry_t), intent(inout) :: entry
+      character(*), intent(in) :: file
+      type(fault_list_t), intent(inout) :: faults
+      logical :: sound
+
+      sound = .false.
+      select case (key%kind)
+      case (real_kind)
+         if (.not. value%quoted) call read_real(value%text, entry%number, sound)
+         if (sound) sound = in_range(key, entry%number)
+      case (integer_kind)
+         if (.not. value%quoted) call read_integer(value%text, entry%count, sound)
+         if (sound) sound = in_range(key, real(entry%count, dp))
+      case (logical_kind)
+         if (.not. value%quoted) call read_logical(value%text, entry%flag, sound)
+      case default
+         sound = value%quoted .and. len_trim(value%text) > 0 .and. len(value%text) <= path_limit
+         if (sound .and. key%choices /= '') sound = &
+            index(' '//trim(key%choices)//' ', ' '//trim(value%text)//' ') > 0 .and. scan(trim(value%text), ' ') == 0
+         if (sound .and. key%kind == text_kind) entry%word = value%text
+         if (sound .and. key%kind == list_kind) entry%words = trim(entry%words//' '//value%text)
+         if (sound .and. key%kind == list_kind) entry%words = trim(adjustl(entry%words))
+      end select
+      if (sound) return
+      entry%faulty = .true.
+      call faults%add(file, entry%line, trim(key%group), trim(key%name), shown(value)//' is not allowed; allowed: '// &
+                      allowed_text(key)//trim(merge(' of at most 512 characters', repeat(' ', 26), &
+                                                    key%kind == text_kind .and. key%choices == '')))
+   end subroutine read_value
+
+   !> Value as it stands in the input, shortened for a sentence.
+   pure function shown(value) result(words)
+      type(value_t), intent(in) :: value
+      character(:), allocatable :: words
+      integer, parameter :: most = 40
+
+      words = value%text
+      if (len(words) > most) words = words(:most)//'...'
+      if (value%quoted) words = quoted(words)
+   end function shown
+
+   !> Strict decimal number: digits, one point, one exponent; finite.
+   pure subroutine read_real(text, number, sound)
+      character(*), intent(in) :: text
+      real(dp), intent(out) :: number
+      logical, intent(out) :: sound
+      character(:), allocatable :: word
+      integer :: mark, stat
+
+      number = 0.0_dp
+      word = lower(text)
+      mark = scan(word, 'ed')
+      if (mark > 0) then
+         sound = is_mantissa(word(:mark - 1)) .and. is_integer(word(mark + 1:))
+      else
+         sound = is_mantissa(word)
+      end if
+      if (.not. sound) return
+      read (word, *, iostat=stat) number
+      sound = stat == 0
+      if (sound) sound = ieee_is_finite(number)
+   end subroutine read_real
+
+   !> Strict decimal integer.
+   pure subroutine read_integer(text, number, sound)
+      character(*), intent(in) :: text
+      integer, intent(out) :: number
+      logical, intent(out) :: sound
+      integer :: stat
+
+      number = 0
+      sound = is_integer(text)
+      if (.not. sound) return
+      read (text, *, iostat=stat) number
+      sound = stat == 0
+   end subroutine read_integer
+
+   !> The namelist spellings of true and false.
+   pure subroutine read_logical(text, flag, sound)
+      character(*), intent(in) :: text
+      logical, intent(out) :: flag
+      logical, intent(out) :: sound
+
+      flag = .false.
+      sound = .true.
+      select case (lower(text))
+      case ('.true.', 'true', 't', '.t.')
+         flag = .true.
+      case ('.false.', 'false', 'f', '.f.')
+      case default
+         sound = .false.
+      end select
+   end subroutine read_logical
+
+   !> Optional sign and digits.
+   pure logical function is_integer(word)
+      character(*), intent(in) :: word
+      integer :: start
+
+      start = 1
+      if (len(word) > 0) then
+         if (scan(word(1:1), '+-') > 0) start = 2
+      end if
+      is_integer = len(word) >= start .and. verify(word(start:), '0123456789') == 0
+   end function is_integer
+
+   !> Optional sign and digits with at most one point.
+   pure logical function is_mantissa(word)
+      character(*), intent(in) :: word
+      integer :: point
+
+      point = index(word, '.')
+      if (point == 0) then
+         is_mantissa = is_integer(word)
+      else
+         is_mantissa = is_integer(word(:point - 1)//'0'//word(point + 1:)) .and. scan(word(point + 1:), '+-') == 0 .and. &
+                       scan(word, '0123456789') > 0
+      end if
+   end function is_mantissa
+
+   !> Whether the user set a key.
+   pure logical function is_given(self, group, name)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+
+      is_given = self%entries(find_key(group, name))%given
+   end function is_given
+
+   !> Value of a real key, 0 where it has none.
+   pure real(dp) function number_of(self, group, name)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+
+      number_of = self%entries(find_key(group, name))%number
+   end function number_of
+
+   !> Value of an integer key.
+   pure integer function count_of(self, group, name)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+
+      count_of = self%entries(find_key(group, name))%count
+   end function count_of
+
+   !> Value of a logical key.
+   pure logical function flag_of(self, group, name)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+
+      flag_of = self%entries(find_key(group, name))%flag
+   end function flag_of
+
+   !> Value of a text key, empty where it has none.
+   pure function word_of(self, group, name) result(word)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+      character(:), allocatable :: word
+
+      word = self%entries(find_key(group, name))%word
+   end function word_of
+
+   !> Blank-separated words of a list key.
+   pure function words_of(self, group, name) result(words)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+      character(:), allocatable :: words
+
+      words = self%entries(find_key(group, name))%words
+   end function words_of
+
+   !> Position of the word of a key among its choices in the table, from 1.
+   pure integer function choice_of(self, group, name)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+      integer :: position
+
+      position = find_key(group, name)
+      choice_of = word_position(trim(keys(position)%choices), self%entries(position)%word)
+   end function choice_of
+
+   !> Position of a word in a blank-separated list, 0 if it is not there.
+   pure integer function word_position(list, word)
+      character(*), intent(in) :: list
+      character(*), intent(in) :: word
+      integer :: place, i
+
+      word_position = 0
+      place = index(' '//list//' ', ' '//word//' ')
+      if (place == 0) return
+      word_position = 1 + count([(list(i:i) == ' ', i=1, place - 1)])
+   end function word_position
+
+   !> Add a fault at the place of a key: where it was set, or without a line if it was not.
+   subroutine add_fault(self, group, name, message, faults)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+      !> What is wrong and what is allowed
+      character(*), intent(in) :: message
+      !> List to append to
+      type(fault_list_t), intent(inout) :: faults
+
+      associate (entry => self%entries(find_key(group, name)))
+         call faults%add(entry%file, entry%line, group, name, message)
+      end associate
+   end subroutine add_fault
+
+   !> Value of an entry in namelist spelling.
+   function value_text(key, entry) result(words)
+      !> Its key
+      type(key_t), intent(in) :: key
+      !> Entry with a value
+      type(entry_t), intent(in) :: entry
+      character(:), allocatable :: words
+
+      select case (key%kind)
+      case (real_kind)
+         words = real_text(entry%number)
+      case (integer_kind)
+         words = integer_text(entry%count)
+      case (logical_kind)
+         words = logical_text(entry%flag)
+      case (text_kind)
+         words = quoted(entry%word)
+      case default
+         words = quoted_words(entry%words, ' ')
+      end select
+   end function value_text
+
+end module scene_input

@@ -1,0 +1,253 @@
+!> From the text of an input to a scene: values are typed by the key table, then put into the
+!> types group by group, then checked together. All faults of an input are reported at once.
+module scene_reader
+   use errors, only: fault_list_t
+   use file_system, only: read_whole_file
+   use key_table, only: keys, name_limit
+   use kinds, only: dp
+   use namelist_text, only: assignment_t, scan_namelists
+   use scene_checker, only: check_together, in_use
+   use scene_input, only: new_scene_input, scene_input_t, value_text
+   use scene_types, only: column_names, contact_t, film_choice_t, kinematics_t, load_t, lubricant_t, output_t, scene_t, &
+                          solver_t, spectrum_choice_t
+   use text, only: integer_text, quoted
+   implicit none (type, external)
+   private
+
+   !> Inputs are small; a larger file is not one.
+   integer, parameter :: size_limit = 262144
+
+   !> One key set on the command line.
+   type, public :: override_t
+      !> As the user wrote it, for the faults
+      character(:), allocatable :: source
+      !> As namelist text
+      character(:), allocatable :: text
+   end type override_t
+
+   public :: read_scene
+
+contains
+
+   !> Read one scene from a file, or standard input, with overrides from the command line.
+   subroutine read_scene(path, overrides, scene, faults)
+      !> Path; '-' is standard input
+      character(*), intent(in) :: path
+      !> Keys set on the command line
+      type(override_t), intent(in) :: overrides(:)
+      !> The scene; of use only if no fault was added
+      type(scene_t), intent(out) :: scene
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(scene_input_t) :: input
+      type(assignment_t), allocatable :: assignments(:)
+      character(:), allocatable :: content, file
+      integer :: stat, before, i, j
+
+      before = faults%count()
+      file = trim(path)
+      if (path == '-') file = 'standard input'
+      call read_whole_file(path, size_limit, content, stat)
+      select case (stat)
+      case (1)
+         call faults%add(file, 0, '', '', 'there is no such file, or it may not be read')
+      case (2)
+         call faults%add(file, 0, '', '', 'it cannot be read as a file')
+      case (3)
+         call faults%add(file, 0, '', '', 'it is larger than '//integer_text(size_limit)//' bytes; that is no input')
+      end select
+      if (stat /= 0) return
+
+      input = new_scene_input(file)
+      call scan_namelists(content, file, assignments, faults)
+      call input%set_all(assignments, file, .false., faults)
+      do i = 1, size(overrides)
+         call scan_namelists(overrides(i)%text, overrides(i)%source, assignments, faults)
+         do j = 1, size(assignments)
+            assignments(j)%line = 0
+         end do
+         call input%set_all(assignments, overrides(i)%source, .true., faults)
+      end do
+      if (len_trim(content) > 0) call check_together(input, faults)
+      call faults%sort_since(before)
+      if (faults%count() > before) return
+
+      call read_name(input, path, scene%name, faults)
+      scene%contact = read_contact(input)
+      scene%lubricant = read_lubricant(input)
+      scene%kinematics = read_kinematics(input)
+      scene%load = read_load(input)
+      scene%film = read_film(input)
+      scene%solver = read_solver(input)
+      scene%spectrum = read_spectrum(input)
+      scene%output = read_output(input)
+      scene%resolved_input = resolved_text(input, trim(scene%name))
+   end subroutine read_scene
+
+   !> &scene name: as given, or the stem of the file.
+   subroutine read_name(input, path, name, faults)
+      type(scene_input_t), intent(in) :: input
+      character(*), intent(in) :: path
+      character(*), intent(out) :: name
+      type(fault_list_t), intent(inout) :: faults
+      character(*), parameter :: legal = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-'
+      character(:), allocatable :: stem
+      integer :: dot
+
+      if (input%is_given('scene', 'name')) then
+         stem = input%word('scene', 'name')
+      else if (path == '-') then
+         stem = 'standard-input'
+      else
+         stem = trim(path(index(path, '/', back=.true.) + 1:))
+         dot = index(stem, '.', back=.true.)
+         if (dot > 1) stem = stem(:dot - 1)
+      end if
+      name = stem
+      if (len(stem) > name_limit .or. verify(stem, legal) > 0 .or. stem == '.' .or. stem == '..') then
+         call input%add_fault('scene', 'name', "'"//stem(:min(len(stem), 80))//"' is not allowed; allowed: 1 to "// &
+                              integer_text(name_limit)//' letters, digits, . _ -', faults)
+      end if
+   end subroutine read_name
+
+   !> &contact
+   function read_contact(input) result(contact)
+      type(scene_input_t), intent(in) :: input
+      type(contact_t) :: contact
+
+      contact%radius = input%number('contact', 'radius')
+      contact%radius_1 = input%number('contact', 'radius_1')
+      contact%radius_2 = input%number('contact', 'radius_2')
+      contact%length = input%number('contact', 'length')
+      contact%young_modulus = input%number('contact', 'young_modulus')
+      contact%poisson_ratio = input%number('contact', 'poisson_ratio')
+   end function read_contact
+
+   !> &lubricant
+   function read_lubricant(input) result(lubricant)
+      type(scene_input_t), intent(in) :: input
+      type(lubricant_t) :: lubricant
+
+      lubricant%viscosity = input%number('lubricant', 'viscosity')
+      lubricant%pressure_viscosity = input%number('lubricant', 'pressure_viscosity')
+   end function read_lubricant
+
+   !> &kinematics: all three ways to say it end as the entrainment speed.
+   function read_kinematics(input) result(kinematics)
+      type(scene_input_t), intent(in) :: input
+      type(kinematics_t) :: kinematics
+
+      if (input%is_given('kinematics', 'entrainment_speed')) then
+         kinematics%entrainment_speed = input%number('kinematics', 'entrainment_speed')
+      else if (input%is_given('kinematics', 'rolling_speed')) then
+         kinematics%entrainment_speed = 0.5_dp*input%number('kinematics', 'rolling_speed')
+      else
+         kinematics%entrainment_speed = 0.5_dp*(input%number('kinematics', 'surface_speed_1') + &
+                                                input%number('kinematics', 'surface_speed_2'))
+      end if
+   end function read_kinematics
+
+   !> &load
+   function read_load(input) result(load)
+      type(scene_input_t), intent(in) :: input
+      type(load_t) :: load
+
+      load%mass = input%number('load', 'mass')
+      load%steady_force = input%number('load', 'steady_force')
+      load%force_amplitude = input%number('load', 'force_amplitude')
+      load%frequency = input%number('load', 'frequency')
+      load%gravity = input%number('load', 'gravity')
+   end function read_load
+
+   !> &film
+   function read_film(input) result(film)
+      type(scene_input_t), intent(in) :: input
+      type(film_choice_t) :: film
+
+      film%law = input%choice('film', 'law')
+      film%model = input%choice('film', 'model')
+      film%rupture = input%choice('film', 'rupture')
+      film%rupture_solver = input%choice('film', 'rupture_solver')
+      film%initial_film = input%number('film', 'initial_film')
+      film%initial_velocity = input%number('film', 'initial_velocity')
+   end function read_film
+
+   !> &solver
+   function read_solver(input) result(solver)
+      type(scene_input_t), intent(in) :: input
+      type(solver_t) :: solver
+
+      solver%method = input%choice('solver', 'method')
+      solver%iteration = input%choice('solver', 'iteration')
+      solver%predictor = input%choice('solver', 'predictor')
+      solver%tolerance = input%number('solver', 'tolerance')
+      solver%iteration_limit = input%count('solver', 'iteration_limit')
+      solver%steps_per_period = input%count('solver', 'steps_per_period')
+      solver%periods = input%count('solver', 'periods')
+   end function read_solver
+
+   !> &spectrum
+   function read_spectrum(input) result(spectrum)
+      type(scene_input_t), intent(in) :: input
+      type(spectrum_choice_t) :: spectrum
+
+      spectrum%periods = input%count('spectrum', 'periods')
+      spectrum%line_threshold = input%number('spectrum', 'line_threshold')
+      spectrum%idle_lines = input%count('spectrum', 'idle_lines')
+      spectrum%quiet_limit = input%number('spectrum', 'quiet_limit')
+      spectrum%irregular_limit = input%number('spectrum', 'irregular_limit')
+   end function read_spectrum
+
+   !> &output
+   function read_output(input) result(output)
+      type(scene_input_t), intent(in) :: input
+      type(output_t) :: output
+      character(:), allocatable :: words
+      integer :: i, start
+
+      output%directory = input%word('output', 'directory')
+      output%series = input%flag('output', 'series')
+      output%overwrite = input%flag('output', 'overwrite')
+      words = input%words('output', 'columns')//' '
+      allocate (output%columns(0))
+      start = 1
+      do i = 1, len(words)
+         if (words(i:i) /= ' ') cycle
+         output%columns = [output%columns, findloc(column_names, words(start:i - 1), dim=1)]
+         start = i + 1
+      end do
+      output%stride = input%count('output', 'stride')
+   end function read_output
+
+   !> All keys that have a value and are in use, as namelist text. Where the files go is no property
+   !> of the scene, so that the same scene gives the same bytes in any folder.
+   function resolved_text(input, name) result(text)
+      type(scene_input_t), intent(in) :: input
+      character(*), intent(in) :: name
+      character(:), allocatable :: text
+      integer :: i
+
+      text = ''
+      do i = 1, size(keys)
+         if (starts_group(i)) text = text//'&'//trim(keys(i)%group)//new_line('a')
+         if (keys(i)%group == 'scene' .and. keys(i)%name == 'name') then
+            text = text//'   name = '//quoted(name)//new_line('a')
+         else if (keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite') then
+            if (input%entries(i)%present .and. in_use(input, i)) &
+               text = text//'   '//trim(keys(i)%name)//' = '//value_text(keys(i), input%entries(i))//new_line('a')
+         end if
+         if (starts_group(i + 1)) text = text//'/'//new_line('a')
+      end do
+
+   contains
+
+      pure logical function starts_group(i)
+         integer, intent(in) :: i
+
+         starts_group = i == 1 .or. i == size(keys) + 1
+         if (.not. starts_group) starts_group = keys(i)%group /= keys(i - 1)%group
+      end function starts_group
+
+   end function resolved_text
+
+end module scene_reader

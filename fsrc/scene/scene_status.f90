@@ -1,0 +1,59 @@
+!> How a scene ended.
+module scene_status
+   implicit none (type, external)
+   private
+
+   integer, parameter, public :: status_complete = 0, status_steady = 1, status_not_converged = 2, &
+                                 status_film_lost = 3, status_no_rigid_film = 4, status_overflow = 5, &
+                                 status_interrupted = 6, status_time_limit = 7
+
+   public :: status_name, status_sentence, is_success
+
+contains
+
+   !> Word for the summary.
+   pure function status_name(status) result(name)
+      !> Status code
+      integer, intent(in) :: status
+      character(:), allocatable :: name
+      character(*), parameter :: names(0:7) = [character(13) :: 'complete', 'steady', 'not_converged', 'film_lost', &
+                                               'no_rigid_film', 'overflow', 'interrupted', 'time_limit']
+
+      name = trim(names(status))
+   end function status_name
+
+   !> Plain sentence for log and summary.
+   pure function status_sentence(status) result(sentence)
+      !> Status code
+      integer, intent(in) :: status
+      character(:), allocatable :: sentence
+
+      select case (status)
+      case (status_complete)
+         sentence = 'All periods were solved.'
+      case (status_steady)
+         sentence = 'The motion repeats; the remaining periods were not needed.'
+      case (status_not_converged)
+         sentence = 'A step did not converge within iteration_limit passes; more steps_per_period or newton iteration help.'
+      case (status_film_lost)
+         sentence = 'The film would reach zero however short the step; more steps_per_period help.'
+      case (status_no_rigid_film)
+         sentence = 'The piezo-viscous film of rigid flanks ceases to exist here; the contact is elastohydrodynamic.'
+      case (status_overflow)
+         sentence = 'The film load exceeds every number that can be represented; the film law does not hold here.'
+      case (status_interrupted)
+         sentence = 'A signal ended the run; what was computed so far was kept.'
+      case default
+         sentence = 'The time limit ended the run; what was computed so far was kept.'
+      end select
+   end function status_sentence
+
+   !> Whether the scene has its full result.
+   pure logical function is_success(status)
+      !> Status code
+      integer, intent(in) :: status
+
+      is_success = status == status_complete .or. status == status_steady
+   end function is_success
+
+end module scene_status

@@ -1,0 +1,138 @@
+!> What is to be computed: one type per namelist group, all resolved, SI units.
+module scene_types
+   use kinds, only: dp
+   use key_table, only: name_limit, path_limit
+   implicit none (type, external)
+   private
+
+   ! The codes of a key count its choices in the order of the key table.
+
+   !> Film law of the motion.
+   integer, parameter, public :: law_iso_viscous = 1, law_piezo_viscous = 2
+   !> Whose formulas.
+   integer, parameter, public :: model_published = 1
+   !> Rupture angle in the squeeze term of (24).
+   integer, parameter, public :: rupture_half_pi = 1, rupture_solved = 2
+   !> Root finder of (18).
+   integer, parameter, public :: rupture_solver_fast = 1, rupture_solver_successive = 2
+   !> Time integration.
+   integer, parameter, public :: method_newmark = 1
+   !> Iteration within a Newmark step.
+   integer, parameter, public :: iteration_newton = 1, iteration_successive = 2
+   !> First iterate of a Newmark step.
+   integer, parameter, public :: predictor_extrapolated = 1, predictor_previous = 2
+
+   !> Columns that a time series can hold, in the order of their codes.
+   character(*), parameter, public :: column_names(6) = [character(16) :: 'time', 'applied_force', 'film_thickness', &
+                                                         'squeeze_velocity', 'acceleration', 'film_load']
+   character(*), parameter, public :: column_units(6) = [character(4) :: 's', 'N', 'm', 'm/s', 'm/s2', 'N']
+   integer, parameter, public :: column_time = 1, column_applied_force = 2, column_film_thickness = 3, &
+                                 column_squeeze_velocity = 4, column_acceleration = 5, column_film_load = 6
+
+   !> &contact
+   type, public :: contact_t
+      !> Equivalent radius R [m]; 0: the two flank radii are given instead
+      real(dp) :: radius = 0.0_dp
+      !> Radii of the two flanks [m]
+      real(dp) :: radius_1 = 0.0_dp
+      real(dp) :: radius_2 = 0.0_dp
+      !> Contact length l [m]
+      real(dp) :: length = 0.0_dp
+      !> Young's modulus E [Pa] and Poisson ratio [-] of the teeth
+      real(dp) :: young_modulus = 0.0_dp
+      real(dp) :: poisson_ratio = 0.0_dp
+   end type contact_t
+
+   !> &lubricant
+   type, public :: lubricant_t
+      !> Viscosity at ambient pressure eta0 [Pa s]
+      real(dp) :: viscosity = 0.0_dp
+      !> Barus coefficient alpha [1/Pa]
+      real(dp) :: pressure_viscosity = 0.0_dp
+   end type lubricant_t
+
+   !> &kinematics
+   type, public :: kinematics_t
+      !> Entrainment speed U, the mean of the surface speeds [m/s]
+      real(dp) :: entrainment_speed = 0.0_dp
+   end type kinematics_t
+
+   !> &load
+   type, public :: load_t
+      !> Equivalent mass m [kg]
+      real(dp) :: mass = 0.0_dp
+      !> Steady force Q [N]
+      real(dp) :: steady_force = 0.0_dp
+      !> Amplitude F0 of the oscillating force [N]
+      real(dp) :: force_amplitude = 0.0_dp
+      !> Frequency f_exc of the oscillating force [Hz]
+      real(dp) :: frequency = 0.0_dp
+      !> Acceleration of free fall g [m/s2]
+      real(dp) :: gravity = 0.0_dp
+   end type load_t
+
+   !> &film
+   type, public :: film_choice_t
+      integer :: law = law_iso_viscous
+      integer :: model = model_published
+      integer :: rupture = rupture_half_pi
+      integer :: rupture_solver = rupture_solver_fast
+      !> Film at t = 0 [m]; 0: the steady film
+      real(dp) :: initial_film = 0.0_dp
+      !> Film velocity at t = 0 [m/s]
+      real(dp) :: initial_velocity = 0.0_dp
+   end type film_choice_t
+
+   !> &solver
+   type, public :: solver_t
+      integer :: method = method_newmark
+      integer :: iteration = iteration_newton
+      integer :: predictor = predictor_extrapolated
+      !> eps of (36) [m]
+      real(dp) :: tolerance = 0.0_dp
+      !> Most passes in a step
+      integer :: iteration_limit = 0
+      integer :: steps_per_period = 0
+      integer :: periods = 0
+   end type solver_t
+
+   !> &spectrum
+   type, public :: spectrum_choice_t
+      !> Whole periods in the window at the end of the run
+      integer :: periods = 16
+      !> A harmonic above this share of the first is a line
+      real(dp) :: line_threshold = 0.01_dp
+      !> From this many lines on: idle
+      integer :: idle_lines = 20
+      !> Harmonic distortion below this: quiet
+      real(dp) :: quiet_limit = 0.35_dp
+      !> Irregular fraction above this: irregular
+      real(dp) :: irregular_limit = 0.01_dp
+   end type spectrum_choice_t
+
+   !> &output
+   type, public :: output_t
+      character(path_limit) :: directory = ''
+      logical :: series = .true.
+      !> Codes of the columns, in the order of the file
+      integer, allocatable :: columns(:)
+      integer :: stride = 1
+      logical :: overwrite = .false.
+   end type output_t
+
+   !> One scene.
+   type, public :: scene_t
+      character(name_limit) :: name = ''
+      type(contact_t) :: contact
+      type(lubricant_t) :: lubricant
+      type(kinematics_t) :: kinematics
+      type(load_t) :: load
+      type(film_choice_t) :: film
+      type(solver_t) :: solver
+      type(spectrum_choice_t) :: spectrum
+      type(output_t) :: output
+      !> All keys with their resolved values as namelist text, without places on this machine
+      character(:), allocatable :: resolved_input
+   end type scene_t
+
+end module scene_types

@@ -1,0 +1,68 @@
+!> Class of a motion by the spectrum of its acceleration.
+module rattle_class
+   use kinds, only: dp
+   use reversals, only: count_reversals, reversal_prominence
+   use scene_types, only: spectrum_choice_t
+   use spectral_lines, only: find_lines, spectral_lines_t
+   implicit none (type, external)
+   private
+
+   integer, parameter, public :: class_quiet = 1, class_creep = 2, class_idle = 3, class_irregular = 4
+
+   !> Verdict on a window.
+   type, public :: rattle_verdict_t
+      integer :: class = class_quiet
+      real(dp) :: reversals_per_period = 0.0_dp
+      type(spectral_lines_t) :: lines
+   end type rattle_verdict_t
+
+   public :: classify, class_name
+
+contains
+
+   !> Classify a window of whole periods of acceleration.
+   subroutine classify(acceleration, choice, noise_floor, verdict)
+      !> Samples, the same count in each of choice%periods periods [m/s2]
+      real(dp), intent(in) :: acceleration(:)
+      !> Periods and limits
+      type(spectrum_choice_t), intent(in) :: choice
+      !> Amplitude that rounding alone explains [m/s2]
+      real(dp), intent(in) :: noise_floor
+      !> The verdict
+      type(rattle_verdict_t), intent(out) :: verdict
+
+      call find_lines(acceleration, choice%periods, choice%line_threshold, noise_floor, verdict%lines)
+      verdict%class = class_of(verdict%lines, choice)
+      if (verdict%lines%moving) verdict%reversals_per_period = &
+         real(count_reversals(acceleration, reversal_prominence), dp)/real(choice%periods, dp)
+   end subroutine classify
+
+   !> Order of the questions: regular at all, rich at all, how rich.
+   pure integer function class_of(lines, choice) result(class)
+      type(spectral_lines_t), intent(in) :: lines
+      type(spectrum_choice_t), intent(in) :: choice
+
+      if (.not. lines%moving) then
+         class = class_quiet
+      else if (lines%irregular_fraction > choice%irregular_limit) then
+         class = class_irregular
+      else if (lines%harmonic_distortion < choice%quiet_limit) then
+         class = class_quiet
+      else if (lines%line_count >= choice%idle_lines) then
+         class = class_idle
+      else
+         class = class_creep
+      end if
+   end function class_of
+
+   !> Word of a class.
+   pure function class_name(class) result(name)
+      !> Code of a class
+      integer, intent(in) :: class
+      character(:), allocatable :: name
+      character(*), parameter :: names(4) = [character(9) :: 'quiet', 'creep', 'idle', 'irregular']
+
+      name = trim(names(class))
+   end function class_name
+
+end module rattle_class

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Classify the motions of result files: idle, creep, quiet or irregular."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+from pathlib import Path
+from typing import Any
+
+import rattle
+from rattle import command, table
+from rattle.verdict import THRESHOLDS, classify
+
+MEASURES = (
+    ("rattle_class", "class", "s"),
+    ("line_count", "lines", "d"),
+    ("harmonic_distortion", "distortion", ".4f"),
+    ("irregular_fraction", "irregular", ".2e"),
+    ("reversals_per_period", "reversals a period", ".4g"),
+)
+
+
+def main() -> int:
+    options = parse_options()
+    overrides = {name: getattr(options, name) for name in THRESHOLDS}
+    rows: list[dict[str, Any]] = []
+    code = command.COMPLETE
+    for path in options.results:
+        try:
+            result = rattle.read(path)
+            verdict = classify(result, options.periods, overrides)
+            rows.append({"file": str(path), "scene": result.scene_name, **measures(verdict)})
+        except rattle.ResultError as fault:
+            code = command.complain(str(fault))
+            continue
+        if not result.closed:
+            command.note(f"{path} is not closed; its {result.row_count} complete rows are used.")
+    if rows:
+        print(table.plain([heads(), *map(cells, rows)]))
+        if options.output:
+            save(options.output, rows)
+    return code
+
+
+def measures(verdict: dict[str, Any]) -> dict[str, Any]:
+    """The verdict in plain Python types."""
+    return {
+        "rattle_class": str(verdict["rattle_class"]).strip(),
+        "line_count": int(verdict["line_count"]),
+        "harmonic_distortion": float(verdict["harmonic_distortion"]),
+        "irregular_fraction": float(verdict["irregular_fraction"]),
+        "reversals_per_period": float(verdict["reversals_per_period"]),
+    }
+
+
+def heads() -> list[str]:
+    return ["scene", *(head for _, head, _ in MEASURES)]
+
+
+def cells(row: dict[str, Any]) -> list[str]:
+    return [row["scene"], *(format(row[key], form) for key, _, form in MEASURES)]
+
+
+def save(path: Path, rows: list[dict[str, Any]]) -> None:
+    """All measures in full precision, a row for each file."""
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, fieldnames=list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def parse_options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description="Classify result files over the window and with the thresholds of their resolved input. "
+        "A file that cannot be classified is named, and the others still are."
+    )
+    parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="result file, NAME.rattle")
+    parser.add_argument("--output", type=Path, metavar="FILE.csv", help="also save the table as CSV")
+    parser.add_argument(
+        "--periods", type=command.positive, metavar="N", help="whole periods at the end that are judged"
+    )
+    parser.add_argument(
+        "--line-threshold", type=float, metavar="X", help="a line counts above X times the first harmonic"
+    )
+    parser.add_argument(
+        "--idle-lines", type=command.positive, metavar="N", help="idle from this many lines on"
+    )
+    parser.add_argument("--quiet-limit", type=float, metavar="X", help="quiet below this harmonic distortion")
+    parser.add_argument(
+        "--irregular-limit", type=float, metavar="X", help="irregular above this fraction between harmonics"
+    )
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    command.run(main)

@@ -1,0 +1,1 @@
+"""Publication figures of motions; one module draws one kind of figure."""

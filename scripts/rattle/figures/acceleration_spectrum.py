@@ -1,0 +1,110 @@
+"""Figures 10a and 10b: the spectrum of the acceleration over f/f_exc."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rattle.figures import style
+from rattle.figures.labels import overlay_title, title
+from rattle.figures.spectra import column_spectrum
+from rattle.result import Result
+from rattle.verdict import classify, thresholds
+
+SUBJECT = "Spectrum of the acceleration"
+FLOOR = 1e-5  # of the largest line; below it the logarithmic panel ends
+GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-integer lines
+SMALLEST_LAST_RATIO = 10.0
+LARGEST_LAST_RATIO = 40.0
+
+
+def draw(results: Sequence[Result], labels: Sequence[str], window: int | None) -> Figure:
+    """A linear panel as in the paper, and a logarithmic one that shows every line that counts."""
+    figure = Figure(figsize=(style.WIDTH, 4.6))
+    linear, logarithmic = figure.subplots(2, 1, sharex=True)
+    spectra = [column_spectrum(result, "acceleration", window) for result in results]
+    largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
+    if len(results) == 1:
+        _draw_single(figure, (linear, logarithmic), results[0], spectra[0])
+        linear.set_title(f"{title(SUBJECT, results[0], labels[0])}; {_verdict_words(results[0], window)}")
+        logarithmic.set_xlabel(style.RATIO_LABEL)
+    else:
+        _draw_overlay((linear, logarithmic), labels, spectra)
+        linear.set_title(overlay_title(SUBJECT, results))
+        logarithmic.set_xlabel(f"{style.RATIO_LABEL}; runs side by side")
+        style.legend_below(figure, linear)
+    linear.set_xlim(0.0, _last_ratio(spectra))
+    linear.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
+    logarithmic.set_ylim(linear.get_ylim())
+    if largest > 0.0:
+        logarithmic.set_yscale("log")
+        logarithmic.set_ylim(FLOOR * largest, 3.0 * largest)
+    for axes in (linear, logarithmic):
+        axes.set_ylabel(style.AMPLITUDE_LABEL)
+    figure.align_ylabels()
+    return figure
+
+
+def _draw_single(
+    figure: Figure,
+    panels: tuple[Axes, Axes],
+    result: Result,
+    spectrum: tuple[np.ndarray, np.ndarray],
+) -> None:
+    ratio, amplitude = spectrum
+    periods = round(1.0 / ratio[1])
+    harmonic = np.arange(amplitude.size) % periods == 0
+    harmonic[0] = False
+    between = ~harmonic
+    between[0] = False
+    threshold = thresholds(result)["line_threshold"]
+    colour = style.law_colour(result.law)
+    handles = {}
+    for axes in panels:
+        axes.vlines(ratio[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
+        handles[f"harmonics of {result.frequency:g} Hz"] = axes.vlines(
+            ratio[harmonic], 0.0, amplitude[harmonic], color=colour, linewidth=1.8
+        )
+    visible = amplitude[between] > FLOOR * amplitude[1:].max()
+    if visible.any():
+        handles["between the harmonics"] = panels[0].collections[0]
+    first = amplitude[periods]
+    if first > 0.0:
+        handles[f"{100 * threshold:.3g} % of the first harmonic"] = panels[1].axhline(
+            threshold * first, color=style.FORCE_COLOUR, linewidth=0.9, linestyle=(0, (4, 2))
+        )
+    style.legend_below(figure, panels[0], labels=handles)
+
+
+def _verdict_words(result: Result, window: int | None) -> str:
+    verdict = classify(result, window)
+    return f"{verdict['line_count']} lines, class {str(verdict['rattle_class']).strip()}"
+
+
+def _draw_overlay(
+    panels: tuple[Axes, Axes],
+    labels: Sequence[str],
+    spectra: Sequence[tuple[np.ndarray, np.ndarray]],
+) -> None:
+    spacing = min(0.16, GROUP_WIDTH / len(spectra))
+    for axes in panels:
+        for position, ((ratio, amplitude), label) in enumerate(zip(spectra, labels, strict=True)):
+            line = style.run_line(position)
+            shift = spacing * (position - 0.5 * (len(spectra) - 1))
+            axes.vlines(
+                ratio[1:] + shift, 0.0, amplitude[1:], color=line["color"], linewidth=1.3, label=label
+            )
+
+
+def _last_ratio(spectra: Sequence[tuple[np.ndarray, np.ndarray]]) -> float:
+    """The axis ends behind the last line that the logarithmic panel shows, within limits."""
+    last = 0.0
+    for ratio, amplitude in spectra:
+        shown = np.flatnonzero(amplitude[1:] > FLOOR * amplitude[1:].max())
+        if shown.size:
+            last = max(last, float(ratio[1:][shown[-1]]))
+    return min(max(math.ceil(last) + 0.5, SMALLEST_LAST_RATIO + 0.5), LARGEST_LAST_RATIO + 0.5)

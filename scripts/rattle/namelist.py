@@ -1,0 +1,21 @@
+"""Namelist text as plain Python values."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import f90nml
+
+
+class NamelistError(Exception):
+    """Namelist text that cannot be parsed."""
+
+
+def parse(text: str) -> dict[str, dict[str, Any]]:
+    """Parse namelist text into group, key, value."""
+    try:
+        groups = f90nml.Parser().reads(text)
+        return {name: dict(group) for name, group in groups.items()}
+    except Exception as fault:  # the parser shows damaged text by exceptions of many types
+        detail = str(fault).splitlines()[0].rstrip(".") if str(fault) else type(fault).__name__
+        raise NamelistError(f"it is not a namelist ({detail}).") from fault

@@ -1,0 +1,180 @@
+"""Result files as named, memory-mapped columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from rattle.namelist import NamelistError, parse
+from rattle.result_header import ResultError, ResultHeader, read_header
+
+
+class Result:
+    """One result file.
+
+    ``result['film_thickness']`` is a read-only array mapped from the file, not a copy.
+
+    Attributes
+    ----------
+    path : where the file stands
+    columns : mapping of column name to array
+    units : mapping of column name to unit
+    row_count : rows that the file holds
+    closed : False when the run was killed, or still runs
+    program_version : version of the program that wrote the file
+    input_text : resolved input as namelist text
+    """
+
+    def __init__(self, path: Path, header: ResultHeader, rows: np.ndarray, closed: bool) -> None:
+        self.path = path
+        self.closed = closed
+        self.row_count = rows.shape[0]
+        self.program_version = header.program_version
+        self.input_text = header.input_text
+        self.units: Mapping[str, str] = MappingProxyType(dict(zip(header.names, header.units, strict=True)))
+        self.columns: Mapping[str, np.ndarray] = MappingProxyType(
+            {name: rows[:, position] for position, name in enumerate(header.names)}
+        )
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        try:
+            return self.columns[name]
+        except KeyError:
+            held = ", ".join(self.columns)
+            raise ResultError(f"{self.path} has no column '{name}'; it holds {held}.") from None
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns
+
+    def __repr__(self) -> str:
+        state = "closed" if self.closed else "not closed"
+        return f"<Result {self.path}: {self.row_count} rows of {', '.join(self.columns)}; {state}>"
+
+    @cached_property
+    def input(self) -> dict[str, dict[str, Any]]:
+        """The resolved input: group, key, value."""
+        try:
+            return parse(self.input_text)
+        except NamelistError as fault:
+            raise ResultError(f"The resolved input in {self.path} cannot be read: {fault}") from None
+
+    def value(self, group: str, key: str) -> Any:
+        """One value of the resolved input."""
+        try:
+            return self.input[group][key]
+        except KeyError:
+            raise ResultError(f"The resolved input in {self.path} has no {group}.{key}.") from None
+
+    def number(self, group: str, key: str) -> float:
+        """One number of the resolved input."""
+        number = self.value(group, key)
+        if isinstance(number, bool) or not isinstance(number, int | float):
+            raise ResultError(f"The resolved input in {self.path} has no number as {group}.{key}.")
+        return number
+
+    def positive_integer(self, group: str, key: str) -> int:
+        """One count of the resolved input."""
+        number = self.number(group, key)
+        if number != int(number) or number < 1:
+            raise ResultError(f"The resolved input in {self.path} has no positive integer as {group}.{key}.")
+        return int(number)
+
+    def samples(self, name: str, rows: slice = slice(None)) -> np.ndarray:
+        """A contiguous copy of some rows of a column, all of them finite."""
+        values = np.ascontiguousarray(self[name][rows], dtype=np.float64)
+        if not np.isfinite(values).all():
+            raise ResultError(f"The column '{name}' of {self.path} holds values that are not finite.")
+        return values
+
+    @property
+    def scene_name(self) -> str:
+        return str(self.value("scene", "name")).strip()
+
+    @property
+    def law(self) -> str:
+        """The film law, 'iso-viscous' or 'piezo-viscous'."""
+        return str(self.value("film", "law")).strip()
+
+    @property
+    def frequency(self) -> float:
+        """The excitation frequency [Hz]."""
+        return float(self.number("load", "frequency"))
+
+    @property
+    def samples_per_period(self) -> int:
+        """Rows in one period of the excitation."""
+        steps = self.positive_integer("solver", "steps_per_period")
+        stride = self.positive_integer("output", "stride")
+        if steps % stride != 0:
+            raise ResultError(
+                f"{self.path} has no whole number of samples a period: "
+                f"a stride of {stride} does not divide {steps} steps."
+            )
+        return steps // stride
+
+    @property
+    def whole_periods(self) -> int:
+        """Whole periods that the rows span; the first row is the start at t = 0."""
+        return max(self.row_count - 1, 0) // self.samples_per_period
+
+    def window(self, periods: int | None = None, *, with_start: bool = False) -> slice:
+        """The rows of the last whole `periods`, by default those of the &spectrum group.
+
+        The window is half open: its first sample follows its start by one sample, so it holds exactly
+        ``periods * samples_per_period`` rows, as a spectrum needs them. `with_start` adds the row at its
+        start, as a picture of the whole window needs it.
+        """
+        if periods is None:
+            periods = self.positive_integer("spectrum", "periods")
+        if periods < 1:
+            raise ResultError("A window needs at least one period.")
+        if periods > self.whole_periods:
+            raise ResultError(
+                f"{self.path} holds {self.whole_periods} whole periods, fewer than the {periods} asked for."
+            )
+        start = self.row_count - periods * self.samples_per_period
+        return slice(start - 1 if with_start else start, self.row_count)
+
+
+def read(path: str | Path) -> Result:
+    """Open a result file.
+
+    Raises
+    ------
+    ResultError
+        The file is absent, foreign, cut short, of another version or byte order; one plain sentence.
+    """
+    path = Path(path)
+    try:
+        with path.open("rb") as stream:
+            header = read_header(stream, path)
+            data_bytes = stream.seek(0, 2) - header.header_bytes
+    except OSError as fault:
+        raise ResultError(f"{path} cannot be read: {fault.strerror or fault}.") from None
+
+    closed = header.row_count >= 0
+    row_count = header.row_count if closed else data_bytes // header.row_bytes
+    expected = row_count * header.row_bytes
+    if closed and data_bytes < expected:
+        held = data_bytes // header.row_bytes
+        raise ResultError(f"{path} is cut short: it holds {held} of its {row_count} rows.")
+    if closed and data_bytes > expected:
+        raise ResultError(f"{path} is {data_bytes - expected} bytes longer than its {row_count} rows.")
+    return Result(path, header, _map_rows(path, header, row_count), closed)
+
+
+def _map_rows(path: Path, header: ResultHeader, row_count: int) -> np.ndarray:
+    shape = (row_count, len(header.names))
+    if row_count == 0:  # an empty range cannot be mapped
+        rows = np.empty(shape, dtype="<f8")
+        rows.flags.writeable = False
+        return rows
+    try:
+        return np.memmap(path, dtype="<f8", mode="r", offset=header.header_bytes, shape=shape)
+    except OSError as fault:
+        raise ResultError(f"{path} cannot be mapped: {fault.strerror or fault}.") from None
