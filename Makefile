@@ -75,7 +75,7 @@ $(BUILD)/depends.mk: $(SOURCES) $(UNIT_SOURCES) fsrc/main.f90 Makefile
 	    for (i = 1; i <= count; i++) if ((list[i] in known) && list[i] != name) print build "/" name ".o: " build "/" list[i] ".o" } }' \
 	  $(SOURCES) $(UNIT_SOURCES) fsrc/main.f90 > $@
 
-ifeq ($(filter clean help system lint format python install,$(MAKECMDGOALS)),)
+ifeq ($(filter clean help system lint format,$(MAKECMDGOALS)),)
 -include $(BUILD)/depends.mk
 endif
 
@@ -97,6 +97,50 @@ $(BUILD)/unit_tests: $(OBJECTS) $(UNIT_OBJECTS)
 $(BENCH_PROGRAMS): $(BUILD)/%: %.f90 $(OBJECTS)
 	@echo 'link $@'
 	@$(FC) $(FFLAGS) -I$(BUILD) $< $(OBJECTS) $(LIBRARIES) -o $@
+
+# --- Python: the module of the kernels, beside the package -------------------------------------------
+
+python: $(BUILD)/kernels/built
+
+$(BUILD)/kernels/built: fsrc/bindings/kernels_wrap.f90 scripts/build_kernels.sh $(OBJECTS) $(PYTHON_ENV)/installed
+	@echo 'build the Python module of the kernels'
+	@scripts/build_kernels.sh $(PYTHON) $(BUILD) '$(OBJECTS)' '$(LIBRARIES)'
+	@touch $@
+
+# --- the two scenes of the paper ---------------------------------------------------------------------
+
+run: $(BUILD)/rattle $(BUILD)/kernels/built
+	@$(BUILD)/rattle --overwrite input/idle.nml input/creep.nml
+	@$(PYTHON) scripts/plot_motion.py results/idle.rattle results/creep.rattle --output results
+	@$(PYTHON) scripts/compare.py results/idle.summary.nml results/creep.summary.nml
+
+# --- tests: the unit tests in both builds, then what a user does -------------------------------------
+
+test: unit user
+
+unit: $(BUILD)/unit_tests
+	@echo 'unit tests, release build'
+	@$(BUILD)/unit_tests
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/debug DEBUG=1 $(BUILD)/debug/unit_tests $(BUILD)/debug/rattle
+	@echo 'unit tests, debug build with every run-time check'
+	@$(BUILD)/debug/unit_tests
+
+user: $(BUILD)/rattle $(BUILD)/kernels/built
+	@echo 'user tests'
+	@RATTLE_PROGRAM=$(abspath $(BUILD)/rattle) $(PYTHON) -m pytest
+
+pages: $(BUILD)/rattle
+	@$(BUILD)/rattle --keys > input/README.md
+
+# --- style -------------------------------------------------------------------------------------------
+
+lint: $(PYTHON_ENV)/installed
+	@scripts/lint.sh $(PYTHON_ENV)/bin $(BUILD)
+
+format: $(PYTHON_ENV)/installed
+	@$(PYTHON_ENV)/bin/fprettify --config-file .fprettify.rc --silent -r fsrc tests
+	@$(PYTHON_ENV)/bin/ruff format --quiet scripts tests
+	@$(PYTHON_ENV)/bin/ruff check --quiet --fix scripts tests
 
 debug:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/debug DEBUG=1 all

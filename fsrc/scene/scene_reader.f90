@@ -213,11 +213,21 @@ contains
       start = 1
       do i = 1, len(words)
          if (words(i:i) /= ' ') cycle
-         output%columns = [output%columns, findloc(column_names, words(start:i - 1), dim=1)]
+         output%columns = [output%columns, column_code(words(start:i - 1))]
          start = i + 1
       end do
       output%stride = input%count('output', 'stride')
    end function read_output
+
+   !> Code of a column, 0 if there is none of this name. (findloc of gfortran 12 never finds a shorter text.)
+   pure integer function column_code(name)
+      character(*), intent(in) :: name
+
+      do column_code = 1, size(column_names)
+         if (column_names(column_code) == name) return
+      end do
+      column_code = 0
+   end function column_code
 
    !> All keys that have a value and are in use, as namelist text. Where the files go is no property
    !> of the scene, so that the same scene gives the same bytes in any folder.

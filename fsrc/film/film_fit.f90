@@ -1,0 +1,203 @@
+!> Least squares of the film-thickness law of eq (32),
+!>
+!>     ln h* = ln c + a ln u* + b ln Wbar + s w* ,   h* = h0/R ,  u* = u eta0 alpha/R ,  w* = w/u ,
+!>
+!> and the error of any such law against given points. Wbar is the group of eq (20), W h0/(12 l u eta0 R),
+!> which holds h0 itself: inverted with the printed coefficients,
+!>
+!>     Wbar = c^(5/2) u*^(7/4) h*^(-5/2) exp(5 s w*/2)
+!>     W    = 12 l u eta0 R/h0 Wbar = 12 c^(5/2) l (u eta0)^(11/4) (R alpha)^(7/4) h0^(-7/2) exp(5 s w*/2)
+!>
+!> has the exponents 11/4, 7/4, -7/2 and the constants 12 * 0.787^2.5 = 6.59 and 5/2 * 281.2 = 703 of eq (37).
+!> A group without h0, W/(E' R l) or W/(l u eta0), would give h0^(-5/2).
+module film_fit
+   use kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: thickness_law_t, law_error_t, film_fit_t, law_film_ratio, judge_film_law, fit_film_law
+
+   !> Outcomes: unique coefficients; points that do not determine all four; arrays of different size, fewer
+   !> than five points, or a group that is not positive and finite; the singular values did not converge.
+   integer, parameter, public :: fit_done = 0, fit_rank_deficient = 1, fit_bad_points = 2, fit_failed = 3
+
+   integer, parameter :: coefficients = 4
+
+   !> Coefficients of the law.
+   type :: thickness_law_t
+      !> c [-]
+      real(dp) :: factor = 1.0_dp
+      !> a [-]
+      real(dp) :: speed_exponent = 0.0_dp
+      !> b [-]
+      real(dp) :: load_exponent = 0.0_dp
+      !> s [-]
+      real(dp) :: squeeze_factor = 0.0_dp
+   end type thickness_law_t
+
+   !> The law as printed in eq (32).
+   type(thickness_law_t), parameter, public :: published_film_law = &
+      thickness_law_t(0.787_dp, 0.7_dp, -0.4_dp, -281.2_dp)
+
+   !> How far a law is from given points. Residuals are ln h* of the law less ln h* of the point.
+   type :: law_error_t
+      !> Root mean square of the residuals [-]
+      real(dp) :: rms = 0.0_dp
+      !> Mean of the residuals [-]
+      real(dp) :: bias = 0.0_dp
+      !> Largest absolute residual [-]
+      real(dp) :: maximum = 0.0_dp
+      !> 1 - sum of squared residuals/sum of squared deviations of ln h* from its mean; negative for a law
+      !> worse than the mean, zero where all points have one film
+      real(dp) :: r_squared = 0.0_dp
+   end type law_error_t
+
+   !> Result of a fit.
+   type :: film_fit_t
+      !> Outcome, one of fit_...
+      integer :: status = fit_bad_points
+      !> Coefficients; those of least norm (of the scaled problem) where the rank is deficient
+      type(thickness_law_t) :: law
+      !> Error of the law on the points it was fitted to
+      type(law_error_t) :: error
+      !> Singular values, falling, of the design matrix with columns of unit length [-]
+      real(dp) :: singular_values(coefficients) = 0.0_dp
+      !> Condition number: ratio of the largest to the smallest singular value [-], huge where the latter is
+      !> zero
+      real(dp) :: condition = 0.0_dp
+      !> Number of coefficients that the points determine
+      integer :: rank = 0
+   end type film_fit_t
+
+   interface
+      !> LAPACK: least squares of least norm by the divide-and-conquer singular value decomposition.
+      pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
+         import :: dp
+         implicit none (type, external)
+         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+         real(dp), intent(inout) :: a(lda, *), b(ldb, *)
+         real(dp), intent(out) :: s(*)
+         real(dp), intent(in) :: rcond
+         integer, intent(out) :: rank
+         real(dp), intent(inout) :: work(*)
+         integer, intent(inout) :: iwork(*)
+         integer, intent(out) :: info
+      end subroutine dgelsd
+   end interface
+
+contains
+
+   !> Film of a law, h* = c u*^a Wbar^b exp(s w*).
+   elemental function law_film_ratio(law, speed_group, load_group, squeeze_ratio) result(film_ratio)
+      type(thickness_law_t), intent(in) :: law        !> Coefficients
+      real(dp), intent(in) :: speed_group        !> u* > 0 [-]
+      real(dp), intent(in) :: load_group         !> Wbar > 0 [-]
+      real(dp), intent(in) :: squeeze_ratio      !> w* [-]
+      real(dp) :: film_ratio                     !> h* [-]
+
+      film_ratio = exp(log_film(law, speed_group, load_group, squeeze_ratio))
+   end function law_film_ratio
+
+   !> ln h* of a law.
+   elemental function log_film(law, speed_group, load_group, squeeze_ratio) result(logarithm)
+      type(thickness_law_t), intent(in) :: law        !> Coefficients
+      real(dp), intent(in) :: speed_group        !> u* > 0 [-]
+      real(dp), intent(in) :: load_group         !> Wbar > 0 [-]
+      real(dp), intent(in) :: squeeze_ratio      !> w* [-]
+      real(dp) :: logarithm
+
+      logarithm = log(law%factor) + law%speed_exponent*log(speed_group) &
+         + law%load_exponent*log(load_group) + law%squeeze_factor*squeeze_ratio
+   end function log_film
+
+   !> Error of a law on given points. All arrays have one size, at least one point, positive u*, Wbar, h*.
+   pure function judge_film_law(law, speed_group, load_group, squeeze_ratio, film_ratio) result(error)
+      type(thickness_law_t), intent(in) :: law        !> Coefficients
+      real(dp), intent(in) :: speed_group(:)     !> u* [-]
+      real(dp), intent(in) :: load_group(:)      !> Wbar [-]
+      real(dp), intent(in) :: squeeze_ratio(:)   !> w* [-]
+      real(dp), intent(in) :: film_ratio(:)      !> h* [-]
+      type(law_error_t) :: error
+
+      real(dp) :: residual(size(film_ratio)), points, spread
+
+      points = real(size(film_ratio), dp)
+      residual = log_film(law, speed_group, load_group, squeeze_ratio) - log(film_ratio)
+      error%bias = sum(residual)/points
+      error%rms = sqrt(sum(residual**2)/points)
+      error%maximum = maxval(abs(residual))
+      spread = sum((log(film_ratio) - sum(log(film_ratio))/points)**2)
+      if (spread > 0.0_dp) error%r_squared = 1.0_dp - sum(residual**2)/spread
+   end function judge_film_law
+
+   !> Least-squares law of given points. The columns of the design matrix are brought to unit length first: w*
+   !> is five orders of magnitude smaller than the logarithms, and the condition number would only show that.
+   pure subroutine fit_film_law(speed_group, load_group, squeeze_ratio, film_ratio, fit)
+      real(dp), intent(in) :: speed_group(:)    !> u* > 0 [-]
+      real(dp), intent(in) :: load_group(:)     !> Wbar > 0 [-]
+      real(dp), intent(in) :: squeeze_ratio(:)  !> w* [-]
+      real(dp), intent(in) :: film_ratio(:)     !> h* > 0 [-]
+      type(film_fit_t), intent(out) :: fit      !> Coefficients, errors, rank
+
+      !> Singular values below this share of the largest count as zero.
+      real(dp), parameter :: negligible = 1.0e-10_dp
+      real(dp) :: design(size(film_ratio), coefficients), logarithms(size(film_ratio), 1)
+      real(dp) :: length(coefficients), solution(coefficients), work_size(1)
+      real(dp), allocatable :: work(:)
+      integer :: integer_size(1), points, info, i
+      integer, allocatable :: integers(:)
+
+      if (.not. points_are_valid(speed_group, load_group, squeeze_ratio, film_ratio)) return
+      points = size(film_ratio)
+      design(:, 1) = 1.0_dp
+      design(:, 2) = log(speed_group)
+      design(:, 3) = log(load_group)
+      design(:, 4) = squeeze_ratio
+      logarithms(:, 1) = log(film_ratio)
+      do i = 1, coefficients
+         length(i) = norm2(design(:, i))
+         if (length(i) <= 0.0_dp) length(i) = 1.0_dp
+         design(:, i) = design(:, i)/length(i)
+      end do
+
+      work_size = 0.0_dp
+      integer_size = 0
+      call dgelsd( &
+         points, coefficients, 1, design, points, logarithms, points, fit%singular_values, negligible, &
+         fit%rank, &
+         work_size, -1, integer_size, info)
+      allocate (work(nint(work_size(1))), source=0.0_dp)
+      allocate (integers(integer_size(1)), source=0)
+      call dgelsd( &
+         points, coefficients, 1, design, points, logarithms, points, fit%singular_values, negligible, &
+         fit%rank, &
+         work, size(work), integers, info)
+      fit%status = fit_failed
+      if (info /= 0) return
+
+      solution = logarithms(1:coefficients, 1)/length
+      fit%law = thickness_law_t(exp(solution(1)), solution(2), solution(3), solution(4))
+      fit%error = judge_film_law(fit%law, speed_group, load_group, squeeze_ratio, film_ratio)
+      fit%condition = huge(1.0_dp)
+      if (fit%singular_values(coefficients) > fit%singular_values(1)/huge(1.0_dp)) &
+         fit%condition = fit%singular_values(1)/fit%singular_values(coefficients)
+      fit%status = merge(fit_done, fit_rank_deficient, fit%rank == coefficients)
+   end subroutine fit_film_law
+
+   !> Arrays of one size, more points than coefficients, all numbers finite, groups positive.
+   pure function points_are_valid(speed_group, load_group, squeeze_ratio, film_ratio) result(valid)
+      use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+      real(dp), intent(in) :: speed_group(:)    !> u* [-]
+      real(dp), intent(in) :: load_group(:)     !> Wbar [-]
+      real(dp), intent(in) :: squeeze_ratio(:)  !> w* [-]
+      real(dp), intent(in) :: film_ratio(:)     !> h* [-]
+      logical :: valid
+
+      valid = size(film_ratio) > coefficients &
+         .and. all([size(speed_group), size(load_group), size(squeeze_ratio)] == size(film_ratio))
+      if (valid) valid = all(ieee_is_finite(speed_group)) .and. all(ieee_is_finite(load_group)) &
+         .and. all(ieee_is_finite(squeeze_ratio)) .and. all(ieee_is_finite(film_ratio))
+      if (valid) valid = min(minval(speed_group), minval(load_group), minval(film_ratio)) > 0.0_dp
+   end function points_are_valid
+
+end module film_fit

@@ -1,0 +1,35 @@
+#!/bin/sh
+# Builds the Python module of the Fortran kernels. Usage: build_kernels.sh PYTHON BUILD OBJECTS LIBRARIES
+# f2py writes the C layer; compiler and linker are called here, with the flags of the program.
+set -eu
+python=$1
+build=$2
+objects=$3
+libraries=$4
+place=$build/kernels
+mkdir -p "$place"
+
+"$python" -m numpy.f2py --lower --build-dir "$place" -m _kernels fsrc/bindings/kernels_wrap.f90 > "$place/f2py.log" 2>&1 ||
+    { cat "$place/f2py.log" >&2; exit 1; }
+# f2py takes a kind that it does not know for a C float and says so only in passing.
+if grep -i getctype "$place/f2py.log" >&2; then exit 1; fi
+
+eval "$("$python" - << 'EOF'
+import numpy, numpy.f2py, os, sysconfig
+print(f"python_include={sysconfig.get_path('include')!r}")
+print(f"numpy_include={numpy.get_include()!r}")
+print(f"f2py_source={os.path.join(os.path.dirname(numpy.f2py.__file__), 'src')!r}")
+print(f"suffix={sysconfig.get_config_var('EXT_SUFFIX')!r}")
+EOF
+)"
+for source in "$place/_kernelsmodule.c" "$f2py_source/fortranobject.c"; do
+    gcc -O2 -fPIC -DNPY_NO_DEPRECATED_API=NPY_1_7_API_VERSION -I"$python_include" -I"$numpy_include" -I"$f2py_source" \
+        -c "$source" -o "$place/$(basename "$source" .c).o"
+done
+wrappers=
+for source in "$place"/_kernels-f2pywrappers*.f*; do
+    [ -e "$source" ] && wrappers="$wrappers $source"
+done
+# shellcheck disable=SC2086
+gfortran -shared -O2 -fPIC -fopenmp -I"$build" -J"$place" fsrc/bindings/kernels_wrap.f90 $wrappers \
+    "$place/_kernelsmodule.o" "$place/fortranobject.o" $objects $libraries -o "scripts/rattle/_kernels$suffix"
