@@ -82,10 +82,13 @@ contains
          character(*), intent(in) :: path
          character(*), intent(in) :: magic
          character(len(magic)) :: start
-         integer :: got
+         integer :: got, length
 
          if (.not. path_exists(path)) return
-         call first_bytes(path, start, got)
+         ! Pipes and devices have no length. They are not opened: a pipe would wait for its other end.
+         inquire (file=path, size=length)
+         got = 0
+         if (length >= len(magic)) call first_bytes(path, start, got)
          if (is_directory(path) .or. got < len(magic) .or. start /= magic) then
             call faults%add(file, 0, 'output', '', path//' exists and was not written by rattle; it is never replaced')
          else if (.not. scene%output%overwrite) then

@@ -1,5 +1,6 @@
 !> The published iso-viscous film: load (24), (35) and its slopes. With the rupture angle fixed at pi/2
-!> there is no branch, no root and no transcendental function but one square root.
+!> there is no branch, no root and no transcendental function but one square root. It is taken of h and not
+!> of 1/h, so that root and division run side by side: the motion waits for every one of these.
 module published_iso_viscous
    use constants, only: half_pi, pi
    use kinds, only: dp
@@ -59,7 +60,7 @@ contains
       real(dp) :: inverse, damping
 
       inverse = 1.0_dp/film
-      damping = pi*squeeze*inverse*sqrt(inverse)
+      damping = pi*squeeze*(inverse*inverse*sqrt(film))
       load = rolling*inverse - damping*velocity
       load_by_film = (1.5_dp*damping*velocity - rolling*inverse)*inverse
       load_by_velocity = -damping
@@ -89,7 +90,7 @@ contains
       real(dp) :: inverse, damping, width, width_by_log_a
 
       inverse = 1.0_dp/film
-      damping = squeeze*inverse*sqrt(inverse)
+      damping = squeeze*(inverse*inverse*sqrt(film))
       width = atan(rupture_tangent) + half_pi
       width_by_log_a = a*rupture_tangent_slope(a, rupture_tangent)/(1.0_dp + rupture_tangent*rupture_tangent)
       load = rolling*inverse - damping*velocity*width

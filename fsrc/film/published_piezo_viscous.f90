@@ -56,10 +56,12 @@ contains
       real(dp), intent(out) :: load_by_film
       !> dW/dw [N s/m]
       real(dp), intent(out) :: load_by_velocity
-      real(dp) :: inverse
+      real(dp) :: inverse, inverse_2
 
+      ! h^(-7/2) as h^(-4) sqrt(h): root and division run side by side.
       inverse = 1.0_dp/film
-      load = coefficient*inverse*inverse*inverse*sqrt(inverse)*exp(min(-rate*velocity, largest_exponent))
+      inverse_2 = inverse*inverse
+      load = (inverse_2*inverse_2)*(coefficient*sqrt(film))*exp(min(-rate*velocity, largest_exponent))
       load_by_film = -3.5_dp*load*inverse
       load_by_velocity = -rate*load
    end subroutine piezo_viscous_load

@@ -103,12 +103,12 @@ contains
       if (allocated(error)) return
 
       do period = 1, scene%solver%periods
-         first_step = int(period - 1, int64)*steps + 1
+         first_step = int(period - 1, int64)*int(steps, int64) + 1_int64
          call advance_period(kernel, film, method, force, state, ending%count, films, velocities, accelerations, done, &
                              ending%status)
          call sink%take(first_step, force(:done), films(:done), velocities(:done), accelerations(:done), error)
          ending%film = state%film
-         ending%time = real(first_step - 1 + done, dp)/(method%frequency*real(steps, dp))
+         ending%time = real(first_step + int(done - 1, int64), dp)/(method%frequency*real(steps, dp))
          if (allocated(error) .or. ending%status /= status_complete) return
          call watcher%period_done(period, scene%solver%periods)
          if (caught_signal() /= 0 .and. period < scene%solver%periods) then

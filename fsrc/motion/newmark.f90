@@ -127,7 +127,7 @@ contains
          else
             call successive_step(kernel, film, method, time_step, force(i), state, next, passes, status)
          end if
-         count%evaluations = count%evaluations + passes
+         count%evaluations = count%evaluations + int(passes, int64)
          if (status /= status_complete) then
             call cut_step(kernel, film, method, time_step, real(i - 1, dp)/real(size(force), dp), &
                           1.0_dp/real(size(force), dp), 1, state, next, count, status)
@@ -139,7 +139,7 @@ contains
          accelerations(i) = state%acceleration
       end do
       done = i - 1
-      count%steps = count%steps + done
+      count%steps = count%steps + int(done, int64)
    end subroutine advance_period
 
    !> A step in which the film law had no value at some iterate, as two halves that end on the grid.
@@ -177,7 +177,7 @@ contains
          else
             call successive_step(kernel, film, method, half, force, from, next, passes, status)
          end if
-         count%evaluations = count%evaluations + passes
+         count%evaluations = count%evaluations + int(passes, int64)
          if (status /= status_complete) call cut_step(kernel, film, method, half, end_phase - 0.5_dp*phase_step, &
                                                       0.5_dp*phase_step, depth + 1, from, next, count, status)
          if (status /= status_complete) return

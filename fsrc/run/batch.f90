@@ -116,13 +116,15 @@ contains
       end do
    end subroutine show_resolved
 
-   !> Faults to standard error, one line each.
+   !> Faults to standard error, one line each. A fault of the command line is found anew with every
+   !> file, but told once.
    subroutine print_faults(faults)
       !> All faults
       type(fault_list_t), intent(in) :: faults
-      integer :: i
+      integer :: i, j
 
       do i = 1, faults%count()
+         if (any([(faults%sentence(j) == faults%sentence(i), j=1, i - 1)])) cycle
          write (error_unit, '(a)') faults%sentence(i)
       end do
       if (faults%not_kept() > 0) write (error_unit, '(a)') 'and '//integer_text(faults%not_kept())//' faults more'

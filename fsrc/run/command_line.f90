@@ -42,7 +42,9 @@ contains
       do while (i < command_argument_count())
          i = i + 1
          argument = argument_text(i)
-         if (options_over .or. argument == '-' .or. len(argument) == 0) then
+         if (len(argument) == 0) then
+            call faults%add("''", 0, '', '', 'the name of an input file is empty')
+         else if (options_over .or. argument == '-') then
             command%files = [command%files, argument_t(argument)]
          else if (argument(1:1) /= '-') then
             command%files = [command%files, argument_t(argument)]
@@ -105,7 +107,7 @@ contains
          end if
          command%overrides = [command%overrides, override_t(source, '&'//setting(:dot - 1)//' '// &
                                                             setting(dot + 1:equals)//value_of(setting(:dot - 1), &
-                                                            setting(dot + 1:equals - 1), setting(equals + 1:))//' /')]
+                                                            setting(dot + 1:equals - 1), setting(equals + 1:))//new_line('a')//'/')]
       end subroutine add_override
 
    end subroutine read_arguments

@@ -5,7 +5,7 @@ module sample_recorder
    use kinds, only: dp, int64
    use result_writer, only: result_writer_t
    use sample_sink, only: sample_sink_t
-   use scene_types, only: column_acceleration, column_applied_force, column_film_load, column_film_thickness, &
+   use scene_types, only: column_acceleration, column_applied_force, column_film_thickness, &
                           column_names, column_squeeze_velocity, column_time, column_units, scene_t
    implicit none (type, external)
    private
@@ -109,8 +109,8 @@ contains
             self%rows(column, :last) = velocity(first::self%stride)
          case (column_acceleration)
             self%rows(column, :last) = acceleration(first::self%stride)
-         case (column_film_load)
-            ! Read off the equation of motion (1), which the sample fulfils.
+         case default
+            ! Film load, read off the equation of motion (1), which the sample fulfils.
             self%rows(column, :last) = self%mass*(acceleration(first::self%stride) + self%gravity) + force(first::self%stride)
          end select
       end do

@@ -17,7 +17,10 @@ module namelist_text
    !> key = values, or key(index) = values.
    type, public :: assignment_t
       character(:), allocatable :: group
+      !> Empty: here the group opens, so that a group without any key is seen as well
       character(:), allocatable :: key
+      !> Whether it could be taken apart; if not, a fault stands for it already
+      logical :: sound = .true.
       !> Line of the key
       integer :: line = 0
       !> First element that is set; 0: no index was given
@@ -39,17 +42,21 @@ module namelist_text
    end type scanner_t
 
    character(*), parameter :: horizontal_tab = achar(9), line_feed = achar(10), carriage_return = achar(13)
+   !> Some editors begin a text in UTF-8 with it
+   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
 
    public :: scan_namelists
 
 contains
 
    !> All assignments of a text; faults of its form are added to the list.
-   subroutine scan_namelists(content, file, assignments, faults)
+   subroutine scan_namelists(content, file, first_line, assignments, faults)
       !> Whole text
       character(*), intent(in) :: content
       !> Its name for the faults
       character(*), intent(in) :: file
+      !> Number of its first line; 0 for a text of one line, which then has no number in the faults
+      integer, intent(in) :: first_line
       !> What stands in it, in its order
       type(assignment_t), allocatable, intent(out) :: assignments(:)
       !> Faults are appended
@@ -64,6 +71,7 @@ contains
       used = 0
       scanner%content = content
       scanner%file = file
+      scanner%line = first_line
       if (len_trim(content) == 0) then
          assignments = assignments(:0)
          call faults%add(file, 0, '', '', 'the file is empty; a scene needs at least its required groups')
@@ -75,14 +83,16 @@ contains
          return
       end if
 
+      if (index(content, byte_order_mark) == 1) scanner%at = 1 + len(byte_order_mark)
       opened_count = 0
-      stray_line = 0
+      stray_line = -2
       do
          call skip_blanks(scanner)
          if (ended(scanner)) exit
          if (letter(scanner) /= '&') then
-            if (stray_line /= scanner%line) call faults%add(file, scanner%line, '', '', &
-                                                            'text outside a group; a group starts with &name and ends with /')
+            ! Lines that follow each other are one fault, not one each.
+            if (scanner%line > stray_line + 1) call faults%add(file, scanner%line, '', '', &
+                                                               'text outside a group; a group starts with &name and ends with /')
             stray_line = scanner%line
             call skip_stray(scanner)
             cycle
@@ -91,6 +101,8 @@ contains
          group = lower(take_word(scanner))
          if (len(group) == 0) then
             call faults%add(file, scanner%line, '', '', 'a group name must follow the & at once')
+            stray_line = scanner%line
+            call skip_line(scanner)
             cycle
          end if
          do i = 1, opened_count
@@ -114,12 +126,14 @@ contains
       type(assignment_t), allocatable, intent(inout) :: assignments(:)
       integer, intent(inout) :: used
       type(fault_list_t), intent(inout) :: faults
-      type(assignment_t), allocatable :: grown(:)
       type(assignment_t) :: assignment
       integer :: first_line
-      logical :: sound
 
       first_line = scanner%line
+      assignment%group = group
+      assignment%key = ''
+      assignment%line = first_line
+      call append(assignment)
       do
          call skip_blanks(scanner)
          if (.not. ended(scanner)) then
@@ -136,8 +150,16 @@ contains
             scanner%at = scanner%at + 1
             return
          end if
-         call scan_assignment(scanner, group, assignment, faults, sound)
-         if (.not. sound) cycle
+         call scan_assignment(scanner, group, assignment, faults)
+         if (len(assignment%key) > 0) call append(assignment)
+      end do
+
+   contains
+
+      subroutine append(assignment)
+         type(assignment_t), intent(in) :: assignment
+         type(assignment_t), allocatable :: grown(:)
+
          if (used == size(assignments)) then
             allocate (grown(2*used))
             grown(:used) = assignments
@@ -145,18 +167,20 @@ contains
          end if
          used = used + 1
          assignments(used) = assignment
-      end do
+      end subroutine append
+
    end subroutine scan_group
 
    !> One 'key = values'; after a fault the rest of its line is passed over.
-   subroutine scan_assignment(scanner, group, assignment, faults, sound)
+   subroutine scan_assignment(scanner, group, assignment, faults)
       type(scanner_t), intent(inout) :: scanner
       character(*), intent(in) :: group
       type(assignment_t), intent(out) :: assignment
       type(fault_list_t), intent(inout) :: faults
-      logical, intent(out) :: sound
+      logical :: sound
 
       sound = .false.
+      assignment%sound = .false.
       assignment%group = group
       assignment%line = scanner%line
       assignment%key = lower(take_word(scanner))
@@ -186,18 +210,17 @@ contains
          return
       end if
       scanner%at = scanner%at + 1
-      call scan_values(scanner, assignment, faults, sound)
+      call scan_values(scanner, assignment, faults)
    end subroutine scan_assignment
 
    !> Values up to the next key, slash or group.
-   subroutine scan_values(scanner, assignment, faults, sound)
+   subroutine scan_values(scanner, assignment, faults)
       type(scanner_t), intent(inout) :: scanner
       type(assignment_t), intent(inout) :: assignment
       type(fault_list_t), intent(inout) :: faults
-      logical, intent(out) :: sound
       type(value_t), allocatable :: values(:), grown(:)
       integer :: used
-      logical :: comma_before
+      logical :: comma_before, sound, closed
 
       allocate (values(8))
       used = 0
@@ -223,8 +246,8 @@ contains
             call move_alloc(grown, values)
          end if
          used = used + 1
-         call take_value(scanner, values(used), sound)
-         if (.not. sound) then
+         call take_value(scanner, values(used), closed)
+         if (.not. closed) then
             call faults%add(scanner%file, assignment%line, assignment%group, assignment%key, 'the closing quote is missing')
             return
          end if
@@ -236,24 +259,27 @@ contains
                          'a value is missing after the equals sign')
          sound = .false.
       end if
+      assignment%sound = sound
    end subroutine scan_values
 
-   !> A quoted text (it must end on its line) or a bare word.
-   subroutine take_value(scanner, value, sound)
+   !> A quoted text (it must end on its line) or a bare word. A slash with a word right behind it is part
+   !> of the bare word: 3/4 is a bad number, not a 3 and the end of the group.
+   subroutine take_value(scanner, value, closed)
       type(scanner_t), intent(inout) :: scanner
       type(value_t), intent(out) :: value
-      logical, intent(out) :: sound
+      logical, intent(out) :: closed
       character(1) :: quote
       integer :: start, closing
 
-      sound = .true.
+      closed = .true.
       quote = letter(scanner)
       value%quoted = quote == "'" .or. quote == '"'
       start = scanner%at
       scanner%at = scanner%at + 1
       if (.not. value%quoted) then
          do while (.not. ended(scanner))
-            if (is_blank(letter(scanner)) .or. scan(letter(scanner), ',/!='//"'"//'"') > 0) exit
+            if (is_blank(letter(scanner)) .or. scan(letter(scanner), ',!='//"'"//'"') > 0) exit
+            if (letter(scanner) == '/' .and. .not. word_follows(scanner)) exit
             scanner%at = scanner%at + 1
          end do
          value%text = scanner%content(start:scanner%at - 1)
@@ -262,10 +288,10 @@ contains
       value%text = ''
       do
          start = scanner%at
-         closing = scan(scanner%content(start:), quote//line_feed)
-         sound = closing > 0
-         if (sound) sound = scanner%content(start + closing - 1:start + closing - 1) == quote
-         if (.not. sound) exit
+         closing = scan(scanner%content(start:), quote//line_feed//carriage_return)
+         closed = closing > 0
+         if (closed) closed = scanner%content(start + closing - 1:start + closing - 1) == quote
+         if (.not. closed) exit
          value%text = value%text//scanner%content(start:start + closing - 2)
          scanner%at = start + closing
          if (letter(scanner) /= quote) return
@@ -285,8 +311,10 @@ contains
       closing = index(scanner%content(scanner%at:), ')')
       if (closing < 3 .or. closing > 12) return
       associate (inside => scanner%content(scanner%at + 1:scanner%at + closing - 2))
-         if (verify(trim(adjustl(inside)), '0123456789') == 0) read (inside, *, iostat=stat) first_element
+         if (verify(trim(adjustl(inside)), '0123456789') > 0) return
+         read (inside, *, iostat=stat) first_element
       end associate
+      if (stat /= 0) first_element = 0
       scanner%at = scanner%at + closing
    end subroutine take_index
 
@@ -298,7 +326,7 @@ contains
       integer :: i, line
 
       sound = .true.
-      line = 1
+      line = scanner%line
       do i = 1, len(scanner%content)
          associate (code => iachar(scanner%content(i:i)))
             if (code == 10) line = line + 1
@@ -319,6 +347,14 @@ contains
       at_new_group = ended(scanner)
       if (.not. at_new_group) at_new_group = letter(scanner) == '&'
    end function at_new_group
+
+   !> Whether a letter or digit comes right after the present character.
+   pure logical function word_follows(scanner)
+      type(scanner_t), intent(in) :: scanner
+
+      word_follows = scanner%at < len(scanner%content)
+      if (word_follows) word_follows = is_word_character(scanner%content(scanner%at + 1:scanner%at + 1))
+   end function word_follows
 
    !> Whether 'word =' or 'word(' stands here.
    pure logical function key_follows(scanner)

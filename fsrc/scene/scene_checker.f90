@@ -115,21 +115,13 @@ contains
          if (first) call input%add_fault('kinematics', 'surface_speed_1', rule, faults)
          if (second) call input%add_fault('kinematics', 'surface_speed_2', rule, faults)
       else if (first) then
-         if (faulty('surface_speed_1') .or. faulty('surface_speed_2')) return
+         if (faulty(input, 'kinematics', 'surface_speed_1')) return
+         if (faulty(input, 'kinematics', 'surface_speed_2')) return
          if (.not. input%number('kinematics', 'surface_speed_1') + input%number('kinematics', 'surface_speed_2') > 0.0_dp) &
             call input%add_fault('kinematics', 'surface_speed_1', 'the sum of both surface speeds must be positive', faults)
       else if (.not. (mean .or. sum_)) then
          call input%add_fault('kinematics', 'entrainment_speed', 'a speed is required: '//rule, faults)
       end if
-
-   contains
-
-      pure logical function faulty(name)
-         character(*), intent(in) :: name
-
-         faulty = input%entries(find_key('kinematics', name))%faulty
-      end function faulty
-
    end subroutine check_speed
 
    !> The static load presses the flanks together.
@@ -155,15 +147,27 @@ contains
       !> Samples in the window; the transform and its work space then stay below 10 GB
       real(dp), parameter :: most_samples = 2.0e8_dp
 
-      if (input%count('solver', 'periods') < input%count('spectrum', 'periods')) then
+      if (faulty(input, 'spectrum', 'periods')) return
+      if (.not. faulty(input, 'solver', 'periods') .and. &
+          input%count('solver', 'periods') < input%count('spectrum', 'periods')) then
          call input%add_fault('solver', 'periods', 'at least &spectrum periods ('// &
                               integer_text(input%count('spectrum', 'periods'))//') must be solved', faults)
       end if
+      if (faulty(input, 'solver', 'steps_per_period')) return
       if (real(input%count('spectrum', 'periods'), dp)*real(input%count('solver', 'steps_per_period'), dp) > most_samples) then
          call input%add_fault('solver', 'steps_per_period', &
                               'the window of &spectrum periods would hold more than 200000000 samples', faults)
       end if
    end subroutine check_window
+
+   !> Whether a key was set to something that could not be read, so that no rule can be held against it.
+   pure logical function faulty(input, group, name)
+      type(scene_input_t), intent(in) :: input
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+
+      faulty = input%entries(find_key(group, name))%faulty
+   end function faulty
 
    !> No column twice.
    subroutine check_columns(input, faults)

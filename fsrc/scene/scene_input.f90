@@ -96,10 +96,11 @@ contains
                reported = assignment%group
                cycle
             end if
+            if (len(assignment%key) == 0) cycle
             position = find_key(assignment%group, assignment%key)
             if (position == 0) then
-               call faults%add(file, assignment%line, assignment%group, assignment%key, &
-                               'unknown key; '//nearest_key(assignment%group, assignment%key))
+               if (assignment%sound) call faults%add(file, assignment%line, assignment%group, assignment%key, &
+                                                   'unknown key; '//nearest_key(assignment%group, assignment%key))
                cycle
             end if
             if (self%entries(position)%given .and. .not. overriding) then
@@ -124,7 +125,8 @@ contains
       entry%given = .true.
       entry%file = file
       entry%line = assignment%line
-      entry%faulty = .false.
+      entry%faulty = .not. assignment%sound
+      if (entry%faulty) return
       if (assignment%first_element /= 0 .and. key%kind /= list_kind) then
          call refuse('takes no index')
          return

@@ -3,7 +3,7 @@
 module scene_reader
    use errors, only: fault_list_t
    use file_system, only: read_whole_file
-   use key_table, only: keys, name_limit
+   use key_table, only: find_key, keys, name_limit
    use kinds, only: dp
    use namelist_text, only: assignment_t, scan_namelists
    use scene_checker, only: check_together, in_use
@@ -42,37 +42,38 @@ contains
       type(scene_input_t) :: input
       type(assignment_t), allocatable :: assignments(:)
       character(:), allocatable :: content, file
-      integer :: stat, before, i, j
+      integer :: stat, before, i
+      logical :: is_input
 
       before = faults%count()
       file = trim(path)
       if (path == '-') file = 'standard input'
       call read_whole_file(path, size_limit, content, stat)
       select case (stat)
+      case (0)
       case (1)
          call faults%add(file, 0, '', '', 'there is no such file, or it may not be read')
       case (2)
          call faults%add(file, 0, '', '', 'it cannot be read as a file')
-      case (3)
+      case default
          call faults%add(file, 0, '', '', 'it is larger than '//integer_text(size_limit)//' bytes; that is no input')
       end select
       if (stat /= 0) return
 
       input = new_scene_input(file)
-      call scan_namelists(content, file, assignments, faults)
+      call scan_namelists(content, file, 1, assignments, faults)
+      ! What holds no group at all is no input; a list of all that it lacks would help nobody.
+      is_input = size(assignments) > 0 .or. faults%count() == before
       call input%set_all(assignments, file, .false., faults)
       do i = 1, size(overrides)
-         call scan_namelists(overrides(i)%text, overrides(i)%source, assignments, faults)
-         do j = 1, size(assignments)
-            assignments(j)%line = 0
-         end do
+         call scan_namelists(overrides(i)%text, overrides(i)%source, 0, assignments, faults)
          call input%set_all(assignments, overrides(i)%source, .true., faults)
       end do
-      if (len_trim(content) > 0) call check_together(input, faults)
+      if (is_input) call check_together(input, faults)
+      call read_name(input, path, scene%name, faults)
       call faults%sort_since(before)
       if (faults%count() > before) return
 
-      call read_name(input, path, scene%name, faults)
       scene%contact = read_contact(input)
       scene%lubricant = read_lubricant(input)
       scene%kinematics = read_kinematics(input)
@@ -94,6 +95,8 @@ contains
       character(:), allocatable :: stem
       integer :: dot
 
+      name = ''
+      if (input%entries(find_key('scene', 'name'))%faulty) return
       if (input%is_given('scene', 'name')) then
          stem = input%word('scene', 'name')
       else if (path == '-') then
@@ -105,7 +108,7 @@ contains
       end if
       name = stem
       if (len(stem) > name_limit .or. verify(stem, legal) > 0 .or. stem == '.' .or. stem == '..') then
-         call input%add_fault('scene', 'name', "'"//stem(:min(len(stem), 80))//"' is not allowed; allowed: 1 to "// &
+         call input%add_fault('scene', 'name', quoted(stem(:min(len(stem), 80)))//' is not allowed; allowed: 1 to '// &
                               integer_text(name_limit)//' letters, digits, . _ -', faults)
       end if
    end subroutine read_name
