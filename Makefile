@@ -11,6 +11,15 @@ FC := gfortran
 PYTHON_ENV := .venv
 PYTHON := $(PYTHON_ENV)/bin/python
 
+# --- set-up: only looks, unless something is missing. It comes before everything that asks for a library.
+
+ifeq ($(filter clean help,$(MAKECMDGOALS))$(SYSTEM_LOOKED_AT),)
+  ifneq ($(shell scripts/setup_system.sh >&2 && echo ready),ready)
+    $(error the system lacks what is named above)
+  endif
+endif
+export SYSTEM_LOOKED_AT := yes
+
 UNAME_MACHINE := $(shell uname -m)
 ARCHITECTURE := $(if $(NATIVE),-march=native,$(if $(filter x86_64,$(UNAME_MACHINE)),-march=x86-64-v3,))
 FFTW_INCLUDE := $(firstword $(wildcard /usr/include/fftw3.f03 $(CONDA_PREFIX)/include/fftw3.f03 $(FFTW_ROOT)/include/fftw3.f03))
@@ -22,7 +31,7 @@ WARNINGS := -std=f2018 -Wall -Wextra $(if $(STRICT),-Werror)
 RELEASE_FLAGS := -O3 $(ARCHITECTURE) -fno-math-errno -fno-trapping-math -flto=auto -fopenmp -fPIC
 DEBUG_FLAGS := -O1 -g -fcheck=all -finit-real=snan -ffpe-trap=invalid,overflow,zero -fbacktrace -fopenmp -fPIC
 STRICT_FLAGS := -O1 -fopenmp
-FFLAGS := $(WARNINGS) $(if $(DEBUG),$(DEBUG_FLAGS),$(if $(STRICT),$(STRICT_FLAGS),$(RELEASE_FLAGS))) -I$(dir $(FFTW_INCLUDE))
+FFLAGS := $(WARNINGS) $(if $(DEBUG),$(DEBUG_FLAGS),$(if $(STRICT),$(STRICT_FLAGS),$(RELEASE_FLAGS))) $(addprefix -I,$(dir $(FFTW_INCLUDE)))
 
 ROOMS := foundation scene film film/coefficients motion orbit spectrum verdict files run campaign
 SOURCES := $(foreach room,$(ROOMS),$(sort $(wildcard fsrc/$(room)/*.f90)))
@@ -35,7 +44,7 @@ BENCH_PROGRAMS := $(patsubst %.f90,$(BUILD)/%,$(notdir $(BENCH_SOURCES)))
 VPATH := $(addprefix fsrc/,$(ROOMS)) fsrc tests/unit tests/benchmarks
 
 .DEFAULT_GOAL := all
-.PHONY: all run test unit user lint debug python bench clean install help format system pages pictures FORCE
+.PHONY: all run test unit user lint debug python bench clean install help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -53,18 +62,15 @@ help:
 	@echo 'make install      install the program into PREFIX/bin (PREFIX=$(PREFIX))'
 	@echo 'make clean        remove everything that was built'
 
-# --- set-up: only looks, unless something is missing -------------------------------------------------
+# --- Python packages --------------------------------------------------------------------------------
 
-system:
-	@scripts/setup_system.sh
-
-$(PYTHON_ENV)/installed: pyproject.toml scripts/setup_python.sh | system
+$(PYTHON_ENV)/installed: pyproject.toml scripts/setup_python.sh scripts/requirements.txt
 	@scripts/setup_python.sh $(PYTHON_ENV)
 
 # --- program ----------------------------------------------------------------------------------------
 
 # A change of compiler or flags changes this file, and with it rebuilds everything.
-$(BUILD)/flags: FORCE | system
+$(BUILD)/flags: FORCE
 	@mkdir -p $(BUILD)
 	@{ $(FC) --version | head -1; echo '$(FFLAGS) $(LIBRARIES)'; } > $@.new
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
@@ -78,7 +84,7 @@ $(BUILD)/depends.mk: $(SOURCES) $(UNIT_SOURCES) fsrc/main.f90 Makefile
 	    for (i = 1; i <= count; i++) if ((list[i] in known) && list[i] != name) print build "/" name ".o: " build "/" list[i] ".o" } }' \
 	  $(SOURCES) $(UNIT_SOURCES) fsrc/main.f90 > $@
 
-ifeq ($(filter clean help system lint format,$(MAKECMDGOALS)),)
+ifeq ($(filter clean help lint format,$(MAKECMDGOALS)),)
 -include $(BUILD)/depends.mk
 endif
 
