@@ -11,7 +11,7 @@ program main
    implicit none (type, external)
    type(command_t) :: command
    type(fault_list_t) :: faults
-   integer :: exit_code
+   integer :: exit_code, ignored
 
    exit_code = exit_complete
    call read_arguments(command, faults)
@@ -37,6 +37,6 @@ program main
       call catch_signals()
       call run_batch(command, exit_code)
    end if
-   flush (output_unit)
+   flush (output_unit, iostat=ignored)
    stop exit_code, quiet=.true.
 end program main

@@ -9,7 +9,7 @@ libraries=$4
 place=$build/kernels
 mkdir -p "$place"
 
-"$python" -m numpy.f2py --lower --build-dir "$place" -m _kernels fsrc/bindings/kernels_wrap.f90 > "$place/f2py.log" 2>&1 ||
+"$python" -m numpy.f2py --lower --build-dir "$place" -m _kernels fsrc/bindings/*.f90 > "$place/f2py.log" 2>&1 ||
     { cat "$place/f2py.log" >&2; exit 1; }
 # f2py takes a kind that it does not know for a C float and says so only in passing.
 if grep -i getctype "$place/f2py.log" >&2; then exit 1; fi
@@ -31,5 +31,5 @@ for source in "$place"/_kernels-f2pywrappers*.f*; do
     [ -e "$source" ] && wrappers="$wrappers $source"
 done
 # shellcheck disable=SC2086
-gfortran -shared -O2 -fPIC -fopenmp -I"$build" -J"$place" fsrc/bindings/kernels_wrap.f90 $wrappers \
+gfortran -shared -O2 -fPIC -fopenmp -I"$build" -J"$place" fsrc/bindings/*.f90 $wrappers \
     "$place/_kernelsmodule.o" "$place/fortranobject.o" $objects $libraries -o "scripts/rattle/_kernels$suffix"

@@ -1,36 +1,5 @@
-! Thin layer between the kernels and f2py: plain arguments, explicit sizes, no derived types. The Python
-! package checks shapes and types before it calls; nothing here repeats a formula.
-
-! t_e(A) of (18); by_substitution /= 0: the paper's successive substitution.
-subroutine wrap_rupture_tangent(n, a, by_substitution, t)
-   use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use rupture, only: rupture_tangent_fast, rupture_tangent_successive
-   implicit none
-   integer(c_int), intent(in) :: n
-   real(c_double), intent(in) :: a(n)
-   integer(c_int), intent(in) :: by_substitution
-   real(c_double), intent(out) :: t(n)
-
-   if (by_substitution /= 0) then
-      t = rupture_tangent_successive(a)
-   else
-      t = rupture_tangent_fast(a)
-   end if
-end subroutine wrap_rupture_tangent
-
-! p*(xbar) of (16) at t = tan(xbar).
-subroutine wrap_pressure_group(n, t, t_rupture, a, p)
-   use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use film_pressure, only: pressure_group
-   implicit none
-   integer(c_int), intent(in) :: n
-   real(c_double), intent(in) :: t(n)
-   real(c_double), intent(in) :: t_rupture(n)
-   real(c_double), intent(in) :: a(n)
-   real(c_double), intent(out) :: p(n)
-
-   p = pressure_group(t, t_rupture, a)
-end subroutine wrap_pressure_group
+! Thin layer between the kernels of spectrum and class and f2py: plain arguments, explicit sizes, no derived
+! types. The Python package checks shapes and types before it calls; nothing here repeats a formula.
 
 ! Single-sided amplitudes, m = n/2 + 1 of them.
 subroutine wrap_amplitude_spectrum(n, samples, m, amplitudes)

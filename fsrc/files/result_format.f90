@@ -18,8 +18,8 @@ module result_format
    integer(int32), parameter, public :: result_format_version = 1_int32
    integer(int32), parameter, public :: byte_order_mark = int(z'01020304', int32)
    integer, parameter, public :: alignment = 64, fixed_header_bytes = 64, column_name_bytes = 32, column_unit_bytes = 16
-   !> Position of the count of rows in the file, counted from 1 as Fortran does
-   integer, parameter, public :: row_count_position = 25
+   !> Bytes before the count of rows
+   integer(int64), parameter, public :: row_count_offset = 24_int64
    integer(int64), parameter, public :: rows_unknown = -1_int64
 
 end module result_format

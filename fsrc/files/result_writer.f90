@@ -1,11 +1,12 @@
 !> Writes a result file row by row, see result_format. A killed run leaves a readable file
 !> whose count of rows is still unknown.
 module result_writer
+   use byte_file, only: byte_file_t
    use clock, only: wall_seconds
-   use errors, only: error_t, exit_system, raise
+   use errors, only: error_t
    use kinds, only: dp, int32, int64
    use result_format, only: alignment, byte_order_mark, column_name_bytes, column_unit_bytes, fixed_header_bytes, &
-                            result_format_version, result_magic, row_count_position, rows_unknown
+                            result_format_version, result_magic, row_count_offset, rows_unknown
    use version, only: program_version
    implicit none (type, external)
    private
@@ -16,10 +17,10 @@ module result_writer
    !> An open result file.
    type, public :: result_writer_t
       private
-      integer :: unit = -1
+      type(byte_file_t) :: file
       integer(int64) :: rows = 0
       real(dp) :: last_flush = 0.0_dp
-      character(:), allocatable :: path
+      logical :: sound = .false.
    contains
       procedure :: open => open_result
       procedure :: write_rows
@@ -41,34 +42,53 @@ contains
       character(*), intent(in) :: units(:)
       !> Set if the file cannot be written
       type(error_t), allocatable, intent(out) :: error
+
+      self%rows = 0
+      self%last_flush = wall_seconds()
+      call self%file%open(path, error)
+      if (.not. allocated(error)) call self%file%put(header_bytes(input_text, names, units), error)
+      if (.not. allocated(error)) call self%file%flush(error)
+      self%sound = .not. allocated(error)
+   end subroutine open_result
+
+   !> Everything before the first row.
+   pure function header_bytes(input_text, names, units) result(bytes)
+      character(*), intent(in) :: input_text
+      character(*), intent(in) :: names(:)
+      character(*), intent(in) :: units(:)
+      character(:), allocatable :: bytes
       character(column_name_bytes) :: name
       character(column_unit_bytes) :: unit_name
       character(24) :: version_text
-      character(200) :: message
-      integer(int64) :: header_bytes, text_end
-      integer :: i, stat
+      integer :: i, text_end, length
 
-      self%path = path
-      self%rows = 0
-      self%last_flush = wall_seconds()
+      text_end = fixed_header_bytes + size(names)*(column_name_bytes + column_unit_bytes) + len(input_text)
+      length = ((text_end + alignment - 1)/alignment)*alignment
       version_text = program_version
-      text_end = int(fixed_header_bytes + size(names)*(column_name_bytes + column_unit_bytes) + len(input_text), int64)
-      header_bytes = ((text_end + alignment - 1)/alignment)*alignment
-      open (newunit=self%unit, file=path, access='stream', form='unformatted', status='replace', action='write', &
-            iostat=stat, iomsg=message)
-      if (stat == 0) write (self%unit, iostat=stat, iomsg=message) result_magic, result_format_version, byte_order_mark, &
-         header_bytes, rows_unknown, int(size(names), int32), int(len(input_text), int32), version_text
+      bytes = result_magic//int32_bytes(result_format_version)//int32_bytes(byte_order_mark)// &
+              int64_bytes(int(length, int64))//int64_bytes(rows_unknown)// &
+              int32_bytes(int(size(names), int32))//int32_bytes(int(len(input_text), int32))//version_text
       do i = 1, size(names)
-         if (stat /= 0) exit
          name = names(i)
          unit_name = units(i)
-         write (self%unit, iostat=stat, iomsg=message) name, unit_name
+         bytes = bytes//name//unit_name
       end do
-      if (stat == 0) write (self%unit, iostat=stat, iomsg=message) input_text, &
-         repeat(achar(0), int(header_bytes - text_end))
-      if (stat == 0) flush (self%unit, iostat=stat, iomsg=message)
-      if (stat /= 0) call raise(error, exit_system, path//' cannot be written: '//trim(message))
-   end subroutine open_result
+      bytes = bytes//input_text//repeat(achar(0), length - text_end)
+   end function header_bytes
+
+   pure function int32_bytes(number) result(bytes)
+      integer(int32), intent(in) :: number
+      character(4) :: bytes
+
+      bytes = transfer(number, bytes)
+   end function int32_bytes
+
+   pure function int64_bytes(number) result(bytes)
+      integer(int64), intent(in) :: number
+      character(8) :: bytes
+
+      bytes = transfer(number, bytes)
+   end function int64_bytes
 
    !> Append rows.
    subroutine write_rows(self, rows, error)
@@ -77,39 +97,31 @@ contains
       real(dp), contiguous, intent(in) :: rows(:, :)
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error
-      character(200) :: message
       real(dp) :: now
-      integer :: stat
 
-      write (self%unit, iostat=stat, iomsg=message) rows
-      if (stat == 0) then
+      call self%file%put(rows, error)
+      if (.not. allocated(error)) then
          self%rows = self%rows + size(rows, 2)
          now = wall_seconds()
          if (now - self%last_flush > flush_interval) then
-            flush (self%unit, iostat=stat, iomsg=message)
+            call self%file%flush(error)
             self%last_flush = now
          end if
       end if
-      if (stat /= 0) call raise(error, exit_system, self%path//' cannot be written: '//trim(message))
+      self%sound = .not. allocated(error)
    end subroutine write_rows
 
-   !> Enter the count of rows and close the file.
+   !> Enter the count of rows and close the file. A file that lost rows stays unclosed.
    subroutine close_result(self, error)
       class(result_writer_t), intent(inout) :: self
       !> Set if the file could not be completed
       type(error_t), allocatable, intent(out) :: error
-      character(200) :: message
-      integer :: stat, ignored
+      type(error_t), allocatable :: close_error
 
-      if (self%unit == -1) return
-      write (self%unit, pos=row_count_position, iostat=stat, iomsg=message) self%rows
-      if (stat == 0) then
-         close (self%unit, iostat=stat, iomsg=message)
-      else
-         close (self%unit, iostat=ignored)
-      end if
-      self%unit = -1
-      if (stat /= 0) call raise(error, exit_system, self%path//' cannot be written: '//trim(message))
+      if (.not. self%file%is_open()) return
+      if (self%sound) call self%file%put_at(row_count_offset, self%rows, error)
+      call self%file%close(close_error)
+      if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
    end subroutine close_result
 
 end module result_writer

@@ -1,6 +1,8 @@
 !> NAME.summary.nml: one group &summary, readable by Fortran and f90nml. Unknown values are left out.
 module summary_file
-   use errors, only: error_t, exit_system, raise
+   use byte_file, only: byte_file_t
+   use errors, only: error_t
+   use file_system, only: delete_file
    use kinds, only: dp, int64
    use text, only: integer_text, logical_text, quoted, real_text
    implicit none (type, external)
@@ -111,27 +113,23 @@ contains
       self%body = self%body//'   '//name//' = '//value//new_line('a')
    end subroutine add_line
 
-   !> Write the file; one that stands there is replaced.
+   !> Write the file; one that stands there is replaced. A file that could not be completed is taken away:
+   !> nobody, and no later run, could tell that it was a summary.
    subroutine write_summary(self, path, error)
       class(summary_t), intent(in) :: self
       !> Path of the file
       character(*), intent(in) :: path
       !> Set if it cannot be written
       type(error_t), allocatable, intent(out) :: error
-      character(200) :: message
-      integer :: unit, stat, ignored
+      type(byte_file_t) :: file
+      type(error_t), allocatable :: close_error
 
-      open (newunit=unit, file=path, access='stream', form='formatted', status='replace', action='write', iostat=stat, &
-            iomsg=message)
-      if (stat == 0) then
-         write (unit, '(a)', iostat=stat, iomsg=message) summary_magic//new_line('a')//self%body//'/'
-         if (stat == 0) then
-            close (unit, iostat=stat, iomsg=message)
-         else
-            close (unit, iostat=ignored)
-         end if
-      end if
-      if (stat /= 0) call raise(error, exit_system, path//' cannot be written: '//trim(message))
+      call file%open(path, error)
+      if (allocated(error)) return
+      call file%put(summary_magic//new_line('a')//self%body//'/'//new_line('a'), error)
+      call file%close(close_error)
+      if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
+      if (allocated(error)) call delete_file(path)
    end subroutine write_summary
 
 end module summary_file

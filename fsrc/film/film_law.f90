@@ -8,8 +8,11 @@ module film_law
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_load, squeeze_exponent_rate
    use regime, only: equivalent_radius, plane_strain_modulus
+   use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate
    use rupture, only: rupture_tangent_fast, rupture_tangent_successive, squeeze_group
-   use scene_types, only: law_iso_viscous, rupture_half_pi, rupture_solver_fast, scene_t
+   use scene_status, only: status_no_rigid_film, status_overflow
+   use scene_types, only: law_iso_viscous, model_reynolds, rupture_half_pi, rupture_solver_fast, scene_t
+   use steady_reynolds_film, only: steady_iso_viscous_film, steady_piezo_viscous_film
    implicit none (type, external)
    private
 
@@ -17,7 +20,8 @@ module film_law
    real(dp), parameter, public :: overflow_load = 1.0e100_dp
 
    !> Kernel that the motion calls, chosen once per scene.
-   integer, parameter, public :: kernel_half_pi = 1, kernel_solved_fast = 2, kernel_solved_successive = 3, kernel_piezo = 4
+   integer, parameter, public :: kernel_half_pi = 1, kernel_solved_fast = 2, kernel_solved_successive = 3, kernel_piezo = 4, &
+                                 kernel_reynolds_iso = 5, kernel_reynolds_piezo = 6
 
    !> Film of a scene.
    type, public :: film_t
@@ -31,7 +35,7 @@ module film_law
       real(dp) :: viscosity = 0.0_dp
       !> Barus coefficient alpha [1/Pa]
       real(dp) :: pressure_viscosity = 0.0_dp
-      !> The u of the formulas: the entrainment speed for the published model [m/s]
+      !> The u of the formulas: U for the published model, u1 + u2 = 2 U for the exact one [m/s]
       real(dp) :: speed = 0.0_dp
       !> (23): coefficient of 1/h [N m]
       real(dp) :: rolling = 0.0_dp
@@ -41,6 +45,14 @@ module film_law
       real(dp) :: piezo = 0.0_dp
       !> (37): 703/u [s/m]
       real(dp) :: rate = 0.0_dp
+      !> Exact films: 12 l u eta0 R [N m]
+      real(dp) :: scale = 0.0_dp
+      !> Exact films: A sqrt(h)/w [s m^(-1/2)]
+      real(dp) :: squeeze_rate = 0.0_dp
+      !> Exact piezo-viscous film: B h^(3/2) [m^(3/2)]
+      real(dp) :: pressure_rate = 0.0_dp
+      !> What it means if the kernel gives a load above `overflow_load`
+      integer :: status_without_load = status_overflow
    end type film_t
 
    abstract interface
@@ -63,7 +75,7 @@ module film_law
    end interface
 
    public :: new_film, film_load, steady_film, film_kernel
-   public :: load_half_pi, load_solved_fast, load_solved_successive, load_piezo
+   public :: load_half_pi, load_solved_fast, load_solved_successive, load_piezo, load_reynolds_iso, load_reynolds_piezo
 
 contains
 
@@ -80,7 +92,16 @@ contains
          film%viscosity = lubricant%viscosity
          film%pressure_viscosity = lubricant%pressure_viscosity
          film%speed = scene%kinematics%entrainment_speed
-         if (scene%film%law == law_iso_viscous) then
+         if (scene%film%model == model_reynolds) then
+            film%speed = 2.0_dp*scene%kinematics%entrainment_speed
+            film%scale = load_scale(contact%length, film%speed, film%viscosity, film%radius)
+            film%squeeze_rate = squeeze_rate(film%speed, film%radius)
+            film%kernel = kernel_reynolds_iso
+            if (scene%film%law == law_iso_viscous) return
+            film%kernel = kernel_reynolds_piezo
+            film%pressure_rate = pressure_rate(film%speed, film%viscosity, film%radius, film%pressure_viscosity)
+            film%status_without_load = status_no_rigid_film
+         else if (scene%film%law == law_iso_viscous) then
             film%rolling = rolling_coefficient(contact%length, film%speed, film%viscosity, film%radius)
             film%squeeze = squeeze_coefficient(contact%length, film%viscosity, film%radius)
             film%kernel = kernel_solved_fast
@@ -116,23 +137,33 @@ contains
          call load_solved_fast(film, thickness, velocity, load, load_by_film, load_by_velocity)
       case (kernel_solved_successive)
          call load_solved_successive(film, thickness, velocity, load, load_by_film, load_by_velocity)
-      case default
+      case (kernel_piezo)
          call load_piezo(film, thickness, velocity, load, load_by_film, load_by_velocity)
+      case (kernel_reynolds_iso)
+         call load_reynolds_iso(film, thickness, velocity, load, load_by_film, load_by_velocity)
+      case default
+         call load_reynolds_piezo(film, thickness, velocity, load, load_by_film, load_by_velocity)
       end select
    end subroutine film_load
 
-   !> Film that carries a static load: (23) or (37) with w = 0, solved for h [m].
+   !> Film that carries a static load without squeeze [m]: (23), (37) or the exact load, solved for h.
+   !> 0 where no rigid piezo-viscous film carries it.
    pure real(dp) function steady_film(film, load)
       !> The film
       type(film_t), intent(in) :: film
       !> Static load > 0 [N]
       real(dp), intent(in) :: load
 
-      if (film%kernel == kernel_piezo) then
+      select case (film%kernel)
+      case (kernel_piezo)
          steady_film = (film%piezo/load)**(2.0_dp/7.0_dp)
-      else
+      case (kernel_reynolds_iso)
+         steady_film = steady_iso_viscous_film(film%scale, load)
+      case (kernel_reynolds_piezo)
+         steady_film = steady_piezo_viscous_film(film%scale, film%pressure_rate, load)
+      case default
          steady_film = film%rolling/load
-      end if
+      end select
    end function steady_film
 
    !> (35), rupture fixed at pi/2; interface film_kernel.
@@ -188,5 +219,30 @@ contains
 
       call piezo_viscous_load(film%piezo, film%rate, thickness, velocity, load, load_by_film, load_by_velocity)
    end subroutine load_piezo
+
+   !> Exact iso-viscous film; interface film_kernel.
+   pure subroutine load_reynolds_iso(film, thickness, velocity, load, load_by_film, load_by_velocity)
+      type(film_t), intent(in) :: film
+      real(dp), intent(in) :: thickness
+      real(dp), intent(in) :: velocity
+      real(dp), intent(out) :: load
+      real(dp), intent(out) :: load_by_film
+      real(dp), intent(out) :: load_by_velocity
+
+      call reynolds_iso_viscous_load(film%scale, film%squeeze_rate, thickness, velocity, load, load_by_film, load_by_velocity)
+   end subroutine load_reynolds_iso
+
+   !> Exact piezo-viscous film; interface film_kernel.
+   pure subroutine load_reynolds_piezo(film, thickness, velocity, load, load_by_film, load_by_velocity)
+      type(film_t), intent(in) :: film
+      real(dp), intent(in) :: thickness
+      real(dp), intent(in) :: velocity
+      real(dp), intent(out) :: load
+      real(dp), intent(out) :: load_by_film
+      real(dp), intent(out) :: load_by_velocity
+
+      call reynolds_piezo_viscous_load(film%scale, film%squeeze_rate, film%pressure_rate, thickness, velocity, load, &
+                                       load_by_film, load_by_velocity)
+   end subroutine load_reynolds_piezo
 
 end module film_law

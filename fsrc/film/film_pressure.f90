@@ -2,10 +2,12 @@
 module film_pressure
    use film_integrals, only: pressure_integrals
    use kinds, only: dp
+   use reynolds_iso_viscous, only: peak_pressure_group
+   use rupture, only: squeeze_group
    implicit none (type, external)
    private
 
-   public :: pressure_group, pressure_group_maximum, pressure_scale, barus_pressure
+   public :: pressure_group, pressure_group_maximum, pressure_scale, exact_pressure, barus_pressure
 
 contains
 
@@ -46,6 +48,24 @@ contains
 
       scale = 6.0_dp*sqrt(2.0_dp*radius)*speed*viscosity/(film*sqrt(film))
    end function pressure_scale
+
+   !> Largest pressure p of the exact iso-viscous film [Pa], wherever in the contact it acts.
+   elemental real(dp) function exact_pressure(radius, speed, viscosity, film, velocity) result(pressure)
+      !> Equivalent radius R [m]
+      real(dp), intent(in) :: radius
+      !> Speed u of the film's model [m/s]
+      real(dp), intent(in) :: speed
+      !> Viscosity at ambient pressure eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> Film thickness h0 [m]
+      real(dp), intent(in) :: film
+      !> Film velocity w = dh0/dt [m/s]
+      real(dp), intent(in) :: velocity
+      real(dp) :: peak, peak_by_a
+
+      call peak_pressure_group(squeeze_group(radius, speed, film, velocity), peak, peak_by_a)
+      pressure = pressure_scale(radius, speed, viscosity, film)*peak
+   end function exact_pressure
 
    !> alpha q of (31) for alpha p < 1; huge where no rigid piezo-viscous film exists.
    elemental real(dp) function barus_pressure(alpha_p) result(alpha_q)

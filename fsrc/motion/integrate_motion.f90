@@ -1,8 +1,9 @@
 !> Whole motion of a scene: from the first state through all periods, samples handed to a sink.
 module integrate_motion
    use errors, only: error_t
-   use film_law, only: film_kernel, film_t, kernel_half_pi, kernel_solved_fast, kernel_solved_successive, load_half_pi, &
-                       load_piezo, load_solved_fast, load_solved_successive
+   use film_law, only: film_kernel, film_t, kernel_half_pi, kernel_reynolds_iso, kernel_reynolds_piezo, &
+                       kernel_solved_fast, kernel_solved_successive, load_half_pi, load_piezo, load_reynolds_iso, &
+                       load_reynolds_piezo, load_solved_fast, load_solved_successive
    use forcing, only: applied_force, force_of_period
    use kinds, only: dp, int64
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
@@ -69,6 +70,10 @@ contains
          call run_periods(load_solved_fast, scene, film, initial_film, sink, watcher, ending, error)
       case (kernel_solved_successive)
          call run_periods(load_solved_successive, scene, film, initial_film, sink, watcher, ending, error)
+      case (kernel_reynolds_iso)
+         call run_periods(load_reynolds_iso, scene, film, initial_film, sink, watcher, ending, error)
+      case (kernel_reynolds_piezo)
+         call run_periods(load_reynolds_piezo, scene, film, initial_film, sink, watcher, ending, error)
       case default
          call run_periods(load_piezo, scene, film, initial_film, sink, watcher, ending, error)
       end select
@@ -95,6 +100,9 @@ contains
       allocate (force(steps), films(steps), velocities(steps), accelerations(steps))
       call force_of_period(method%steady_force, method%force_amplitude, force)
 
+      ! Without a film to start from there is none that carries the static load.
+      ending%status = film%status_without_load
+      if (.not. initial_film > 0.0_dp) return
       call start_motion(kernel, film, method, initial_film, scene%film%initial_velocity, state, ending%count, ending%status)
       ending%film = state%film
       if (ending%status /= status_complete) return

@@ -10,7 +10,7 @@ module newmark
    use film_law, only: film_kernel, film_t, overflow_load
    use forcing, only: applied_force
    use kinds, only: dp, int64
-   use scene_status, only: status_complete, status_film_lost, status_not_converged, status_overflow
+   use scene_status, only: status_complete, status_film_lost, status_not_converged
    implicit none (type, external)
    private
 
@@ -88,7 +88,7 @@ contains
       count%evaluations = count%evaluations + 1
       state%film = thickness
       state%velocity = velocity
-      status = merge(status_complete, status_overflow, load < overflow_load)
+      status = merge(status_complete, film%status_without_load, load < overflow_load)
       if (status == status_complete) state%acceleration = &
          (load - method%weight - applied_force(method%steady_force, method%force_amplitude, 0.0_dp))/method%mass
    end subroutine start_motion
@@ -210,7 +210,7 @@ contains
       do passes = 1, method%iteration_limit
          call kernel(film, next%film, next%velocity, load, load_by_film, load_by_velocity)
          if (.not. load < overflow_load) then
-            status = status_overflow
+            status = film%status_without_load
             return
          end if
          next%acceleration = (load + load_by_film*(known_film - next%film) + &
@@ -254,7 +254,7 @@ contains
       do passes = 1, method%iteration_limit
          call kernel(film, next%film, next%velocity, load, load_by_film, load_by_velocity)
          if (.not. load < overflow_load) then
-            status = status_overflow
+            status = film%status_without_load
             return
          end if
          next%acceleration = (load - force - method%weight)/method%mass

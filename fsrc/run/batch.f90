@@ -5,11 +5,12 @@ module batch
    use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
    use output_place, only: check_output_place
    use resolved_scene, only: resolve
+   use run_film, only: run_film_task
    use run_scene, only: run_one_scene
-   use scene_reader, only: read_scene
+   use scene_reader, only: input_name, read_scene
    use scene_report, only: law_sentence, resolved_lines
    use scene_status, only: is_success, status_interrupted
-   use scene_types, only: scene_t
+   use scene_types, only: scene_t, task_film, task_motion
    use signals, only: caught_signal
    use text, only: integer_text
    implicit none (type, external)
@@ -60,7 +61,11 @@ contains
 
       exit_code = exit_complete
       do i = 1, size(scenes)
-         call run_one_scene(scenes(i), command%quiet, status, error)
+         if (scenes(i)%task == task_film) then
+            call run_film_task(scenes(i), command%quiet, status, error)
+         else
+            call run_one_scene(scenes(i), command%quiet, status, error)
+         end if
          if (allocated(error)) then
             write (error_unit, '(a)') error%message
             exit_code = error%exit_code
@@ -84,8 +89,9 @@ contains
       do i = 2, size(scenes)
          do j = 1, i - 1
             if (scenes(i)%name /= scenes(j)%name) cycle
-            call faults%add(command%files(i)%text, 0, 'scene', 'name', &
-                            "'"//trim(scenes(i)%name)//"' is also the name of "//command%files(j)%text)
+            call faults%add(input_name(command%files(i)%text), 0, 'scene', 'name', &
+                            "'"//trim(scenes(i)%name)//"' is also the name of "// &
+                            input_name(command%files(j)%text))
             exit
          end do
       end do
@@ -99,7 +105,7 @@ contains
       integer :: i
 
       do i = 1, size(scenes)
-         call check_output_place(scenes(i), command%files(i)%text, may_make, faults)
+         call check_output_place(scenes(i), input_name(command%files(i)%text), may_make, faults)
       end do
    end subroutine check_places
 
@@ -107,12 +113,13 @@ contains
    subroutine show_resolved(command, scenes)
       type(command_t), intent(in) :: command
       type(scene_t), intent(in) :: scenes(:)
-      integer :: i
+      integer :: i, ignored
 
       do i = 1, size(scenes)
-         write (output_unit, '(a)') '! '//command%files(i)%text//': valid; '//law_sentence(scenes(i))
-         write (output_unit, '(a)') resolved_lines(resolve(scenes(i)))
-         write (output_unit, '(a)', advance='no') scenes(i)%resolved_input
+         write (output_unit, '(a)', iostat=ignored) '! '//input_name(command%files(i)%text)//': valid; '//law_sentence(scenes(i))
+         if (scenes(i)%task == task_motion) &
+            write (output_unit, '(a)', iostat=ignored) resolved_lines(scenes(i), resolve(scenes(i)))
+         write (output_unit, '(a)', advance='no', iostat=ignored) scenes(i)%resolved_input
       end do
    end subroutine show_resolved
 

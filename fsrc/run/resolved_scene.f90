@@ -13,7 +13,7 @@ module resolved_scene
    !> What follows from a scene.
    type, public :: resolved_scene_t
       type(film_t) :: film
-      !> Film that carries Q + m g [m]
+      !> Film that carries Q + m g [m]; 0 where no rigid film does: then nothing that rests on it is known
       real(dp) :: steady_film = 0.0_dp
       !> Film at t = 0 [m]
       real(dp) :: initial_film = 0.0_dp
@@ -47,15 +47,16 @@ contains
          resolved%steady_film = steady_film(film, static_load)
          resolved%initial_film = resolved%steady_film
          if (scene%film%initial_film > 0.0_dp) resolved%initial_film = scene%film%initial_film
+         if (resolved%initial_film > 0.0_dp) resolved%initial_squeeze_group = &
+            squeeze_group(film%radius, film%speed, resolved%initial_film, scene%film%initial_velocity)
+         resolved%noise_floor = 1.0e-12_dp*(static_load + scene%load%force_amplitude)/mass
+         if (.not. resolved%steady_film > 0.0_dp) return
          call film_load(film, resolved%steady_film, 0.0_dp, load, load_by_film, load_by_velocity)
          resolved%natural_frequency = sqrt(-load_by_film/mass)/two_pi
          resolved%damping_ratio = -load_by_velocity/(2.0_dp*sqrt(-load_by_film*mass))
-         resolved%initial_squeeze_group = squeeze_group(film%radius, film%speed, resolved%initial_film, &
-                                                        scene%film%initial_velocity)
          resolved%pressure_group = film%pressure_viscosity* &
                                    pressure_scale(film%radius, film%speed, film%viscosity, resolved%steady_film)
          resolved%alpha_p = steady_alpha_p(film, resolved%steady_film)
-         resolved%noise_floor = 1.0e-12_dp*(static_load + scene%load%force_amplitude)/mass
       end associate
    end function resolve
 

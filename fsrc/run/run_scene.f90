@@ -11,7 +11,7 @@ module run_scene
    use sample_recorder, only: sample_recorder_t
    use scene_report, only: report_ending, report_start
    use scene_result, only: judge, scene_result_t
-   use scene_status, only: status_complete
+   use scene_status, only: status_complete, status_not_written
    use scene_summary, only: write_scene_summary
    use scene_types, only: scene_t
    implicit none (type, external)
@@ -58,6 +58,7 @@ contains
          call recorder%close(write_error)
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
       end if
+      if (allocated(error)) result%ending%status = status_not_written
       status = result%ending%status
 
       if (allocated(error)) then

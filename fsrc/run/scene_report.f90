@@ -8,13 +8,13 @@ module scene_report
    use resolved_scene, only: resolved_scene_t
    use scene_result, only: scene_result_t
    use scene_status, only: is_success, status_name, status_sentence
-   use scene_types, only: law_iso_viscous, rupture_solved, scene_t
+   use scene_types, only: law_iso_viscous, model_reynolds, rupture_solved, scene_t, task_film
    use text, only: integer_text, short_text
    use version, only: program_version
    implicit none (type, external)
    private
 
-   public :: report_start, report_ending, law_sentence, resolved_lines
+   public :: report_start, report_ending, law_sentence, resolved_lines, speed_meaning
 
 contains
 
@@ -28,6 +28,10 @@ contains
       type(resolved_scene_t), intent(in) :: resolved
 
       call log%line(log_magic//program_version//', scene '//trim(scene%name)//': '//law_sentence(scene))
+      if (.not. resolved%steady_film > 0.0_dp) then
+         call log%line('  no rigid piezo-viscous film carries the static load')
+         return
+      end if
       call log%line('  steady film '//micrometres(resolved%steady_film)//' um, natural frequency '// &
                     short_text(resolved%natural_frequency, 5)//' Hz, damping ratio '//short_text(resolved%damping_ratio, 4))
    end subroutine report_start
@@ -38,7 +42,12 @@ contains
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: sentence
 
-      if (scene%film%law /= law_iso_viscous) then
+      if (scene%task == task_film) then
+         sentence = 'film task'
+      else if (scene%film%model == model_reynolds) then
+         sentence = 'exact '//trim(merge('iso-viscous  ', 'piezo-viscous', scene%film%law == law_iso_viscous))// &
+                    ' film of the Reynolds equation'
+      else if (scene%film%law /= law_iso_viscous) then
          sentence = 'published piezo-viscous film (37)'
       else if (scene%film%rupture == rupture_solved) then
          sentence = 'published iso-viscous film (24), rupture angle solved from (18)'
@@ -47,21 +56,39 @@ contains
       end if
    end function law_sentence
 
+   !> Which u the formulas of a scene take.
+   pure function speed_meaning(scene) result(words)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: words
+
+      words = 'entrainment speed U = (u1 + u2)/2'
+      if (scene%film%model == model_reynolds) words = 'rolling speed u_r = u1 + u2'
+   end function speed_meaning
+
    !> What follows from a scene, for --check.
-   pure function resolved_lines(resolved) result(lines)
-      !> What follows from the scene
+   pure function resolved_lines(scene, resolved) result(lines)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> What follows from it
       type(resolved_scene_t), intent(in) :: resolved
       character(:), allocatable :: lines
       character(1), parameter :: end_of_line = new_line('a')
 
-      lines = '! steady film                        '//short_text(resolved%steady_film, 10)//' m'//end_of_line// &
-              '! natural frequency                  '//short_text(resolved%natural_frequency, 6)//' Hz'//end_of_line// &
-              '! damping ratio                      '//short_text(resolved%damping_ratio, 5)//end_of_line// &
-              '! film at t = 0                      '//short_text(resolved%initial_film, 10)//' m'//end_of_line// &
-              '! squeeze group A at t = 0           '//short_text(resolved%initial_squeeze_group, 5)//end_of_line// &
-              '! pressure group B at the steady film '//short_text(resolved%pressure_group, 5)//end_of_line// &
-              '! largest alpha p at the steady film '//short_text(resolved%alpha_p, 5)//end_of_line// &
-              '! (A, B, alpha p: exact film, with u = '//short_text(resolved%film%speed, 6)//' m/s, the entrainment speed)'
+      if (resolved%steady_film > 0.0_dp) then
+         lines = '! steady film                          '//short_text(resolved%steady_film, 10)//' m'//end_of_line// &
+                 '! natural frequency                    '//short_text(resolved%natural_frequency, 6)//' Hz'//end_of_line// &
+                 '! damping ratio                        '//short_text(resolved%damping_ratio, 5)//end_of_line// &
+                 '! pressure group B at the steady film  '//short_text(resolved%pressure_group, 5)//end_of_line// &
+                 '! largest alpha p at the steady film   '//short_text(resolved%alpha_p, 5)//end_of_line
+      else
+         lines = '! no rigid piezo-viscous film carries the static load'//end_of_line
+      end if
+      if (resolved%initial_film > 0.0_dp) lines = lines// &
+                 '! film at t = 0                        '//short_text(resolved%initial_film, 10)//' m'//end_of_line// &
+                 '! squeeze group A at t = 0             '//short_text(resolved%initial_squeeze_group, 5)//end_of_line
+      lines = lines//'! A, B and alpha p are those of the exact film with u = '//short_text(resolved%film%speed, 6)//' m/s, '// &
+              speed_meaning(scene)
    end function resolved_lines
 
    !> How the scene ended and what it amounts to.

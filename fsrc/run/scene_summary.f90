@@ -4,11 +4,13 @@ module scene_summary
    use film_law, only: film_t
    use kinds, only: dp
    use rattle_class, only: class_name
+   use regime, only: film_elastohydrodynamic
    use regime_words, only: regime_name
    use resolved_scene, only: resolved_scene_t
+   use scene_report, only: speed_meaning
    use scene_result, only: scene_result_t
-   use scene_status, only: is_success, status_name, status_sentence
-   use scene_types, only: law_iso_viscous, scene_t
+   use scene_status, only: is_success, status_name, status_no_rigid_film, status_sentence
+   use scene_types, only: law_iso_viscous, model_reynolds, scene_t
    use summary_file, only: summary_t
    use version, only: program_version
    implicit none (type, external)
@@ -41,14 +43,21 @@ contains
       call summary%add('status_time', result%ending%time)
       call summary%add('status_text', status_sentence(result%ending%status))
       call summary%add('law', trim(merge('iso-viscous  ', 'piezo-viscous', scene%film%law == law_iso_viscous)))
-      call summary%add('model', 'published')
+      call summary%add('model', trim(merge('reynolds ', 'published', scene%film%model == model_reynolds)))
       call summary%add('speed_used', resolved%film%speed)
-      call summary%add('speed_meaning', 'entrainment speed U = (u1 + u2)/2')
-      call summary%add('steady_film', resolved%steady_film)
-      call summary%add('natural_frequency', resolved%natural_frequency)
-      call summary%add('damping_ratio', resolved%damping_ratio)
+      call summary%add('speed_meaning', speed_meaning(scene))
+      if (resolved%steady_film > 0.0_dp) then
+         call summary%add('steady_film', resolved%steady_film)
+         call summary%add('natural_frequency', resolved%natural_frequency)
+         call summary%add('damping_ratio', resolved%damping_ratio)
+      end if
       if (result%judged) call add_window(summary, scene, result)
-      if (.not. is_success(result%ending%status)) call summary%add('film_at_status_time', result%ending%film)
+      if (.not. is_success(result%ending%status) .and. result%ending%film > 0.0_dp) &
+         call summary%add('film_at_status_time', result%ending%film)
+      if (result%ending%status == status_no_rigid_film) then
+         call summary%add('film_regime', regime_name(film_elastohydrodynamic))
+         call summary%add('law_contradicted', .true.)
+      end if
       associate (count => result%ending%count)
          call summary%add('evaluations', count%evaluations)
          call summary%add('steps', count%steps)

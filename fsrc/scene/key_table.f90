@@ -7,7 +7,8 @@ module key_table
    implicit none (type, external)
    private
 
-   integer, parameter, public :: real_kind = 1, integer_kind = 2, logical_kind = 3, text_kind = 4, list_kind = 5
+   integer, parameter, public :: real_kind = 1, integer_kind = 2, logical_kind = 3, text_kind = 4, list_kind = 5, &
+                                 reals_kind = 6
 
    !> Allowed numbers; an open bound itself is not allowed.
    type, public :: range_t
@@ -33,8 +34,8 @@ module key_table
       type(range_t) :: range
       !> Allowed words, separated by blanks; empty: any text that the reader accepts
       character(112) :: choices
-      !> 'group.key=word[|word]': legal only then; empty: always
-      character(40) :: used_when
+      !> 'group.key=word[|word] [& ...]': legal only then; empty: always
+      character(48) :: used_when
       !> What it means
       character(240) :: sentence
       !> Value in the template where there is no default
@@ -55,8 +56,8 @@ module key_table
    type(key_t), parameter, public :: keys(*) = [ &
       key_t('scene', 'name', text_kind, '', '', any_number, '', '', &
             'Name of the scene and stem of its output files: letters, digits, . _ - only; absent: the stem of the input file.'), &
-      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion', '', &
-            'What is computed: motion solves the transient film and tooth motion.'), &
+      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion film', '', &
+            'What is computed: motion solves the transient film and tooth motion; film the oil film at given points.'), &
       key_t('contact', 'radius', real_kind, 'm', '', positive, '', '', &
             'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', &
             example='0.0127'), &
@@ -77,8 +78,9 @@ module key_table
       key_t('lubricant', 'pressure_viscosity', real_kind, '1/Pa', 'required', positive, '', '', &
             'Barus coefficient alpha (29): the piezo-viscous laws and the regime check need it.', &
             example='2.0e-8'), &
-      key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'barus', '', &
-            'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29).'), &
+      key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'barus roelands', '', &
+            'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29); roelands only in a film task with '// &
+            'model = numerical.'), &
       key_t('kinematics', 'entrainment_speed', real_kind, 'm/s', '', positive, '', '', &
             'Entrainment speed U, the mean of the two surface speeds; give this, rolling_speed, or both surface speeds.', &
             example='1.905'), &
@@ -88,34 +90,36 @@ module key_table
             'Surface speed of the first flank; the sum of both must be positive.'), &
       key_t('kinematics', 'surface_speed_2', real_kind, 'm/s', '', any_number, '', '', &
             'Surface speed of the second flank.'), &
-      key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', '', &
+      key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', 'scene.task=motion', &
             'Equivalent mass m of the impacting tooth pair.', &
             example='3.0'), &
-      key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', '', &
+      key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion', &
             'Steady force Q of (34), of either sign as long as Q + m g is positive.', &
             example='199.2'), &
-      key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', '', &
+      key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', 'scene.task=motion', &
             'Amplitude F0 of the oscillating force of (34).', &
             example='205.7'), &
-      key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', '', &
+      key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', 'scene.task=motion', &
             'Frequency f_exc of the oscillating force.', &
             example='600.0'), &
-      key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', '', &
+      key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', 'scene.task=motion', &
             'Acceleration of free fall g.'), &
-      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', '', &
+      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', 'scene.task=motion', &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
             example='iso-viscous'), &
-      key_t('film', 'model', text_kind, '', 'published', any_number, 'published', '', &
-            'Whose film: published takes the formulas of the paper, with the entrainment speed as their u.'), &
-      key_t('film', 'rupture', text_kind, '', 'half-pi', any_number, 'half-pi solved', 'film.law=iso-viscous', &
+      key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical', '', &
+            'Whose film: published, the formulas of the paper with U as their u; reynolds, exact with u = 2U. Film task: '// &
+            'absent means both, numerical adds the finite-volume referee to the exact film.'), &
+      key_t('film', 'rupture', text_kind, '', 'half-pi', any_number, 'half-pi solved', &
+            'film.law=iso-viscous & film.model=published', &
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
       key_t('film', 'rupture_solver', text_kind, '', 'fast', any_number, 'fast successive', 'film.rupture=solved', &
             'Root finder of (18): fast is Newton''s method, successive the paper''s successive substitution; same root.'), &
-      key_t('film', 'initial_film', real_kind, 'm', '', positive, '', '', &
+      key_t('film', 'initial_film', real_kind, 'm', '', positive, '', 'scene.task=motion', &
             'Film at t = 0; absent: the steady film under Q + m g.'), &
-      key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', '', &
+      key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion', &
             'Film velocity dh/dt at t = 0, negative on approach.'), &
-      key_t('solver', 'method', text_kind, '', 'newmark', any_number, 'newmark', '', &
+      key_t('solver', 'method', text_kind, '', 'newmark', any_number, 'newmark', 'scene.task=motion', &
             'Time integration: newmark is the paper''s average acceleration method.'), &
       key_t('solver', 'iteration', text_kind, '', 'newton', any_number, 'newton successive', 'solver.method=newmark', &
             'Iteration in a step: newton with the exact slopes of the film, or the paper''s successive one.'), &
@@ -128,32 +132,56 @@ module key_table
             'Most passes in a step; a step that needs more ends the scene as not_converged.'), &
       key_t('solver', 'steps_per_period', integer_kind, '-', '512', at_least_8, '', 'solver.method=newmark', &
             'Time steps in one period of the force.'), &
-      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', '', &
+      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', 'scene.task=motion', &
             'Periods of the force that are solved; at least the periods of the spectrum window.'), &
-      key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', '', &
+      key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', 'scene.task=motion', &
             'Whole periods at the end of the run that spectrum, extremes and regime are taken from.'), &
-      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', '', &
+      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', 'scene.task=motion', &
             'A harmonic counts as a line if it exceeds this share of the first.'), &
-      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', '', &
+      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', 'scene.task=motion', &
             'From this many lines on the motion is idle rattle.'), &
-      key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', '', &
+      key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', 'scene.task=motion', &
             'Below this harmonic distortion the motion is quiet.'), &
-      key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', '', &
+      key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', 'scene.task=motion', &
             'Above this share of power off the harmonics the motion is irregular.'), &
+      key_t('points', 'film_ratios', reals_kind, '-', '', positive, '', 'scene.task=film', &
+            'Film ratios h* = h0/R, one or more; give these or film_ratio_range.', &
+            example='70.0e-6'), &
+      key_t('points', 'film_ratio_range', reals_kind, '-', '', positive, '', 'scene.task=film', &
+            'First and last film ratio and their count, logarithmically spaced.'), &
+      key_t('points', 'squeeze_ratios', reals_kind, '-', '0.0', any_number, '', 'scene.task=film', &
+            'Squeeze-roll speed ratios w* = w/u, negative on approach; give these or squeeze_ratio_range.'), &
+      key_t('points', 'squeeze_ratio_range', reals_kind, '-', '', any_number, '', 'scene.task=film', &
+            'First and last squeeze-roll ratio and their count, linearly spaced.'), &
+      key_t('points', 'speed_groups', reals_kind, '-', '', positive, '', 'scene.task=film', &
+            'Speed groups u* = u eta0 alpha/R; absent: formed from &kinematics as speed_reading says.'), &
+      key_t('points', 'speed_group_range', reals_kind, '-', '', positive, '', 'scene.task=film', &
+            'First and last speed group and their count, logarithmically spaced.'), &
+      key_t('points', 'speed_reading', text_kind, '', 'mean', any_number, 'mean sum', 'scene.task=film', &
+            'Which speed of &kinematics is the u of u* and w*: mean is the entrainment speed U, sum is u_r = 2U.'), &
+      key_t('points', 'compute', list_kind, '', 'rupture load stiffness damping pressure', any_number, &
+            'rupture load stiffness damping pressure limits profile', 'scene.task=film', &
+            'What is computed of every point; profile writes pressures over x to NAME.profiles.rattle.'), &
+      key_t('points', 'profile_nodes', integer_kind, '-', '201', range_t(3.0_dp, .false., 1.0e6_dp, .false.), '', &
+            'scene.task=film', &
+            'Points of a pressure profile between inlet and rupture.'), &
+      key_t('points', 'cells', integer_kind, '-', '4096', range_t(32.0_dp, .false., 1.0e6_dp, .false.), '', &
+            'film.model=numerical', &
+            'Cells of the finite-volume solution, an even number; its load is extrapolated from these and half of these.'), &
       key_t('output', 'directory', text_kind, '', 'results', any_number, '', '', &
             'Folder of the output files, relative to the working directory; made if missing.'), &
-      key_t('output', 'series', logical_kind, '', '.true.', any_number, '', '', &
+      key_t('output', 'series', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &
             'Whether the time series is written to NAME.rattle.'), &
       key_t('output', 'columns', list_kind, '', 'time applied_force film_thickness acceleration', any_number, &
-            'time applied_force film_thickness squeeze_velocity acceleration film_load', '', &
+            'time applied_force film_thickness squeeze_velocity acceleration film_load', 'scene.task=motion', &
             'Columns of the time series, any of these, in this order.'), &
-      key_t('output', 'stride', integer_kind, '-', '1', at_least_1, '', '', &
+      key_t('output', 'stride', integer_kind, '-', '1', at_least_1, '', 'scene.task=motion', &
             'Every how many steps a row is written; 1 writes all.'), &
       key_t('output', 'overwrite', logical_kind, '', '.false.', any_number, '', '', &
             'Whether output files of an earlier run may be replaced; files of any other kind never are.') &
       ]
 
-   public :: find_key, nearest_key, known_group, nearest_group, allowed_text, in_range
+   public :: find_key, nearest_key, known_group, nearest_group, allowed_text, choice_word, in_range
 
 contains
 
@@ -220,6 +248,24 @@ contains
       end do
    end function nearest_group
 
+   !> One of the words that a key allows, by its position from 1; empty beyond the last.
+   pure function choice_word(group, name, position) result(word)
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+      !> Position
+      integer, intent(in) :: position
+      character(:), allocatable :: word
+      integer :: skipped
+
+      word = trim(keys(find_key(group, name))%choices)//' '
+      do skipped = 1, position - 1
+         word = word(index(word, ' ') + 1:)
+      end do
+      word = word(:index(word, ' ') - 1)
+   end function choice_word
+
    !> Whether a number is allowed for a key.
    pure logical function in_range(key, number)
       !> Key with a range
@@ -244,10 +290,11 @@ contains
       case (text_kind, list_kind)
          allowed = choices_text(key)
       case default
+         ! One rule for a number and for each number of a list.
          bounded_below = key%range%lower > -huge(1.0_dp)
          bounded_above = key%range%upper < huge(1.0_dp)
-         allowed = merge('an integer', 'a number  ', key%kind == integer_kind)
-         allowed = trim(allowed)
+         allowed = trim(merge('an integer', 'a number  ', key%kind == integer_kind))
+         if (key%kind == reals_kind) allowed = 'numbers'
          if (bounded_below) allowed = allowed//trim(merge(' >  ', ' >= ', key%range%lower_open))// &
                                       ' '//bound_text(key%range%lower, key%kind)
          if (bounded_below .and. bounded_above) allowed = allowed//' and'

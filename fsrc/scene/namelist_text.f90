@@ -356,23 +356,20 @@ contains
       if (word_follows) word_follows = is_word_character(scanner%content(scanner%at + 1:scanner%at + 1))
    end function word_follows
 
-   !> Whether 'word =' or 'word(' stands here.
-   pure logical function key_follows(scanner)
-      type(scanner_t), intent(in) :: scanner
-      integer :: i
+   !> Whether 'word =' or 'word(' stands here; the scanner stays where it is.
+   logical function key_follows(scanner)
+      type(scanner_t), intent(inout) :: scanner
+      integer :: at, line
 
-      key_follows = .false.
-      i = scanner%at
-      do while (i <= len(scanner%content))
-         if (.not. is_word_character(scanner%content(i:i))) exit
-         i = i + 1
-      end do
-      if (i == scanner%at) return
-      do while (i <= len(scanner%content))
-         if (.not. is_blank(scanner%content(i:i))) exit
-         i = i + 1
-      end do
-      if (i <= len(scanner%content)) key_follows = scan(scanner%content(i:i), '=(') > 0
+      at = scanner%at
+      line = scanner%line
+      key_follows = len(take_word(scanner)) > 0
+      if (key_follows) then
+         call skip_blanks(scanner)
+         key_follows = scan(letter(scanner), '=(') > 0
+      end if
+      scanner%at = at
+      scanner%line = line
    end function key_follows
 
    !> Letters, digits and underscores from here on.

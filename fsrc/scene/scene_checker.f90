@@ -23,9 +23,15 @@ contains
       call check_used(input, faults)
       call check_radius(input, faults)
       call check_speed(input, faults)
-      call check_static_load(input, faults)
-      call check_window(input, faults)
-      call check_columns(input, faults)
+      call check_film_model(input, faults)
+      call check_no_word_twice(input, 'output', 'columns', faults)
+      call check_no_word_twice(input, 'points', 'compute', faults)
+      if (input%word('scene', 'task') == 'film') then
+         call check_points(input, faults)
+      else
+         call check_static_load(input, faults)
+         call check_window(input, faults)
+      end if
    end subroutine check_together
 
    !> Every required key is there.
@@ -35,7 +41,7 @@ contains
       integer :: i
 
       do i = 1, size(keys)
-         if (keys(i)%default /= 'required' .or. input%entries(i)%given) cycle
+         if (keys(i)%default /= 'required' .or. input%entries(i)%given .or. .not. in_use(input, i)) cycle
          call faults%add(input%file, 0, trim(keys(i)%group), trim(keys(i)%name), &
                          'this key is required; allowed: '//allowed_text(keys(i)))
       end do
@@ -54,25 +60,37 @@ contains
       end do
    end subroutine check_used
 
-   !> Whether the choices of the input make use of a key. Where the deciding key is itself in doubt, yes.
+   !> Whether the choices of the input make use of a key. Where a deciding key is itself in doubt, yes.
    pure recursive logical function in_use(input, position) result(used)
       !> Typed values
       type(scene_input_t), intent(in) :: input
       !> Position in the key table
       integer, intent(in) :: position
-      character(:), allocatable :: rule
-      integer :: dot, equals, decider
+      character(:), allocatable :: rules
+      integer :: conjunction
 
       used = .true.
-      rule = trim(keys(position)%used_when)
-      if (len(rule) == 0) return
+      rules = trim(keys(position)%used_when)
+      do while (used .and. len(rules) > 0)
+         conjunction = index(rules//' & ', ' & ')
+         used = rule_holds(input, rules(:conjunction - 1))
+         rules = rules(min(len(rules), conjunction + 2) + 1:)
+      end do
+   end function in_use
+
+   !> Whether 'group.key=word|word' holds, and the deciding key is itself in use.
+   pure recursive logical function rule_holds(input, rule) result(holds)
+      type(scene_input_t), intent(in) :: input
+      character(*), intent(in) :: rule
+      integer :: dot, equals, decider
+
       dot = index(rule, '.')
       equals = index(rule, '=')
       decider = find_key(rule(:dot - 1), rule(dot + 1:equals - 1))
-      if (.not. input%entries(decider)%present .or. input%entries(decider)%faulty) return
-      used = index('|'//rule(equals + 1:)//'|', '|'//input%entries(decider)%word//'|') > 0
-      if (used) used = in_use(input, decider)
-   end function in_use
+      holds = in_use(input, decider)
+      if (.not. holds .or. .not. input%entries(decider)%present .or. input%entries(decider)%faulty) return
+      holds = index('|'//rule(equals + 1:)//'|', '|'//input%entries(decider)%word//'|') > 0
+   end function rule_holds
 
    !> Exactly one way to give the radius.
    subroutine check_radius(input, faults)
@@ -99,13 +117,18 @@ contains
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
       character(*), parameter :: rule = 'give exactly one of: entrainment_speed; rolling_speed; surface_speed_1 and surface_speed_2'
-      logical :: mean, sum_, first, second
+      logical :: mean, sum_, first, second, groups_given
 
+      groups_given = input%is_given('points', 'speed_groups') .or. input%is_given('points', 'speed_group_range')
       mean = input%is_given('kinematics', 'entrainment_speed')
       sum_ = input%is_given('kinematics', 'rolling_speed')
       first = input%is_given('kinematics', 'surface_speed_1')
       second = input%is_given('kinematics', 'surface_speed_2')
-      if (count([mean, sum_, first .or. second]) > 1) then
+      if (groups_given .and. (mean .or. sum_ .or. first .or. second)) then
+         call input%add_fault('points', trim(merge('speed_groups     ', 'speed_group_range', &
+                                                   input%is_given('points', 'speed_groups'))), &
+                              'give either speed groups or the speeds of &kinematics', faults)
+      else if (count([mean, sum_, first .or. second]) > 1) then
          if (mean) then
             call input%add_fault('kinematics', 'entrainment_speed', rule, faults)
          else
@@ -119,7 +142,7 @@ contains
          if (faulty(input, 'kinematics', 'surface_speed_2')) return
          if (.not. input%number('kinematics', 'surface_speed_1') + input%number('kinematics', 'surface_speed_2') > 0.0_dp) &
             call input%add_fault('kinematics', 'surface_speed_1', 'the sum of both surface speeds must be positive', faults)
-      else if (.not. (mean .or. sum_)) then
+      else if (.not. (mean .or. sum_ .or. groups_given)) then
          call input%add_fault('kinematics', 'entrainment_speed', 'a speed is required: '//rule, faults)
       end if
    end subroutine check_speed
@@ -169,26 +192,85 @@ contains
       faulty = input%entries(find_key(group, name))%faulty
    end function faulty
 
-   !> No column twice.
-   subroutine check_columns(input, faults)
+   !> No word of a list twice.
+   subroutine check_no_word_twice(input, group, name, faults)
       type(scene_input_t), intent(in) :: input
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
       type(fault_list_t), intent(inout) :: faults
       character(:), allocatable :: rest
       integer :: blank
 
-      associate (entry => input%entries(find_key('output', 'columns')))
-         if (entry%faulty) return
-         rest = entry%words
-      end associate
+      if (input%entries(find_key(group, name))%faulty) return
+      rest = input%words(group, name)
       do
          blank = index(rest, ' ')
          if (blank == 0) return
          if (word_position(rest(blank + 1:), rest(:blank - 1)) > 0) then
-            call input%add_fault('output', 'columns', "'"//rest(:blank - 1)//"' is named twice", faults)
+            call input%add_fault(group, name, "'"//rest(:blank - 1)//"' is named twice", faults)
             return
          end if
          rest = rest(blank + 1:)
       end do
-   end subroutine check_columns
+   end subroutine check_no_word_twice
+
+   !> The referee and Roelands' viscosity are for film tasks: a motion would wait for them at every step.
+   subroutine check_film_model(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      logical :: numerical
+
+      numerical = input%word('film', 'model') == 'numerical'
+      if (numerical .and. input%word('scene', 'task') /= 'film') &
+         call input%add_fault('film', 'model', "'numerical' is for task = 'film' only", faults)
+      if (input%word('lubricant', 'viscosity_law') == 'roelands' .and. .not. numerical) &
+         call input%add_fault('lubricant', 'viscosity_law', "'roelands' needs task = 'film' and model = 'numerical'", faults)
+   end subroutine check_film_model
+
+   !> One way to give each list of a film task, and no more points than anyone means.
+   subroutine check_points(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      real(dp), parameter :: most_points = 1.0e7_dp
+      real(dp) :: points
+
+      points = 1.0_dp
+      call check_list('film_ratios', 'film_ratio_range', .true.)
+      call check_list('squeeze_ratios', 'squeeze_ratio_range', .false.)
+      call check_list('speed_groups', 'speed_group_range', .false.)
+      if (points > most_points) call input%add_fault('points', 'film_ratio_range', &
+                                                     'the lists make more than 10000000 points', faults)
+      if (mod(input%count('points', 'cells'), 2) /= 0) &
+         call input%add_fault('points', 'cells', 'an even number is needed', faults)
+
+   contains
+
+      subroutine check_list(list, range, required)
+         character(*), intent(in) :: list
+         character(*), intent(in) :: range
+         logical, intent(in) :: required
+         real(dp), allocatable :: numbers(:)
+
+         if (input%entries(find_key('points', list))%faulty .or. input%entries(find_key('points', range))%faulty) return
+         if (input%is_given('points', list) .and. input%is_given('points', range)) then
+            call input%add_fault('points', range, 'give either '//list//' or '//range, faults)
+         else if (input%is_given('points', range)) then
+            numbers = input%numbers('points', range)
+            if (size(numbers) /= 3) then
+               call input%add_fault('points', range, 'three numbers are needed: first, last, count', faults)
+            else if (.not. (numbers(3) >= 2.0_dp .and. numbers(3) <= most_points .and. &
+                            abs(numbers(3) - anint(numbers(3))) <= 0.0_dp .and. numbers(2) > numbers(1))) then
+               call input%add_fault('points', range, 'last must exceed first, and count be an integer >= 2', faults)
+            else
+               points = points*numbers(3)
+            end if
+         else if (required .and. .not. input%is_given('points', list)) then
+            call input%add_fault('points', list, 'give '//list//' or '//range, faults)
+         else
+            points = points*real(max(1, size(input%numbers('points', list))), dp)
+         end if
+      end subroutine check_list
+
+   end subroutine check_points
 
 end module scene_checker

@@ -3,7 +3,7 @@ module scene_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use errors, only: fault_list_t
    use key_table, only: allowed_text, find_key, in_range, integer_kind, key_t, keys, known_group, list_kind, &
-                        logical_kind, nearest_group, nearest_key, path_limit, real_kind, text_kind
+                        logical_kind, nearest_group, nearest_key, path_limit, real_kind, reals_kind, text_kind
    use kinds, only: dp
    use namelist_text, only: assignment_t, value_t
    use text, only: integer_text, logical_text, lower, quoted, quoted_words, real_text
@@ -25,6 +25,8 @@ module scene_input
       character(:), allocatable :: word
       !> Blank-separated words of a list
       character(:), allocatable :: words
+      !> Numbers of a list
+      real(dp), allocatable :: numbers(:)
    end type entry_t
 
    !> All keys of one scene.
@@ -41,6 +43,7 @@ module scene_input
       procedure :: flag => flag_of
       procedure :: word => word_of
       procedure :: words => words_of
+      procedure :: numbers => numbers_of
       procedure :: add_fault
    end type scene_input_t
 
@@ -62,6 +65,7 @@ contains
          input%entries(i)%file = file
          input%entries(i)%word = ''
          input%entries(i)%words = ''
+         allocate (input%entries(i)%numbers(0))
          if (keys(i)%default == '' .or. keys(i)%default == 'required') cycle
          select case (keys(i)%kind)
          case (list_kind)
@@ -127,7 +131,7 @@ contains
       entry%line = assignment%line
       entry%faulty = .not. assignment%sound
       if (entry%faulty) return
-      if (assignment%first_element /= 0 .and. key%kind /= list_kind) then
+      if (assignment%first_element /= 0 .and. key%kind /= list_kind .and. key%kind /= reals_kind) then
          call refuse('takes no index')
          return
       end if
@@ -135,11 +139,12 @@ contains
          call refuse('give the whole list at once, without an index')
          return
       end if
-      if (size(assignment%values) > 1 .and. key%kind /= list_kind) then
+      if (size(assignment%values) > 1 .and. key%kind /= list_kind .and. key%kind /= reals_kind) then
          call refuse('takes one value, '//integer_text(size(assignment%values))//' are given')
          return
       end if
       entry%words = ''
+      entry%numbers = [real(dp) ::]
       do i = 1, size(assignment%values)
          call read_value(key, assignment%values(i), entry, file, faults)
          if (entry%faulty) return
@@ -171,6 +176,10 @@ contains
       case (real_kind)
          if (.not. value%quoted) call read_real(value%text, entry%number, sound)
          if (sound) sound = in_range(key, entry%number)
+      case (reals_kind)
+         if (.not. value%quoted) call read_real(value%text, entry%number, sound)
+         if (sound) sound = in_range(key, entry%number)
+         if (sound) entry%numbers = [entry%numbers, entry%number]
       case (integer_kind)
          if (.not. value%quoted) call read_integer(value%text, entry%count, sound)
          if (sound) sound = in_range(key, real(entry%count, dp))
@@ -349,6 +358,18 @@ contains
       words = self%entries(find_key(group, name))%words
    end function words_of
 
+   !> Numbers of a list key.
+   pure function numbers_of(self, group, name) result(numbers)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+      real(dp), allocatable :: numbers(:)
+
+      numbers = self%entries(find_key(group, name))%numbers
+   end function numbers_of
+
    !> Position of the word of a key among its choices in the table, from 1.
    pure integer function choice_of(self, group, name)
       class(scene_input_t), intent(in) :: self
@@ -398,6 +419,7 @@ contains
       !> Entry with a value
       type(entry_t), intent(in) :: entry
       character(:), allocatable :: words
+      integer :: i
 
       select case (key%kind)
       case (real_kind)
@@ -408,6 +430,12 @@ contains
          words = logical_text(entry%flag)
       case (text_kind)
          words = quoted(entry%word)
+      case (reals_kind)
+         words = ''
+         do i = 1, size(entry%numbers)
+            if (i > 1) words = words//', '
+            words = words//real_text(entry%numbers(i))
+         end do
       case default
          words = quoted_words(entry%words, ' ')
       end select

@@ -3,13 +3,13 @@
 module scene_reader
    use errors, only: fault_list_t
    use file_system, only: read_whole_file
-   use key_table, only: find_key, keys, name_limit
+   use key_table, only: choice_word, find_key, keys, name_limit
    use kinds, only: dp
    use namelist_text, only: assignment_t, scan_namelists
    use scene_checker, only: check_together, in_use
-   use scene_input, only: new_scene_input, scene_input_t, value_text
-   use scene_types, only: column_names, contact_t, film_choice_t, kinematics_t, load_t, lubricant_t, output_t, scene_t, &
-                          solver_t, spectrum_choice_t
+   use scene_input, only: new_scene_input, scene_input_t, value_text, word_position
+   use scene_types, only: column_names, contact_t, film_choice_t, film_points_t, kinematics_t, load_t, lubricant_t, &
+                          model_numerical, model_published, output_t, scene_t, solver_t, spectrum_choice_t
    use text, only: integer_text, quoted
    implicit none (type, external)
    private
@@ -25,7 +25,7 @@ module scene_reader
       character(:), allocatable :: text
    end type override_t
 
-   public :: read_scene
+   public :: read_scene, input_name
 
 contains
 
@@ -46,8 +46,7 @@ contains
       logical :: is_input
 
       before = faults%count()
-      file = trim(path)
-      if (path == '-') file = 'standard input'
+      file = input_name(path)
       call read_whole_file(path, size_limit, content, stat)
       select case (stat)
       case (0)
@@ -71,6 +70,7 @@ contains
       end do
       if (is_input) call check_together(input, faults)
       call read_name(input, path, scene%name, faults)
+      scene%task = input%choice('scene', 'task')
       call faults%sort_since(before)
       if (faults%count() > before) return
 
@@ -81,9 +81,20 @@ contains
       scene%film = read_film(input)
       scene%solver = read_solver(input)
       scene%spectrum = read_spectrum(input)
+      scene%points = read_points(input, scene)
       scene%output = read_output(input)
       scene%resolved_input = resolved_text(input, trim(scene%name))
    end subroutine read_scene
+
+   !> How faults call an input.
+   pure function input_name(path) result(name)
+      !> Path; '-' is standard input
+      character(*), intent(in) :: path
+      character(:), allocatable :: name
+
+      name = path
+      if (path == '-') name = 'standard input'
+   end function input_name
 
    !> &scene name: as given, or the stem of the file.
    subroutine read_name(input, path, name, faults)
@@ -133,6 +144,7 @@ contains
 
       lubricant%viscosity = input%number('lubricant', 'viscosity')
       lubricant%pressure_viscosity = input%number('lubricant', 'pressure_viscosity')
+      lubricant%viscosity_law = input%choice('lubricant', 'viscosity_law')
    end function read_lubricant
 
    !> &kinematics: all three ways to say it end as the entrainment speed.
@@ -201,6 +213,63 @@ contains
       spectrum%irregular_limit = input%number('spectrum', 'irregular_limit')
    end function read_spectrum
 
+   !> &points
+   function read_points(input, scene) result(points)
+      type(scene_input_t), intent(in) :: input
+      type(scene_t), intent(in) :: scene
+      type(film_points_t) :: points
+      character(:), allocatable :: words
+      integer :: i
+
+      call take_list('film_ratios', 'film_ratio_range', .true., points%film_ratios)
+      call take_list('squeeze_ratios', 'squeeze_ratio_range', .false., points%squeeze_ratios)
+      call take_list('speed_groups', 'speed_group_range', .true., points%speed_groups)
+      points%from_speeds = size(points%speed_groups) == 0
+      points%speed_reading = input%choice('points', 'speed_reading')
+      words = input%words('points', 'compute')
+      do i = 1, size(points%compute)
+         points%compute(i) = word_position(words, choice_word('points', 'compute', i)) > 0
+      end do
+      if (input%is_given('film', 'model')) then
+         points%published = scene%film%model == model_published
+         points%exact = .not. points%published
+         points%numerical = scene%film%model == model_numerical
+      end if
+      points%profile_nodes = input%count('points', 'profile_nodes')
+      points%cells = input%count('points', 'cells')
+
+   contains
+
+      !> A list as given, or spread over its range.
+      subroutine take_list(list, range, logarithmic, numbers)
+         character(*), intent(in) :: list
+         character(*), intent(in) :: range
+         logical, intent(in) :: logarithmic
+         real(dp), allocatable, intent(out) :: numbers(:)
+         real(dp), allocatable :: bounds(:)
+         real(dp) :: share
+         integer :: n, count
+
+         if (.not. input%is_given('points', range)) then
+            allocate (numbers, source=input%numbers('points', list))
+            return
+         end if
+         allocate (bounds, source=input%numbers('points', range))
+         count = nint(bounds(3))
+         allocate (numbers(count))
+         do n = 1, count - 1
+            share = real(n - 1, dp)/real(count - 1, dp)
+            if (logarithmic) then
+               numbers(n) = bounds(1)*(bounds(2)/bounds(1))**share
+            else
+               numbers(n) = bounds(1) + (bounds(2) - bounds(1))*share
+            end if
+         end do
+         numbers(count) = bounds(2)
+      end subroutine take_list
+
+   end function read_points
+
    !> &output
    function read_output(input) result(output)
       type(scene_input_t), intent(in) :: input
@@ -238,21 +307,34 @@ contains
       type(scene_input_t), intent(in) :: input
       character(*), intent(in) :: name
       character(:), allocatable :: text
+      character(:), allocatable :: body
       integer :: i
 
       text = ''
+      body = ''
       do i = 1, size(keys)
-         if (starts_group(i)) text = text//'&'//trim(keys(i)%group)//new_line('a')
          if (keys(i)%group == 'scene' .and. keys(i)%name == 'name') then
-            text = text//'   name = '//quoted(name)//new_line('a')
-         else if (keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite') then
-            if (input%entries(i)%present .and. in_use(input, i)) &
-               text = text//'   '//trim(keys(i)%name)//' = '//value_text(keys(i), input%entries(i))//new_line('a')
+            body = body//'   name = '//quoted(name)//new_line('a')
+         else if (is_told(i)) then
+            body = body//'   '//trim(keys(i)%name)//' = '//value_text(keys(i), input%entries(i))//new_line('a')
          end if
-         if (starts_group(i + 1)) text = text//'/'//new_line('a')
+         if (.not. starts_group(i + 1)) cycle
+         if (len(body) > 0) text = text//'&'//trim(keys(i)%group)//new_line('a')//body//'/'//new_line('a')
+         body = ''
       end do
 
    contains
+
+      !> Whether a key belongs into the text: it has a value, is in use, and is no matter of this machine.
+      pure logical function is_told(i)
+         integer, intent(in) :: i
+
+         is_told = input%entries(i)%present .and. in_use(input, i)
+         if (keys(i)%group == 'output') is_told = is_told .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
+         ! In a film task the absent model means more than its default.
+         if (keys(i)%name == 'model') &
+            is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') == 'motion')
+      end function is_told
 
       pure logical function starts_group(i)
          integer, intent(in) :: i

@@ -7,10 +7,19 @@ module scene_types
 
    ! The codes of a key count its choices in the order of the key table.
 
+   !> What is computed.
+   integer, parameter, public :: task_motion = 1, task_film = 2
+   !> What a film task computes of every point.
+   integer, parameter, public :: compute_rupture = 1, compute_load = 2, compute_stiffness = 3, compute_damping = 4, &
+                                 compute_pressure = 5, compute_limits = 6, compute_profile = 7
+   !> Viscosity under pressure.
+   integer, parameter, public :: viscosity_barus = 1, viscosity_roelands = 2
+   !> Which speed forms the groups of a film task.
+   integer, parameter, public :: speed_mean = 1, speed_sum = 2
    !> Film law of the motion.
    integer, parameter, public :: law_iso_viscous = 1, law_piezo_viscous = 2
    !> Whose formulas.
-   integer, parameter, public :: model_published = 1
+   integer, parameter, public :: model_published = 1, model_reynolds = 2, model_numerical = 3
    !> Rupture angle in the squeeze term of (24).
    integer, parameter, public :: rupture_half_pi = 1, rupture_solved = 2
    !> Root finder of (18).
@@ -49,6 +58,7 @@ module scene_types
       real(dp) :: viscosity = 0.0_dp
       !> Barus coefficient alpha [1/Pa]
       real(dp) :: pressure_viscosity = 0.0_dp
+      integer :: viscosity_law = viscosity_barus
    end type lubricant_t
 
    !> &kinematics
@@ -110,6 +120,27 @@ module scene_types
       real(dp) :: irregular_limit = 0.01_dp
    end type spectrum_choice_t
 
+   !> &points: a film task is the product of these lists
+   type, public :: film_points_t
+      !> h* = h0/R [-]
+      real(dp), allocatable :: film_ratios(:)
+      !> w* = w/u [-]
+      real(dp), allocatable :: squeeze_ratios(:)
+      !> u* = u eta0 alpha/R [-]
+      real(dp), allocatable :: speed_groups(:)
+      !> Whether the speed groups are formed from the speeds, and with which
+      logical :: from_speeds = .false.
+      integer :: speed_reading = speed_mean
+      !> What is computed, by compute code
+      logical :: compute(7) = .false.
+      !> Films of the published formulas, of the exact ones, and of the numerical referee
+      logical :: published = .true., exact = .true., numerical = .false.
+      !> Nodes of a pressure profile
+      integer :: profile_nodes = 0
+      !> Cells of the numerical solution
+      integer :: cells = 0
+   end type film_points_t
+
    !> &output
    type, public :: output_t
       character(path_limit) :: directory = ''
@@ -123,6 +154,7 @@ module scene_types
    !> One scene.
    type, public :: scene_t
       character(name_limit) :: name = ''
+      integer :: task = task_motion
       type(contact_t) :: contact
       type(lubricant_t) :: lubricant
       type(kinematics_t) :: kinematics
@@ -130,6 +162,7 @@ module scene_types
       type(film_choice_t) :: film
       type(solver_t) :: solver
       type(spectrum_choice_t) :: spectrum
+      type(film_points_t) :: points
       type(output_t) :: output
       !> All keys with their resolved values as namelist text, without places on this machine
       character(:), allocatable :: resolved_input

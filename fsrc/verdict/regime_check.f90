@@ -1,13 +1,15 @@
 !> Whether the film law of a scene may be believed: the exact pressure of its motion, computed afterwards.
 module regime_check
-   use film_law, only: film_t
-   use film_pressure, only: barus_pressure, pressure_group_maximum, pressure_scale
+   use film_law, only: film_t, kernel_reynolds_piezo
+   use film_pressure, only: barus_pressure, exact_pressure
    use kinds, only: dp
    use regime, only: contact_deflection, film_iso_viscous, film_piezo_viscous, film_regime
-   use rupture, only: rupture_tangent_fast, squeeze_group
    use scene_types, only: law_iso_viscous
    implicit none (type, external)
    private
+
+   !> Samples that are looked at together: their arrays stay in the cache.
+   integer, parameter :: block = 512
 
    !> What the exact film says of a motion.
    type, public :: regime_verdict_t
@@ -42,16 +44,19 @@ contains
       !> Film velocity of the samples [m/s]
       real(dp), intent(in) :: velocities(:)
       type(regime_verdict_t) :: verdict
-      real(dp) :: pressure, largest, alpha_q
-      integer :: i, place
+      real(dp) :: pressures(block), largest, alpha_q
+      integer :: first, last, place
 
       largest = -1.0_dp
       place = 1
-      do i = 1, size(films)
-         pressure = exact_pressure(film, films(i), velocities(i))
-         if (pressure <= largest) cycle
-         largest = pressure
-         place = i
+      do first = 1, size(films), block
+         last = min(first + block - 1, size(films))
+         associate (found => pressures(:last - first + 1))
+            found = exact_pressure(film%radius, film%speed, film%viscosity, films(first:last), velocities(first:last))
+            if (maxval(found) <= largest) cycle
+            largest = maxval(found)
+            place = first - 1 + maxloc(found, dim=1)
+         end associate
       end do
       verdict%film = films(place)
       verdict%alpha_p_maximum = film%pressure_viscosity*largest
@@ -66,8 +71,10 @@ contains
       if (law == law_iso_viscous) then
          verdict%law_contradicted = verdict%regime /= film_iso_viscous
       else
-         ! The published piezo-viscous film is a fit to films with alpha p well above zero.
-         verdict%law_contradicted = verdict%regime /= film_piezo_viscous
+         ! The exact piezo-viscous film holds for thin oil as well; the published one is a fit to films with
+         ! alpha p well above zero.
+         verdict%law_contradicted = verdict%regime /= film_piezo_viscous .and. &
+                                    .not. (film%kernel == kernel_reynolds_piezo .and. verdict%regime == film_iso_viscous)
       end if
    end function check_regime
 
@@ -78,19 +85,7 @@ contains
       !> Film thickness [m]
       real(dp), intent(in) :: thickness
 
-      steady_alpha_p = film%pressure_viscosity*exact_pressure(film, thickness, 0.0_dp)
+      steady_alpha_p = film%pressure_viscosity*exact_pressure(film%radius, film%speed, film%viscosity, thickness, 0.0_dp)
    end function steady_alpha_p
-
-   !> Largest exact iso-viscous pressure [Pa] over the contact, with the speed of the scene's own model.
-   pure real(dp) function exact_pressure(film, thickness, velocity)
-      type(film_t), intent(in) :: film
-      real(dp), intent(in) :: thickness
-      real(dp), intent(in) :: velocity
-      real(dp) :: a
-
-      a = squeeze_group(film%radius, film%speed, thickness, velocity)
-      exact_pressure = pressure_scale(film%radius, film%speed, film%viscosity, thickness)* &
-                       pressure_group_maximum(rupture_tangent_fast(a), a)
-   end function exact_pressure
 
 end module regime_check

@@ -19,8 +19,9 @@ a coefficient is then mean + sign(A) difference, which vectorises without masks 
 
 The piezo-viscous load is Psi = Phi (1 + (1 - sigma) S), sigma = sqrt(1 - B/B_crit), with S analytic in
 sigma; its singularities next to [0, 1] are sigma = -1 and infinity, where the pressure group B changes sheet.
-The Moebius map w = (3 + 2 sqrt(2)) (sigma + 1 - sqrt(2))/(sigma + 1 + sqrt(2)) sends [0, 1] to [-1, 1] and these
-two to -+(3 + 2 sqrt(2)), so that a Chebyshev term in w is worth a factor of 11.6, twice that of a linear map.
+The Moebius map w = (3 + 2 sqrt(2)) (sigma + 1 - sqrt(2))/(sigma + 1 + sqrt(2)) sends [0, 1] to [-1, 1] and
+these two to -+(3 + 2 sqrt(2)), so that a Chebyshev term in w is worth a factor of 11.6, twice that of a
+linear map.
 Integration by parts frees Psi of the logarithm and of cancellation:
 
     Psi = integral of (t - t_m)**2 (t_e - t) cos(x)**4/(1 - B p*) dx,   t = tan(x), t_m = -t_e - A.
@@ -247,8 +248,8 @@ def iso_module():
         "!> Generated tables of the exact iso-viscous film (Swift-Stieber rupture). Do not edit.",
         f"!> Made by: {COMMAND}",
         "!>",
-        "!> Ascending powers of v = 2|xi| - 1, xi = A/(c + sqrt(A**2 + c**2)). A coefficient is column 1 plus",
-        "!> sign(A) times column 2. The script derives the scaling, y = (1 - xi)/(1 + xi).",
+        "!> Ascending powers of v = 2|xi| - 1, xi = A/(c + sqrt(A**2 + c**2)). A coefficient is column 1",
+        "!> plus sign(A) times column 2. The script derives the scaling, y = (1 - xi)/(1 + xi).",
         "module iso_viscous_coefficients",
         "   use kinds, only: dp",
         "   implicit none (type, external)",

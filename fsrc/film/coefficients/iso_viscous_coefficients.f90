@@ -1,8 +1,8 @@
 !> Generated tables of the exact iso-viscous film (Swift-Stieber rupture). Do not edit.
 !> Made by: python scripts/generate/reynolds_film.py
 !>
-!> Ascending powers of v = 2|xi| - 1, xi = A/(c + sqrt(A**2 + c**2)). A coefficient is column 1 plus
-!> sign(A) times column 2. The script derives the scaling, y = (1 - xi)/(1 + xi).
+!> Ascending powers of v = 2|xi| - 1, xi = A/(c + sqrt(A**2 + c**2)). A coefficient is column 1
+!> plus sign(A) times column 2. The script derives the scaling, y = (1 - xi)/(1 + xi).
 module iso_viscous_coefficients
    use kinds, only: dp
    implicit none (type, external)

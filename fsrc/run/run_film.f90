@@ -1,0 +1,179 @@
+!> A film task from input to files: every point of the lists, one after the other.
+module run_film
+   use clock, only: wall_seconds
+   use errors, only: error_t
+   use film_point, only: film_contact_t, film_point_t, new_film_point
+   use film_profiles, only: profile_names, profile_rows, profile_units
+   use film_table, only: film_row, film_row_t
+   use kinds, only: dp
+   use log_file, only: log_magic, log_t
+   use output_place, only: log_path, profiles_path, result_path, summary_path
+   use regime, only: equivalent_radius, plane_strain_modulus
+   use result_writer, only: result_writer_t
+   use scene_report, only: law_sentence
+   use scene_status, only: status_complete, status_interrupted, status_name, status_not_written, status_sentence
+   use scene_types, only: compute_profile, scene_t, speed_sum
+   use signals, only: caught_signal
+   use summary_file, only: summary_t
+   use text, only: integer_text, short_text
+   use version, only: program_version
+   implicit none (type, external)
+   private
+
+   !> Rows that are written together.
+   integer, parameter :: block = 256
+
+   public :: run_film_task
+
+contains
+
+   !> Run a film task and write its files.
+   subroutine run_film_task(scene, quiet, status, error)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Nothing to the terminal
+      logical, intent(in) :: quiet
+      !> Status of scene_status
+      integer, intent(out) :: status
+      !> Set if a file could not be written
+      type(error_t), allocatable, intent(out) :: error
+      type(film_contact_t) :: contact
+      type(log_t) :: log
+      type(error_t), allocatable :: ignored
+      real(dp) :: started
+      integer :: points
+
+      status = status_complete
+      started = wall_seconds()
+      call log%open(log_path(scene), quiet, error)
+      if (allocated(error)) return
+      contact = contact_of(scene)
+      call log%line(log_magic//program_version//', scene '//trim(scene%name)//': '//law_sentence(scene))
+      call write_points(scene, contact, points, status, error)
+      if (allocated(error)) status = status_not_written
+      if (allocated(error)) then
+         call log%line('  '//error%message)
+         call write_film_summary(scene, points, wall_seconds() - started, status, ignored)
+      else
+         call write_film_summary(scene, points, wall_seconds() - started, status, error)
+         call log%line('  '//integer_text(points)//' points in '//short_text(wall_seconds() - started, 3)//' s: '// &
+                       status_sentence(status))
+         call log%line('  '//result_path(scene))
+         if (scene%points%compute(compute_profile)) call log%line('  '//profiles_path(scene))
+         call log%line('  '//summary_path(scene))
+      end if
+      call log%close()
+   end subroutine run_film_task
+
+   !> All points into the table, and their profiles if asked for.
+   subroutine write_points(scene, contact, done, status, error)
+      type(scene_t), intent(in) :: scene
+      type(film_contact_t), intent(in) :: contact
+      integer, intent(out) :: done
+      integer, intent(out) :: status
+      type(error_t), allocatable, intent(out) :: error
+      type(result_writer_t) :: table, profiles
+      type(film_point_t) :: point
+      type(film_row_t) :: row
+      real(dp), allocatable :: rows(:, :), nodes(:, :), groups(:)
+      type(error_t), allocatable :: close_error
+      integer :: i, j, k, filled
+
+      done = 0
+      filled = 0
+      status = status_complete
+      call form_speed_groups(scene, contact, groups)
+      point = new_film_point(contact, scene%points%film_ratios(1), scene%points%squeeze_ratios(1), groups(1))
+      row = film_row(scene, contact, point)
+      allocate (rows(row%count, block), nodes(size(profile_names), scene%points%profile_nodes))
+      call table%open(result_path(scene), scene%resolved_input, row%names(:row%count), row%units(:row%count), error)
+      if (.not. allocated(error) .and. scene%points%compute(compute_profile)) &
+         call profiles%open(profiles_path(scene), scene%resolved_input, profile_names, profile_units, error)
+      speeds: do k = 1, size(groups)
+         do j = 1, size(scene%points%squeeze_ratios)
+            do i = 1, size(scene%points%film_ratios)
+               if (allocated(error)) exit speeds
+               if (caught_signal() /= 0) then
+                  status = status_interrupted
+                  exit speeds
+               end if
+               point = new_film_point(contact, scene%points%film_ratios(i), scene%points%squeeze_ratios(j), groups(k))
+               row = film_row(scene, contact, point)
+               filled = filled + 1
+               rows(:, filled) = row%values(:row%count)
+               done = done + 1
+               if (filled == block) then
+                  call table%write_rows(rows, error)
+                  filled = 0
+               end if
+               if (.not. scene%points%compute(compute_profile) .or. allocated(error)) cycle
+               call profile_rows(contact, point, nodes)
+               call profiles%write_rows(nodes, error)
+            end do
+         end do
+      end do speeds
+      if (.not. allocated(error) .and. filled > 0) call table%write_rows(rows(:, :filled), error)
+      if (allocated(error)) return
+      call table%close(error)
+      call profiles%close(close_error)
+      if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
+   end subroutine write_points
+
+   !> u* as given, or of the speeds: u* = u eta0 alpha/R.
+   pure subroutine form_speed_groups(scene, contact, groups)
+      type(scene_t), intent(in) :: scene
+      type(film_contact_t), intent(in) :: contact
+      real(dp), allocatable, intent(out) :: groups(:)
+      real(dp) :: speed
+
+      if (.not. scene%points%from_speeds) then
+         allocate (groups, source=scene%points%speed_groups)
+         return
+      end if
+      speed = scene%kinematics%entrainment_speed
+      if (scene%points%speed_reading == speed_sum) speed = 2.0_dp*speed
+      allocate (groups(1), source=speed*contact%viscosity*contact%pressure_viscosity/contact%radius)
+   end subroutine form_speed_groups
+
+   !> Contact and oil of a scene.
+   pure function contact_of(scene) result(contact)
+      type(scene_t), intent(in) :: scene
+      type(film_contact_t) :: contact
+
+      contact%radius = scene%contact%radius
+      if (.not. contact%radius > 0.0_dp) contact%radius = equivalent_radius(scene%contact%radius_1, scene%contact%radius_2)
+      contact%length = scene%contact%length
+      contact%modulus = plane_strain_modulus(scene%contact%young_modulus, scene%contact%poisson_ratio)
+      contact%viscosity = scene%lubricant%viscosity
+      contact%pressure_viscosity = scene%lubricant%pressure_viscosity
+   end function contact_of
+
+   !> What the task did.
+   subroutine write_film_summary(scene, points, seconds, status, error)
+      type(scene_t), intent(in) :: scene
+      integer, intent(in) :: points
+      real(dp), intent(in) :: seconds
+      integer, intent(in) :: status
+      type(error_t), allocatable, intent(out) :: error
+      type(summary_t) :: summary
+
+      call summary%add('name', trim(scene%name))
+      call summary%add('program_version', program_version)
+      call summary%add('status', status_name(status))
+      call summary%add('status_text', status_sentence(status))
+      call summary%add('points', points)
+      if (scene%points%from_speeds) then
+         if (scene%points%speed_reading == speed_sum) then
+            call summary%add('speed_meaning', 'rolling speed u_r = u1 + u2')
+         else
+            call summary%add('speed_meaning', 'entrainment speed U = (u1 + u2)/2')
+         end if
+      else
+         call summary%add('speed_meaning', 'the u of the given groups')
+      end if
+      call summary%add('sign_convention', 'stiffness -dW/dh0, damping -dW/dw: positive where the film resists')
+      call summary%add('wall_seconds', seconds)
+      call summary%write(summary_path(scene), error)
+   end subroutine write_film_summary
+
+end module run_film
