@@ -109,7 +109,7 @@ $(BUILD)/unit_tests: $(OBJECTS) $(UNIT_OBJECTS)
 
 $(BENCH_PROGRAMS): $(BUILD)/%: %.f90 $(OBJECTS)
 	@echo 'link $@'
-	@$(FC) $(FFLAGS) -I$(BUILD) $< $(OBJECTS) $(LIBRARIES) -o $@
+	@$(FC) $(FFLAGS) -J$(BUILD) $< $(OBJECTS) $(LIBRARIES) -o $@
 
 # --- Python: the module of the kernels, beside the package -------------------------------------------
 
@@ -180,8 +180,7 @@ lint: $(PYTHON_ENV)/installed
 	@scripts/lint.sh $(PYTHON_ENV)/bin $(BUILD)
 
 format: $(PYTHON_ENV)/installed
-	@$(PYTHON_ENV)/bin/fprettify --config-file .fprettify.rc --silent -r fsrc tests
-	@$(PYTHON_ENV)/bin/ruff format --quiet scripts tests
+	@scripts/format.sh $(abspath $(PYTHON_ENV))/bin .
 	@$(PYTHON_ENV)/bin/ruff check --quiet --fix scripts tests
 
 debug:

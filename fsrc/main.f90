@@ -8,7 +8,7 @@ program main
    use key_table, only: known_group, nearest_group
    use signals, only: catch_signals
    use version, only: program_version
-   implicit none (type, external)
+   implicit none(type, external)
    type(command_t) :: command
    type(fault_list_t) :: faults
    integer :: exit_code, ignored
@@ -38,5 +38,5 @@ program main
       call run_batch(command, exit_code)
    end if
    flush (output_unit, iostat=ignored)
-   stop exit_code, quiet=.true.
+   stop exit_code, quiet = .true.
 end program main

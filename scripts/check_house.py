@@ -47,9 +47,9 @@ def faults() -> list[str]:
             place = f"{path}:{number}"
             if (module := MODULE.match(line)) and room != "bindings" and module[1].lower() != path.stem:
                 found.append(f"{place}: module {module[1]} stands in a file of another name")
-            if (use := USE.match(line)) and (other := home.get(use[1].lower())):
-                if ROOMS.index(other) > ROOMS.index(room):
-                    found.append(f"{place}: {room} uses {use[1]} of {other}, a room below it")
+            other = home.get(use[1].lower()) if (use := USE.match(line)) else None
+            if other and ROOMS.index(other) > ROOMS.index(room):
+                found.append(f"{place}: {room} uses {use[1]} of {other}, a room below it")
             if STOP.match(line):
                 found.append(f"{place}: a library routine stops the program")
     if len(Path("fsrc/main.f90").read_text().splitlines()) > MAIN_LINES:

@@ -20,17 +20,18 @@ check() {
 
 formatted() {
     place=$build/format
-    rm -rf "$place" && mkdir -p "$place" && cp -r fsrc tests .fprettify.rc "$place/"
-    (cd "$place" && "$tools/fprettify" --config-file .fprettify.rc --silent -r fsrc tests) || return 1
-    diff -ru fsrc "$place/fsrc" && diff -ru -x __pycache__ tests "$place/tests"
+    rm -rf "$place" && mkdir -p "$place" && cp -r fsrc tests scripts .fprettify.rc pyproject.toml "$place/"
+    scripts/format.sh "$tools" "$place" || return 1
+    for folder in fsrc tests scripts; do
+        diff -ru -x __pycache__ -x '*.so' "$folder" "$place/$folder" || return 1
+    done
 }
 
 tools=$(cd "$tools" && pwd)
 check 'compiler warnings' make --no-print-directory BUILD="$build/lint" STRICT=1 "$build/lint/rattle" "$build/lint/unit_tests"
 check 'rooms and names of fsrc' "$tools/python" scripts/check_house.py
 check 'style of Fortran' "$tools/fortitude" check --config .fortitude.toml fsrc tests
-check 'format of Fortran' formatted
+check 'format of Fortran and Python' formatted
 check 'style of Python' "$tools/ruff" check scripts tests
-check 'format of Python' "$tools/ruff" format --check scripts tests
 check 'page of all keys' sh -c "'$build/lint/rattle' --keys | diff - input/README.md"
 exit $failed

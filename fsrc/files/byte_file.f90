@@ -4,7 +4,7 @@ module byte_file
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_int64_t, c_loc, c_long, c_null_char, c_ptr, c_size_t
    use errors, only: error_t, exit_system, raise
    use kinds, only: dp, int64
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Bytes that are gathered before they go to the disk.

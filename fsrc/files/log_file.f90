@@ -2,7 +2,7 @@
 module log_file
    use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: error_t, exit_system, raise
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> First word of every log, by which one is known.

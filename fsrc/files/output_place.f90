@@ -6,7 +6,7 @@ module output_place
    use result_format, only: result_magic
    use scene_types, only: compute_profile, scene_t, task_film
    use summary_file, only: summary_magic
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: result_path, profiles_path, summary_path, log_path, check_output_place

@@ -7,7 +7,7 @@ module progress
    use kinds, only: dp
    use log_file, only: log_t
    use text, only: integer_text, short_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    real(dp), parameter :: terminal_interval = 0.2_dp, line_interval = 10.0_dp

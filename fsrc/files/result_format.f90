@@ -11,7 +11,7 @@
 !>             rows of float64, one value per column
 module result_format
    use kinds, only: int32, int64
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    character(8), parameter, public :: result_magic = 'RATTLE'//achar(13)//achar(10)

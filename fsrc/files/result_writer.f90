@@ -8,7 +8,7 @@ module result_writer
    use result_format, only: alignment, byte_order_mark, column_name_bytes, column_unit_bytes, fixed_header_bytes, &
                             result_format_version, result_magic, row_count_offset, rows_unknown
    use version, only: program_version
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> What a killed run may lose at most [s].

@@ -5,7 +5,7 @@ module summary_file
    use file_system, only: delete_file
    use kinds, only: dp, int64
    use text, only: integer_text, logical_text, quoted, real_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> First word of every summary, by which one is known.

@@ -12,7 +12,7 @@
 !> A group without h0, W/(E' R l) or W/(l u eta0), would give h0^(-5/2).
 module film_fit
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: thickness_law_t, law_error_t, film_fit_t, law_film_ratio, judge_film_law, fit_film_law
@@ -73,7 +73,7 @@ module film_fit
       !> LAPACK: least squares of least norm by the divide-and-conquer singular value decomposition.
       pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
          import :: dp
-         implicit none (type, external)
+         implicit none(type, external)
          integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
          real(dp), intent(inout) :: a(lda, *), b(ldb, *)
          real(dp), intent(out) :: s(*)

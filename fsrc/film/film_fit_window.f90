@@ -7,7 +7,7 @@
 module film_fit_window
    use kinds, only: dp
    use reynolds_piezo_viscous, only: critical_pressure_group, piezo_viscous_load
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: film_window_t, window_is_valid, sample_film_window

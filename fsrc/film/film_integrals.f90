@@ -3,7 +3,7 @@
 module film_integrals
    use constants, only: pi
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer :: i

@@ -8,12 +8,13 @@ module film_law
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_load, squeeze_exponent_rate
    use regime, only: equivalent_radius, plane_strain_modulus
+   use reynolds_iso_viscous, only: rupture_tangent_fast
    use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate
-   use rupture, only: rupture_tangent_fast, rupture_tangent_successive, squeeze_group
+   use rupture, only: rupture_tangent_successive, squeeze_group
    use scene_status, only: status_no_rigid_film, status_overflow
    use scene_types, only: law_iso_viscous, model_reynolds, rupture_half_pi, rupture_solver_fast, scene_t
    use steady_reynolds_film, only: steady_iso_viscous_film, steady_piezo_viscous_film
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> A load above this is no load: the exponential of the piezo-viscous law has overflown [N].
@@ -178,7 +179,7 @@ contains
       call half_pi_rupture_load(film%rolling, film%squeeze, thickness, velocity, load, load_by_film, load_by_velocity)
    end subroutine load_half_pi
 
-   !> (24), rupture from (18) by Newton's method; interface film_kernel.
+   !> (24), rupture from the table of (18); interface film_kernel.
    pure subroutine load_solved_fast(film, thickness, velocity, load, load_by_film, load_by_velocity)
       type(film_t), intent(in) :: film
       real(dp), intent(in) :: thickness

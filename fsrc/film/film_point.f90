@@ -12,7 +12,7 @@ module film_point
    use reynolds_iso_viscous, only: rupture_tangent_fast
    use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate
    use rupture, only: squeeze_group
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Contact and oil of a film task.

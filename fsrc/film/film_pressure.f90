@@ -4,7 +4,7 @@ module film_pressure
    use kinds, only: dp
    use reynolds_iso_viscous, only: peak_pressure_group
    use rupture, only: squeeze_group
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: pressure_group, pressure_group_maximum, pressure_scale, exact_pressure, barus_pressure

@@ -6,7 +6,7 @@
 module iso_viscous_sums
    use kinds, only: dp
    use iso_viscous_coefficients, only: coordinate_scale, iso_degree
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: film_coordinate, film_coordinate_block

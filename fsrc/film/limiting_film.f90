@@ -3,7 +3,7 @@ module limiting_film
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use kinds, only: dp
    use reynolds_iso_viscous, only: peak_pressure_group
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Films between these ratios h* are looked at.

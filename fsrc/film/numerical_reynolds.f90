@@ -19,7 +19,7 @@ module numerical_reynolds
    use numerical_reynolds_rupture, only: locate_rupture, minimum_film_nodes, reynolds_bad_input, &
       reynolds_converged, reynolds_no_rigid_film, reynolds_not_converged, reynolds_unresolved, &
       solve_complementarity, start_pressure
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: film_problem_t, film_solution_t, scale_film, solve_reynolds, log_viscosity_ratio

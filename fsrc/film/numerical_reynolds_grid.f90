@@ -14,7 +14,7 @@
 module numerical_reynolds_grid
    use constants, only: pi
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: film_problem_t, grid_t, film_grid, width, opening, opening_rate, face_flux, log_viscosity_ratio

@@ -4,7 +4,7 @@ module numerical_reynolds_rupture
    use kinds, only: dp
    use numerical_reynolds_grid, only: face_flux, film_grid, film_problem_t, grid_t, law_constant, &
       log_viscosity_ratio, opening, opening_rate
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: start_pressure, solve_complementarity, locate_rupture
@@ -27,7 +27,7 @@ module numerical_reynolds_rupture
       !> LAPACK: solves a general tridiagonal system by elimination with partial pivoting.
       pure subroutine dgtsv(n, nrhs, dl, d, du, b, ldb, info)
          import :: dp
-         implicit none (type, external)
+         implicit none(type, external)
          integer, intent(in) :: n, nrhs, ldb
          real(dp), intent(inout) :: dl(*), d(*), du(*), b(ldb, *)
          integer, intent(out) :: info

@@ -6,7 +6,7 @@ module piezo_viscous_sums
    use kinds, only: dp
    use iso_viscous_sums, only: film_block
    use piezo_viscous_coefficients, only: sigma_degree, group_degree, row_degree, mean_table, difference_table
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: sum_block, sum_film, table_coordinate

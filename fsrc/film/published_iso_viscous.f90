@@ -4,8 +4,8 @@
 module published_iso_viscous
    use constants, only: half_pi, pi
    use kinds, only: dp
-   use rupture, only: rupture_tangent_slope
-   implicit none (type, external)
+   use reynolds_iso_viscous, only: rupture_tangent_slope
+   implicit none(type, external)
    private
 
    !> Factor of the rolling term as printed in (23); exact film: 12 Phi(0) = 2.447 with u = u1 + u2.
@@ -92,7 +92,7 @@ contains
       inverse = 1.0_dp/film
       damping = squeeze*(inverse*inverse*sqrt(film))
       width = atan(rupture_tangent) + half_pi
-      width_by_log_a = a*rupture_tangent_slope(a, rupture_tangent)/(1.0_dp + rupture_tangent*rupture_tangent)
+      width_by_log_a = a*rupture_tangent_slope(a)/(1.0_dp + rupture_tangent*rupture_tangent)
       load = rolling*inverse - damping*velocity*width
       load_by_film = (damping*velocity*(1.5_dp*width + 0.5_dp*width_by_log_a) - rolling*inverse)*inverse
       load_by_velocity = -damping*(width + width_by_log_a)

@@ -2,7 +2,7 @@
 !> (printed: the acceleration) in the exponent; it is the film-thickness regression (32) turned round.
 module published_piezo_viscous
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Factors as printed in (37); (32) gives 12*0.787^2.5 = 6.5935 and 2.5*281.2 = 703.

@@ -6,7 +6,7 @@
 module published_stiffness
    use constants, only: half_pi
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: published_stiffness_damping

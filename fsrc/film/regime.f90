@@ -19,7 +19,7 @@
 module regime
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: equivalent_radius, plane_strain_modulus, contact_deflection, grubin_film

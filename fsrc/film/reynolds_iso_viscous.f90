@@ -19,7 +19,7 @@ module reynolds_iso_viscous
    use iso_viscous_coefficients, only: tangent_table, tangent_slope_table, load_table, load_slope_table, &
       peak_table, peak_slope_table
    use iso_viscous_sums, only: film_block, locate, locate_block, choose_half, sum_table, sum_block
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: rupture_tangent_fast, rupture_tangent_slope, rupture_angle

@@ -10,7 +10,7 @@ module reynolds_load
    use kinds, only: dp
    use reynolds_iso_viscous, only: iso_viscous_group => iso_viscous_load
    use reynolds_piezo_viscous, only: piezo_viscous_group => piezo_viscous_load
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Stands for the load where no rigid piezo-viscous film exists; above every load that is one [N].

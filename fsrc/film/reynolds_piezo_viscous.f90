@@ -22,7 +22,7 @@ module reynolds_piezo_viscous
    use piezo_viscous_sums, only: sum_block, sum_film, table_coordinate
    use reynolds_iso_viscous, only: iso_viscous_load, iso_viscous_load_array, peak_pressure_group, &
       peak_pressure_block
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: critical_pressure_group, piezo_viscous_load, piezo_viscous_load_array

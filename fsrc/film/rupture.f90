@@ -2,17 +2,18 @@
 !>
 !>    J(x_e) - t^2 K(x_e) - A (cos^4(x_e)/4 + t K(x_e)) = 0 ,   t = tan x_e ,   A = 4 w*/sqrt(2 h*)
 !>
-!> The one group A decides everything. For each A there is one physical root, t > -A/2.
+!> The one group A decides everything. For each A there is one physical root, t > -A/2. Here it is found as in
+!> the paper; module reynolds_iso_viscous has it from a table, which is faster and good to rounding.
 module rupture
    use film_integrals, only: pressure_integrals
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
-   !> Passes after which rounding, not the method, decides the last digits.
-   integer, parameter :: most_newton_passes = 20, most_substitutions = 200
+   !> Far more passes than rounding leaves room for: 3 to 15 are typical.
+   integer, parameter :: most_substitutions = 200
 
-   public :: squeeze_group, rupture_tangent_fast, rupture_tangent_successive, rupture_tangent_slope
+   public :: squeeze_group, rupture_tangent_successive
 
 contains
 
@@ -29,23 +30,6 @@ contains
 
       a = 4.0_dp*velocity/(speed*sqrt(2.0_dp*film/radius))
    end function squeeze_group
-
-   !> t_e = tan x_e by Newton's method. The pressure at the rupture point is stationary in its place
-   !> (17), so the slope of the left-hand side is just -K (2 t + A).
-   elemental real(dp) function rupture_tangent_fast(a) result(t)
-      !> Squeeze group A [-]
-      real(dp), intent(in) :: a
-      real(dp) :: residual, slope, change
-      integer :: pass
-
-      t = start(a)
-      do pass = 1, most_newton_passes
-         call rupture_residual(a, t, residual, slope)
-         change = residual/slope
-         t = max(t + change, 0.5_dp*(t - 0.5_dp*a))
-         if (abs(change) <= 4.0_dp*epsilon(1.0_dp)*max(1.0_dp, abs(t))) return
-      end do
-   end function rupture_tangent_fast
 
    !> t_e by the paper's successive substitution, in the form that converges:
    !> t <- -A/2 + sqrt(A^2/4 + (J - A cos^4/4)/K). Stops when rounding stalls it.
@@ -68,31 +52,6 @@ contains
          last_change = abs(change)
       end do
    end function rupture_tangent_successive
-
-   !> dt_e/dA [-], of (18) by implicit differentiation.
-   elemental real(dp) function rupture_tangent_slope(a, t) result(slope)
-      !> Squeeze group A [-]
-      real(dp), intent(in) :: a
-      !> Its rupture tangent t_e [-]
-      real(dp), intent(in) :: t
-      real(dp) :: j, k
-
-      call pressure_integrals(t, j, k)
-      slope = -(cos_4(t)/4.0_dp + t*k)/(k*(2.0_dp*t + a))
-   end function rupture_tangent_slope
-
-   !> Left-hand side of (18) and the negative of its slope in t.
-   elemental subroutine rupture_residual(a, t, residual, slope)
-      real(dp), intent(in) :: a
-      real(dp), intent(in) :: t
-      real(dp), intent(out) :: residual
-      real(dp), intent(out) :: slope
-      real(dp) :: j, k
-
-      call pressure_integrals(t, j, k)
-      residual = j - t*t*k - a*(cos_4(t)/4.0_dp + t*k)
-      slope = k*(2.0_dp*t + a)
-   end subroutine rupture_residual
 
    !> cos^4(xbar) of the coordinate tangent.
    elemental real(dp) function cos_4(t)

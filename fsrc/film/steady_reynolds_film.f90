@@ -3,7 +3,7 @@ module steady_reynolds_film
    use kinds, only: dp
    use reynolds_iso_viscous, only: iso_viscous_group => iso_viscous_load
    use reynolds_piezo_viscous, only: critical_pressure_group, piezo_viscous_group => piezo_viscous_load
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Bisection alone needs 60 passes for 53 bits; Newton's steps in between make it about 6.
@@ -54,6 +54,7 @@ contains
       film = thick
       do pass = 1, most_passes
          call load_excess(film, excess, slope)
+         if (abs(excess) <= 4.0_dp*epsilon(1.0_dp)*load .or. thick - thin <= 2.0_dp*epsilon(1.0_dp)*thick) return
          if (excess > 0.0_dp) then
             thin = film
          else
@@ -61,7 +62,6 @@ contains
          end if
          film = film - excess/slope
          if (.not. (film > thin .and. film < thick)) film = 0.5_dp*(thin + thick)
-         if (abs(excess) <= 4.0_dp*epsilon(1.0_dp)*load .or. thick - thin <= 2.0_dp*epsilon(1.0_dp)*thick) return
       end do
 
    contains

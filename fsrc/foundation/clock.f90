@@ -1,7 +1,7 @@
 !> Wall clock of the run, for the log and the summary only.
 module clock
    use kinds, only: dp, int64
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: wall_seconds

@@ -1,7 +1,7 @@
 !> Mathematical and physical constants.
 module constants
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    real(dp), parameter, public :: pi = 3.141592653589793_dp

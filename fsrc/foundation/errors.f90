@@ -2,7 +2,7 @@
 !> Only the main program turns them into an exit code.
 module errors
    use text, only: integer_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Exit codes of the program.

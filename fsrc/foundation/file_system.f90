@@ -2,7 +2,7 @@
 !> Thin calls of the C library.
 module file_system
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: read_whole_file, first_bytes, path_exists, is_directory, is_writable, make_directory, rename_file, &

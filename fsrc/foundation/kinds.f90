@@ -1,7 +1,7 @@
 !> Number kinds, defined once for the whole program.
 module kinds
    use, intrinsic :: iso_fortran_env, only: int32, int64, real64
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Real kind of every physical quantity: IEEE double precision.

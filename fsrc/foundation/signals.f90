@@ -2,7 +2,7 @@
 !> SIGKILL excepted, nothing stops the program between two whole periods of a scene.
 module signals
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer(c_int), parameter :: signal_interrupt = 2, signal_user_1 = 10, signal_terminate = 15

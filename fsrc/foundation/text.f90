@@ -1,7 +1,7 @@
 !> Text helpers: numbers to text, lower case, quoting, nearest known word.
 module text
    use kinds, only: dp, int64
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: integer_text, real_text, short_text, logical_text, lower, quoted, quoted_words, edit_distance, is_word_character

@@ -2,7 +2,7 @@
 module forcing
    use constants, only: two_pi
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: applied_force, force_of_period

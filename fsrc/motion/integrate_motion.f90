@@ -11,7 +11,7 @@ module integrate_motion
    use scene_status, only: status_complete, status_interrupted
    use scene_types, only: iteration_newton, predictor_extrapolated, scene_t
    use signals, only: caught_signal
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> How the motion ended.

@@ -11,7 +11,7 @@ module newmark
    use forcing, only: applied_force
    use kinds, only: dp, int64
    use scene_status, only: status_complete, status_film_lost, status_not_converged
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> A step in which the film loses more than this factor, or goes to zero and below, is cut in two.

@@ -2,7 +2,7 @@
 module sample_sink
    use errors, only: error_t
    use kinds, only: dp, int64
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Taker of samples.

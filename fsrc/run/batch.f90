@@ -13,7 +13,7 @@ module batch
    use scene_types, only: scene_t, task_film, task_motion
    use signals, only: caught_signal
    use text, only: integer_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: run_batch, print_faults

@@ -4,7 +4,7 @@ module command_line
    use key_table, only: find_key, keys, list_kind, text_kind
    use scene_reader, only: override_t
    use text, only: lower, quoted, quoted_words
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> A text of its own length.

@@ -5,7 +5,7 @@ module film_profiles
    use film_point, only: film_contact_t, film_point_t
    use film_pressure, only: barus_pressure, pressure_group
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Columns of NAME.profiles.rattle.

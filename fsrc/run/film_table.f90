@@ -6,7 +6,7 @@ module film_table
    use result_format, only: column_name_bytes, column_unit_bytes
    use scene_types, only: compute_damping, compute_limits, compute_load, compute_pressure, compute_rupture, &
                           compute_stiffness, scene_t, viscosity_roelands
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer, parameter :: most_columns = 40

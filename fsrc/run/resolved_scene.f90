@@ -7,7 +7,7 @@ module resolved_scene
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
    use scene_types, only: scene_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> What follows from a scene.

@@ -17,7 +17,7 @@ module run_film
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
    use version, only: program_version
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Rows that are written together.

@@ -14,7 +14,7 @@ module run_scene
    use scene_status, only: status_complete, status_not_written
    use scene_summary, only: write_scene_summary
    use scene_types, only: scene_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: run_one_scene

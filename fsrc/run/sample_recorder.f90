@@ -7,7 +7,7 @@ module sample_recorder
    use sample_sink, only: sample_sink_t
    use scene_types, only: column_acceleration, column_applied_force, column_film_thickness, &
                           column_names, column_squeeze_velocity, column_time, column_units, scene_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Recorder of a motion.

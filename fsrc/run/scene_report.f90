@@ -11,7 +11,7 @@ module scene_report
    use scene_types, only: law_iso_viscous, model_reynolds, rupture_solved, scene_t, task_film
    use text, only: integer_text, short_text
    use version, only: program_version
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: report_start, report_ending, law_sentence, resolved_lines, speed_meaning

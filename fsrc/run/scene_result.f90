@@ -8,7 +8,7 @@ module scene_result
    use sample_recorder, only: sample_recorder_t
    use scene_status, only: is_success
    use scene_types, only: scene_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Result of a scene. The window and what is judged from it exist only after a complete run.

@@ -13,7 +13,7 @@ module scene_summary
    use scene_types, only: law_iso_viscous, model_reynolds, scene_t
    use summary_file, only: summary_t
    use version, only: program_version
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Harmonics that the summary lists.

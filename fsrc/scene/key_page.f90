@@ -2,7 +2,7 @@
 module key_page
    use key_table, only: allowed_text, key_t, keys, list_kind, text_kind
    use text, only: quoted, quoted_words
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    character(1), parameter :: end_of_line = new_line('a')

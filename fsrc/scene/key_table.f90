@@ -4,7 +4,7 @@
 module key_table
    use kinds, only: dp
    use text, only: edit_distance, real_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer, parameter, public :: real_kind = 1, integer_kind = 2, logical_kind = 3, text_kind = 4, list_kind = 5, &
@@ -114,7 +114,7 @@ module key_table
             'film.law=iso-viscous & film.model=published', &
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
       key_t('film', 'rupture_solver', text_kind, '', 'fast', any_number, 'fast successive', 'film.rupture=solved', &
-            'Root finder of (18): fast is Newton''s method, successive the paper''s successive substitution; same root.'), &
+            'Root finder of (18): fast takes a table good to rounding, successive the paper''s substitution; same root.'), &
       key_t('film', 'initial_film', real_kind, 'm', '', positive, '', 'scene.task=motion', &
             'Film at t = 0; absent: the steady film under Q + m g.'), &
       key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion', &

@@ -5,7 +5,7 @@
 module namelist_text
    use errors, only: fault_list_t
    use text, only: integer_text, is_word_character, lower
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> One value as it stands, and whether it stood in quotes.

@@ -5,7 +5,7 @@ module scene_checker
    use kinds, only: dp
    use scene_input, only: scene_input_t, word_position
    use text, only: integer_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: check_together, in_use

@@ -1,13 +1,12 @@
 !> The input of one scene as typed values, one per line of the key table, each with its place.
 module scene_input
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use errors, only: fault_list_t
    use key_table, only: allowed_text, find_key, in_range, integer_kind, key_t, keys, known_group, list_kind, &
                         logical_kind, nearest_group, nearest_key, path_limit, real_kind, reals_kind, text_kind
    use kinds, only: dp
    use namelist_text, only: assignment_t, value_t
    use text, only: integer_text, logical_text, lower, quoted, quoted_words, real_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Value of one key.
@@ -227,11 +226,36 @@ contains
       else
          sound = is_mantissa(word)
       end if
+      if (sound) sound = decimal_exponent(word, mark) < range(number)
       if (.not. sound) return
       read (word, *, iostat=stat) number
       sound = stat == 0
-      if (sound) sound = ieee_is_finite(number)
    end subroutine read_real
+
+   !> Power of ten of the first digit that counts. A number beyond the range is refused by it: the runtime
+   !> would overflow while it reads, which stops a program that traps overflow.
+   pure integer function decimal_exponent(word, mark)
+      character(*), intent(in) :: word
+      integer, intent(in) :: mark
+      integer, parameter :: far = 1000000000
+      character(:), allocatable :: mantissa
+      integer :: point, leading, stat
+
+      mantissa = word
+      if (mark > 0) mantissa = word(:mark - 1)
+      if (scan(mantissa(1:1), '+-') > 0) mantissa = mantissa(2:)
+      decimal_exponent = 0
+      leading = scan(mantissa, '123456789')
+      if (leading == 0) return
+      if (mark > 0) then
+         ! More digits than a default integer holds are beyond the range, or zero.
+         read (word(mark + 1:), *, iostat=stat) decimal_exponent
+         if (stat /= 0) decimal_exponent = merge(-far, far, word(mark + 1:mark + 1) == '-')
+      end if
+      point = index(mantissa, '.')
+      if (point == 0) point = len(mantissa) + 1
+      decimal_exponent = max(-far, min(far, decimal_exponent)) + point - leading - merge(1, 0, leading < point)
+   end function decimal_exponent
 
    !> Strict decimal integer.
    pure subroutine read_integer(text, number, sound)

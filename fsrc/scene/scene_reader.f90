@@ -11,7 +11,7 @@ module scene_reader
    use scene_types, only: column_names, contact_t, film_choice_t, film_points_t, kinematics_t, load_t, lubricant_t, &
                           model_numerical, model_published, output_t, scene_t, solver_t, spectrum_choice_t
    use text, only: integer_text, quoted
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Inputs are small; a larger file is not one.

@@ -1,6 +1,6 @@
 !> How a scene ended.
 module scene_status
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer, parameter, public :: status_complete = 0, status_steady = 1, status_not_converged = 2, &

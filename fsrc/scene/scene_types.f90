@@ -2,7 +2,7 @@
 module scene_types
    use kinds, only: dp
    use key_table, only: name_limit, path_limit
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    ! The codes of a key count its choices in the order of the key table.

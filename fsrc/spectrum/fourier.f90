@@ -2,7 +2,7 @@
 module fourier
    use, intrinsic :: iso_c_binding
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    include 'fftw3.f03'

@@ -1,7 +1,7 @@
 !> Reversals: extrema of a periodic signal that stand out from their surroundings.
 module reversals
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Extrema of less prominence than this share of the range are ripple.

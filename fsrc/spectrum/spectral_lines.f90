@@ -2,7 +2,7 @@
 module spectral_lines
    use fourier, only: amplitude_spectrum
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Of the highest quarter of the resolved frequencies at most this share of a line may be left,

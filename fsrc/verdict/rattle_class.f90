@@ -4,7 +4,7 @@ module rattle_class
    use reversals, only: count_reversals, reversal_prominence
    use scene_types, only: spectrum_choice_t
    use spectral_lines, only: find_lines, spectral_lines_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer, parameter, public :: class_quiet = 1, class_creep = 2, class_idle = 3, class_irregular = 4

@@ -5,7 +5,7 @@ module regime_check
    use kinds, only: dp
    use regime, only: contact_deflection, film_iso_viscous, film_piezo_viscous, film_regime
    use scene_types, only: law_iso_viscous
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Samples that are looked at together: their arrays stay in the cache.

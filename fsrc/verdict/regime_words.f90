@@ -5,7 +5,7 @@ module regime_words
                      rigid_limit
    use regime_check, only: regime_verdict_t
    use text, only: short_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: regime_name, regime_sentence

@@ -4,7 +4,7 @@ program bench_film
    use kinds, only: dp
    use reynolds_iso_viscous, only: iso_viscous_load, iso_viscous_load_array, rupture_tangent_fast
    use reynolds_piezo_viscous, only: critical_pressure_group, piezo_viscous_load, piezo_viscous_load_array
-   implicit none (type, external)
+   implicit none(type, external)
 
    integer, parameter :: films = 4096, rounds = 21, repetitions = 40
 
@@ -39,7 +39,7 @@ program bench_film
                do i = 1, films
                   call piezo_viscous_load(a(i), b(i), value(i), slope_a(i), slope_b(i))
                end do
-            case (5)
+            case default
                call piezo_viscous_load_array(films, a, b, value, slope_a, slope_b)
             end select
             ! Every repetition is read, or the compiler would leave out all but the last.

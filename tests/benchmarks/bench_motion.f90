@@ -4,15 +4,15 @@ module silent_motion
    use integrate_motion, only: motion_watcher_t
    use kinds, only: dp, int64
    use sample_sink, only: sample_sink_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
-   type, extends(sample_sink_t) , public :: no_sink_t
+   type, extends(sample_sink_t), public :: no_sink_t
    contains
       procedure :: take => forget
    end type no_sink_t
 
-   type, extends(motion_watcher_t) , public :: no_watcher_t
+   type, extends(motion_watcher_t), public :: no_watcher_t
    contains
       procedure :: period_done => ignore
    end type no_watcher_t
@@ -50,7 +50,7 @@ program bench_motion
    use scene_reader, only: override_t, read_scene
    use scene_types, only: scene_t
    use silent_motion, only: no_sink_t, no_watcher_t
-   implicit none (type, external)
+   implicit none(type, external)
 
    integer, parameter :: rounds = 41
    type(scene_t) :: scene

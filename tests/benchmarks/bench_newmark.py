@@ -51,7 +51,9 @@ def main() -> None:
     print(f"processor {processor()}; {compiler}")
     print(f"flags {options}")
     rows: list[tuple[str, str, str]] = []
-    for line in subprocess.run([bench, *INPUTS], check=True, capture_output=True, text=True).stdout.splitlines():
+    for line in subprocess.run(
+        [bench, *INPUTS], check=True, capture_output=True, text=True
+    ).stdout.splitlines():
         name, nanoseconds, passes = line.split(",")
         rows.append((f"{name}: a Newmark step, 512 a period", f"{float(nanoseconds):.1f} ns", "60 ns"))
         rows.append((f"{name}: Newton passes a step", f"{float(passes):.3f}", "2"))

@@ -19,7 +19,18 @@ import pytest
 
 from rattle import read
 
-GROUPS = ("scene", "contact", "lubricant", "kinematics", "load", "film", "solver", "spectrum", "points", "output")
+GROUPS = (
+    "scene",
+    "contact",
+    "lubricant",
+    "kinematics",
+    "load",
+    "film",
+    "solver",
+    "spectrum",
+    "points",
+    "output",
+)
 CRASH = ("acktrace", "Program received", "Fortran runtime error")
 
 

@@ -1,0 +1,93 @@
+!> The canonical scenes, and a run of any scene that leaves its window.
+module canonical_scenes
+   use constants, only: standard_gravity
+   use errors, only: error_t
+   use film_law, only: film_t, new_film, steady_film
+   use integrate_motion, only: motion_end_t, motion_watcher_t, solve_motion
+   use kinds, only: dp
+   use sample_recorder, only: sample_recorder_t
+   use scene_types, only: scene_t
+   implicit none(type, external)
+   private
+
+   !> Watcher that only counts.
+   type, extends(motion_watcher_t), public :: counting_watcher_t
+      !> Periods it was told of, and what it was told last
+      integer :: told = 0, done = 0, all = 0
+   contains
+      procedure :: period_done
+   end type counting_watcher_t
+
+   public :: canonical_scene, run_window
+
+contains
+
+   !> Canonical load and contact, Newton iteration to rounding.
+   function canonical_scene(law, steps_per_period) result(scene)
+      !> Film law
+      integer, intent(in) :: law
+      !> Steps per period
+      integer, intent(in) :: steps_per_period
+      type(scene_t) :: scene
+
+      scene%contact%radius = 0.0127_dp
+      scene%contact%length = 0.010_dp
+      scene%contact%young_modulus = 205.66e9_dp
+      scene%contact%poisson_ratio = 0.3_dp
+      scene%lubricant%viscosity = 0.3_dp
+      scene%lubricant%pressure_viscosity = 2.0e-8_dp
+      scene%kinematics%entrainment_speed = 1.905_dp
+      scene%load%mass = 3.0_dp
+      scene%load%steady_force = 199.2_dp
+      scene%load%force_amplitude = 205.7_dp
+      scene%load%frequency = 600.0_dp
+      scene%load%gravity = standard_gravity
+      scene%film%law = law
+      scene%solver%tolerance = 1.0e-14_dp
+      scene%solver%iteration_limit = 100
+      scene%solver%steps_per_period = steps_per_period
+      scene%solver%periods = 120
+      scene%spectrum%periods = 1
+      scene%output%series = .false.
+   end function canonical_scene
+
+   !> Solve a scene; the recorder then holds its window.
+   subroutine run_window(scene, recorder, ending, watcher)
+      !> Checked scene without a series
+      type(scene_t), intent(in) :: scene
+      !> Holds the window
+      type(sample_recorder_t), intent(out) :: recorder
+      !> How it ended
+      type(motion_end_t), intent(out) :: ending
+      !> Told of progress
+      type(counting_watcher_t), intent(inout), optional :: watcher
+
+      type(counting_watcher_t) :: unwatched
+      type(film_t) :: film
+      type(error_t), allocatable :: error
+      real(dp) :: initial_film
+
+      film = new_film(scene)
+      initial_film = scene%film%initial_film
+      if (.not. initial_film > 0.0_dp) initial_film = &
+         steady_film(film, scene%load%steady_force + scene%load%mass*scene%load%gravity)
+      call recorder%open(scene, '', error)
+      if (present(watcher)) then
+         call solve_motion(scene, film, initial_film, recorder, watcher, ending, error)
+      else
+         call solve_motion(scene, film, initial_film, recorder, unwatched, ending, error)
+      end if
+   end subroutine run_window
+
+   !> Count the periods.
+   subroutine period_done(self, done, all)
+      class(counting_watcher_t), intent(inout) :: self
+      integer, intent(in) :: done
+      integer, intent(in) :: all
+
+      self%told = self%told + 1
+      self%done = done
+      self%all = all
+   end subroutine period_done
+
+end module canonical_scenes

@@ -1,0 +1,67 @@
+!> A tiny test driver: checks are counted, failures are told with their numbers, nothing stops.
+module checks
+   use kinds, only: dp
+   implicit none(type, external)
+   private
+
+   !> Outcome of a list of checks.
+   type, public :: check_list_t
+      integer :: passed = 0
+      integer :: failed = 0
+      !> Name of the module under test, printed with a failure
+      character(40) :: topic = ''
+   contains
+      procedure :: start => start_topic
+      procedure :: check => check_condition
+      procedure :: check_close
+   end type check_list_t
+
+contains
+
+   !> Name what is tested next.
+   subroutine start_topic(self, topic)
+      class(check_list_t), intent(inout) :: self
+      !> Name of the module under test
+      character(*), intent(in) :: topic
+
+      self%topic = topic
+   end subroutine start_topic
+
+   !> Count a condition.
+   subroutine check_condition(self, condition, message)
+      class(check_list_t), intent(inout) :: self
+      !> What must hold
+      logical, intent(in) :: condition
+      !> What it says
+      character(*), intent(in) :: message
+
+      if (condition) then
+         self%passed = self%passed + 1
+      else
+         self%failed = self%failed + 1
+         print '(4a)', 'FAILED ', trim(self%topic), ': ', message
+      end if
+   end subroutine check_condition
+
+   !> Count a comparison of two numbers; NaN on either side fails.
+   subroutine check_close(self, actual, expected, tolerance, message)
+      class(check_list_t), intent(inout) :: self
+      !> Number under test
+      real(dp), intent(in) :: actual
+      !> What it should be
+      real(dp), intent(in) :: expected
+      !> Largest allowed absolute difference
+      real(dp), intent(in) :: tolerance
+      !> What is compared
+      character(*), intent(in) :: message
+
+      if (abs(actual - expected) <= tolerance) then
+         self%passed = self%passed + 1
+      else
+         self%failed = self%failed + 1
+         print '(4a, 3(a, es24.16))', 'FAILED ', trim(self%topic), ': ', message, ': got', actual, ', expected', expected, &
+            ', tolerance', tolerance
+      end if
+   end subroutine check_close
+
+end module checks

@@ -1,0 +1,134 @@
+!> Tests of the film of a scene: coefficients, choice of the kernel, steady film.
+module test_film_law
+   use canonical_scenes, only: canonical_scene
+   use checks, only: check_list_t
+   use film_law, only: film_load, film_t, kernel_half_pi, kernel_piezo, kernel_solved_fast, &
+      kernel_solved_successive, &
+      load_half_pi, load_piezo, load_solved_fast, load_solved_successive, new_film, steady_film
+   use kinds, only: dp
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, rupture_half_pi, rupture_solved, &
+      rupture_solver_fast, &
+      rupture_solver_successive, scene_t
+   implicit none(type, external)
+   private
+
+   !> Static load Q + m g of the canonical scenes [N].
+   real(dp), parameter :: static_load = 199.2_dp + 3.0_dp*9.80665_dp
+
+   public :: run_film_law_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_film_law_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('film_law')
+      call test_kernels(checks)
+      call test_steady_film(checks)
+      call test_contact(checks)
+      call test_linearised(checks)
+   end subroutine run_film_law_tests
+
+   !> Law, rupture and solver of the scene choose the kernel; film_load calls it.
+   subroutine test_kernels(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(scene_t) :: scene
+      type(film_t) :: film
+      real(dp) :: loads(3), expected(3)
+
+      scene = canonical_scene(law_iso_viscous, 512)
+      scene%film%rupture = rupture_half_pi
+      scene%film%rupture_solver = rupture_solver_successive
+      film = new_film(scene)
+      call checks%check(film%kernel == kernel_half_pi, 'kernel: half-pi')
+      call film_load(film, 5.0e-7_dp, 1.0e-3_dp, loads(1), loads(2), loads(3))
+      call load_half_pi(film, 5.0e-7_dp, 1.0e-3_dp, expected(1), expected(2), expected(3))
+      call checks%check(maxval(abs(loads - expected)) <= 0.0_dp, 'film_load: half-pi')
+
+      scene%film%rupture = rupture_solved
+      film = new_film(scene)
+      call checks%check(film%kernel == kernel_solved_successive, 'kernel: solved, successive')
+      call film_load(film, 5.0e-7_dp, 1.0e-3_dp, loads(1), loads(2), loads(3))
+      call load_solved_successive(film, 5.0e-7_dp, 1.0e-3_dp, expected(1), expected(2), expected(3))
+      call checks%check(maxval(abs(loads - expected)) <= 0.0_dp, 'film_load: solved, successive')
+
+      scene%film%rupture_solver = rupture_solver_fast
+      film = new_film(scene)
+      call checks%check(film%kernel == kernel_solved_fast, 'kernel: solved, fast')
+      call film_load(film, 5.0e-7_dp, 1.0e-3_dp, loads(1), loads(2), loads(3))
+      ! Both solvers find the same root.
+      call checks%check(maxval(abs(loads/expected - 1.0_dp)) < 1.0e-12_dp, &
+         'fast and successive give the same load')
+      call load_solved_fast(film, 5.0e-7_dp, 1.0e-3_dp, expected(1), expected(2), expected(3))
+      call checks%check(maxval(abs(loads - expected)) <= 0.0_dp, 'film_load: solved, fast')
+
+      scene%film%law = law_piezo_viscous
+      film = new_film(scene)
+      call checks%check(film%kernel == kernel_piezo, 'kernel: piezo-viscous')
+      call film_load(film, 5.0e-7_dp, 1.0e-3_dp, loads(1), loads(2), loads(3))
+      call load_piezo(film, 5.0e-7_dp, 1.0e-3_dp, expected(1), expected(2), expected(3))
+      call checks%check(maxval(abs(loads - expected)) <= 0.0_dp, 'film_load: piezo-viscous')
+   end subroutine test_kernels
+
+   !> The steady film carries the load, and is the known one for the canonical scenes.
+   subroutine test_steady_film(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      !> The known films have 13 digits.
+      real(dp), parameter :: known(2) = [8.889224234368e-07_dp, 1.000449736566e-06_dp]
+      character(13), parameter :: names(2) = ['iso-viscous  ', 'piezo-viscous']
+      type(film_t) :: film
+      real(dp) :: thickness, load, slope_h, slope_w
+      integer :: law
+
+      do law = 1, 2
+         film = new_film(canonical_scene(law, 512))
+         thickness = steady_film(film, static_load)
+         call checks%check_close(thickness/known(law), 1.0_dp, 1.0e-12_dp, &
+            'canonical steady film, '//names(law))
+         call film_load(film, thickness, 0.0_dp, load, slope_h, slope_w)
+         call checks%check_close(load/static_load, 1.0_dp, 32.0_dp*epsilon(1.0_dp), &
+            'steady film carries its load, '//names(law))
+      end do
+   end subroutine test_steady_film
+
+   !> Two flank radii in place of one; E* of steel.
+   subroutine test_contact(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(scene_t) :: scene
+      type(film_t) :: film
+
+      scene = canonical_scene(law_iso_viscous, 512)
+      film = new_film(scene)
+      call checks%check_close(film%radius, 0.0127_dp, 0.0_dp, 'radius as given')
+      call checks%check_close(film%modulus/226.0e9_dp, 1.0_dp, 8.0_dp*epsilon(1.0_dp), 'plane-strain modulus')
+      scene%contact%radius = 0.0_dp
+      scene%contact%radius_1 = 0.03_dp
+      scene%contact%radius_2 = 0.06_dp
+      film = new_film(scene)
+      call checks%check_close(film%radius, 0.02_dp, 0.02_dp*4.0_dp*epsilon(1.0_dp), 'radius of two flanks')
+   end subroutine test_contact
+
+   !> Natural frequency and damping ratio of the canonical films, known to five and four digits.
+   subroutine test_linearised(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: frequencies(2) = [1473.6_dp, 2598.7_dp], ratios(2) = [0.6146_dp, 0.8612_dp]
+      real(dp), parameter :: mass = 3.0_dp, two_pi = 8.0_dp*atan(1.0_dp)
+      type(film_t) :: film
+      real(dp) :: load, slope_h, slope_w
+      integer :: law
+
+      do law = 1, 2
+         film = new_film(canonical_scene(law, 512))
+         call film_load(film, steady_film(film, static_load), 0.0_dp, load, slope_h, slope_w)
+         call checks%check_close(sqrt(-slope_h/mass)/two_pi, frequencies(law), 0.05_dp, 'natural frequency')
+         call checks%check_close(-slope_w/(2.0_dp*sqrt(-slope_h*mass)), ratios(law), 0.00005_dp, &
+            'damping ratio')
+      end do
+   end subroutine test_linearised
+
+end module test_film_law

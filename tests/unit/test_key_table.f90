@@ -1,0 +1,216 @@
+!> Tests of the key table: its lines hang together and agree with the codes of scene_types.
+module test_key_table
+   use checks, only: check_list_t
+   use key_table, only: allowed_text, find_key, in_range, integer_kind, key_t, keys, known_group, &
+      list_kind, logical_kind, &
+      nearest_group, nearest_key, real_kind, reals_kind, text_kind
+   use kinds, only: dp
+   use scene_input, only: word_position
+   use scene_types, only: column_names, iteration_newton, iteration_successive, law_iso_viscous, &
+      law_piezo_viscous, &
+      method_newmark, model_published, predictor_extrapolated, predictor_previous, rupture_half_pi, &
+      rupture_solved, &
+      rupture_solver_fast, rupture_solver_successive
+   implicit none(type, external)
+   private
+
+   public :: run_key_table_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_key_table_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('key_table')
+      call test_lines(checks)
+      call test_codes(checks)
+      call test_ranges(checks)
+      call test_hints(checks)
+   end subroutine run_key_table_tests
+
+   !> Every line is found under its own name only, its group stands together, its default and example are
+   !> allowed, its deciding key exists and has those words, and nothing is cut off by the length of a field.
+   subroutine test_lines(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      character(:), allocatable :: name
+      integer :: i
+
+      do i = 1, size(keys)
+         name = trim(keys(i)%group)//' '//trim(keys(i)%name)
+         call checks%check(find_key(keys(i)%group, keys(i)%name) == i, name//': found once')
+         call checks%check(known_group(keys(i)%group), name//': group known')
+         if (keys(i)%default /= 'required') call checks%check(is_allowed(keys(i), keys(i)%default), &
+            name//': default')
+         call checks%check(is_allowed(keys(i), keys(i)%example), name//': example')
+         call checks%check(keys(i)%default /= 'required' .or. keys(i)%example /= '', &
+            name//': required, so has an example')
+         call checks%check(decider_exists(keys(i)), name//': its deciding key and words exist')
+         call checks%check(keys(i)%sentence(len(keys(i)%sentence):) == ' ' .and. &
+            index(trim(keys(i)%sentence), '.', back=.true.) == len_trim(keys(i)%sentence), &
+            name//': whole sentence')
+         call checks%check((keys(i)%unit == '') .eqv. any(keys(i)%kind == [logical_kind, text_kind, &
+            list_kind]), &
+            name//': a number has a unit')
+         call checks%check(len(allowed_text(keys(i))) > 0, name//': allowed values in words')
+      end do
+      do i = 2, size(keys)
+         if (keys(i)%group == keys(i - 1)%group) cycle
+         call checks%check(.not. any(keys(:i - 1)%group == keys(i)%group), &
+            trim(keys(i)%group)//': group stands together')
+      end do
+      call checks%check(find_key('load', 'radius') == 0 .and. find_key('', '') == 0, &
+         'a key outside its group is not found')
+      call checks%check(.not. known_group('loads'), 'unknown group')
+   end subroutine test_lines
+
+   !> Whether a default or example, if there is one, is an allowed value.
+   logical function is_allowed(key, value) result(allowed)
+      type(key_t), intent(in) :: key        !> Line of the table
+      character(*), intent(in) :: value     !> Its default or example, may be empty
+
+      real(dp) :: number
+      integer :: stat, start, i
+
+      allowed = .true.
+      if (value == '') return
+      select case (key%kind)
+      case (real_kind, integer_kind, reals_kind)
+         read (value, *, iostat=stat) number
+         allowed = stat == 0 .and. in_range(key, number)
+         if (key%kind == integer_kind) allowed = allowed .and. scan(value, '.eE') == 0
+      case (logical_kind)
+         allowed = value == '.true.' .or. value == '.false.'
+      case default
+         if (key%choices == '') return
+         start = 1
+         do i = 1, len_trim(value) + 1
+            if (i <= len_trim(value)) then
+               if (value(i:i) /= ' ') cycle
+            end if
+            allowed = allowed .and. word_position(trim(key%choices), value(start:i - 1)) > 0
+            start = i + 1
+         end do
+      end select
+   end function is_allowed
+
+   !> Whether 'group.key=word[|word]', once or several times with ' & ' between, names keys and their words.
+   logical function decider_exists(key) result(exists)
+      type(key_t), intent(in) :: key  !> Line of the table
+
+      character(:), allocatable :: rest, rule
+      integer :: dot, equals, decider, bar
+
+      exists = .true.
+      rest = trim(key%used_when)
+      do while (len(rest) > 0)
+         rule = rest(:index(rest//' & ', ' & ') - 1)
+         rest = rest(min(len(rest), len(rule) + 3) + 1:)
+         dot = index(rule, '.')
+         equals = index(rule, '=')
+         exists = exists .and. dot > 1 .and. equals > dot + 1
+         if (.not. exists) return
+         decider = find_key(rule(:dot - 1), rule(dot + 1:equals - 1))
+         exists = decider > 0
+         if (.not. exists) return
+         rule = rule(equals + 1:)//'|'
+         do while (len(rule) > 0)
+            bar = index(rule, '|')
+            exists = exists .and. word_position(trim(keys(decider)%choices), rule(:bar - 1)) > 0
+            rule = rule(bar + 1:)
+         end do
+      end do
+   end function decider_exists
+
+   !> A code is the place of its word among the choices.
+   subroutine test_codes(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer :: i
+
+      call agree('film', 'law', 'iso-viscous', law_iso_viscous)
+      call agree('film', 'law', 'piezo-viscous', law_piezo_viscous)
+      call agree('film', 'model', 'published', model_published)
+      call agree('film', 'rupture', 'half-pi', rupture_half_pi)
+      call agree('film', 'rupture', 'solved', rupture_solved)
+      call agree('film', 'rupture_solver', 'fast', rupture_solver_fast)
+      call agree('film', 'rupture_solver', 'successive', rupture_solver_successive)
+      call agree('solver', 'method', 'newmark', method_newmark)
+      call agree('solver', 'iteration', 'newton', iteration_newton)
+      call agree('solver', 'iteration', 'successive', iteration_successive)
+      call agree('solver', 'predictor', 'extrapolated', predictor_extrapolated)
+      call agree('solver', 'predictor', 'previous', predictor_previous)
+      do i = 1, size(column_names)
+         call agree('output', 'columns', trim(column_names(i)), i)
+      end do
+      call checks%check(word_position('fast successive', 'succ') == 0, 'part of a word is no word')
+      call checks%check(word_position('fast successive', '') == 0, 'no word')
+
+   contains
+
+      !> One word, one code.
+      subroutine agree(group, name, word, code)
+         character(*), intent(in) :: group  !> Group of the key
+         character(*), intent(in) :: name   !> Its name
+         character(*), intent(in) :: word   !> One of its choices
+         integer, intent(in) :: code        !> Constant of scene_types
+
+         call checks%check(word_position(trim(keys(find_key(group, name))%choices), word) == code, &
+            name//' '//word//': code')
+      end subroutine agree
+
+   end subroutine test_codes
+
+   !> Open and closed bounds.
+   subroutine test_ranges(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call expect('contact', 'radius', 0.0_dp, .false.)
+      call expect('contact', 'radius', tiny(1.0_dp), .true.)
+      call expect('contact', 'poisson_ratio', -1.0_dp, .false.)
+      call expect('contact', 'poisson_ratio', 0.5_dp, .true.)
+      call expect('contact', 'poisson_ratio', 0.51_dp, .false.)
+      call expect('load', 'force_amplitude', 0.0_dp, .true.)
+      call expect('load', 'force_amplitude', -tiny(1.0_dp), .false.)
+      call expect('load', 'steady_force', -1.0e10_dp, .true.)
+      call expect('solver', 'steps_per_period', 7.0_dp, .false.)
+      call expect('solver', 'steps_per_period', 8.0_dp, .true.)
+      call expect('solver', 'steps_per_period', 1.0e7_dp, .true.)
+      call expect('spectrum', 'line_threshold', 0.0_dp, .false.)
+      call expect('spectrum', 'line_threshold', 1.0_dp, .true.)
+
+   contains
+
+      !> One number for one key.
+      subroutine expect(group, name, number, allowed)
+         character(*), intent(in) :: group  !> Group of the key
+         character(*), intent(in) :: name   !> Its name
+         real(dp), intent(in) :: number     !> Number to judge
+         logical, intent(in) :: allowed     !> Whether it is allowed
+
+         call checks%check(in_range(keys(find_key(group, name)), number) .eqv. allowed, name//': bound')
+      end subroutine expect
+
+   end subroutine test_ranges
+
+   !> Suggestions for misspelt keys and groups; allowed values in words.
+   subroutine test_hints(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%check(index(nearest_key('contact', 'raduis'), ' radius') > 0, 'nearest key')
+      call checks%check(index(nearest_key('lubricant', 'mass'), '&load') > 0, 'group where the key lives')
+      call checks%check(index(nearest_key('load', repeat('x', 5000)), 'nearest') > 0, &
+         'a very long name has a nearest key')
+      call checks%check(nearest_group('lubricants') == 'lubricant', 'nearest group')
+      call checks%check(allowed_text(keys(find_key('contact', &
+         'poisson_ratio'))) == 'a number > -1.0 and <= 0.5', &
+         'allowed numbers')
+      call checks%check(index(allowed_text(keys(find_key('solver', 'steps_per_period'))), &
+         'an integer >= 8 and <= ') == 1, &
+         'allowed integers')
+      call checks%check(allowed_text(keys(find_key('film', 'rupture'))) == "one of 'half-pi' 'solved'", &
+         'allowed words')
+   end subroutine test_hints
+
+end module test_key_table

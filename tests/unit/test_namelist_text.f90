@@ -1,0 +1,171 @@
+!> Tests of the namelist scanner on small texts.
+module test_namelist_text
+   use checks, only: check_list_t
+   use errors, only: fault_list_t
+   use namelist_text, only: assignment_t, scan_namelists
+   implicit none (type, external)
+   private
+
+   character(1), parameter :: end_of_line = achar(10), tab = achar(9), carriage_return = achar(13)
+
+   public :: run_namelist_text_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_namelist_text_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('namelist_text')
+      call test_sound(checks)
+      call test_values(checks)
+      call test_many(checks)
+      call test_faults(checks)
+   end subroutine run_namelist_text_tests
+
+   !> Two groups with comments, tabs, capitals, commas, an index, DOS line ends.
+   subroutine test_sound(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      character(*), parameter :: text = '! first line'//end_of_line// &
+         '&Load'//carriage_return//end_of_line// &
+         tab//'MASS = 3.0, frequency=600 ! a / in a comment'//end_of_line// &
+         '/'//end_of_line//end_of_line// &
+         '&output columns(2) = ''time'' , "film" /'
+      type(assignment_t), allocatable :: assignments(:)
+      type(fault_list_t) :: faults
+
+      call read_text(text, assignments, faults)
+      call checks%check(faults%count() == 0, 'sound text')
+      call checks%check(size(assignments) == 3, 'three assignments')
+      if (size(assignments) /= 3) return
+      call checks%check(assignments(1)%group == 'load' .and. assignments(1)%key == 'mass', &
+         'names in lower case')
+      call checks%check(all(assignments%line == [3, 3, 6]), 'lines')
+      call checks%check(all(assignments%first_element == [0, 0, 2]), 'index')
+      call checks%check(assignments(2)%values(1)%text == '600' .and. .not. assignments(2)%values(1)%quoted, &
+         'bare value')
+      call checks%check(size(assignments(3)%values) == 2, 'two values')
+      call checks%check(assignments(3)%values(1)%text == 'time' .and. assignments(3)%values(1)%quoted, &
+         'quoted value')
+      call checks%check(assignments(3)%values(2)%text == 'film', 'double quotes')
+   end subroutine test_sound
+
+   !> What quotes protect.
+   subroutine test_values(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(assignment_t), allocatable :: assignments(:)
+      type(fault_list_t) :: faults
+
+      call read_text("&a k = 'it''s / & ! = ,' b = ""''"" c='' d = 1.0e-8/", assignments, faults)
+      call checks%check(faults%count() == 0 .and. size(assignments) == 4, 'four values')
+      if (size(assignments) /= 4) return
+      call checks%check(assignments(1)%values(1)%text == "it's / & ! = ,", 'doubled quote and protected characters')
+      call checks%check(assignments(2)%values(1)%text == "''", 'other quotes inside')
+      call checks%check(assignments(3)%values(1)%text == '' .and. assignments(3)%values(1)%quoted, &
+         'empty text')
+      call checks%check(assignments(4)%values(1)%text == '1.0e-8', 'a slash ends a bare value')
+   end subroutine test_values
+
+   !> More assignments and values than the first lists hold.
+   subroutine test_many(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(assignment_t), allocatable :: assignments(:)
+      type(fault_list_t) :: faults
+      character(:), allocatable :: text
+      character(3) :: digits
+      integer :: i
+      logical :: in_order
+
+      text = '&g'//end_of_line
+      do i = 1, 150
+         write (digits, '(i3.3)') i
+         text = text//'k'//digits//' = '//digits//end_of_line
+      end do
+      text = text//'last = '//repeat('7 ', 40)//'/'
+      call read_text(text, assignments, faults)
+      call checks%check(faults%count() == 0 .and. size(assignments) == 151, 'many assignments')
+      if (size(assignments) /= 151) return
+      in_order = .true.
+      do i = 1, 150
+         write (digits, '(i3.3)') i
+         in_order = in_order .and. assignments(i)%key == 'k'//digits .and. assignments(i)%line == i + 1 &
+            .and. assignments(i)%values(1)%text == digits
+      end do
+      call checks%check(in_order, 'they keep their order while the list grows')
+      call checks%check(size(assignments(151)%values) == 40, 'many values')
+   end subroutine test_many
+
+   !> Every fault is found at its line, and the text after it is still read.
+   subroutine test_faults(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call expect('', 1, 0, 'f: the file is empty', 'empty text')
+      call expect('   '//end_of_line, 0, 0, '', 'blank lines only hold nothing')
+      call expect('stray'//end_of_line//'&g k=1 /', 1, 1, 'f:1: text outside', 'text outside a group')
+      call expect('&'//end_of_line//'&g k=1 /', 1, 1, 'f:1: a group name must follow', 'group without a name')
+      call expect('&g k=1 /'//end_of_line//'&g m=2 /', 1, 2, 'f:2: &g: this group stands in line 1', &
+         'group twice')
+      call expect('&g k=1'//end_of_line//'&h m=2 /', 1, 2, 'f:1: &g: this group is not closed', 'open group')
+      call expect('&g k=1', 1, 1, 'f:1: &g: this group is not closed', 'open at the end')
+      call expect('&g'//end_of_line//'k 1'//end_of_line//'m=2 /', 1, 1, 'f:2: &g k: an equals sign', &
+         'no equals sign')
+      call expect('&g'//end_of_line//'= 1'//end_of_line//'m=2 /', 1, 1, 'f:2: &g: unexpected ''=''', 'no key')
+      call expect('&g k = m=2 /', 1, 1, 'f:1: &g k: a value is missing', 'no value')
+      call expect('&g k = 1,,2 /', 1, 0, 'f:1: &g k: a value is missing before', 'two commas')
+      call expect('&g k = ''abc'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the closing quote', 'open quote')
+      call expect('&g k(0) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'index 0')
+      call expect('&g k(1:2) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'section')
+      call expect('&g k=1'//end_of_line//achar(0)//' /', 1, 0, 'f:2: not a text file', 'binary file')
+
+   contains
+
+      !> One text: how many faults, how many assignments, and how the first fault begins.
+      subroutine expect(text, fault_count, assignment_count, beginning, message)
+         character(*), intent(in) :: text         !> Text to scan
+         integer, intent(in) :: fault_count       !> Faults in it
+         integer, intent(in) :: assignment_count  !> Assignments that are still read
+         character(*), intent(in) :: beginning    !> Of the first fault; empty: not looked at
+         character(*), intent(in) :: message      !> What is wrong with the text
+
+         type(assignment_t), allocatable :: assignments(:)
+         type(fault_list_t) :: faults
+
+         call read_text(text, assignments, faults)
+         if (fault_count > 0) call checks%check(faults%count() == fault_count, message//': number of faults')
+         call checks%check(size(assignments) == assignment_count, message//': number of assignments')
+         if (len(beginning) > 0 .and. faults%count() > 0) &
+            call checks%check(index(faults%sentence(1), beginning) == 1, message//': '//faults%sentence(1))
+      end subroutine expect
+
+   end subroutine test_faults
+
+   !> Scan a text; keep the assignments that could be taken apart.
+   subroutine read_text(text, kept, faults)
+      character(*), intent(in) :: text                            !> Text to scan
+      type(assignment_t), allocatable, intent(out) :: kept(:)     !> Its sound assignments
+      type(fault_list_t), intent(inout) :: faults                 !> Faults are appended
+
+      type(assignment_t), allocatable :: assignments(:)
+      integer :: i, used
+
+      call scan_namelists(text, 'f', 1, assignments, faults)
+      allocate (kept(count(is_sound(assignments))))
+      used = 0
+      do i = 1, size(assignments)
+         if (.not. is_sound(assignments(i))) cycle
+         used = used + 1
+         kept(used) = assignments(i)
+      end do
+   end subroutine read_text
+
+   !> Whether an element stands for a key with values, and not for the opening of a group or a fault.
+   elemental logical function is_sound(assignment)
+      type(assignment_t), intent(in) :: assignment  !> Element of the scanned list
+
+      is_sound = assignment%sound .and. len(assignment%key) > 0
+   end function is_sound
+
+end module test_namelist_text

@@ -1,0 +1,101 @@
+!> Tests of the class of a motion on made signals, at both sides of every limit.
+module test_rattle_class
+   use checks, only: check_list_t
+   use kinds, only: dp
+   use rattle_class, only: class_creep, class_idle, class_irregular, class_name, class_quiet, classify, &
+      rattle_verdict_t
+   use scene_types, only: spectrum_choice_t
+   implicit none(type, external)
+   private
+
+   integer, parameter :: periods = 4, steps = 256
+   real(dp), parameter :: two_pi = 8.0_dp*atan(1.0_dp), noise_floor = 1.0e-9_dp
+
+   public :: run_rattle_class_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_rattle_class_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp) :: amplitudes(60)
+
+      call checks%start('rattle_class')
+
+      amplitudes = 0.0_dp
+      call expect(amplitudes, 0.0_dp, class_quiet, 'no motion')
+      amplitudes(1) = 1.0_dp
+      call expect(amplitudes, 0.0_dp, class_quiet, 'one harmonic')
+      amplitudes(2) = 0.34_dp
+      call expect(amplitudes, 0.0_dp, class_quiet, 'distortion 0.34')
+      amplitudes(2) = 0.36_dp
+      call expect(amplitudes, 0.0_dp, class_creep, 'distortion 0.36')
+      amplitudes(3:19) = 0.011_dp
+      call expect(amplitudes, 0.0_dp, class_creep, '19 lines')
+      amplitudes(20) = 0.011_dp
+      call expect(amplitudes, 0.0_dp, class_idle, '20 lines')
+      amplitudes(20) = 0.009_dp
+      call expect(amplitudes, 0.0_dp, class_creep, 'the twentieth below the threshold')
+      amplitudes = 0.011_dp
+      amplitudes(1) = 1.0_dp
+      call expect(amplitudes, 0.0_dp, class_quiet, 'many small lines are no rattle')
+      ! The irregular share of a half-integer line b beside a line of 1: b^2/(1 + b^2).
+      amplitudes = 0.0_dp
+      amplitudes(1) = 1.0_dp
+      call expect(amplitudes, 0.09_dp, class_quiet, 'irregular share 0.0080')
+      call expect(amplitudes, 0.11_dp, class_irregular, 'irregular share 0.0120')
+      amplitudes(1:30) = 1.0_dp
+      call expect(amplitudes, 2.0_dp, class_irregular, 'irregular before idle')
+
+      call test_reversals_per_period(checks)
+      call checks%check(class_name(class_quiet) == 'quiet' .and. class_name(class_creep) == 'creep' .and. &
+         class_name(class_idle) == 'idle' .and. class_name(class_irregular) == 'irregular', 'words')
+
+   contains
+
+      !> Harmonics and a line at half the forcing frequency, and their class.
+      subroutine expect(harmonics, half_line, class, message)
+         real(dp), intent(in) :: harmonics(:)  !> a_1, a_2, ...
+         real(dp), intent(in) :: half_line     !> Amplitude at half the forcing frequency
+         integer, intent(in) :: class          !> Its class
+         character(*), intent(in) :: message   !> Name of the signal
+
+         type(rattle_verdict_t) :: verdict
+
+         call classify(signal(harmonics, half_line), spectrum_choice_t(periods=periods), noise_floor, verdict)
+         call checks%check(verdict%class == class, message//' is '//class_name(class))
+      end subroutine expect
+
+   end subroutine run_rattle_class_tests
+
+   !> Samples of a window.
+   function signal(harmonics, half_line) result(samples)
+      real(dp), intent(in) :: harmonics(:)  !> a_1, a_2, ...
+      real(dp), intent(in) :: half_line     !> Amplitude at half the forcing frequency
+      real(dp) :: samples(periods*steps)
+
+      integer :: i, n
+
+      samples = half_line*cos([(two_pi*0.5_dp*real(i, dp)/real(steps, dp), i=1, periods*steps)])
+      do n = 1, size(harmonics)
+         samples = samples + harmonics(n)*sin([(two_pi*real(n*i, dp)/real(steps, dp), i=1, periods*steps)])
+      end do
+   end function signal
+
+   !> Reversals are counted over the window and given for a period.
+   subroutine test_reversals_per_period(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(rattle_verdict_t) :: verdict
+
+      call classify(signal([1.0_dp, 0.0_dp, 2.0_dp], 0.0_dp), spectrum_choice_t(periods=periods), &
+         noise_floor, verdict)
+      call checks%check_close(verdict%reversals_per_period, 6.0_dp, 0.0_dp, 'six reversals a period')
+      call classify(signal([0.0_dp], 1.0_dp), spectrum_choice_t(periods=periods), noise_floor, verdict)
+      call checks%check_close(verdict%reversals_per_period, 1.0_dp, 0.0_dp, 'one reversal a period')
+      call classify(signal([0.0_dp], 0.0_dp), spectrum_choice_t(periods=periods), noise_floor, verdict)
+      call checks%check_close(verdict%reversals_per_period, 0.0_dp, 0.0_dp, 'no motion, no reversal')
+   end subroutine test_reversals_per_period
+
+end module test_rattle_class

@@ -1,0 +1,63 @@
+!> Runs the tests of all modules. The last line is 'N passed, M failed'; the exit code is 1 if any failed.
+program unit_tests
+   use checks, only: check_list_t
+   use test_errors, only: run_errors_tests
+   use test_film_integrals, only: run_film_integrals_tests
+   use test_film_law, only: run_film_law_tests
+   use test_film_pressure, only: run_film_pressure_tests
+   use test_fourier, only: run_fourier_tests
+   use test_integrate_motion, only: run_integrate_motion_tests
+   use test_key_table, only: run_key_table_tests
+   use test_namelist_text, only: run_namelist_text_tests
+   use test_newmark, only: run_newmark_tests
+   use test_numerical_artefacts, only: run_numerical_artefacts_tests
+   use test_published_iso_viscous, only: run_published_iso_viscous_tests
+   use test_published_piezo_viscous, only: run_published_piezo_viscous_tests
+   use test_rattle_class, only: run_rattle_class_tests
+   use test_regime_check, only: run_regime_check_tests
+   use test_result_writer, only: run_result_writer_tests
+   use test_reversals, only: run_reversals_tests
+   use test_rupture, only: run_rupture_tests
+   use test_scene_input, only: run_scene_input_tests
+   use test_spectral_lines, only: run_spectral_lines_tests
+   use test_text, only: run_text_tests
+   use test_film_fit, only: run_film_fit_tests
+   use test_film_point, only: run_film_point_tests
+   use test_numerical_reynolds, only: run_numerical_reynolds_tests
+   use test_regime, only: run_regime_tests
+   use test_reynolds_film, only: run_reynolds_film_tests
+   use test_reynolds_load, only: run_reynolds_load_tests
+   implicit none(type, external)
+
+   type(check_list_t) :: checks
+
+   call run_text_tests(checks)
+   call run_errors_tests(checks)
+   call run_key_table_tests(checks)
+   call run_namelist_text_tests(checks)
+   call run_scene_input_tests(checks)
+   call run_film_integrals_tests(checks)
+   call run_rupture_tests(checks)
+   call run_film_pressure_tests(checks)
+   call run_published_iso_viscous_tests(checks)
+   call run_published_piezo_viscous_tests(checks)
+   call run_film_law_tests(checks)
+   call run_film_fit_tests(checks)
+   call run_film_point_tests(checks)
+   call run_numerical_reynolds_tests(checks)
+   call run_regime_tests(checks)
+   call run_reynolds_film_tests(checks)
+   call run_reynolds_load_tests(checks)
+   call run_newmark_tests(checks)
+   call run_integrate_motion_tests(checks)
+   call run_fourier_tests(checks)
+   call run_spectral_lines_tests(checks)
+   call run_reversals_tests(checks)
+   call run_rattle_class_tests(checks)
+   call run_regime_check_tests(checks)
+   call run_numerical_artefacts_tests(checks)
+   call run_result_writer_tests(checks)
+
+   print '(i0, a, i0, a)', checks%passed, ' passed, ', checks%failed, ' failed'
+   if (checks%failed > 0) stop 1, quiet = .true.
+end program unit_tests
