@@ -1,5 +1,7 @@
 !> Whole motion of a scene: from the first state through all periods, samples handed to a sink.
 module integrate_motion
+   use clock, only: wall_seconds
+   use constants, only: two_pi
    use errors, only: error_t
    use film_law, only: film_kernel, film_t, kernel_half_pi, kernel_reynolds_iso, kernel_reynolds_piezo, &
                        kernel_solved_fast, kernel_solved_successive, load_half_pi, load_piezo, load_reynolds_iso, &
@@ -7,9 +9,10 @@ module integrate_motion
    use forcing, only: applied_force, force_of_period
    use kinds, only: dp, int64
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
+   use period_repetition, only: note_state, orbit_watch_t
    use sample_sink, only: sample_sink_t
-   use scene_status, only: status_complete, status_interrupted
-   use scene_types, only: iteration_newton, predictor_extrapolated, scene_t
+   use scene_status, only: status_complete, status_interrupted, status_steady, status_time_limit
+   use scene_types, only: iteration_newton, predictor_extrapolated, scene_t, until_steady
    use signals, only: caught_signal
    implicit none(type, external)
    private
@@ -19,8 +22,13 @@ module integrate_motion
       integer :: status = status_complete
       !> Time reached [s]
       real(dp) :: time = 0.0_dp
-      !> Film there [m]
+      !> Whole periods solved
+      integer :: periods = 0
+      !> Film there [m] and its velocity [m/s]
       real(dp) :: film = 0.0_dp
+      real(dp) :: velocity = 0.0_dp
+      !> Periods after which a steady motion repeats, else 0
+      integer :: orbit = 0
       type(motion_count_t) :: count
    end type motion_end_t
 
@@ -42,7 +50,11 @@ module integrate_motion
       end subroutine watch_period
    end interface
 
-   public :: solve_motion
+   !> Distance from the repeating motion, relative to the film, at which Newmark's motion counts as steady: far below
+   !> the error of its steps [-].
+   real(dp), parameter :: repetition_tolerance = 1.0e-9_dp
+
+   public :: solve_motion, time_is_up
 
 contains
 
@@ -92,9 +104,12 @@ contains
       type(newmark_t) :: method
       type(motion_state_t) :: state
       real(dp), allocatable :: force(:), films(:), velocities(:), accelerations(:)
+      type(orbit_watch_t) :: states
       integer(int64) :: first_step
-      integer :: period, steps, done
+      integer :: period, last_period, window, steps, done, orbit
+      real(dp) :: distance, started
 
+      started = wall_seconds()
       method = newmark_of(scene)
       steps = scene%solver%steps_per_period
       allocate (force(steps), films(steps), velocities(steps), accelerations(steps))
@@ -110,21 +125,47 @@ contains
                      [state%velocity], [state%acceleration], error)
       if (allocated(error)) return
 
-      do period = 1, scene%solver%periods
+      last_period = scene%solver%periods
+      window = scene%spectrum%periods
+      call sink%begin_window(int(last_period - window, int64)*int(steps, int64) + 1_int64, window*steps)
+      period = 0
+      do while (period < last_period)
+         period = period + 1
          first_step = int(period - 1, int64)*int(steps, int64) + 1_int64
          call advance_period(kernel, film, method, force, state, ending%count, films, velocities, accelerations, done, &
                              ending%status)
          call sink%take(first_step, force(:done), films(:done), velocities(:done), accelerations(:done), error)
          ending%film = state%film
+         ending%velocity = state%velocity
          ending%time = real(first_step + int(done - 1, int64), dp)/(method%frequency*real(steps, dp))
          if (allocated(error) .or. ending%status /= status_complete) return
-         call watcher%period_done(period, scene%solver%periods)
-         if (caught_signal() /= 0 .and. period < scene%solver%periods) then
-            ending%status = status_interrupted
-            return
-         end if
+         ending%periods = period
+         call watcher%period_done(period, last_period)
+         if (period == last_period) exit
+         if (caught_signal() /= 0) ending%status = status_interrupted
+         if (time_is_up(scene, started)) ending%status = status_time_limit
+         if (ending%status /= status_complete) return
+         if (scene%solver%until /= until_steady .or. ending%orbit > 0) cycle
+         call note_state(states, state%film/initial_film, state%velocity/(initial_film*method%frequency), 1.0_dp/two_pi, &
+                         repetition_tolerance, orbit, distance)
+         if (orbit == 0 .or. period + orbit > last_period) cycle
+         ending%orbit = orbit
+         last_period = period + orbit
+         call sink%begin_window(int(period, int64)*int(steps, int64) + 1_int64, orbit*steps)
       end do
+      if (ending%orbit > 0) ending%status = status_steady
    end subroutine run_periods
+
+   !> Whether a scene has used up its time.
+   logical function time_is_up(scene, started)
+      !> The scene
+      type(scene_t), intent(in) :: scene
+      !> When it began, on the clock of wall_seconds [s]
+      real(dp), intent(in) :: started
+
+      time_is_up = .false.
+      if (scene%solver%time_limit > 0.0_dp) time_is_up = wall_seconds() - started > scene%solver%time_limit
+   end function time_is_up
 
    !> Constants of the method from the scene.
    pure function newmark_of(scene) result(method)

@@ -11,15 +11,15 @@
 !> one step more than the one before is off by up to the accuracy.
 module period_repetition
    use kinds, only: dp
-   use taylor_step_control, only: film_weight, free_rate
-   implicit none (type, external)
+   use taylor_step_control, only: film_weight
+   implicit none(type, external)
    private
 
    !> Longest period that is looked for [periods of the force]
    integer, parameter, public :: longest_orbit = 8
 
-   !> Three orbits: two distances for a ratio.
-   integer, parameter :: kept = 3*longest_orbit
+   !> Four orbits: three distances, two ratios.
+   integer, parameter :: kept = 4*longest_orbit
    !> Longer orbits are looked for from here on, and then now and again: most motions do not have them.
    integer, parameter :: longer_from = 12, longer_every = 4
    !> Ratio above which the bound is not trusted.
@@ -36,20 +36,32 @@ module period_repetition
       real(dp) :: momentum(0:kept - 1) = 0.0_dp
    end type orbit_watch_t
 
-   public :: note_state
+   public :: watch_from, note_state
 
 contains
 
+   !> Watcher of a motion that starts from a state.
+   pure type(orbit_watch_t) function watch_from(film, momentum)
+      !> Scaled film H [-]
+      real(dp), intent(in) :: film
+      !> Scaled momentum V [-]
+      real(dp), intent(in) :: momentum
+
+      watch_from%count = 1
+      watch_from%film(watch_from%newest) = film
+      watch_from%momentum(watch_from%newest) = momentum
+   end function watch_from
+
    !> Take the state at the end of a period.
-   pure subroutine note_state(watch, film, momentum, damping_rate, tolerance, orbit, distance)
+   pure subroutine note_state(watch, film, momentum, momentum_weight, tolerance, orbit, distance)
       !> Watcher of this motion
       type(orbit_watch_t), intent(inout) :: watch
       !> Scaled film H [-]
       real(dp), intent(in) :: film
       !> Scaled momentum V [-]
       real(dp), intent(in) :: momentum
-      !> Damping rate there [1/periods]
-      real(dp), intent(in) :: damping_rate
+      !> Film that a momentum of one counts as [-]
+      real(dp), intent(in) :: momentum_weight
       !> Distance from the repeating motion that is small enough [-]
       real(dp), intent(in) :: tolerance
       !> Periods after which the motion repeats, 0 as long as that is not known
@@ -66,8 +78,8 @@ contains
       if (watch%count >= longer_from .and. modulo(watch%count, longer_every) == 0) last = longest_orbit
       distance = huge(distance)
       do orbit = 1, last
-         if (watch%count < 3*orbit) exit
-         distance = orbit_distance(watch, orbit, 1.0_dp/(free_rate + damping_rate))
+         if (watch%count < 4*orbit) exit
+         distance = orbit_distance(watch, orbit, momentum_weight)
          if (distance <= tolerance) return
       end do
       orbit = 0
@@ -79,46 +91,42 @@ contains
       integer, intent(in) :: orbit
       !> Film that a momentum of one counts as [-]
       real(dp), intent(in) :: momentum_weight
-      real(dp) :: last, before, ratio
-      integer :: back
+      !> Ratio below which a motion settles fast enough for two ratios to do
+      real(dp), parameter :: fast = 0.1_dp
+      real(dp) :: last, newer, older, ratio
+      integer :: age
 
       orbit_distance = huge(1.0_dp)
-      last = 0.0_dp
-      before = 0.0_dp
-      do back = 0, orbit - 1
-         last = max(last, apart(watch, back, back + orbit, momentum_weight))
-         before = max(before, apart(watch, back + orbit, back + 2*orbit, momentum_weight))
-      end do
+      ratio = 0.0_dp
+      last = cycle_distance(watch, orbit, 0, momentum_weight)
       ! The map has no memory: a state met again to the last bit comes again for ever.
       if (last <= rounding) orbit_distance = last
-      if (last <= rounding .or. last >= largest_ratio*before) return
-      ratio = last/before
-      if (orbit == 1) ratio = max(ratio, earlier_ratio(watch, ratio, momentum_weight))
-      if (ratio < largest_ratio) orbit_distance = last*ratio/(1.0_dp - ratio)
-   end function orbit_distance
-
-   !> Largest of the ratios before the last one: of one, or of two where the motion does not settle fast.
-   pure real(dp) function earlier_ratio(watch, last_ratio, momentum_weight)
-      type(orbit_watch_t), intent(in) :: watch
-      !> The last ratio [-]
-      real(dp), intent(in) :: last_ratio
-      real(dp), intent(in) :: momentum_weight
-      real(dp), parameter :: fast = 0.1_dp
-      real(dp) :: newer, older
-      integer :: back
-
-      earlier_ratio = 0.0_dp
-      newer = apart(watch, 1, 2, momentum_weight)
-      do back = 2, 3
-         if (back == 3 .and. max(last_ratio, earlier_ratio) < fast) return
-         if (watch%count < back + 2) exit
-         older = apart(watch, back, back + 1, momentum_weight)
-         if (.not. newer < older) exit
-         earlier_ratio = max(earlier_ratio, newer/older)
+      if (last <= rounding) return
+      newer = last
+      do age = 1, merge(3, 2, orbit == 1)
+         if (age == 3 .and. ratio < fast) exit
+         if (age == 3 .and. watch%count < 5) return
+         older = cycle_distance(watch, orbit, age, momentum_weight)
+         if (newer >= largest_ratio*older) return
+         ratio = max(ratio, newer/older)
          newer = older
       end do
-      if (back <= 3) earlier_ratio = huge(1.0_dp)
-   end function earlier_ratio
+      orbit_distance = last*ratio/(1.0_dp - ratio)
+   end function orbit_distance
+
+   !> Largest distance of the states of an orbit, `age` orbits back, from those one orbit before.
+   pure real(dp) function cycle_distance(watch, orbit, age, momentum_weight)
+      type(orbit_watch_t), intent(in) :: watch
+      integer, intent(in) :: orbit
+      integer, intent(in) :: age
+      real(dp), intent(in) :: momentum_weight
+      integer :: back
+
+      cycle_distance = 0.0_dp
+      do back = age*orbit, (age + 1)*orbit - 1
+         cycle_distance = max(cycle_distance, apart(watch, back, back + orbit, momentum_weight))
+      end do
+   end function cycle_distance
 
    !> Distance of two states, in the measure of the step control.
    pure real(dp) function apart(watch, back_1, back_2, momentum_weight)

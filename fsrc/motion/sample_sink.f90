@@ -9,6 +9,7 @@ module sample_sink
    type, abstract, public :: sample_sink_t
    contains
       procedure(take_samples), deferred :: take
+      procedure(open_window), deferred :: begin_window
    end type sample_sink_t
 
    abstract interface
@@ -29,6 +30,16 @@ module sample_sink
          !> Set if the samples could not be kept
          type(error_t), allocatable, intent(out) :: error
       end subroutine take_samples
+
+      !> Told before its first sample where the window begins that the motion is judged by.
+      subroutine open_window(self, first_step, samples)
+         import :: int64, sample_sink_t
+         class(sample_sink_t), intent(inout) :: self
+         !> Step of its first sample
+         integer(int64), intent(in) :: first_step
+         !> How many samples it has
+         integer, intent(in) :: samples
+      end subroutine open_window
    end interface
 
 end module sample_sink

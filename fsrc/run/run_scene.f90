@@ -2,6 +2,7 @@
 module run_scene
    use clock, only: wall_seconds
    use errors, only: error_t
+   use integrate_controlled, only: solve_controlled
    use integrate_motion, only: solve_motion
    use kinds, only: dp
    use log_file, only: log_t
@@ -13,7 +14,7 @@ module run_scene
    use scene_result, only: judge, scene_result_t
    use scene_status, only: status_complete, status_not_written
    use scene_summary, only: write_scene_summary
-   use scene_types, only: scene_t
+   use scene_types, only: method_newmark, scene_t
    implicit none(type, external)
    private
 
@@ -50,7 +51,12 @@ contains
       call recorder%open(scene, result_path(scene), error)
       if (.not. allocated(error)) then
          call watcher%start(log, quiet)
-         call solve_motion(scene, resolved%film, resolved%initial_film, recorder, watcher, result%ending, error)
+         if (scene%solver%method == method_newmark) then
+            call solve_motion(scene, resolved%film, resolved%initial_film, recorder, watcher, result%ending, error)
+         else
+            call solve_controlled(scene, resolved%film, resolved%initial_film, scene%output%series, recorder, watcher, &
+                                  result%ending, error)
+         end if
          call watcher%clear()
          result%solve_seconds = wall_seconds() - started
          if (.not. allocated(error)) call judge(scene, resolved, recorder, result)

@@ -15,7 +15,7 @@ module sample_recorder
       private
       !> Samples of the window [m], [m/s], [m/s2]
       real(dp), allocatable, public :: films(:), velocities(:), accelerations(:)
-      integer(int64) :: window_start = 0
+      integer(int64) :: window_start = huge(1_int64)
       real(dp) :: steps_per_second = 0.0_dp, mass = 0.0_dp, gravity = 0.0_dp
       logical :: series = .false.
       integer :: stride = 1
@@ -25,6 +25,7 @@ module sample_recorder
    contains
       procedure :: open => open_recorder
       procedure :: take => take_samples
+      procedure :: begin_window
       procedure :: close => close_recorder
    end type sample_recorder_t
 
@@ -39,21 +40,32 @@ contains
       character(*), intent(in) :: path
       !> Set if the file cannot be written
       type(error_t), allocatable, intent(out) :: error
-      integer :: window
+      integer :: samples
 
-      window = scene%spectrum%periods*scene%solver%steps_per_period
-      allocate (self%films(window), self%velocities(window), self%accelerations(window))
-      self%window_start = int(scene%solver%periods - scene%spectrum%periods, int64)*scene%solver%steps_per_period
-      self%steps_per_second = scene%load%frequency*real(scene%solver%steps_per_period, dp)
+      samples = scene%solver%samples_per_period()
+      self%steps_per_second = scene%load%frequency*real(samples, dp)
       self%mass = scene%load%mass
       self%gravity = scene%load%gravity
       self%series = scene%output%series
       if (.not. self%series) return
       self%stride = scene%output%stride
       self%columns = scene%output%columns
-      allocate (self%rows(size(self%columns), scene%solver%steps_per_period/self%stride + 1))
+      allocate (self%rows(size(self%columns), samples/self%stride + 1))
       call self%writer%open(path, scene%resolved_input, column_names(self%columns), column_units(self%columns), error)
    end subroutine open_recorder
+
+   !> Make room for the window.
+   subroutine begin_window(self, first_step, samples)
+      class(sample_recorder_t), intent(inout) :: self
+      !> Step of its first sample
+      integer(int64), intent(in) :: first_step
+      !> How many samples it has
+      integer, intent(in) :: samples
+
+      if (allocated(self%films)) deallocate (self%films, self%velocities, self%accelerations)
+      allocate (self%films(samples), self%velocities(samples), self%accelerations(samples))
+      self%window_start = first_step
+   end subroutine begin_window
 
    !> Keep what belongs to the window, write what belongs to the series.
    subroutine take_samples(self, first_step, force, film, velocity, acceleration, error)
@@ -72,8 +84,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       integer :: place
 
-      if (first_step > self%window_start) then
-         place = int(first_step - self%window_start)
+      if (first_step >= self%window_start) then
+         place = int(first_step - self%window_start) + 1
          self%films(place:place + size(film) - 1) = film
          self%velocities(place:place + size(film) - 1) = velocity
          self%accelerations(place:place + size(film) - 1) = acceleration

@@ -1,5 +1,6 @@
 !> What the terminal and the log tell of a scene.
 module scene_report
+   use floquet, only: orbit_stability, stability_name
    use kinds, only: dp
    use log_file, only: log_magic, log_t
    use output_place, only: result_path, summary_path
@@ -102,7 +103,7 @@ contains
 
       associate (count => result%ending%count)
          call log%line('  '//integer_text(count%steps)//' steps in '//short_text(result%solve_seconds, 3)//' s, '// &
-                       passes_text()//' passes a step, '//integer_text(count%cuts)//' steps cut to keep the film positive')
+                       passes_text()//' passes a step, '//integer_text(count%cuts)//' steps cut where the film law had no value')
       end associate
       if (.not. is_success(result%ending%status)) call log%line('  '//status_name(result%ending%status)//' at t = '// &
                            short_text(result%ending%time, 6)//' s, film '//micrometres(result%ending%film)//' um: '// &
@@ -136,17 +137,45 @@ contains
          if (lines%moving) then
             call log%line('  '//integer_text(lines%line_count)//' lines, harmonic distortion '// &
                           short_text(lines%harmonic_distortion, 3)//', '// &
-                          short_text(rattle%reversals_per_period, 3)//' reversals a period: '//class_name(rattle%class))
+                          short_text(rattle%reversals_per_period, 3)//' reversals a period: '//class_name(rattle%class)// &
+                          certificate_word(result))
          else
             call log%line('  no motion but rounding: '//class_name(rattle%class))
          end if
          if (.not. lines%sampling_sufficient) &
-            call log%line('  warning: too few samples a period for the highest lines; raise steps_per_period')
+            call log%line('  warning: too few samples a period for the highest lines; take more steps or samples')
       end associate
+      call report_certificate(log, result)
       call log%line('  '//regime_sentence(result%regime))
       if (result%regime%law_contradicted) &
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted)')
    end subroutine report_window
+
+   !> Whether the class stands, as one word behind it.
+   pure function certificate_word(outcome) result(word)
+      type(scene_result_t), intent(in) :: outcome
+      character(:), allocatable :: word
+
+      word = ''
+      if (outcome%certificate%exists) word = trim(merge(' (certified)', ' (uncertain)', outcome%certificate%certified))
+   end function certificate_word
+
+   !> Errors by the tighter solution, and the periodic motion.
+   subroutine report_certificate(log, result)
+      type(log_t), intent(in) :: log
+      type(scene_result_t), intent(in) :: result
+
+      if (.not. result%certificate%exists) return
+      call log%line('  '//result%certificate%reason)
+      if (size(result%certificate%harmonic_errors) > 0) &
+         call log%line('  error of the film '//short_text(result%certificate%film_error, 2)// &
+                       ', of the peak acceleration '//short_text(result%certificate%acceleration_error, 2))
+      associate (orbit => result%orbit)
+         if (orbit%period > 0) call log%line('  the motion repeats after '//integer_text(orbit%period)// &
+            trim(merge(' period ', ' periods', orbit%period == 1))//': '//stability_name(orbit_stability(orbit%multipliers))// &
+                                             ', largest Floquet multiplier '//short_text(abs(orbit%multipliers(1)), 3))
+      end associate
+   end subroutine report_certificate
 
    !> A length [m] as a number of micrometres.
    pure function micrometres(length) result(words)

@@ -1,13 +1,19 @@
 !> What a solved scene amounts to: how it ended, its window, class and regime.
 module scene_result
+   use certificate, only: certificate_t
+   use certify_scene, only: certify
+   use fine_window, only: solve_fine_window, window_t
    use integrate_motion, only: motion_end_t
    use kinds, only: dp
+   use lane_scenes, only: lane_ending_t, lane_scene_t
+   use periodic_orbit, only: periodic_orbit_t
    use rattle_class, only: classify, rattle_verdict_t
    use regime_check, only: check_regime, regime_verdict_t
    use resolved_scene, only: resolved_scene_t
    use sample_recorder, only: sample_recorder_t
+   use scene_lane, only: lane_of_scene
    use scene_status, only: is_success
-   use scene_types, only: scene_t
+   use scene_types, only: method_newmark, scene_t, spectrum_choice_t
    implicit none(type, external)
    private
 
@@ -18,8 +24,12 @@ module scene_result
       !> Extremes over the samples of the window [m], [m/s2]
       real(dp) :: film_minimum = 0.0_dp, film_maximum = 0.0_dp
       real(dp) :: acceleration_minimum = 0.0_dp, acceleration_maximum = 0.0_dp
+      !> Whole periods of the window, and samples of each
+      integer :: window_periods = 0, samples_per_period = 0
       type(rattle_verdict_t) :: rattle
       type(regime_verdict_t) :: regime
+      type(certificate_t) :: certificate
+      type(periodic_orbit_t) :: orbit
       !> Cost of solving and of judging [s]
       real(dp) :: solve_seconds = 0.0_dp, judge_seconds = 0.0_dp
    end type scene_result_t
@@ -38,15 +48,36 @@ contains
       type(sample_recorder_t), intent(in) :: recorder
       !> Result with its ending, completed
       type(scene_result_t), intent(inout) :: result
+      type(spectrum_choice_t) :: choice
+      type(lane_scene_t) :: lane
+      type(lane_ending_t) :: ending
+      type(window_t) :: window
 
       result%judged = is_success(result%ending%status)
       if (.not. result%judged) return
-      result%film_minimum = minval(recorder%films)
-      result%film_maximum = maxval(recorder%films)
-      result%acceleration_minimum = minval(recorder%accelerations)
-      result%acceleration_maximum = maxval(recorder%accelerations)
-      call classify(recorder%accelerations, scene%spectrum, resolved%noise_floor, result%rattle)
-      result%regime = check_regime(resolved%film, scene%film%law, recorder%films, recorder%velocities)
+      window%samples_per_period = scene%solver%samples_per_period()
+      window%periods = size(recorder%films)/window%samples_per_period
+      allocate (window%films, source=recorder%films)
+      allocate (window%velocities, source=recorder%velocities)
+      allocate (window%accelerations, source=recorder%accelerations)
+      lane = lane_of_scene(scene, resolved%film, resolved%initial_film, scene%film%initial_velocity)
+      choice = scene%spectrum
+      choice%periods = window%periods
+      call classify(window%accelerations, choice, resolved%noise_floor, result%rattle)
+      ! The samples of an error-controlled motion that repeats are free to be as many as its lines need.
+      if (result%ending%orbit > 0 .and. scene%solver%method /= method_newmark .and. &
+          .not. result%rattle%lines%sampling_sufficient) &
+         call solve_fine_window(scene, lane, scene%solver%accuracy, result%ending%periods, resolved%noise_floor, window, &
+                                result%rattle, ending)
+      result%window_periods = window%periods
+      result%samples_per_period = window%samples_per_period
+      result%film_minimum = minval(window%films)
+      result%film_maximum = maxval(window%films)
+      result%acceleration_minimum = minval(window%accelerations)
+      result%acceleration_maximum = maxval(window%accelerations)
+      result%regime = check_regime(resolved%film, scene%film%law, window%films, window%velocities)
+      if (scene%spectrum%certify) call certify(scene, resolved, lane, result%ending%periods, window, result%rattle, &
+                                               result%certificate, result%orbit)
    end subroutine judge
 
 end module scene_result

@@ -1,7 +1,7 @@
 !> Result of a scene as the &summary group.
 module scene_summary
    use errors, only: error_t
-   use film_law, only: film_t
+   use floquet, only: orbit_stability, stability_name
    use kinds, only: dp
    use rattle_class, only: class_name
    use regime, only: film_elastohydrodynamic
@@ -51,13 +51,14 @@ contains
          call summary%add('natural_frequency', resolved%natural_frequency)
          call summary%add('damping_ratio', resolved%damping_ratio)
       end if
-      if (result%judged) call add_window(summary, scene, result)
+      if (result%judged) call add_window(summary, result)
       if (.not. is_success(result%ending%status) .and. result%ending%film > 0.0_dp) &
          call summary%add('film_at_status_time', result%ending%film)
       if (result%ending%status == status_no_rigid_film) then
          call summary%add('film_regime', regime_name(film_elastohydrodynamic))
          call summary%add('law_contradicted', .true.)
       end if
+      call summary%add('periods_solved', result%ending%periods)
       associate (count => result%ending%count)
          call summary%add('evaluations', count%evaluations)
          call summary%add('steps', count%steps)
@@ -69,13 +70,12 @@ contains
    end subroutine write_scene_summary
 
    !> What was judged from the window.
-   subroutine add_window(summary, scene, result)
+   subroutine add_window(summary, result)
       type(summary_t), intent(inout) :: summary
-      type(scene_t), intent(in) :: scene
       type(scene_result_t), intent(in) :: result
 
-      call summary%add('window_periods', scene%spectrum%periods)
-      call summary%add('samples_per_period', scene%solver%steps_per_period)
+      call summary%add('window_periods', result%window_periods)
+      call summary%add('samples_per_period', result%samples_per_period)
       call summary%add('film_minimum', result%film_minimum)
       call summary%add('film_maximum', result%film_maximum)
       call summary%add('acceleration_minimum', result%acceleration_minimum)
@@ -91,6 +91,7 @@ contains
          end if
          call summary%add('rattle_class', class_name(rattle%class))
       end associate
+      if (result%certificate%exists) call add_certificate(summary, result)
       associate (regime => result%regime)
          if (regime%pressure_exists) call summary%add('pressure_maximum', regime%pressure_maximum)
          call summary%add('alpha_p_maximum', regime%alpha_p_maximum)
@@ -99,5 +100,28 @@ contains
          call summary%add('law_contradicted', regime%law_contradicted)
       end associate
    end subroutine add_window
+
+   !> What the tighter solution says, and the periodic motion with its multipliers.
+   subroutine add_certificate(summary, result)
+      type(summary_t), intent(inout) :: summary
+      type(scene_result_t), intent(in) :: result
+
+      associate (certificate => result%certificate, orbit => result%orbit)
+         call summary%add('certificate', trim(merge('certified', 'uncertain', certificate%certified)))
+         call summary%add('certificate_text', certificate%reason)
+         if (size(certificate%harmonic_errors) > 0) then
+            call summary%add('film_error', certificate%film_error)
+            call summary%add('acceleration_error', certificate%acceleration_error)
+            call summary%add('harmonic_errors', &
+                             certificate%harmonic_errors(:min(most_harmonics, size(certificate%harmonic_errors))))
+         end if
+         if (orbit%period > 0) then
+            call summary%add('orbit_period', orbit%period)
+            call summary%add('orbit_stability', stability_name(orbit_stability(orbit%multipliers)))
+            call summary%add('floquet_multipliers', [orbit%multipliers(1)%re, orbit%multipliers(1)%im, &
+                                                     orbit%multipliers(2)%re, orbit%multipliers(2)%im])
+         end if
+      end associate
+   end subroutine add_certificate
 
 end module scene_summary

@@ -119,8 +119,21 @@ module key_table
             'Film at t = 0; absent: the steady film under Q + m g.'), &
       key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion', &
             'Film velocity dh/dt at t = 0, negative on approach.'), &
-      key_t('solver', 'method', text_kind, '', 'newmark', any_number, 'newmark', 'scene.task=motion', &
-            'Time integration: newmark is the paper''s average acceleration method.'), &
+      key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark newmark-extrapolated taylor', 'scene.task=motion', &
+            'Time integration: taylor (error-controlled series, implicit where the film is stiff), the paper''s newmark, or '// &
+            'newmark extrapolated in its step.'), &
+      key_t('solver', 'accuracy', real_kind, '-', '1.0e-8', range_t(1.0e-12_dp, .false., 1.0e-2_dp, .false.), '', &
+            'solver.method=newmark-extrapolated|taylor', &
+            'Relative accuracy of the film that an error-controlled method aims at.'), &
+      key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion', &
+            'End of the run: all periods, or as soon as the motion is verified to repeat; then one orbit is the window.'), &
+      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', 'scene.task=motion', &
+            'Periods of the force that are solved (the most, until steady); at least those of the spectrum window.'), &
+      key_t('solver', 'time_limit', real_kind, 's', '', positive, '', 'scene.task=motion', &
+            'Wall time after which the run ends cleanly, to be resumed; absent: none.'), &
+      key_t('solver', 'samples_per_period', integer_kind, '-', '512', at_least_8, '', &
+            'solver.method=newmark-extrapolated|taylor', &
+            'Samples of a period that are kept; the steps are chosen by the accuracy.'), &
       key_t('solver', 'iteration', text_kind, '', 'newton', any_number, 'newton successive', 'solver.method=newmark', &
             'Iteration in a step: newton with the exact slopes of the film, or the paper''s successive one.'), &
       key_t('solver', 'predictor', text_kind, '', 'extrapolated', any_number, 'extrapolated previous', &
@@ -131,9 +144,7 @@ module key_table
       key_t('solver', 'iteration_limit', integer_kind, '-', '100', at_least_1, '', 'solver.method=newmark', &
             'Most passes in a step; a step that needs more ends the scene as not_converged.'), &
       key_t('solver', 'steps_per_period', integer_kind, '-', '512', at_least_8, '', 'solver.method=newmark', &
-            'Time steps in one period of the force.'), &
-      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', 'scene.task=motion', &
-            'Periods of the force that are solved; at least the periods of the spectrum window.'), &
+            'Time steps in one period of the force; every one is a sample.'), &
       key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', 'scene.task=motion', &
             'Whole periods at the end of the run that spectrum, extremes and regime are taken from.'), &
       key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', 'scene.task=motion', &
@@ -144,6 +155,10 @@ module key_table
             'Below this harmonic distortion the motion is quiet.'), &
       key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', 'scene.task=motion', &
             'Above this share of power off the harmonics the motion is irregular.'), &
+      key_t('spectrum', 'certify', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &
+            'Whether the scene is solved again tighter, to say how large its errors are and whether its class stands.'), &
+      key_t('spectrum', 'certificate_tolerance', real_kind, '-', '0.01', fraction, '', 'scene.task=motion', &
+            'Largest error of the film, relative, with which the class of a regular motion is certified.'), &
       key_t('points', 'film_ratios', reals_kind, '-', '', positive, '', 'scene.task=film', &
             'Film ratios h* = h0/R, one or more; give these or film_ratio_range.', &
             example='70.0e-6'), &

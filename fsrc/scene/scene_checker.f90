@@ -176,11 +176,20 @@ contains
          call input%add_fault('solver', 'periods', 'at least &spectrum periods ('// &
                               integer_text(input%count('spectrum', 'periods'))//') must be solved', faults)
       end if
-      if (faulty(input, 'solver', 'steps_per_period')) return
-      if (real(input%count('spectrum', 'periods'), dp)*real(input%count('solver', 'steps_per_period'), dp) > most_samples) then
-         call input%add_fault('solver', 'steps_per_period', &
-                              'the window of &spectrum periods would hold more than 200000000 samples', faults)
-      end if
+      call check_samples('steps_per_period')
+      call check_samples('samples_per_period')
+
+   contains
+
+      subroutine check_samples(name)
+         character(*), intent(in) :: name
+
+         if (faulty(input, 'solver', name)) return
+         if (real(input%count('spectrum', 'periods'), dp)*real(input%count('solver', name), dp) > most_samples) &
+            call input%add_fault('solver', name, 'the window of &spectrum periods would hold more than 200000000 samples', &
+                                 faults)
+      end subroutine check_samples
+
    end subroutine check_window
 
    !> Whether a key was set to something that could not be read, so that no rule can be held against it.

@@ -198,7 +198,11 @@ contains
       solver%tolerance = input%number('solver', 'tolerance')
       solver%iteration_limit = input%count('solver', 'iteration_limit')
       solver%steps_per_period = input%count('solver', 'steps_per_period')
+      solver%kept_per_period = input%count('solver', 'samples_per_period')
       solver%periods = input%count('solver', 'periods')
+      solver%accuracy = input%number('solver', 'accuracy')
+      solver%until = input%choice('solver', 'until')
+      solver%time_limit = input%number('solver', 'time_limit')
    end function read_solver
 
    !> &spectrum
@@ -211,6 +215,8 @@ contains
       spectrum%idle_lines = input%count('spectrum', 'idle_lines')
       spectrum%quiet_limit = input%number('spectrum', 'quiet_limit')
       spectrum%irregular_limit = input%number('spectrum', 'irregular_limit')
+      spectrum%certify = input%flag('spectrum', 'certify')
+      spectrum%certificate_tolerance = input%number('spectrum', 'certificate_tolerance')
    end function read_spectrum
 
    !> &points

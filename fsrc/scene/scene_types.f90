@@ -25,7 +25,9 @@ module scene_types
    !> Root finder of (18).
    integer, parameter, public :: rupture_solver_fast = 1, rupture_solver_successive = 2
    !> Time integration.
-   integer, parameter, public :: method_newmark = 1
+   integer, parameter, public :: method_newmark = 1, method_newmark_extrapolated = 2, method_taylor = 3
+   !> End of the run.
+   integer, parameter, public :: until_periods = 1, until_steady = 2
    !> Iteration within a Newmark step.
    integer, parameter, public :: iteration_newton = 1, iteration_successive = 2
    !> First iterate of a Newmark step.
@@ -102,8 +104,19 @@ module scene_types
       real(dp) :: tolerance = 0.0_dp
       !> Most passes in a step
       integer :: iteration_limit = 0
+      !> Steps of Newmark's method, each a sample
       integer :: steps_per_period = 0
+      !> Samples of an error-controlled method
+      integer :: kept_per_period = 0
+      !> Periods to solve, the most if until steady
       integer :: periods = 0
+      !> Relative accuracy of the film [-]
+      real(dp) :: accuracy = 1.0e-8_dp
+      integer :: until = until_periods
+      !> Wall time [s]; 0: no limit
+      real(dp) :: time_limit = 0.0_dp
+   contains
+      procedure :: samples_per_period
    end type solver_t
 
    !> &spectrum
@@ -118,6 +131,9 @@ module scene_types
       real(dp) :: quiet_limit = 0.35_dp
       !> Irregular fraction above this: irregular
       real(dp) :: irregular_limit = 0.01_dp
+      !> Whether the scene is solved again tighter, and the film error [-] up to which its class is certified
+      logical :: certify = .true.
+      real(dp) :: certificate_tolerance = 0.01_dp
    end type spectrum_choice_t
 
    !> &points: a film task is the product of these lists
@@ -167,5 +183,14 @@ module scene_types
       !> All keys with their resolved values as namelist text, without places on this machine
       character(:), allocatable :: resolved_input
    end type scene_t
+
+contains
+
+   !> Samples of a period, whichever way the method makes them.
+   elemental integer function samples_per_period(self)
+      class(solver_t), intent(in) :: self
+
+      samples_per_period = merge(self%steps_per_period, self%kept_per_period, self%method == method_newmark)
+   end function samples_per_period
 
 end module scene_types

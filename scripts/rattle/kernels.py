@@ -145,7 +145,7 @@ def pressure_group(tangent: Any, rupture_tangent: Any, a: Any) -> Any:
 
 
 def squeeze_group(radius: Any, speed: Any, film: Any, velocity: Any) -> Any:
-    """A = 4 w*/sqrt(2 h*) [-], for arrays of R [m], u [m/s], h0 [m] and w [m/s]."""
+    """A = 4 w*/sqrt(2 h*) [-], the group of eq (18), for arrays of R [m], u [m/s], h0 [m] and w [m/s]."""
     return _elementwise(_kernels.wrap_squeeze_group, radius=radius, speed=speed, film=film, velocity=velocity)
 
 
@@ -379,6 +379,7 @@ def solve_reynolds(
 ) -> ReynoldsFilm:
     """One film by finite volumes: Reynolds equation, Swift-Stieber rupture by complementarity, eqs (6), (17).
 
+    rolling, squeeze, pressure_group: u/v, 4 (w/v)/sqrt(2 h*), alpha times the pressure scale [-], any v > 0.
     Independent of every closed form, and of the reduced pressure of eq (31). With rolling = 1, squeeze = A
     and pressure_group = B its load is Psi(A, B), and Phi(A) for B = 0; the error falls as 1/cells^2, faster
     with `extrapolate` (Richardson, from the grid of half the cells).

@@ -12,6 +12,7 @@ import numpy as np
 
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import ResultError, ResultHeader, read_header
+from rattle.summary import read_summary
 
 
 class Result:
@@ -108,7 +109,8 @@ class Result:
     @property
     def samples_per_period(self) -> int:
         """Rows in one period of the excitation."""
-        steps = self.positive_integer("solver", "steps_per_period")
+        newmark = str(self.input.get("solver", {}).get("method", "newmark")).strip() == "newmark"
+        steps = self.positive_integer("solver", "steps_per_period" if newmark else "samples_per_period")
         stride = self.positive_integer("output", "stride")
         if steps % stride != 0:
             raise ResultError(
@@ -122,6 +124,16 @@ class Result:
         """Whole periods that the rows span; the first row is the start at t = 0."""
         return max(self.row_count - 1, 0) // self.samples_per_period
 
+    @property
+    def window_periods(self) -> int:
+        """Periods that the program judged: those of the &spectrum group, or the orbit of a steady motion."""
+        if str(self.input.get("solver", {}).get("until", "periods")).strip() == "steady":
+            beside = self.path.with_suffix(".summary.nml")
+            if not beside.exists():
+                raise ResultError(f"{self.path} ran until steady; its window stands in {beside}, which is not there.")
+            return int(read_summary(beside)["window_periods"])
+        return self.positive_integer("spectrum", "periods")
+
     def window(self, periods: int | None = None, *, with_start: bool = False) -> slice:
         """The rows of the last whole `periods`, by default those of the &spectrum group.
 
@@ -130,7 +142,7 @@ class Result:
         start, as a picture of the whole window needs it.
         """
         if periods is None:
-            periods = self.positive_integer("spectrum", "periods")
+            periods = self.window_periods
         if periods < 1:
             raise ResultError("A window needs at least one period.")
         if periods > self.whole_periods:

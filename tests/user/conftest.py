@@ -18,7 +18,7 @@ FAST_SCENE: dict[str, dict[str, str]] = {
     "kinematics": {"entrainment_speed": "1.905"},
     "load": {"mass": "3.0", "steady_force": "199.2", "force_amplitude": "205.7", "frequency": "600.0"},
     "film": {"law": "'iso-viscous'"},
-    "solver": {"steps_per_period": "32", "periods": "3"},
+    "solver": {"steps_per_period": "32", "periods": "3", "method": "'newmark'"},
     "spectrum": {"periods": "2"},
     "output": {"directory": "'results'"},
 }

@@ -482,7 +482,7 @@ PLAIN = """&contact radius = 0.0127, length = 0.010 /
 &kinematics entrainment_speed = 1.905 /
 &load mass = 3.0, steady_force = 199.0, force_amplitude = 205.0, frequency = 600.0 /
 &film law = 'iso-viscous' /
-&solver steps_per_period = 32, periods = 3 /
+&solver method = 'newmark', steps_per_period = 32, periods = 3 /
 &spectrum periods = 2 /
 &output columns = 'time', 'acceleration' /
 """

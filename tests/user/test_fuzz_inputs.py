@@ -73,7 +73,7 @@ BASE = """! A fast scene that uses most keys.
 &solver
    tolerance = 1.0e-14
    iteration_limit = 50
-   steps_per_period = 16
+   method = 'newmark' steps_per_period = 16
    periods = 3
 /
 &spectrum periods = 2 /

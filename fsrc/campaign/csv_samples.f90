@@ -1,0 +1,196 @@
+!> Scenes from a CSV file: a header of group.key names, then one line of numbers for every scene. Commas
+!> separate, names may stand in quotes, lines end as on Unix or Windows; nothing else is understood, and
+!> every fault is told with its line and column. Memory: 8 bytes a number, the text is read in blocks.
+module csv_samples
+   use csv_fields, only: csv_text_t, field_t
+   use errors, only: fault_list_t
+   use kinds, only: dp, int64
+   use number_text, only: read_strict_integer, read_strict_real
+   use text, only: integer_text
+   use varied_keys, only: find_varied_key, is_whole, varied_key_name
+   implicit none(type, external)
+   private
+
+   !> More columns than a campaign could vary are no header.
+   integer, parameter :: most_columns = 32
+
+   !> The scenes of a file.
+   type, public :: csv_samples_t
+      !> Key of every column, by its position in the key table
+      integer, allocatable :: positions(:)
+      !> (column, scene)
+      real(dp), allocatable :: values(:, :)
+   end type csv_samples_t
+
+   public :: read_csv_samples
+
+contains
+
+   !> Read a file; its faults are added to the list.
+   subroutine read_csv_samples(path, samples, faults)
+      !> Path of the file
+      character(*), intent(in) :: path
+      !> The scenes; of use only if no fault was added
+      type(csv_samples_t), intent(out) :: samples
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(csv_text_t) :: text
+      character(:), allocatable :: message
+      integer(int64) :: lines
+      integer :: before, stat
+
+      before = faults%count()
+      allocate (samples%positions(0), samples%values(0, 0))
+      call text%open(path, lines, message)
+      if (len(message) > 0) then
+         call faults%add(path, 0, '', '', message)
+         return
+      end if
+      if (lines == 0_int64) then
+         call faults%add(path, 0, '', '', &
+                         'the file is empty; its first line must name the keys, as in load.mass,load.frequency')
+      else
+         call read_header(text, path, samples%positions, faults)
+      end if
+      if (faults%count() == before .and. lines == 1_int64) &
+         call faults%add(path, 1, '', '', 'there is no line of numbers after the header')
+      if (faults%count() == before) then
+         deallocate (samples%values)
+         allocate (samples%values(size(samples%positions), lines - 1_int64), stat=stat)
+         if (stat == 0) then
+            call read_rows(text, path, samples, faults)
+         else
+            call faults%add(path, 0, '', '', 'its numbers do not fit into the memory')
+         end if
+      end if
+      call text%close()
+   end subroutine read_csv_samples
+
+   !> First line: the keys.
+   subroutine read_header(text, path, positions, faults)
+      type(csv_text_t), intent(inout) :: text
+      character(*), intent(in) :: path
+      integer, allocatable, intent(inout) :: positions(:)
+      type(fault_list_t), intent(inout) :: faults
+      type(field_t) :: field
+      character(:), allocatable :: message, word
+      integer :: column, position
+
+      column = 0
+      do
+         call text%take_field(field)
+         column = column + 1
+         if (column > most_columns) then
+            call faults%add(path, 1, '', '', 'more than '//integer_text(most_columns)//' columns')
+            return
+         end if
+         word = unquoted(field%word())
+         position = 0
+         if (len(word) == 0) then
+            message = 'a key must be named here, as in load.mass'
+         else if (word(1:1) == '#' .or. word(1:1) == '!') then
+            message = "'"//field%shown()//"' looks like a comment; comments are not allowed"
+         else
+            call find_varied_key(word, position, message)
+            if (position > 0 .and. any(positions == position)) then
+               message = 'this key stands in column '//integer_text(place_of(position))//' already'
+            end if
+            if (len(message) > 0) message = "'"//field%shown()//"': "//message
+         end if
+         if (len(message) > 0) call faults%add(path, 1, '', '', 'column '//integer_text(column)//': '//message)
+         ! A column that cannot be used keeps its place.
+         positions = [positions, position]
+         if (field%ends_line) return
+      end do
+
+   contains
+
+      pure integer function place_of(position)
+         integer, intent(in) :: position
+
+         do place_of = 1, size(positions)
+            if (positions(place_of) == position) return
+         end do
+      end function place_of
+
+   end subroutine read_header
+
+   !> All other lines: numbers.
+   subroutine read_rows(text, path, samples, faults)
+      type(csv_text_t), intent(inout) :: text
+      character(*), intent(in) :: path
+      type(csv_samples_t), intent(inout) :: samples
+      type(fault_list_t), intent(inout) :: faults
+      type(field_t) :: field
+      character(:), allocatable :: message
+      integer(int64) :: row
+      integer :: column, columns, line
+      logical :: empty
+
+      columns = size(samples%positions)
+      do row = 1_int64, size(samples%values, 2, kind=int64)
+         line = int(min(row + 1_int64, int(huge(1), int64)))
+         column = 0
+         do
+            call text%take_field(field)
+            column = column + 1
+            empty = column == 1 .and. field%ends_line .and. len(field%word()) == 0
+            if (column <= columns .and. .not. empty) then
+               call read_number(field, samples%positions(column), samples%values(column, row), message)
+               if (len(message) > 0) call faults%add(path, line, '', '', 'column '//integer_text(column)//' ('// &
+                                                     varied_key_name(samples%positions(column))//'): '//message)
+            end if
+            if (field%ends_line) exit
+         end do
+         if (text%broken) then
+            call faults%add(path, line, '', '', 'it cannot be read to its end')
+            return
+         end if
+         if (empty) then
+            call faults%add(path, line, '', '', 'the line is empty; every line must hold one scene')
+         else if (column /= columns) then
+            call faults%add(path, line, '', '', 'the line has '//integer_text(column)//' columns, the header '// &
+                            integer_text(columns))
+         end if
+         ! What comes after a full list of faults is not told anyway.
+         if (faults%not_kept() > 0) return
+      end do
+   end subroutine read_rows
+
+   !> One number of a key.
+   pure subroutine read_number(field, position, number, message)
+      type(field_t), intent(in) :: field
+      integer, intent(in) :: position
+      real(dp), intent(out) :: number
+      character(:), allocatable, intent(out) :: message
+      integer :: whole
+      logical :: sound
+
+      message = ''
+      if (is_whole(position)) then
+         call read_strict_integer(field%word(), whole, sound)
+         number = real(whole, dp)
+      else
+         call read_strict_real(field%word(), number, sound)
+      end if
+      if (sound) return
+      if (len(field%word()) == 0) then
+         message = 'a number is missing'
+      else if (is_whole(position)) then
+         message = "'"//field%shown()//"' is not an integer"
+      else
+         message = "'"//field%shown()//"' is not a number"
+      end if
+   end subroutine read_number
+
+   !> Name without the quotes around it.
+   pure function unquoted(word) result(name)
+      character(*), intent(in) :: word
+      character(:), allocatable :: name
+
+      name = word
+      if (len(word) < 2) return
+      if (scan(word(1:1), '"'//"'") > 0 .and. word(1:1) == word(len(word):)) name = trim(adjustl(word(2:len(word) - 1)))
+   end function unquoted
+
+end module csv_samples

@@ -1,0 +1,139 @@
+!> Which chunk of scenes comes next, and in which order the scenes of a chunk are computed.
+module schedule
+   use kinds, only: dp, int64
+   implicit none(type, external)
+   private
+
+   integer, parameter :: smallest_chunk = 64, largest_chunk = 8192
+   !> Chunks that a large campaign is cut into, at least
+   integer, parameter :: wanted_chunks = 2048
+
+   !> Chunks that are still to be computed. One list is shared by all threads.
+   type, public :: chunk_schedule_t
+      private
+      integer(int64), allocatable :: chunks(:)
+      !> How many are handed out
+      integer(int64) :: taken = 0_int64
+   contains
+      procedure :: take => take_chunk
+      procedure :: count => count_chunks
+      procedure :: left => chunks_left
+   end type chunk_schedule_t
+
+   public :: new_chunk_schedule, chunk_rows_for, cost_order
+
+contains
+
+   !> Scenes in a chunk. It depends on the campaign alone, never on threads or ranks, so that the bytes of
+   !> the result do not: chunks as small as keeps the table of chunks and the hand-outs cheap, since a chunk
+   !> under way is what a kill loses, and what the last worker may have to finish alone.
+   pure integer function chunk_rows_for(scene_count)
+      !> Scenes of the campaign
+      integer(int64), intent(in) :: scene_count
+
+      chunk_rows_for = smallest_chunk
+      do while (chunk_rows_for < largest_chunk .and. scene_count > int(wanted_chunks, int64)*chunk_rows_for)
+         chunk_rows_for = 2*chunk_rows_for
+      end do
+   end function chunk_rows_for
+
+   !> Schedule of all chunks that are not done, dear ones first if their costs are given: the last to
+   !> finish are then cheap, and no worker waits long for another.
+   pure function new_chunk_schedule(done, costs) result(plan)
+      !> Whether each chunk is done
+      logical, intent(in) :: done(:)
+      !> Cost of each chunk, in any unit, finite
+      real(dp), intent(in), optional :: costs(:)
+      type(chunk_schedule_t) :: plan
+      integer(int64) :: i
+      integer, allocatable :: order(:)
+
+      plan%chunks = pack([(i, i=1_int64, size(done, kind=int64))],.not. done)
+      if (.not. present(costs)) return
+      allocate (order(size(plan%chunks)))
+      call cost_order(-costs(plan%chunks), order)
+      plan%chunks = plan%chunks(order)
+   end function new_chunk_schedule
+
+   !> Take the next chunk; any thread may ask at any time, and no chunk is handed out twice.
+   subroutine take_chunk(self, chunk)
+      class(chunk_schedule_t), intent(inout) :: self
+      !> The chunk from 1; 0: none is left
+      integer(int64), intent(out) :: chunk
+      integer(int64) :: place
+
+      !$omp atomic capture
+      self%taken = self%taken + 1_int64
+      place = self%taken
+      !$omp end atomic
+      chunk = 0_int64
+      if (place <= size(self%chunks, kind=int64)) chunk = self%chunks(place)
+   end subroutine take_chunk
+
+   !> Chunks of the schedule, handed out or not.
+   pure integer(int64) function count_chunks(self)
+      class(chunk_schedule_t), intent(in) :: self
+
+      count_chunks = size(self%chunks, kind=int64)
+   end function count_chunks
+
+   !> Chunks that are not handed out yet.
+   integer(int64) function chunks_left(self)
+      class(chunk_schedule_t), intent(in) :: self
+      integer(int64) :: taken
+
+      !$omp atomic read
+      taken = self%taken
+      chunks_left = max(0_int64, size(self%chunks, kind=int64) - taken)
+   end function chunks_left
+
+   !> Order by rising cost, equal costs in their old order (merge sort). Scene order(k) is computed as the
+   !> k-th; its result goes back to place order(k).
+   pure subroutine cost_order(costs, order)
+      !> Cost of each scene, in any unit, finite
+      real(dp), intent(in) :: costs(:)
+      !> Each of 1 to n once
+      integer, intent(out) :: order(:)
+      integer :: merged(size(costs))
+      integer :: width, first, middle, last, i, j, k, n
+
+      n = size(costs)
+      order = [(i, i=1, n)]
+      width = 1
+      do while (width < n)
+         do first = 1, n, 2*width
+            middle = min(first + width, n + 1)
+            last = min(first + 2*width, n + 1)
+            i = first
+            j = middle
+            do k = first, last - 1
+               if (takes_left(i, middle, j, last)) then
+                  merged(k) = order(i)
+                  i = i + 1
+               else
+                  merged(k) = order(j)
+                  j = j + 1
+               end if
+            end do
+         end do
+         order = merged
+         width = 2*width
+      end do
+
+   contains
+
+      !> Whether the next comes from the left part.
+      pure logical function takes_left(i, middle, j, last)
+         integer, intent(in) :: i
+         integer, intent(in) :: middle
+         integer, intent(in) :: j
+         integer, intent(in) :: last
+
+         takes_left = j >= last
+         if (takes_left .or. i >= middle) return
+         takes_left = costs(order(i)) <= costs(order(j))
+      end function takes_left
+
+   end subroutine cost_order
+
+end module schedule

@@ -1,0 +1,331 @@
+!> Motions of many scenes, a block of lanes at a time, each lane with its own time and step.
+!>
+!> A lane whose scene is done takes the next one; a lane without a scene rests. Every lane goes through the same
+!> instructions whatever its neighbours do, and no number of one lane enters another: a scene has the same bits
+!> alone, in any lane, in any company.
+!>
+!> The steps are Taylor series where the film law has one, or collocation. Taylor steps are explicit, and as short
+!> as the damping of the film makes them: a scene that needs too many of them in one period ends with
+!> status_not_converged at the start of that period, for collocation to go on.
+module lane_integration
+   use collocation_step, only: take_collocation_step
+   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso
+   use kinds, only: dp, int64
+   use lane_functions, only: lane_cosine_sine, lanes
+   use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
+   use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, load_scene, rest_lane, &
+                          start_period, start_status, state_of_lane
+   use period_repetition, only: note_state, orbit_watch_t, watch_from
+   use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
+   use taylor_iso_viscous, only: iso_viscous_series
+   use taylor_reynolds_iso, only: reynolds_iso_series
+   use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
+   use taylor_step_control, only: evaluate_series, lane_steps, momentum_weight
+   implicit none(type, external)
+   private
+
+   !> More Taylor steps in a period cost more than collocation; more steps of collocation lead nowhere.
+   real(dp), parameter :: most_series_steps = 3000.0_dp, most_implicit_steps = 1.0e5_dp
+   !> A step in which the film changes by more than these factors is not trusted.
+   real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp, largest_film_ratio = 1.0e3_dp
+   !> Scaled film that is none any more, and damping rate that no Taylor step follows [1/periods].
+   real(dp), parameter :: lost_film = 1.0e-9_dp, largest_series_rate = 1.0e7_dp
+   !> Step that is too short to go on with [periods]
+   real(dp), parameter :: shortest_step = 1.0e-14_dp
+   !> Share of the accuracy within which a motion counts as repeating.
+   real(dp), parameter :: repetition_share = 0.3_dp
+
+   !> What happened to the scene of a lane.
+   type :: lane_watch_t
+      !> Scene, 0: none
+      integer :: scene = 0
+      !> Periods done, to be done, and from which on to sample
+      integer :: period = 0, last_period = 0, sample_from = 0
+      !> Start of the present period: scaled film and momentum
+      real(dp) :: film = 0.0_dp, momentum = 0.0_dp
+      !> Looks for repetition
+      type(orbit_watch_t) :: states
+      type(lane_ending_t) :: ending
+   end type lane_watch_t
+
+   !> A block at work.
+   type :: lane_run_t
+      !> Taylor series, else collocation; and whose series
+      logical :: by_series = .true.
+      integer :: kernel = kernel_half_pi
+      !> Most steps in a period, and largest damping rate [1/periods]
+      real(dp) :: most_steps = 0.0_dp, largest_rate = 0.0_dp
+      !> Film laws of the lanes
+      type(film_t) :: films(lanes)
+      !> Scenes of the queue taken, lanes with a scene
+      integer :: taken = 0, active = lanes
+      type(lane_block_t) :: block
+      type(lane_samples_t) :: samples
+      type(lane_watch_t) :: watches(lanes)
+   end type lane_run_t
+
+   public :: has_series, integrate_lanes
+
+contains
+
+   !> Whether the film law has a Taylor series here.
+   elemental logical function has_series(film)
+      !> The film
+      type(film_t), intent(in) :: film
+
+      has_series = any(film%kernel == [kernel_half_pi, kernel_piezo, kernel_reynolds_iso])
+   end function has_series
+
+   !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
+   pure subroutine integrate_lanes(by_series, scenes, queue, request, films, velocities, endings)
+      !> Taylor series, else collocation
+      logical, intent(in) :: by_series
+      !> The scenes
+      type(lane_scene_t), intent(in) :: scenes(:)
+      !> Those of them to be solved, in the order in which lanes take them
+      integer, intent(in) :: queue(:)
+      !> What is asked for
+      type(lane_request_t), intent(in) :: request
+      !> Samples of h [m] and z' [m/s]: sample, scene
+      real(dp), contiguous, intent(inout) :: films(:, :)
+      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> How the scenes ended
+      type(lane_ending_t), intent(inout) :: endings(:)
+      type(lane_run_t) :: run
+      integer :: l, events
+
+      run%by_series = by_series
+      if (size(queue) > 0) run%kernel = scenes(queue(1))%film%kernel
+      run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
+      run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
+      run%samples%per_period = request%samples_per_period
+      do l = 1, lanes
+         call next_scene(l, scenes, queue, request, run, endings)
+      end do
+      do while (run%active > 0)
+         if (by_series) then
+            call take_series_step(run%kernel, run%block)
+         else
+            call take_collocation_step(run%films, run%watches%scene > 0, run%block)
+         end if
+         if (run%samples%sampled_lanes > 0) call take_samples(run%block, run%samples, films, velocities)
+         call advance(run%most_steps, run%largest_rate, run%block, events)
+         if (events == 0) cycle
+         do l = 1, lanes
+            if (run%watches(l)%scene == 0) then
+               call rest_lane(l, run%block)
+               cycle
+            end if
+            if (run%block%remaining(l) <= 0.0_dp) then
+               call end_period(l, request, run)
+            else if (in_trouble(l, run)) then
+               call give_up(l, run)
+            end if
+            if (run%watches(l)%period < run%watches(l)%last_period) cycle
+            call finish(l, run, endings)
+            call next_scene(l, scenes, queue, request, run, endings)
+         end do
+      end do
+   end subroutine integrate_lanes
+
+   !> Put the next scene that can start into a lane.
+   pure subroutine next_scene(lane, scenes, queue, request, run, endings)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_scene_t), intent(in) :: scenes(:)
+      integer, intent(in) :: queue(:)
+      type(lane_request_t), intent(in) :: request
+      type(lane_run_t), intent(inout) :: run
+      type(lane_ending_t), intent(inout) :: endings(:)
+      integer :: scene, status
+
+      run%watches(lane) = lane_watch_t()
+      do while (run%taken < size(queue))
+         run%taken = run%taken + 1
+         scene = queue(run%taken)
+         status = start_status(scenes(scene))
+         endings(scene) = lane_ending_t(status=status, film=scenes(scene)%initial_film, &
+                                        velocity=scenes(scene)%initial_velocity, implicit=.not. run%by_series, &
+                                        periods=scenes(scene)%periods_done, momentum=scenes(scene)%initial_momentum)
+         if (status /= status_complete .or. request%periods <= scenes(scene)%periods_done) cycle
+         call load_scene(scenes(scene), run%by_series, request%accuracy, lane, run%block)
+         run%films(lane) = scenes(scene)%film
+         associate (watch => run%watches(lane))
+            watch%scene = scene
+            watch%ending%implicit = .not. run%by_series
+            watch%period = scenes(scene)%periods_done
+            watch%last_period = request%periods
+            watch%sample_from = max(0, request%periods - request%sampled_periods)
+            watch%film = run%block%film(lane, 0)
+            watch%momentum = run%block%momentum(lane, 0)
+            watch%states = watch_from(watch%film, watch%momentum)
+         end associate
+         run%samples%written(lane) = samples_before(run%watches(lane), run%samples)
+         run%samples%column(lane) = scene
+         if (run%watches(lane)%period >= run%watches(lane)%sample_from) call begin_samples(run%samples, lane)
+         return
+      end do
+      run%active = run%active - 1
+      call rest_lane(lane, run%block)
+   end subroutine next_scene
+
+   !> Samples of the periods before this one.
+   pure integer function samples_before(watch, samples)
+      type(lane_watch_t), intent(in) :: watch
+      type(lane_samples_t), intent(in) :: samples
+
+      samples_before = max(0, watch%period - watch%sample_from)*samples%per_period
+   end function samples_before
+
+   !> A period has ended: does the motion repeat, are samples due?
+   pure subroutine end_period(lane, request, run)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_request_t), intent(in) :: request
+      type(lane_run_t), intent(inout) :: run
+      integer :: orbit
+      real(dp) :: distance
+
+      associate (watch => run%watches(lane), block => run%block)
+         watch%ending%steps = watch%ending%steps + nint(block%period_steps(lane), int64)
+         call start_period(lane, block)
+         watch%period = watch%period + 1
+         watch%film = block%film(lane, 0)
+         watch%momentum = block%momentum(lane, 0)
+         if (request%until_steady .and. watch%period < watch%sample_from) then
+            call note_state(watch%states, watch%film, watch%momentum, &
+                            momentum_weight(watch%film, block%damping_rate(lane), block%force(lane)), repetition_share*request%accuracy, orbit, distance)
+            if (orbit > 0) then
+               watch%ending%orbit = orbit
+               watch%ending%distance = distance
+               watch%ending%status = status_steady
+               watch%sample_from = watch%period
+               watch%last_period = watch%period + min(orbit, request%sampled_periods)
+            end if
+         end if
+         if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
+            call begin_samples(run%samples, lane)
+      end associate
+   end subroutine end_period
+
+   !> The scene of a lane goes no further; its state is that at the start of the period.
+   pure subroutine give_up(lane, run)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(inout) :: run
+
+      associate (watch => run%watches(lane), block => run%block)
+         watch%ending%status = status_not_converged
+         if (block%film(lane, 0) < lost_film) watch%ending%status = status_film_lost
+         if (block%no_load(lane)) watch%ending%status = run%films(lane)%status_without_load
+         watch%ending%phase = block%phase(lane)
+         watch%ending%steps = watch%ending%steps + nint(block%period_steps(lane), int64)
+         ! Samples of the period that was not finished do not count.
+         run%samples%written(lane) = samples_before(watch, run%samples)
+         block%film(lane, 0) = watch%film
+         block%momentum(lane, 0) = watch%momentum
+         watch%last_period = watch%period
+      end associate
+   end subroutine give_up
+
+   !> Record the end of a scene.
+   pure subroutine finish(lane, run, endings)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(inout) :: run
+      type(lane_ending_t), intent(inout) :: endings(:)
+
+      associate (ending => run%watches(lane)%ending)
+         ending%periods = run%watches(lane)%period
+         ending%samples = run%samples%written(lane)
+         call state_of_lane(lane, run%block, ending%film, ending%velocity, ending%momentum)
+         endings(run%watches(lane)%scene) = ending
+      end associate
+      call end_samples(run%samples, lane)
+   end subroutine finish
+
+   !> Whether the motion of a lane cannot go on like this.
+   pure logical function in_trouble(lane, run)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(in) :: run
+
+      in_trouble = .not. (run%block%limit(lane) > shortest_step .and. run%block%period_steps(lane) <= run%most_steps &
+                          .and. run%block%film(lane, 0) > lost_film &
+                          .and. run%block%damping_rate(lane) < run%largest_rate)
+   end function in_trouble
+
+   !> Series and steps of all lanes, and the states they lead to. A film that changes by some powers of ten in one
+   !> step is not trusted, nor is a series about a point of extreme damping. Conditions are numbers, 0 or 1, and their products: without branch and integer the loop
+   !> runs in full registers.
+   pure subroutine take_series_step(kernel, block)
+      !> Whose series
+      integer, intent(in) :: kernel
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: cosine(lanes), sine(lanes)
+      integer :: l
+
+      call lane_cosine_sine(block%phase, cosine, sine)
+      !$omp simd
+      do l = 1, lanes
+         cosine(l) = block%amplitude(l)*cosine(l)
+         sine(l) = block%amplitude(l)*sine(l)
+         block%remaining(l) = 1.0_dp - block%phase(l)
+      end do
+      select case (kernel)
+      case (kernel_piezo)
+         call piezo_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+                                   block%momentum, block%damping_rate)
+      case (kernel_half_pi)
+         call iso_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+                                 block%momentum, block%damping_rate)
+      case default
+         call reynolds_iso_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+                                  block%momentum, block%damping_rate)
+      end select
+      call lane_steps(block%accuracy, block%force, block%film, block%momentum, block%damping_rate, block%remaining, &
+                      block%limit, block%step)
+      call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
+      !$omp simd
+      do l = 1, lanes
+         block%trust(l) = merge(1.0_dp, 0.0_dp, block%next_film(l) > smallest_film_ratio*block%film(l, 0)) &
+            *merge(1.0_dp, 0.0_dp, block%next_film(l) < largest_film_ratio*block%film(l, 0)) &
+            *merge(1.0_dp, 0.0_dp, abs(block%next_momentum(l)) < huge(1.0_dp)) &
+            *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_series_rate)
+      end do
+      if (kernel == kernel_piezo) call distrust_load_from_nothing( &
+         block%strength, block%damping, block%force, block%accuracy, block%film, block%momentum, block%next_film, &
+         block%next_momentum, block%trust)
+   end subroutine take_series_step
+
+   !> Advance all lanes whose step is to be trusted; the others try again with a shorter one.
+   pure subroutine advance(most_steps, largest_rate, block, events)
+      !> Most steps in a period
+      real(dp), intent(in) :: most_steps
+      !> Largest damping rate [1/periods]
+      real(dp), intent(in) :: largest_rate
+      type(lane_block_t), intent(inout) :: block
+      !> Lanes that need attention: period ended, or trouble
+      integer, intent(out) :: events
+      real(dp) :: calm, quiet
+      integer :: l
+
+      quiet = 0.0_dp
+      !$omp simd private(calm) reduction(+: quiet)
+      do l = 1, lanes
+         block%film(l, 0) = merge(block%next_film(l), block%film(l, 0), block%trust(l) > 0.0_dp)
+         block%momentum(l, 0) = merge(block%next_momentum(l), block%momentum(l, 0), block%trust(l) > 0.0_dp)
+         block%limit(l) = merge(1.0_dp, 0.25_dp*block%step(l), block%trust(l) > 0.0_dp)
+         block%remaining(l) = merge(block%remaining(l) - block%step(l), 1.0_dp, block%trust(l) > 0.0_dp)
+         block%phase(l) = block%phase(l) + block%trust(l)*block%step(l)
+         block%period_steps(l) = block%period_steps(l) + 1.0_dp
+         calm = merge(1.0_dp, 0.0_dp, block%remaining(l) > 0.0_dp)*merge(1.0_dp, 0.0_dp, block%limit(l) > shortest_step) &
+            *merge(1.0_dp, 0.0_dp, block%period_steps(l) <= most_steps) &
+            *merge(1.0_dp, 0.0_dp, block%film(l, 0) > lost_film) &
+            *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_rate)
+         quiet = quiet + calm
+      end do
+      events = lanes - nint(quiet)
+   end subroutine advance
+
+end module lane_integration

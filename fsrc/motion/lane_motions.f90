@@ -1,0 +1,91 @@
+!> Motions of any number of scenes, error-controlled: Taylor series for the published film laws, collocation for all
+!> other laws and for scenes too stiff for explicit steps.
+module lane_motions
+   use film_law, only: film_load
+   use kinds, only: dp
+   use lane_integration, only: has_series, integrate_lanes
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use scene_status, only: status_film_lost, status_not_converged
+   implicit none (type, external)
+   private
+
+   public :: solve_motions, accelerations
+
+contains
+
+   !> Solve all scenes. The order of the scenes decides only which share a block: those of like cost should be
+   !> neighbours, the longest first.
+   pure subroutine solve_motions(scenes, request, films, velocities, endings)
+      !> The scenes
+      type(lane_scene_t), intent(in) :: scenes(:)
+      !> What is asked for
+      type(lane_request_t), intent(in) :: request
+      !> Samples of h [m] and z' [m/s]: sample, scene; at least sampled_periods*samples_per_period of a scene
+      real(dp), contiguous, intent(inout) :: films(:, :)
+      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> How the scenes ended
+      type(lane_ending_t), intent(out) :: endings(:)
+      type(lane_scene_t) :: rest(size(scenes))
+      logical :: explicit(size(scenes)), left(size(scenes))
+      integer :: i, first, kernel
+      integer :: number(size(scenes))
+
+      number = [(i, i=1, size(scenes))]
+      explicit = has_series(scenes%film) .and. .not. scenes%implicit
+      left = explicit
+      do while (any(left))
+         first = findloc(left, .true., dim=1)
+         kernel = scenes(first)%film%kernel
+         call integrate_lanes(.true., scenes, pack(number, left .and. scenes%film%kernel == kernel), request, films, &
+                              velocities, endings)
+         left = left .and. scenes%film%kernel /= kernel
+      end do
+
+      rest = scenes
+      do i = 1, size(scenes)
+         left(i) = .not. explicit(i)
+         if (left(i)) cycle
+         left(i) = any(endings(i)%status == [status_not_converged, status_film_lost])
+         if (left(i)) call go_on(endings(i), rest(i))
+      end do
+      if (any(left)) call integrate_lanes(.false., rest, pack(number, left), request, films, velocities, endings)
+   end subroutine solve_motions
+
+   !> The rest of a motion that Taylor series could not finish.
+   pure subroutine go_on(ending, scene)
+      !> Where they stopped
+      type(lane_ending_t), intent(in) :: ending
+      !> The scene, made to start there
+      type(lane_scene_t), intent(inout) :: scene
+
+      scene%initial_film = ending%film
+      scene%initial_velocity = ending%velocity
+      scene%periods_done = ending%periods
+      scene%carried_on = .false.
+      scene%implicit = .true.
+   end subroutine go_on
+
+   !> z'' of samples [m/s2], from the equation of motion.
+   pure subroutine accelerations(scene, samples_per_period, films, velocities, values)
+      use forcing, only: force_of_period
+      !> The scene
+      type(lane_scene_t), intent(in) :: scene
+      !> Samples of a period
+      integer, intent(in) :: samples_per_period
+      !> h [m], from the first sample of a period on
+      real(dp), intent(in) :: films(:)
+      !> z' [m/s]
+      real(dp), intent(in) :: velocities(:)
+      !> z'' [m/s2]
+      real(dp), intent(out) :: values(:)
+      real(dp) :: force(samples_per_period), load, load_by_film, load_by_velocity
+      integer :: i
+
+      call force_of_period(scene%steady_force, scene%force_amplitude, force)
+      do i = 1, size(films)
+         call film_load(scene%film, films(i), velocities(i), load, load_by_film, load_by_velocity)
+         values(i) = (load - scene%weight - force(modulo(i - 1, samples_per_period) + 1))/scene%mass
+      end do
+   end subroutine accelerations
+
+end module lane_motions

@@ -1,0 +1,147 @@
+!> Scenes as the lanes of a group, for Newmark's method: coefficients and states of all scenes, scene by scene.
+!>
+!> Time is counted in steps and force in the film that it moves in a step, so that the formulas of Newmark's method
+!> have no factors: with V = dt z', A = dt^2/4 z'' and the load L = dt^2/(4 m) W,
+!>
+!>    h_i = h_(i-1) + V_(i-1) + A_(i-1) + A_i ,   V_i = V_(i-1) + 2 (A_(i-1) + A_i) .
+!>
+!> The laws (35) and (37) keep their form, only their coefficients change. The film stays in metres.
+module newmark_lane_group
+   use film_law, only: film_t, kernel_half_pi, kernel_piezo, overflow_load
+   use kinds, only: dp, int64
+   use newmark, only: motion_state_t, newmark_t
+   implicit none (type, external)
+   private
+
+   !> Scenes of a group. So many hide the latency of divisions and roots, and their data stay in the nearest cache.
+   integer, parameter, public :: lanes = 64
+   !> Lanes are used in blocks of this many, a register at most, so that none is left to other instructions.
+   integer, parameter, public :: block_lanes = 8
+
+   !> Group of scenes that share film law and steps per period.
+   type, public :: newmark_lane_group_t
+      !> Film law: kernel_half_pi or kernel_piezo of film_law
+      integer :: kernel = kernel_half_pi
+      !> Lanes in use, a multiple of `block_lanes`
+      integer :: used = 0
+      !> h [m], V [m] and A [m]
+      real(dp) :: film(lanes) = 1.0_dp
+      real(dp) :: velocity(lanes) = 0.0_dp
+      real(dp) :: acceleration(lanes) = 0.0_dp
+      !> Coefficient of 1/h in (35) or of h^(-7/2) in (37), of L instead of W
+      real(dp) :: strength(lanes) = 0.0_dp
+      !> Coefficient of the squeeze term of (35), of L and V, or the factor of V in the exponent of (37)
+      real(dp) :: squeeze(lanes) = 0.0_dp
+      !> Q + m g and F0, as L [m]
+      real(dp) :: mean_force(lanes) = 0.0_dp
+      real(dp) :: force_amplitude(lanes) = 0.0_dp
+      !> L above which the law has no value [m]
+      real(dp) :: largest_load(lanes) = 1.0_dp
+      !> eps of (36) [m]
+      real(dp) :: tolerance(lanes) = 1.0_dp
+      !> Most passes in a step
+      integer :: pass_limit(lanes) = 2
+      !> A step failed: the lane rests since
+      logical :: failed(lanes) = .false.
+      !> Passes beyond two, of all steps
+      integer(int64) :: further_passes(lanes) = 0_int64
+   end type newmark_lane_group_t
+
+   public :: has_lanes, load_lane, rest_lane, set_lane_state, lane_state
+
+contains
+
+   !> Whether a scene can be solved in a lane: published film with a load in closed form, Newton's iteration from the
+   !> extrapolated state.
+   elemental logical function has_lanes(film, method)
+      !> Its film
+      type(film_t), intent(in) :: film
+      !> Its constants
+      type(newmark_t), intent(in) :: method
+
+      has_lanes = (film%kernel == kernel_half_pi .or. film%kernel == kernel_piezo) .and. method%by_newton .and. &
+                  method%extrapolate .and. method%iteration_limit >= 2
+   end function has_lanes
+
+   !> Put a scene into a lane.
+   pure subroutine load_lane(group, lane, film, method, time_step, state)
+      !> The group
+      type(newmark_lane_group_t), intent(inout) :: group
+      !> Lane
+      integer, intent(in) :: lane
+      !> Film of the scene, of the law of the group
+      type(film_t), intent(in) :: film
+      !> Constants of the scene
+      type(newmark_t), intent(in) :: method
+      !> Step [s]
+      real(dp), intent(in) :: time_step
+      !> State at its start
+      type(motion_state_t), intent(in) :: state
+      real(dp) :: film_by_force
+
+      film_by_force = 0.25_dp*time_step*time_step/method%mass
+      if (group%kernel == kernel_piezo) then
+         group%strength(lane) = film%piezo*film_by_force
+         group%squeeze(lane) = film%rate/time_step
+      else
+         group%strength(lane) = film%rolling*film_by_force
+         group%squeeze(lane) = film%squeeze*(film_by_force/time_step)
+      end if
+      group%mean_force(lane) = (method%steady_force + method%weight)*film_by_force
+      group%force_amplitude(lane) = method%force_amplitude*film_by_force
+      group%largest_load(lane) = overflow_load*film_by_force
+      group%tolerance(lane) = method%tolerance
+      group%pass_limit(lane) = method%iteration_limit
+      group%failed(lane) = .false.
+      call set_lane_state(group, lane, time_step, state)
+   end subroutine load_lane
+
+   !> Let a lane rest: a film of 1 m on which nothing acts.
+   pure subroutine rest_lane(group, lane)
+      !> The group
+      type(newmark_lane_group_t), intent(inout) :: group
+      !> Lane
+      integer, intent(in) :: lane
+
+      group%film(lane) = 1.0_dp
+      group%velocity(lane) = 0.0_dp
+      group%acceleration(lane) = 0.0_dp
+      group%strength(lane) = 0.0_dp
+      group%squeeze(lane) = 0.0_dp
+      group%mean_force(lane) = 0.0_dp
+      group%force_amplitude(lane) = 0.0_dp
+      group%largest_load(lane) = 1.0_dp
+      group%tolerance(lane) = 1.0_dp
+   end subroutine rest_lane
+
+   !> State of a lane from units.
+   pure subroutine set_lane_state(group, lane, time_step, state)
+      !> The group
+      type(newmark_lane_group_t), intent(inout) :: group
+      !> Lane
+      integer, intent(in) :: lane
+      !> Step [s]
+      real(dp), intent(in) :: time_step
+      !> The state
+      type(motion_state_t), intent(in) :: state
+
+      group%film(lane) = state%film
+      group%velocity(lane) = state%velocity*time_step
+      group%acceleration(lane) = state%acceleration*(0.25_dp*time_step*time_step)
+   end subroutine set_lane_state
+
+   !> State of a lane in units.
+   pure type(motion_state_t) function lane_state(group, lane, time_step)
+      !> The group
+      type(newmark_lane_group_t), intent(in) :: group
+      !> Lane
+      integer, intent(in) :: lane
+      !> Step [s]
+      real(dp), intent(in) :: time_step
+
+      lane_state%film = group%film(lane)
+      lane_state%velocity = group%velocity(lane)/time_step
+      lane_state%acceleration = group%acceleration(lane)/(0.25_dp*time_step*time_step)
+   end function lane_state
+
+end module newmark_lane_group

@@ -1,0 +1,105 @@
+!> Taylor series of the motion with the published iso-viscous film (35), for a block of lanes.
+!>
+!> With x = f_exc t and H = h/h_s, eq (1) reads
+!>
+!>     H'' = a/H - b H' H^(-3/2) - q - f cos(2 pi x)
+!>
+!> (a: rolling, b: squeeze, q: static load, f: force amplitude, all in units of m h_s f_exc^2). The squeeze term
+!> is an exact derivative: with r = H^(-1/2) it is 2 b r'. In Lienard's form, V = H' - 2 b r,
+!>
+!>     H' = V + 2 b r ,   V' = a p - q - f cos(2 pi x) ,   p = 1/H = r**2
+!>
+!> and the coefficients follow from one another by two sums of products, the second symmetric:
+!>
+!>     (k+1) H_(k+1) = V_k + 2 b r_k                     p_k = -(sum of H_j p_(k-j), j = 1..k)/H_0
+!>     (k+1) V_(k+1) = a p_k - q - f cos_k               r_k = (p_k - sum of r_j r_(k-j), j = 1..k-1)/(2 r_0)
+!>
+!> V stays well-conditioned however heavy the damping: there H' is the small difference of V and -2 b r, but the
+!> film depends on V alone.
+module taylor_iso_viscous
+   use constants, only: two_pi
+   use kinds, only: dp
+   use lane_functions, only: lanes
+   use taylor_step_control, only: order
+   implicit none(type, external)
+   private
+
+   integer :: i
+   !> 1/k
+   real(dp), parameter :: inverse(order) = [(1.0_dp/real(i, dp), i=1, order)]
+   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2 pi x0.
+   real(dp), parameter :: wave(order) = &
+      [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
+
+   public :: iso_viscous_series
+
+contains
+
+   !> Coefficients 1 to `order` of H and V, and the damping rate.
+   pure subroutine iso_viscous_series(rolling, squeeze, load, force_cosine, force_sine, film, momentum, damping_rate)
+      !> a [-]
+      real(dp), intent(in) :: rolling(lanes)
+      !> 2 b [-]
+      real(dp), intent(in) :: squeeze(lanes)
+      !> q [-]
+      real(dp), intent(in) :: load(lanes)
+      !> f cos(2 pi x) and f sin(2 pi x) at the point of expansion [-]
+      real(dp), intent(in) :: force_cosine(lanes)
+      real(dp), intent(in) :: force_sine(lanes)
+      !> Series of H [-]; coefficient 0 is given
+      real(dp), intent(inout) :: film(lanes, 0:order)
+      !> Series of V [-]; coefficient 0 is given
+      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      !> -dV'/dV at constant H: b H^(-3/2) [1/periods]
+      real(dp), intent(out) :: damping_rate(lanes)
+      real(dp) :: p(lanes, 0:order), r(lanes, 0:order), force(lanes, 0:1)
+      real(dp) :: minus_p(lanes), half_root(lanes), both(lanes), product, square
+      integer :: k, j, l
+
+      !$omp simd
+      do l = 1, lanes
+         force(l, 0) = force_cosine(l)
+         force(l, 1) = force_sine(l)
+         p(l, 0) = 1.0_dp/film(l, 0)
+         r(l, 0) = sqrt(p(l, 0))
+         minus_p(l) = -p(l, 0)
+         half_root(l) = 0.5_dp*film(l, 0)*r(l, 0)
+         both(l) = minus_p(l)*half_root(l)
+         damping_rate(l) = 0.5_dp*squeeze(l)*p(l, 0)*r(l, 0)
+         film(l, 1) = momentum(l, 0) + squeeze(l)*r(l, 0)
+         momentum(l, 1) = rolling(l)*p(l, 0) - load(l) - force(l, 0)
+         p(l, 1) = minus_p(l)*(film(l, 1)*p(l, 0))
+         r(l, 1) = both(l)*(film(l, 1)*p(l, 0))
+      end do
+      ! The products with the newest coefficients come last: all others can be summed while those are still under
+      ! way. Unrolled, all coefficients of a lane live in registers.
+      !GCC$ unroll 24
+      do k = 2, order - 1
+         !$omp simd private(product, square)
+         do l = 1, lanes
+            film(l, k) = inverse(k)*momentum(l, k - 1) + (inverse(k)*squeeze(l))*r(l, k - 1)
+            momentum(l, k) = (inverse(k)*rolling(l))*p(l, k - 1) - wave(k)*force(l, mod(k - 1, 2))
+            square = 0.0_dp
+            do j = 1, (k - 1)/2
+               square = square + r(l, j)*r(l, k - j)
+            end do
+            square = 2.0_dp*square
+            if (mod(k, 2) == 0) square = square + r(l, shiftr(k, 1))*r(l, shiftr(k, 1))
+            product = 0.0_dp
+            do j = 2, k - 1
+               product = product + film(l, j)*p(l, k - j)
+            end do
+            product = product + film(l, 1)*p(l, k - 1)
+            product = product + film(l, k)*p(l, 0)
+            p(l, k) = minus_p(l)*product
+            r(l, k) = both(l)*product - half_root(l)*square
+         end do
+      end do
+      !$omp simd
+      do l = 1, lanes
+         film(l, order) = inverse(order)*(momentum(l, order - 1) + squeeze(l)*r(l, order - 1))
+         momentum(l, order) = (inverse(order)*rolling(l))*p(l, order - 1) - wave(order)*force(l, mod(order - 1, 2))
+      end do
+   end subroutine iso_viscous_series
+
+end module taylor_iso_viscous

@@ -1,0 +1,151 @@
+!> Taylor series of the motion with the published piezo-viscous film (37), for a block of lanes.
+!>
+!> With x = f_exc t and H = h/h_s, eq (1) reads
+!>
+!>     H' = V ,   V' = S - q - f cos(2 pi x) ,   S = a H^(-7/2) exp(-c V)
+!>
+!> (a: load coefficient, q: static load, f: force amplitude, in units of m h_s f_exc^2; c: exponent rate). One
+!> power and one exponential at the point of expansion are enough: with y = H'/H,
+!>
+!>     S' = g S ,   g = -7/2 y - c V' ,   y H = V
+!>
+!> gives
+!>
+!>     (k+1) H_(k+1) = V_k                     y_k = (V_k - sum of H_j y_(k-j), j = 1..k)/H_0
+!>     (k+1) V_(k+1) = S_k - q - f cos_k       g_k = -7/2 y_k - c (k+1) V_(k+1)
+!>                                             (k+1) S_(k+1) = sum of g_j S_(k-j), j = 0..k
+module taylor_piezo_viscous
+   use constants, only: two_pi
+   use kinds, only: dp
+   use lane_functions, only: coarse_log, lane_exponential, lanes, log_of_one, octave
+   use taylor_step_control, only: order
+   implicit none(type, external)
+   private
+
+   integer :: i
+   !> 1/k
+   real(dp), parameter :: inverse(order) = [(1.0_dp/real(i, dp), i=1, order)]
+   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2 pi x0.
+   real(dp), parameter :: wave(order) = &
+      [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
+
+   !> Growth of the load in one step that the series resolves, and share of the accuracy below which a load is
+   !> nothing [octaves]
+   real(dp), parameter :: most_growth = 20.0_dp, negligible = -8.0_dp
+
+   !> Damping beyond this would overflow the coefficients [1/periods]. The load of such a lane is held there; its
+   !> damping rate, which is told as it is, keeps the series from being used.
+   real(dp), parameter :: largest_rate = 1.0e14_dp
+
+   public :: piezo_viscous_series, distrust_load_from_nothing
+
+contains
+
+   !> Coefficients 1 to `order` of H and V, and the damping rate.
+   pure subroutine piezo_viscous_series(strength, rate, load, force_cosine, force_sine, film, momentum, damping_rate)
+      !> a [-]
+      real(dp), intent(in) :: strength(lanes)
+      !> c [periods]
+      real(dp), intent(in) :: rate(lanes)
+      !> q [-]
+      real(dp), intent(in) :: load(lanes)
+      !> f cos(2 pi x) and f sin(2 pi x) at the point of expansion [-]
+      real(dp), intent(in) :: force_cosine(lanes)
+      real(dp), intent(in) :: force_sine(lanes)
+      !> Series of H [-]; coefficient 0 is given
+      real(dp), intent(inout) :: film(lanes, 0:order)
+      !> Series of V [-]; coefficient 0 is given
+      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      !> -dV'/dV = c S [1/periods]
+      real(dp), intent(out) :: damping_rate(lanes)
+      real(dp) :: y(lanes, 0:order), g(lanes, 0:order), s(lanes, 0:order), force(lanes, 0:1)
+      real(dp) :: exponent(lanes), growth(lanes), inverse_film(lanes), product
+      integer :: k, j, l
+
+      !$omp simd
+      do l = 1, lanes
+         exponent(l) = -rate(l)*momentum(l, 0)
+      end do
+      call lane_exponential(exponent, growth)
+      !$omp simd
+      do l = 1, lanes
+         force(l, 0) = force_cosine(l)
+         force(l, 1) = force_sine(l)
+         inverse_film(l) = 1.0_dp/film(l, 0)
+         s(l, 0) = strength(l)*growth(l)*inverse_film(l)*inverse_film(l)*inverse_film(l)*sqrt(inverse_film(l))
+         damping_rate(l) = rate(l)*s(l, 0)
+         s(l, 0) = merge(s(l, 0), 1.0_dp, damping_rate(l) < largest_rate)
+         film(l, 1) = momentum(l, 0)
+         momentum(l, 1) = s(l, 0) - load(l) - force(l, 0)
+         y(l, 0) = inverse_film(l)*momentum(l, 0)
+         g(l, 0) = -3.5_dp*y(l, 0) - rate(l)*momentum(l, 1)
+         s(l, 1) = s(l, 0)*g(l, 0)
+      end do
+      ! The products with the newest coefficients come last: all others can be summed while those are still under
+      ! way. Unrolled, all coefficients of a lane live in registers.
+      !GCC$ unroll 24
+      do k = 2, order - 1
+         !$omp simd private(product)
+         do l = 1, lanes
+            film(l, k) = inverse(k)*momentum(l, k - 1)
+            momentum(l, k) = inverse(k)*s(l, k - 1) - wave(k)*force(l, mod(k - 1, 2))
+            product = momentum(l, k - 1)
+            do j = 1, k - 1
+               product = product - film(l, k - j)*y(l, j - 1)
+            end do
+            y(l, k - 1) = inverse_film(l)*product
+            g(l, k - 1) = -3.5_dp*y(l, k - 1) - (real(k, dp)*rate(l))*momentum(l, k)
+            product = 0.0_dp
+            do j = 1, k - 2
+               product = product + s(l, k - 1 - j)*g(l, j)
+            end do
+            product = product + s(l, k - 1)*g(l, 0)
+            product = product + s(l, 0)*g(l, k - 1)
+            s(l, k) = inverse(k)*product
+         end do
+      end do
+      !$omp simd
+      do l = 1, lanes
+         film(l, order) = inverse(order)*momentum(l, order - 1)
+         momentum(l, order) = inverse(order)*s(l, order - 1) - wave(order)*force(l, mod(order - 1, 2))
+      end do
+   end subroutine piezo_viscous_series
+
+   !> Take back the trust in steps at whose end the film carries a load that the series could not foresee. A tooth
+   !> on its way up meets a load smaller than exp(-100) times the forces; its coefficients vanish beside theirs.
+   !> When the tooth comes back down, the load grows by the same factor, all of it within one step of free fall.
+   !> Logarithms to the base 2 of the load over the force tell it: log2(S/P) = log2(a/P) - 7/2 log2 H - c V/ln 2.
+   pure subroutine distrust_load_from_nothing(strength, rate, force, accuracy, film, momentum, next_film, &
+                                              next_momentum, trust)
+      !> a [-]
+      real(dp), intent(in) :: strength(lanes)
+      !> c [periods]
+      real(dp), intent(in) :: rate(lanes)
+      !> Force that matters, P = q + f [-]
+      real(dp), intent(in) :: force(lanes)
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy(lanes)
+      !> H and V at the start of the step [-]
+      real(dp), intent(in) :: film(lanes)
+      real(dp), intent(in) :: momentum(lanes)
+      !> H and V at its end [-]
+      real(dp), intent(in) :: next_film(lanes)
+      real(dp), intent(in) :: next_momentum(lanes)
+      !> 1 where the step is trusted, set to 0 where it is not
+      real(dp), intent(inout) :: trust(lanes)
+      real(dp), parameter :: octaves_per_unit = 1.4426950408889634_dp
+      real(dp) :: growth, load
+      integer :: l
+
+      !$omp simd private(growth, load)
+      do l = 1, lanes
+         growth = 3.5_dp/octave*(coarse_log(film(l)) - coarse_log(max(next_film(l), tiny(1.0_dp)))) &
+            - octaves_per_unit*rate(l)*(next_momentum(l) - momentum(l))
+         load = (coarse_log(strength(l)) - coarse_log(force(l)*accuracy(l)))/octave &
+            - 3.5_dp/octave*(coarse_log(film(l)) - log_of_one) - octaves_per_unit*rate(l)*momentum(l) + growth
+         trust(l) = trust(l)*(1.0_dp - merge(1.0_dp, 0.0_dp, growth > most_growth) &
+                              *merge(1.0_dp, 0.0_dp, load > negligible))
+      end do
+   end subroutine distrust_load_from_nothing
+
+end module taylor_piezo_viscous

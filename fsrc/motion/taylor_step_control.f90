@@ -1,0 +1,134 @@
+!> Step size of the Taylor series and its evaluation, for a block of lanes.
+!>
+!> Local error. Two unknowns are advanced, the scaled film H = h/h_s (h_s: the film that carries the static load)
+!> and a momentum V whose x-derivative is the sum of the forces. A momentum that is off by e moves the film by
+!> about e/(g + d): d is the damping rate, within 1/d the film forgets the momentum, and g one over the time it
+!> can act where there is no damping, taken as half a period. The same error changes the load by d e; where that is
+!> much, the film law is not linear any more in e, and the acceleration is lost: it is held below 100 times the
+!> accuracy, in units of the force P = q + f. So the size of a term of the series is
+!>
+!>     max(|H_k|, |V_k| max(1/(2 + d), d w/(100 P))) x^k
+!>
+!> and it is held against accuracy*w, w = H/(1 + H**2). For thin films that is the relative accuracy of the film. A thick
+!> film falls freely and an error of H is an error of the time of impact, which returns magnified in the thin
+!> film that follows: H**2 stands for that. Without either of the two, a tooth thrown to 8 h_s has errors 1000
+!> times the accuracy; with them the error stays close to it whatever the force.
+!>
+!> Errors add up: a step may use up the share of it that its length has in a period, and no less than rounding.
+!>
+!> The step is the smaller of those that bring the terms of order n and n-1 to that size (Jorba and Zou 2005).
+module taylor_step_control
+   use kinds, only: dp
+   use lane_functions, only: coarse_log, coarse_power, lanes
+   implicit none(type, external)
+   private
+
+   !> Order n of the series. Cheapest for accuracies from 1e-5 to 1e-11, at most a tenth dearer than the best order.
+   integer, parameter, public :: order = 14
+
+   !> Share of the accuracy that a step of length x may use up is x times this; found by trial [1/periods].
+   real(dp), parameter :: share_rate = 4.0_dp
+   !> Error that is rounding alone.
+   real(dp), parameter :: rounding = 2.0_dp*epsilon(1.0_dp)
+   !> Longest step [periods]
+   real(dp), parameter :: longest_step = 0.25_dp
+   !> g of the header, one over the time a momentum acts where nothing damps [1/periods]
+   real(dp), parameter :: free_rate = 2.0_dp
+
+   !> Relative error of the load that counts like one of the film
+   real(dp), parameter :: load_error = 100.0_dp
+
+   public :: lane_steps, evaluate_series, film_weight, momentum_weight
+
+contains
+
+   !> Step of every lane. The last steps of a period are cut so that its end is hit, two of equal length rather
+   !> than a long and a short one.
+   pure subroutine lane_steps(accuracy, force, film, momentum, damping_rate, remaining, limit, step)
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy(lanes)
+      !> P of the header [-]
+      real(dp), intent(in) :: force(lanes)
+      !> Series of H [-], order last
+      real(dp), intent(in) :: film(lanes, 0:order)
+      !> Series of V [-], order last
+      real(dp), intent(in) :: momentum(lanes, 0:order)
+      !> d of the header [1/periods]
+      real(dp), intent(in) :: damping_rate(lanes)
+      !> What is left of the period [periods]
+      real(dp), intent(in) :: remaining(lanes)
+      !> Longest step allowed after a step that failed [periods]
+      real(dp), intent(in) :: limit(lanes)
+      !> Step, equal to `remaining` where the period ends with it [periods]
+      real(dp), intent(out) :: step(lanes)
+      real(dp), parameter :: root(2) = [1.0_dp/real(order - 1, dp), 1.0_dp/real(order - 2, dp)]
+      real(dp) :: weight, level, last, next_to_last, reach
+      integer :: l
+
+      !$omp simd private(weight, level, last, next_to_last, reach)
+      do l = 1, lanes
+         weight = momentum_weight(film(l, 0), damping_rate(l), force(l))
+         level = coarse_log(share_rate*max(accuracy(l)*film_weight(film(l, 0)), rounding*film(l, 0)))
+         last = coarse_log(max(abs(film(l, order)), abs(momentum(l, order))*weight))
+         next_to_last = coarse_log(max(abs(film(l, order - 1)), abs(momentum(l, order - 1))*weight))
+         reach = min((level - last)*root(1), (level - next_to_last)*root(2), 0.0_dp)
+         reach = min(coarse_power(reach), longest_step, limit(l))
+         step(l) = merge(0.5_dp*remaining(l), reach, remaining(l) < 2.0_dp*reach)
+         step(l) = merge(remaining(l), step(l), remaining(l) <= reach)
+      end do
+   end subroutine lane_steps
+
+   !> H/(1 + H**2): the film error that counts as one [h_s].
+   elemental real(dp) function film_weight(film)
+      !> H [-]
+      real(dp), intent(in) :: film
+
+      film_weight = film/(1.0_dp + film*film)
+   end function film_weight
+
+   !> Film error that an error of one in the momentum counts as [h_s].
+   elemental real(dp) function momentum_weight(film, damping_rate, force)
+      !> H [-]
+      real(dp), intent(in) :: film
+      !> d of the header [1/periods]
+      real(dp), intent(in) :: damping_rate
+      !> P of the header [-]
+      real(dp), intent(in) :: force
+
+      momentum_weight = max(1.0_dp/(free_rate + damping_rate), damping_rate*film_weight(film)/(load_error*force))
+   end function momentum_weight
+
+   !> Sum of two series. Even and odd powers go apart: four short chains instead of two long ones.
+   pure subroutine evaluate_series(film, momentum, x, film_sum, momentum_sum)
+      !> Series of H [-], order last
+      real(dp), intent(in) :: film(lanes, 0:order)
+      !> Series of V [-], order last
+      real(dp), intent(in) :: momentum(lanes, 0:order)
+      !> Distance from the point of expansion [periods]
+      real(dp), intent(in) :: x(lanes)
+      !> H there [-]
+      real(dp), intent(out) :: film_sum(lanes)
+      !> V there [-]
+      real(dp), intent(out) :: momentum_sum(lanes)
+      real(dp) :: square, film_odd, film_even, momentum_odd, momentum_even
+      integer :: l, k
+
+      !$omp simd private(square, film_odd, film_even, momentum_odd, momentum_even, k)
+      do l = 1, lanes
+         square = x(l)*x(l)
+         film_even = film(l, order)
+         momentum_even = momentum(l, order)
+         film_odd = film(l, order - 1)
+         momentum_odd = momentum(l, order - 1)
+         do k = order - 2, 2, -2
+            film_even = film_even*square + film(l, k)
+            momentum_even = momentum_even*square + momentum(l, k)
+            film_odd = film_odd*square + film(l, k - 1)
+            momentum_odd = momentum_odd*square + momentum(l, k - 1)
+         end do
+         film_sum(l) = film(l, 0) + (film_even*square + film_odd*x(l))
+         momentum_sum(l) = momentum(l, 0) + (momentum_even*square + momentum_odd*x(l))
+      end do
+   end subroutine evaluate_series
+
+end module taylor_step_control

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Draw figures 3, 4a, 4b and 5 of the paper from the result of a film task."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from rattle import command
+from rattle.figures import film_points, film_pressure, film_slopes, style
+from rattle.result import ResultError
+
+NUMBERS = (3, 4, 5)
+
+
+def main() -> int:
+    options = parse_options()
+    choice = film_points.Choice(options.film_ratio, options.speed_group)
+    numbers = options.figures or NUMBERS
+    makers = [(stem, maker) for number, stem, maker in FIGURES if number in numbers]
+    drawn, missed = 0, 0
+    with style.house_style():
+        for stem, maker in makers:
+            try:
+                figure = maker(options.result, choice)
+            except ResultError as fault:
+                missed += 1
+                command.complain(f"{stem} cannot be drawn: {fault}")
+                continue
+            drawn += 1
+            for path in style.save(figure, options.output, stem):
+                print(path)
+    # Without a wish for certain figures, what the result holds is enough.
+    return command.BAD_INPUT if missed and (options.figures or not drawn) else command.COMPLETE
+
+
+def figure_3(path: Path, choice: film_points.Choice) -> Figure:
+    return film_pressure.draw(film_points.read_profiles(path), choice)
+
+
+def figure_4a(path: Path, choice: film_points.Choice) -> Figure:
+    return film_slopes.draw(film_points.read_points(path), film_slopes.STIFFNESS, choice)
+
+
+def figure_4b(path: Path, choice: film_points.Choice) -> Figure:
+    return film_slopes.draw(film_points.read_points(path), film_slopes.DAMPING, choice)
+
+
+def figure_5(path: Path, choice: film_points.Choice) -> Figure:
+    from rattle.figures import film_piezo_pressure  # needs the kernels, which the other figures do not
+
+    return film_piezo_pressure.draw(film_points.read_profiles(path), choice)
+
+
+FIGURES: tuple[tuple[int, str, Callable[[Path, film_points.Choice], Figure]], ...] = (
+    (3, "figure_03", figure_3),
+    (4, "figure_04a", figure_4a),
+    (4, "figure_04b", figure_4b),
+    (5, "figure_05", figure_5),
+)
+
+
+def parse_options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description="Draw figures 3, 4a, 4b and 5 of the paper from the result of a film task, each as PNG "
+        "and PDF. Figures 3 and 5 need the profiles, NAME.profiles.rattle beside NAME.rattle."
+    )
+    parser.add_argument("result", type=result_path, metavar="RESULT", help="result file, NAME.rattle")
+    parser.add_argument("--output", type=Path, default=Path("."), metavar="DIR", help="where the figures go")
+    parser.add_argument(
+        "--figures",
+        type=figure_numbers,
+        metavar="3,4,5",
+        help="the figures to draw; by default all that the result holds",
+    )
+    parser.add_argument(
+        "--film-ratio",
+        type=positive_number,
+        metavar="X",
+        help="film ratio h* of figures 3 and 5; by default the one nearest to the 70e-6 of the paper",
+    )
+    parser.add_argument(
+        "--speed-group",
+        type=positive_number,
+        metavar="X",
+        help="speed group u*; by default the one nearest to the 0.9e-6 of the paper, in figure 5 up to three",
+    )
+    return parser.parse_args()
+
+
+def result_path(text: str) -> Path:
+    """The table of the film task, also when its profiles are named."""
+    return Path(
+        text.removesuffix(".profiles.rattle") + ".rattle" if text.endswith(".profiles.rattle") else text
+    )
+
+
+def figure_numbers(text: str) -> tuple[int, ...]:
+    known = {str(number): number for number in NUMBERS}
+    parts = [part.strip() for part in text.split(",")]
+    unknown = [part for part in parts if part not in known]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"'{unknown[0]}' is not one of {', '.join(known)}")
+    return tuple(known[part] for part in parts)
+
+
+def positive_number(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = -1.0
+    if not 0.0 < number < float("inf"):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a positive number")
+    return number
+
+
+if __name__ == "__main__":
+    command.run(main)

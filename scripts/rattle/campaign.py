@@ -1,0 +1,263 @@
+"""Results of campaigns: a row for each scene, and which of them are done."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rattle.campaign_codes import SUCCESSES
+from rattle.campaign_plan import GRID, LINEAR, Plan, PlannedAxis, read_plan
+from rattle.chunk_table import ChunkTable, read_chunk_table
+from rattle.namelist import NamelistError, parse
+from rattle.result_header import ResultError, ResultHeader, read_header
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+SCENE = "scene"
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One varied key: its values in rising order for a grid, else its least and greatest value."""
+
+    key: str
+    unit: str
+    scale: str
+    values: np.ndarray
+
+
+class Campaign:
+    """One campaign result.
+
+    ``campaign['rattle_class']`` is a read-only array with an entry for every scene, NaN where the scene is
+    not done; it is mapped from the file as long as all are.
+
+    Attributes
+    ----------
+    path : where the file stands
+    names, units : column names in order, and their units
+    row_count : scenes that the file is to hold
+    closed : False when the run was killed, or still runs
+    chunks : the chunk table: rows in a chunk, and the checksum of each
+    done : for every scene, whether it is done
+    kind : 'grid', 'sample' or 'csv'
+    varied : the varied keys, as group.key
+    part, parts : which part of how many this is; 1 and 1 for a whole campaign
+    scene_count : scenes of the whole campaign, None where only its end tells
+    program_version, input_text : as written by the program
+    """
+
+    def __init__(
+        self, path: Path, header: ResultHeader, chunks: ChunkTable, rows: np.ndarray, row_count: int, plan: Plan
+    ) -> None:
+        self.path = path
+        self.header = header
+        self.names = header.names
+        self.units: Mapping[str, str] = MappingProxyType(dict(zip(header.names, header.units, strict=True)))
+        self.row_count = row_count
+        self.closed = header.row_count >= 0
+        self.chunks = chunks
+        self.done = np.repeat(chunks.done, chunks.chunk_rows)[:row_count]
+        self.kind = plan.kind
+        self.part, self.parts = plan.part, plan.parts
+        self.scene_count = plan.scene_count
+        if self.scene_count is None and self.closed and self.parts == 1:
+            self.scene_count = row_count
+        self.varied = tuple(name for name in header.names if "." in name)
+        self.program_version = header.program_version
+        self.input_text = header.input_text
+        self._plan = plan
+        self._rows = rows
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self.units:
+            raise ResultError(f"{self.path} has no column '{name}'; it holds {', '.join(self.names)}.")
+        held = self._rows[:, self.names.index(name)]
+        if self.done.all():
+            return held
+        values = np.full(self.row_count, np.nan)
+        done = self.done[: held.size]
+        values[: held.size][done] = held[done]
+        values.flags.writeable = False
+        return values
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.units
+
+    def __repr__(self) -> str:
+        state = "closed" if self.closed else "not closed"
+        return f"<Campaign {self.path}: {self.done.sum()} of {self.row_count} scenes done; {state}>"
+
+    @property
+    def rows(self) -> np.ndarray:
+        """All rows that the file holds, as they stand there; those not done hold nothing meaningful."""
+        return self._rows
+
+    @cached_property
+    def input(self) -> dict[str, dict[str, Any]]:
+        """The resolved input: group, key, value."""
+        try:
+            return parse(self.input_text)
+        except NamelistError as fault:
+            raise ResultError(f"The resolved input in {self.path} cannot be read: {fault}") from None
+
+    @property
+    def name(self) -> str:
+        """Name of the campaign, that of its base scene."""
+        return str(self.input.get("scene", {}).get("name", self.path.stem)).strip()
+
+    @cached_property
+    def failed(self) -> np.ndarray:
+        """For every scene, whether it is done but failed, which is what its status says."""
+        if "status" not in self:
+            return np.zeros(self.row_count, dtype=bool)
+        return self.done & ~np.isin(self["status"], SUCCESSES)
+
+    @cached_property
+    def axes(self) -> tuple[Axis, ...]:
+        """The varied keys in the order of their columns."""
+        planned = {axis.key: axis for axis in self._plan.axes}
+        return tuple(self._axis(key, planned.get(key)) for key in self.varied)
+
+    def axis(self, key: str) -> Axis:
+        """The axis of one varied key."""
+        for axis in self.axes:
+            if axis.key == key:
+                return axis
+        raise ResultError(f"{self.path} does not vary '{key}'; it varies {', '.join(self.varied)}.")
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Scenes along each axis of a grid."""
+        return tuple(axis.values.size for axis in self.axes)
+
+    @cached_property
+    def places(self) -> tuple[np.ndarray, ...]:
+        """For every scene that is done, its index along each axis of the grid."""
+        if self.kind != GRID:
+            raise ResultError(f"{self.path} is no grid but a {self.kind} campaign.")
+        return tuple(_nearest(axis.values, self[axis.key][self.done]) for axis in self.axes)
+
+    def grid(self, name: str) -> np.ndarray:
+        """A column on the grid, an axis for each varied key, NaN where the scene is not done."""
+        values = np.full(self.shape, np.nan)
+        values[self.places] = self[name][self.done]
+        return values
+
+    def frame(self) -> pandas.DataFrame:
+        """The scenes that are done as a pandas DataFrame; codes also as words, in columns NAME_word."""
+        from rattle.campaign_tables import frame
+
+        return frame(self)
+
+    def dataset(self) -> xarray.Dataset:
+        """An xarray Dataset over the axes of the grid, or over the scenes if the campaign is no grid."""
+        from rattle.campaign_tables import dataset
+
+        return dataset(self)
+
+    def _axis(self, key: str, planned: PlannedAxis | None) -> Axis:
+        values = np.unique(self[key][self.done])
+        scale = planned.scale if planned else LINEAR
+        if self.kind != GRID:
+            return Axis(key, self.units[key], scale, values[[0, -1]] if values.size else values)
+        expected = np.unique(planned.values) if planned and planned.values is not None else None
+        if expected is not None:
+            values = _completed(values, expected, f"{self.path} contradicts its input: {key} has values")
+        elif not self.done.all():
+            raise ResultError(f"{self.path} does not tell all values of {key}, and not all scenes are done.")
+        return Axis(key, self.units[key], scale, values)
+
+
+def read_campaign(path: str | Path) -> Campaign:
+    """Open a campaign result.
+
+    Raises
+    ------
+    ResultError
+        The file is absent, foreign, no campaign, cut short or damaged; one plain sentence.
+    """
+    path = Path(path)
+    try:
+        with path.open("rb") as stream:
+            header = read_header(stream, path)
+            chunks = read_chunk_table(stream, header, path)
+            data_bytes = stream.seek(0, 2) - header.header_bytes
+    except OSError as fault:
+        raise ResultError(f"{path} cannot be read: {fault.strerror or fault}.") from None
+    try:
+        plan = read_plan(header.input_text)
+    except ValueError as fault:
+        raise ResultError(f"{path} is no campaign: {fault}") from None
+    if header.names[0] != SCENE or not any("." in name for name in header.names):
+        raise ResultError(f"{path} is no campaign: its columns are not a scene and the varied keys.")
+    row_count = _row_count(path, header, chunks, data_bytes, plan)
+    held = min(data_bytes // header.row_bytes, row_count)
+    if held == 0:
+        rows = np.empty((0, len(header.names)), dtype="<f8")
+    else:
+        shape = (held, len(header.names))
+        rows = np.memmap(path, dtype="<f8", mode="r", offset=header.header_bytes, shape=shape)
+    return Campaign(path, header, chunks, rows, row_count, plan)
+
+
+def _row_count(path: Path, header: ResultHeader, chunks: ChunkTable, data_bytes: int, plan: Plan) -> int:
+    """Scenes that the file is to hold, after all checks of its length."""
+    count, size = chunks.checksums.size, chunks.chunk_rows
+    held = data_bytes // header.row_bytes
+    if header.row_count >= 0:
+        if -(-header.row_count // size) != count:
+            raise ResultError(
+                f"{path} has a damaged chunk table: {count} chunks of {size} rows are not "
+                f"{header.row_count} rows."
+            )
+        if data_bytes < header.row_count * header.row_bytes:
+            raise ResultError(f"{path} is cut short: it holds {held} of its {header.row_count} rows.")
+        if data_bytes > header.row_count * header.row_bytes:
+            extra = data_bytes - header.row_count * header.row_bytes
+            raise ResultError(f"{path} is {extra} bytes longer than its {header.row_count} rows.")
+        if not chunks.done.all():
+            missing = int(np.argmin(chunks.done)) + 1
+            raise ResultError(f"{path} is damaged: it is closed, but its chunk {missing} is not done.")
+        return header.row_count
+    row_count = count * size
+    if plan.scene_count is not None and plan.part == plan.parts:
+        last_rows = plan.scene_count % size or size
+        row_count -= size - last_rows
+    elif count and chunks.done[-1]:
+        row_count = min(row_count, held)
+    done = np.flatnonzero(chunks.done)
+    if done.size:
+        needed = min((int(done[-1]) + 1) * size, row_count)
+        if held < needed:
+            raise ResultError(
+                f"{path} is cut short: its chunk {done[-1] + 1} counts as done, but it holds {held} rows only."
+            )
+    return row_count
+
+
+def _nearest(values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Index of the nearest entry of the rising `values`."""
+    middles = 0.5 * (values[1:] + values[:-1])
+    return np.searchsorted(middles, wanted)
+
+
+def _completed(values: np.ndarray, expected: np.ndarray, complaint: str) -> np.ndarray:
+    """The expected values, replaced by those of the rows, which may differ in their last digits."""
+    completed = expected.copy()
+    if values.size:
+        place = _nearest(expected, values)
+        gap = np.diff(expected).min(initial=np.abs(expected).max())
+        strange = np.abs(values - expected[place]) > 1e-6 * gap
+        if strange.any():
+            raise ResultError(f"{complaint} such as {values[strange][0]:.6g} that are not on its axis.")
+        completed[place] = values
+    return completed

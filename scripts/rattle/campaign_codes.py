@@ -1,0 +1,44 @@
+"""What the codes in the columns of a campaign mean."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import numpy as np
+
+CLASSES = MappingProxyType({1: "quiet", 2: "creep", 3: "idle", 4: "irregular"})
+REGIMES = MappingProxyType({0: "unknown", 1: "iso-viscous", 2: "piezo-viscous", 3: "elastohydrodynamic"})
+STATUSES = MappingProxyType(
+    {
+        0: "complete",
+        1: "steady",
+        2: "not_converged",
+        3: "film_lost",
+        4: "no_rigid_film",
+        5: "overflow",
+        6: "interrupted",
+        7: "time_limit",
+        8: "not_written",
+    }
+)
+NO_OR_YES = MappingProxyType({0: "no", 1: "yes"})
+SUCCESSES = (0, 1)
+
+# Columns whose numbers stand for words.
+CODES: Mapping[str, Mapping[int, str]] = MappingProxyType(
+    {"rattle_class": CLASSES, "film_regime": REGIMES, "status": STATUSES}
+)
+FLAGS = ("law_contradicted", "certified")
+
+
+def words_of(column: str) -> Mapping[int, str] | None:
+    """The words of a column of codes or flags; None for a column of plain numbers."""
+    return NO_OR_YES if column in FLAGS else CODES.get(column)
+
+
+def word(column: str, code: float) -> str:
+    """The word of one code; a code of a later program version is shown by its number."""
+    if not np.isfinite(code):
+        return "unknown"
+    return (words_of(column) or {}).get(int(code), f"{column} {int(code)}")

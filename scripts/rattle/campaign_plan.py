@@ -1,0 +1,104 @@
+"""What a campaign varies: the group &campaign of its resolved input."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import f90nml
+import numpy as np
+
+GRID, SAMPLE, TABLE = "grid", "sample", "csv"
+LINEAR, LOGARITHMIC, LISTED = "linear", "logarithmic", "values"
+
+
+@dataclass(frozen=True)
+class PlannedAxis:
+    """One varied key of a grid: its scale, and its values where the input tells them."""
+
+    key: str
+    scale: str
+    values: np.ndarray | None
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Kind of the campaign, its axes if it is a grid, count of scenes if known, and which part this is."""
+
+    kind: str
+    axes: tuple[PlannedAxis, ...]
+    scene_count: int | None
+    part: int
+    parts: int
+
+
+def read_plan(input_text: str) -> Plan:
+    """The plan behind a resolved input. Raises ValueError with a sentence where it has none."""
+    try:
+        group = f90nml.Parser().reads(input_text).get("campaign")
+    except Exception as fault:  # the parser shows damaged text by exceptions of many types
+        raise ValueError(f"its resolved input cannot be read ({fault}).") from None
+    if group is None:
+        raise ValueError("its resolved input has no group &campaign.")
+    part, parts = int(group.get("part") or 1), int(group.get("parts") or 1)
+    if _said(group, "csv"):
+        return Plan(TABLE, (), None, part, parts)
+    starts = group.start_index
+    keys = _indexed(group, starts, "vary")
+    if _said(group, "sample"):
+        size = group.get("size")
+        axes = tuple(PlannedAxis(key, _scale(group, starts, i), None) for i, key in sorted(keys.items()))
+        return Plan(SAMPLE, axes, size if isinstance(size, int) else None, part, parts)
+    axes = tuple(_axis(group, starts, i, str(key).strip()) for i, key in sorted(keys.items()))
+    sizes = [None if axis.values is None else axis.values.size for axis in axes]
+    count = math.prod(sizes) if axes and None not in sizes else None
+    return Plan(GRID, axes, count, part, parts)
+
+
+def _said(group: Mapping[str, Any], key: str) -> bool:
+    return bool(str(group.get(key) or "").strip())
+
+
+def _scale(group: Mapping[str, Any], starts: Mapping[str, Any], index: int) -> str:
+    return str(_indexed(group, starts, "scale").get(index) or LINEAR).strip()
+
+
+def _axis(group: Mapping[str, Any], starts: Mapping[str, Any], index: int, key: str) -> PlannedAxis:
+    listed = _listed(group, starts, index)
+    if listed is not None:
+        return PlannedAxis(key, LISTED, listed)
+    scale = _scale(group, starts, index)
+    ends = [_indexed(group, starts, name).get(index) for name in ("first", "last", "count")]
+    if not all(isinstance(end, int | float) for end in ends):
+        return PlannedAxis(key, scale, None)
+    first, last, count = float(ends[0]), float(ends[1]), int(ends[2])
+    space = np.geomspace if scale == LOGARITHMIC and first > 0.0 and last > 0.0 else np.linspace
+    return PlannedAxis(key, scale, space(first, last, count) if count > 0 else None)
+
+
+def _listed(group: Mapping[str, Any], starts: Mapping[str, Any], index: int) -> np.ndarray | None:
+    """values(:, index), without the places that were left free."""
+    columns = group.get("values")
+    if columns is None:
+        return None
+    if not isinstance(columns, list) or not any(isinstance(column, list) for column in columns):
+        columns = [columns if isinstance(columns, list) else [columns]]
+    start = starts.get("values") or [1]
+    offset = start[1] if len(start) > 1 and start[1] else 1
+    if not 0 <= index - offset < len(columns):
+        return None
+    column = columns[index - offset]
+    numbers = [value for value in (column if isinstance(column, list) else [column]) if value is not None]
+    return np.array(numbers, dtype=float) if numbers else None
+
+
+def _indexed(group: Mapping[str, Any], starts: Mapping[str, Any], key: str) -> dict[int, Any]:
+    """Index and value of a key that is an array."""
+    values = group.get(key)
+    if values is None:
+        return {}
+    sequence: Sequence[Any] = values if isinstance(values, list) else [values]
+    first = (starts.get(key) or [1])[0] or 1
+    return {first + i: value for i, value in enumerate(sequence) if value is not None}

@@ -1,0 +1,170 @@
+"""How the coefficients of the film-thickness law (32) hang on the window of alpha p they are fitted over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from rattle import kernels
+from rattle.command import CommandError
+from rattle.figures import style
+from rattle.figures.film_points import power_words
+
+Window = tuple[float, float]  # least and largest alpha p of the films
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A way to read the groups of (32): what pressure and load group are multiplied with."""
+
+    words: str
+    pressure_factor: float
+    load_factor: float
+    line: dict[str, object]
+
+
+# With u* of u1 + u2 and the pressure of their mean, p is half of what (6) gives for u*; so is the load group
+# of (20) where its u is the sum too.
+READINGS = (
+    Reading("p as printed", 1.0, 1.0, {"color": "#56B4E9", "linewidth": 3.0}),
+    Reading("p halved", 0.5, 1.0, {"color": "#D55E00", "linewidth": 1.5}),
+    Reading("p and W halved", 0.5, 0.5, {"color": "#000000", "linestyle": (0, (1.2, 2.2))}),
+)
+
+
+@dataclass(frozen=True)
+class Ranges:
+    """Least and largest h*, w* and u* of the films; no range of u* takes all that alpha p gives."""
+
+    film_ratio: tuple[float, float]
+    squeeze_ratio: tuple[float, float]
+    speed_group: tuple[float, float] | None
+
+    def words(self) -> str:
+        parts = [("h^*", self.film_ratio), ("w^*", self.squeeze_ratio)]
+        if self.speed_group:
+            parts.append(("u^*", self.speed_group))
+        return ", ".join(rf"${name}$ from {_power(low)} to {_power(high)}" for name, (low, high) in parts)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The law of one window, and how far the printed one is from the same films."""
+
+    reading: Reading
+    window: Window
+    films: int
+    fit: kernels.FilmFit
+    printed: kernels.LawError
+
+
+def fit_window(ranges: Ranges, reading: Reading, window: Window) -> Fit:
+    """Fit (32) to the exact films of one window."""
+    points = kernels.sample_film_window(
+        ranges.film_ratio,
+        ranges.squeeze_ratio,
+        window,
+        pressure_factor=reading.pressure_factor,
+        load_factor=reading.load_factor,
+    )
+    if ranges.speed_group:
+        low, high = ranges.speed_group
+        kept = (points.speed_group >= low) & (points.speed_group <= high)
+        points = kernels.FilmPoints(*(column[kept] for column in points))
+    films = points.film_ratio.size
+    fit = kernels.fit_film_law(*points) if films > 4 else None
+    if fit is None or not fit.unique:
+        raise CommandError(
+            f"The window {window[0]:g} < alpha p < {window[1]:g} ({reading.words}) holds {films} films, "
+            "which do not determine the four coefficients; widen the ranges."
+        )
+    return Fit(reading, window, films, fit, kernels.judge_film_law(kernels.PUBLISHED_FILM_LAW, *points))
+
+
+def table_rows(fits: Sequence[Fit]) -> list[list[str]]:
+    """Rows of text: a window each, and the printed law last."""
+    head = ["reading", "alpha p", "films", "c", "a of u*", "b of W", "s of w*", "rms", "R2"]
+    rows = [[*head, "rms printed", "bias printed"]]
+    for one in fits:
+        law, error = one.fit.law, one.fit.error
+        rows.append(
+            [
+                one.reading.words,
+                f"{one.window[0]:g} to {one.window[1]:g}",
+                str(one.films),
+                f"{law.factor:.3g}",
+                f"{law.speed_exponent:.3f}",
+                f"{law.load_exponent:.3f}",
+                f"{law.squeeze_factor:.1f}",
+                f"{error.rms:.3f}",
+                f"{error.r_squared:.3f}",
+                f"{one.printed.rms:.3f}",
+                f"{one.printed.bias:+.3f}",
+            ]
+        )
+    printed = [format(value, "g") for value in kernels.PUBLISHED_FILM_LAW]
+    rows.append(["(32) as printed", "", "", *printed, "", "", "", ""])
+    return rows
+
+
+def draw(fits: Sequence[Fit], ranges: Ranges, upper_end: float) -> Figure:
+    """Coefficients and errors over the lower end of the window; a curve for each reading."""
+    printed = kernels.PUBLISHED_FILM_LAW
+    figure = Figure(figsize=(7.4, 5.0))
+    panels = figure.subplots(2, 3, sharex=True)
+    _panel(panels[0, 0], "(a) Exponent $a$ of $u^*$", fits, lambda one: one.fit.law.speed_exponent)
+    _panel(panels[0, 1], "(b) Exponent $b$ of $\\bar{W}$", fits, lambda one: one.fit.law.load_exponent)
+    _panel(panels[0, 2], "(c) Factor $s$ of $w^*$", fits, lambda one: one.fit.law.squeeze_factor)
+    _panel(panels[1, 0], "(d) Factor $c$", fits, lambda one: one.fit.law.factor)
+    _panel(panels[1, 1], "(e) rms of $\\ln h^*$, fitted law", fits, lambda one: one.fit.error.rms)
+    _panel(panels[1, 2], "(f) rms of $\\ln h^*$, printed law", fits, lambda one: one.printed.rms)
+    values = (printed.speed_exponent, printed.load_exponent, printed.squeeze_factor, printed.factor)
+    for axes, value in zip(panels.flat, values, strict=False):
+        axes.axhline(value, **_PRINTED_LINE)
+    panels[1, 0].set_yscale("log")
+    for axes in panels.flat[4:]:
+        axes.set_ylim(bottom=0.0)
+    for axes in panels[1]:
+        axes.set_xlabel(r"Lower end of the window of $\alpha p$")
+    handles = [Line2D([], [], **reading.line) for reading in READINGS] + [Line2D([], [], **_PRINTED_LINE)]
+    words = [reading.words for reading in READINGS] + ["(32) as printed"]
+    figure.legend(handles, words, loc="outside lower center", ncols=4)
+    figure.suptitle(_title(ranges, upper_end), x=0.01, ha="left", fontsize=9.5)
+    return figure
+
+
+_PRINTED_LINE = {"color": style.FAINT_COLOUR, "linewidth": 1.0, "linestyle": (0, (6, 3))}
+
+
+def _panel(axes: Axes, title: str, fits: Sequence[Fit], value: Callable[[Fit], float]) -> None:
+    for reading in READINGS:
+        own = [one for one in fits if one.reading is reading]
+        axes.plot([one.window[0] for one in own], [value(one) for one in own], **reading.line)
+    axes.set_title(title, fontsize=9)
+    axes.margins(x=0.02)
+
+
+def _title(ranges: Ranges, upper_end: float) -> str:
+    first = (
+        r"The law $h_0^* = c\,u^{*a}\,\bar{W}^b\,e^{s w^*}$ of (32), fitted to exact films"
+        rf" up to $\alpha p = {upper_end:g}$"
+    )
+    second = ranges.words()
+    if ranges.speed_group is None:
+        second += "; a factor of $p$ or $\\bar{W}$ only moves $c$"
+    return f"{first}\n{second}"
+
+
+def _power(value: float) -> str:
+    return "0" if value == 0.0 else power_words(value)
+
+
+def windows(upper_end: float) -> list[Window]:
+    """Windows for the curves, denser towards both ends, where the coefficients turn."""
+    shares = 0.5 - 0.5 * np.cos(np.pi * np.arange(60) / 62)
+    return [(float(share) * upper_end, upper_end) for share in shares]

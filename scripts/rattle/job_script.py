@@ -1,0 +1,118 @@
+"""Job scripts for Slurm: a campaign as an array of parts, or as one MPI job."""
+
+from __future__ import annotations
+
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+
+# Slurm checks time limits about once a minute, so its warning may come up to a minute early, never late.
+CLOCK_GRAIN = 60
+
+
+@dataclass(frozen=True)
+class Job:
+    """What a job script needs to know."""
+
+    input_file: Path
+    name: str
+    program: str
+    working_directory: Path
+    log_directory: Path
+    results: str | None
+    parts: int | None
+    ranks: int | None
+    threads: int
+    time: str | None
+    signal_seconds: int
+    partition: str | None
+    launcher: str
+
+
+def seconds_of(time: str) -> int:
+    """Seconds of HH:MM:SS or D-HH:MM:SS; ValueError for anything else."""
+    days, _, clock = time.rpartition("-")
+    fields = clock.split(":")
+    if len(fields) != 3 or not all(field.isascii() and field.isdecimal() for field in (*fields, days or "0")):
+        raise ValueError(time)
+    hours, minutes, seconds = map(int, fields)
+    if minutes > 59 or seconds > 59:
+        raise ValueError(time)
+    return 86400 * int(days or 0) + 3600 * hours + 60 * minutes + seconds
+
+
+def part_name(name: str, part: int, parts: int) -> str:
+    """Result file of one part."""
+    return f"{name}.part-{part}-of-{parts}.rattle"
+
+
+def text(job: Job) -> str:
+    """The script."""
+    return "\n".join([*_directives(job), "", *_body(job)]) + "\n"
+
+
+def _directives(job: Job) -> list[str]:
+    log = "%x-%A-%a.log" if job.parts else "%x-%j.log"
+    lines = ["#!/bin/bash", f"#SBATCH --job-name={job.name}"]
+    if job.parts:
+        lines.append(f"#SBATCH --array=1-{job.parts}")
+    lines += [
+        f"#SBATCH --ntasks={job.ranks or 1}",
+        f"#SBATCH --cpus-per-task={job.threads}",
+        f"#SBATCH --signal=B:USR1@{job.signal_seconds}",
+        "#SBATCH --requeue",
+        "#SBATCH --open-mode=append",
+        f"#SBATCH --output={_quoted(str(job.log_directory / log))}",
+        f"#SBATCH --chdir={_quoted(str(job.working_directory))}",
+    ]
+    if job.time:
+        lines.append(f"#SBATCH --time={job.time}")
+    if job.partition:
+        lines.append(f"#SBATCH --partition={job.partition}")
+    return lines
+
+
+def _body(job: Job) -> list[str]:
+    arguments = ["--resume", "--threads", '"$OMP_NUM_THREADS"']
+    if job.results is not None:
+        arguments += ["--output", shlex.quote(job.results)]
+    if job.parts:
+        arguments += ["--set", 'campaign.part="$SLURM_ARRAY_TASK_ID"']
+        arguments += ["--set", f"campaign.parts={job.parts}"]
+    arguments.append(shlex.quote(str(job.input_file)))
+    program = shlex.quote(job.program)
+    launch = f"{job.launcher} {program}" if job.ranks else program
+    this_job = '"${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"' if job.parts else '"$SLURM_JOB_ID"'
+    return [
+        'export OMP_NUM_THREADS="${SLURM_CPUS_PER_TASK:-1}"',
+        'export SRUN_CPUS_PER_TASK="$OMP_NUM_THREADS"',
+        "",
+        "# Slurm warns this script alone. It hands the warning on; rattle ends its chunks and leaves, and the job",
+        "# goes back into the queue. What is done is not computed again, so a job may be requeued at any time.",
+        "warned=",
+        "hand_on() {",
+        "    warned=yes",
+        '    kill -USR1 "$rattle"',
+        "}",
+        "trap hand_on USR1",
+        "",
+        f"{launch} {' '.join(arguments)} &",
+        "rattle=$!",
+        'wait "$rattle"',
+        "code=$?",
+        "# A warning cuts the wait short, so wait anew for the code of rattle itself.",
+        'while [ -n "$warned" ]; do',
+        '    wait "$rattle"',
+        "    code=$?",
+        '    kill -0 "$rattle" 2> /dev/null || break',
+        "done",
+        'if [ -n "$warned" ] && [ "$code" -gt 128 ]; then',
+        f"    exec scontrol requeue {this_job}",
+        "fi",
+        'exit "$code"',
+    ]
+
+
+def _quoted(value: str) -> str:
+    """A value of an #SBATCH line, which Slurm splits at blanks outside quotes."""
+    return f'"{value}"' if " " in value else value

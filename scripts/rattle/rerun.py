@@ -1,0 +1,79 @@
+"""Single scenes of a campaign as inputs of their own, with the time series."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import f90nml
+import numpy as np
+
+from rattle.campaign import SCENE, Campaign
+from rattle.command import CommandError
+
+
+def extreme_rows(campaign: Campaign, column: str, count: int, *, smallest: bool = False) -> np.ndarray:
+    """Rows of the scenes with the largest (or smallest) entries of a column, the most extreme first.
+
+    Scenes that failed or are not done take no part; equals stay in scene order.
+    """
+    values = np.array(campaign[column], dtype=float)
+    usable = campaign.done & ~campaign.failed & np.isfinite(values)
+    rows = np.flatnonzero(usable)
+    key = values[rows] if smallest else -values[rows]
+    return rows[np.argsort(key, kind="stable")][:count]
+
+
+def failed_rows(campaign: Campaign, count: int) -> np.ndarray:
+    """Rows of the first scenes that failed."""
+    return np.flatnonzero(campaign.failed)[:count]
+
+
+def scene_values(campaign: Campaign, row: int) -> dict[str, float]:
+    """The varied keys of one scene."""
+    return {key: float(campaign[key][row]) for key in campaign.varied}
+
+
+def scene_label(campaign: Campaign, row: int) -> str:
+    """Name of a single scene, which is the stem of its files."""
+    digits = len(str(campaign.scene_count or campaign.row_count))
+    return f"{campaign.name}_{int(campaign[SCENE][row]):0{digits}d}"
+
+
+def write_inputs(campaign: Campaign, rows: Sequence[int], directory: Path, results: str) -> list[Path]:
+    """An input for each row: the base scene with the values of this one, and series = .true."""
+    directory.mkdir(parents=True, exist_ok=True)
+    paths = []
+    for row in rows:
+        path = directory / f"{scene_label(campaign, row)}.nml"
+        path.write_text(input_text(campaign, row, results), encoding="ascii")
+        paths.append(path)
+    return paths
+
+
+def input_text(campaign: Campaign, row: int, results: str) -> str:
+    """The input of one scene. The base is the resolved input, so no default can change it."""
+    groups = f90nml.Parser().reads(campaign.input_text)
+    groups.pop("campaign", None)
+    for name, value in scene_values(campaign, row).items():
+        group, key = name.split(".", 1)
+        groups.setdefault(group, f90nml.Namelist())
+        groups[group][key] = _number(value, groups[group].get(key), name)
+    groups.setdefault("scene", f90nml.Namelist())["name"] = scene_label(campaign, row)
+    output = groups.setdefault("output", f90nml.Namelist())
+    output["series"] = True
+    output["directory"] = results
+    groups.end_comma = False
+    number = int(campaign[SCENE][row])
+    head = f"! Scene {number} of the campaign {campaign.name}, as a single run with its time series.\n\n"
+    return head + str(groups) + "\n"
+
+
+def _number(value: float, base: object, name: str) -> float | int:
+    """A whole number where the base has one, or where there is no base and the value is whole."""
+    whole = value.is_integer() and abs(value) < 1e9
+    if isinstance(base, int) and not isinstance(base, bool):
+        if not whole:
+            raise CommandError(f"{name} = {value!r} is not the whole number that its key takes.")
+        return int(value)
+    return int(value) if base is None and whole else value

@@ -1,0 +1,223 @@
+"""Run time against error of every contender on the bench scenes, written as CSV.
+
+    python run_peers.py --output work_precision.csv [--quick] [--own "NAME=COMMAND" ...]
+
+Each contender solves each scene with a series of tolerances. A first solution compiles, measures the error
+against the reference and the time; then come N rounds, each timing every setting once in turn, so that a
+slow spell of the machine meets all contenders alike. The CSV has the median over the rounds of the CPU
+seconds of one solution. A series ends where a solution takes longer than --limit seconds. --own adds a
+contender that is a command (protocol: command.py), run side by side with the peers; it may be given several
+times. A contender that is not installed, or that fails on a setting, is reported and left out.
+"""
+
+import argparse
+import csv
+import datetime
+import importlib
+import math
+import platform
+import shlex
+import statistics
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+
+import command
+import scenes
+
+PEERS = ("cvode_peer", "scipy_peer", "numbalsoda_peer", "heyoka_peer")
+OWN_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12)
+QUICK_TOLERANCES = (1e-4, 1e-6, 1e-8)
+LEAST_SECONDS = 0.01
+COLUMNS = ("contender", "version", "scene", "film", "tolerance", "error", "cpu_seconds_median", "rounds")
+
+Solve = Callable[[], tuple]
+
+
+@dataclass
+class Contender:
+    """Name, version, `prepare(scene, tolerance)`, the series of tolerances, and whether it is a command."""
+
+    name: str
+    version: str
+    prepare: Callable[[scenes.Scene, float], Solve]
+    tolerances: tuple[float, ...]
+    is_command: bool
+
+
+@dataclass
+class Setting:
+    """One contender at one tolerance on one scene, with its times."""
+
+    contender: Contender
+    scene: scenes.Scene
+    tolerance: float
+    solve: Solve
+    error: float
+    seconds: list[float] = field(default_factory=list)
+
+
+def report(text: str) -> None:
+    """A line to standard error."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def mean_seconds(setting: Setting) -> float:
+    """Mean CPU seconds of as many solutions as make up LEAST_SECONDS; a command does that by itself."""
+    total, count = 0.0, 0
+    while count == 0 or (total < LEAST_SECONDS and not setting.contender.is_command):
+        total += setting.solve()[1]
+        count += 1
+    return total / count
+
+
+def found_peers(only: list[str] | None) -> list[Contender]:
+    """The contenders that are installed."""
+    found = []
+    for name in PEERS:
+        try:
+            module = importlib.import_module(name)
+        except (ImportError, OSError) as error:
+            report(f"skipped, not installed: {name} ({error})")
+            continue
+        for title, (prepare, tolerances) in module.CONTENDERS.items():
+            if not only or any(word.lower() in title.lower() for word in only):
+                found.append(Contender(title, module.VERSION, prepare, tolerances, module.IS_COMMAND))
+    return found
+
+
+def own_contender(text: str) -> Contender:
+    """Contender of an option --own NAME=COMMAND."""
+    name, equals, words = text.partition("=")
+    if not equals:
+        name, words = "rattle", text
+    call = shlex.split(words)
+    answer = subprocess.run([*call, "--version"], capture_output=True, text=True)
+    lines = answer.stdout.strip().splitlines() if answer.returncode == 0 else []
+    return Contender(
+        name,
+        lines[0] if lines else "unknown",
+        partial(command.prepare, call),
+        OWN_TOLERANCES,
+        is_command=True,
+    )
+
+
+def first_solutions(
+    contender: Contender, chosen: list[scenes.Scene], quick: bool, limit: float
+) -> list[Setting]:
+    """Compile and solve once at every tolerance; errors of the settings to be timed."""
+    reference, settings = scenes.reference_film(), []
+    for scene in chosen:
+        for tolerance in QUICK_TOLERANCES if quick else contender.tolerances:
+            try:
+                solve = contender.prepare(scene, tolerance)
+                film, seconds = solve()
+            except Exception as failure:  # whatever a peer raises costs this setting only
+                report(f"left out: {contender.name}, {scene.name}, tolerance {tolerance:g}: {failure}")
+                continue
+            error = scenes.film_error(film, reference[scene.name])
+            if math.isfinite(error):
+                settings.append(Setting(contender, scene, tolerance, solve, error))
+            else:
+                report(f"left out: {contender.name}, {scene.name}, tolerance {tolerance:g}: no finite motion")
+            if seconds > limit:
+                report(
+                    f"series ends: {contender.name}, {scene.name}, tolerance {tolerance:g}: {seconds:.1f} s"
+                )
+                break
+    return settings
+
+
+def cpu_model() -> str:
+    """Name of the processor."""
+    try:
+        for line in Path("/proc/cpuinfo").read_text().splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()
+
+
+def first_line(*call: str) -> str:
+    """First line that a command prints, or 'none'."""
+    try:
+        return subprocess.run(call, capture_output=True, text=True, check=True).stdout.splitlines()[0]
+    except (OSError, subprocess.CalledProcessError, IndexError):
+        return "none"
+
+
+def header(contenders: list[Contender], own: list[Contender], rounds: int) -> dict[str, str]:
+    """What a reader needs to judge the numbers."""
+    versions = {each.name: each.version for each in contenders}
+    return {
+        "date": datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "command": "python " + " ".join(shlex.quote(word) for word in sys.argv),
+        "cpu": cpu_model(),
+        "system": platform.platform(),
+        "python": platform.python_version(),
+        "compiler of cvode_peer.c": f"{first_line('gcc', '--version')} -O3 -march=native",
+        "clock": f"CPU time of one thread, median of {rounds} interleaved rounds, compilation excluded",
+        "versions": "; ".join(f"{name} {version}" for name, version in versions.items()),
+        "own": "; ".join(each.name for each in own),
+    }
+
+
+def write(path: Path, head: dict[str, str], settings: list[Setting]) -> None:
+    """The CSV file."""
+    with path.open("w", newline="") as stream:
+        for key, value in head.items():
+            stream.write(f"# {key}: {value}\n")
+        rows = csv.writer(stream, lineterminator="\n")
+        rows.writerow(COLUMNS)
+        for each in settings:
+            median = statistics.median(each.seconds)
+            rows.writerow(
+                [each.contender.name, each.contender.version, each.scene.name, each.scene.film]
+                + [f"{each.tolerance:.3g}", f"{each.error:.4e}", f"{median:.6e}", len(each.seconds)]
+            )
+
+
+def main() -> int:
+    """Command line."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--output", type=Path, default=Path("work_precision.csv"))
+    parser.add_argument("--own", action="append", default=[], metavar="NAME=COMMAND")
+    parser.add_argument("--only", action="append", metavar="WORD", help="only peers whose name has this word")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument(
+        "--limit", type=float, default=2.0, help="seconds of a solution after which a series ends"
+    )
+    parser.add_argument("--quick", action="store_true", help="F0 = Q only, three tolerances, three rounds")
+    options = parser.parse_args()
+    own = [own_contender(text) for text in options.own]
+    contenders = own + found_peers(options.only)
+    if not contenders:
+        report("no contender found")
+        return 1
+    chosen, rounds = scenes.all_scenes(), options.rounds
+    if options.quick:
+        chosen = [each for each in chosen if each.force_amplitude == scenes.STATIC_FORCE]
+        rounds = 3
+    settings = []
+    for contender in contenders:
+        settings += first_solutions(contender, chosen, options.quick, options.limit)
+        count = sum(each.contender is contender for each in settings)
+        report(f"{contender.name} {contender.version}: {count} settings")
+    for number in range(rounds):
+        for each in settings:
+            each.seconds.append(mean_seconds(each))
+        report(f"round {number + 1} of {rounds} done")
+    write(options.output, header(contenders, own, rounds), settings)
+    report(f"written: {options.output}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
