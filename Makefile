@@ -115,7 +115,7 @@ $(BENCH_PROGRAMS): $(BUILD)/%: %.f90 $(OBJECTS)
 
 python: $(BUILD)/kernels/built
 
-$(BUILD)/kernels/built: fsrc/bindings/kernels_wrap.f90 scripts/build_kernels.sh $(OBJECTS) $(PYTHON_ENV)/installed
+$(BUILD)/kernels/built: $(wildcard fsrc/bindings/*.f90) scripts/build_kernels.sh $(OBJECTS) $(PYTHON_ENV)/installed
 	@echo 'build the Python module of the kernels'
 	@scripts/build_kernels.sh $(PYTHON) $(BUILD) '$(OBJECTS)' '$(LIBRARIES)'
 	@touch $@

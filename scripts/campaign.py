@@ -57,7 +57,9 @@ def slurm(options: argparse.Namespace) -> None:
     )
     for place in (job.working_directory, job.log_directory):
         if not DIRECTIVE_SAFE.fullmatch(str(place)):
-            raise command.CommandError(f"Slurm cannot take the directory {place}: it has one of \" % \\ in it.")
+            raise command.CommandError(
+                f'Slurm cannot take the directory {place}: it has one of " % \\ in it.'
+            )
     script = options.script or (options.output or Path()) / f"{name}.slurm"
     if script.exists() and not options.overwrite:
         raise command.CommandError(f"{script} exists; --overwrite replaces it.")
@@ -186,7 +188,8 @@ def state_rows(campaign: Campaign) -> list[list[str]]:
             continue
         counts = Counter(campaign_codes.word(name, code) for code in campaign[name][campaign.done].tolist())
         rows += [
-            [f"{title} {name_of}", f"{count}{percent(count, done)}"] for name_of, count in counts.most_common()
+            [f"{title} {name_of}", f"{count}{percent(count, done)}"]
+            for name_of, count in counts.most_common()
         ]
     if "status" in campaign:
         failures = int(campaign.failed.sum())
@@ -248,7 +251,9 @@ def parse_options() -> argparse.Namespace:
     add_slurm(commands)
     add_merge(commands)
 
-    files = commands.add_parser("status", help="how far campaigns are", description="Say how far campaigns are.")
+    files = commands.add_parser(
+        "status", help="how far campaigns are", description="Say how far campaigns are."
+    )
     files.add_argument("files", nargs="+", type=Path, metavar="FILE", help="campaign result or part of one")
     files.set_defaults(act=status)
 
@@ -272,7 +277,9 @@ def add_slurm(commands: argparse._SubParsersAction) -> None:
     )
     job.add_argument("input", type=Path, metavar="FILE.nml", help="input with a group &campaign")
     kind = job.add_mutually_exclusive_group()
-    kind.add_argument("--array", type=command.positive, metavar="N", help="N tasks, each a part of the scenes")
+    kind.add_argument(
+        "--array", type=command.positive, metavar="N", help="N tasks, each a part of the scenes"
+    )
     kind.add_argument("--ranks", type=command.positive, metavar="N", help="one job of N MPI ranks")
     job.add_argument("--threads", type=command.positive, default=1, metavar="N", help="threads a task (1)")
     job.add_argument("--time", type=time_limit, metavar="HH:MM:SS", help="time limit of the job")
@@ -319,10 +326,16 @@ def add_rerun(commands: argparse._SubParsersAction) -> None:
     choice.add_argument("--worst", type=command.positive, metavar="N", help="the N scenes largest in --by")
     choice.add_argument("--failed", type=command.positive, metavar="N", help="the first N scenes that failed")
     choice.add_argument("--scenes", type=scene_numbers, metavar="I,J", help="these scenes")
-    again.add_argument("--by", default="acceleration_maximum", metavar="COLUMN", help="(acceleration_maximum)")
+    again.add_argument(
+        "--by", default="acceleration_maximum", metavar="COLUMN", help="(acceleration_maximum)"
+    )
     again.add_argument("--smallest", action="store_true", help="the smallest in --by instead of the largest")
-    again.add_argument("--output", type=Path, metavar="DIR", help="by default NAME_scenes beside the campaign")
-    again.add_argument("--results", default="results", metavar="DIR", help="output.directory of them (results)")
+    again.add_argument(
+        "--output", type=Path, metavar="DIR", help="by default NAME_scenes beside the campaign"
+    )
+    again.add_argument(
+        "--results", default="results", metavar="DIR", help="output.directory of them (results)"
+    )
     again.set_defaults(act=run_again)
 
 

@@ -42,6 +42,7 @@ contains
       integer, intent(out) :: bad_axis
       !> What is wrong and what is allowed; empty if nothing is
       character(:), allocatable, intent(out) :: message
+      integer(int64) :: count
       integer :: i
 
       plan%method = method_grid
@@ -53,11 +54,12 @@ contains
       end if
       plan%size = 1_int64
       do i = 1, size(axes)
-         if (plan%size > huge(plan%size)/axis_count(axes(i))) then
+         count = int(axis_count(axes(i)), int64)
+         if (plan%size > huge(plan%size)/count) then
             message = 'the grid has more than '//integer_text(huge(plan%size))//' scenes'
             return
          end if
-         plan%size = plan%size*axis_count(axes(i))
+         plan%size = plan%size*count
       end do
    end subroutine plan_grid
 
@@ -168,8 +170,8 @@ contains
       integer(int64), intent(in) :: scene
       !> One for every varied key
       real(dp), intent(out) :: values(:)
-      integer(int64) :: rest, next
-      integer :: i, count
+      integer(int64) :: rest, next, count
+      integer :: i
 
       select case (plan%method)
       case (method_table)
@@ -177,7 +179,7 @@ contains
       case (method_grid)
          rest = scene - 1_int64
          do i = size(plan%axes), 1, -1
-            count = axis_count(plan%axes(i))
+            count = int(axis_count(plan%axes(i)), int64)
             next = rest/count
             values(i) = grid_value(plan%axes(i), int(rest - next*count))
             rest = next

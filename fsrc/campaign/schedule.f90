@@ -6,7 +6,7 @@ module schedule
 
    integer, parameter :: smallest_chunk = 64, largest_chunk = 8192
    !> Chunks that a large campaign is cut into, at least
-   integer, parameter :: wanted_chunks = 2048
+   integer(int64), parameter :: wanted_chunks = 2048_int64
 
    !> Chunks that are still to be computed. One list is shared by all threads.
    type, public :: chunk_schedule_t
@@ -32,7 +32,7 @@ contains
       integer(int64), intent(in) :: scene_count
 
       chunk_rows_for = smallest_chunk
-      do while (chunk_rows_for < largest_chunk .and. scene_count > int(wanted_chunks, int64)*chunk_rows_for)
+      do while (chunk_rows_for < largest_chunk .and. scene_count/wanted_chunks > int(chunk_rows_for, int64))
          chunk_rows_for = 2*chunk_rows_for
       end do
    end function chunk_rows_for

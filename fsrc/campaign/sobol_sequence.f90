@@ -73,15 +73,14 @@ contains
          return
       end if
       degree = bit_size(1) - 1 - leadz(polynomials(number))
-      do k = 1, digit_count
-         if (k <= degree) then
-            directions(k) = shiftl(int(first_numbers(k, number), int64), digit_count - k)
-         else
-            directions(k) = ieor(directions(k - degree), shiftr(directions(k - degree), degree))
-            do i = 1, degree - 1
-               if (btest(polynomials(number), degree - i)) directions(k) = ieor(directions(k), directions(k - i))
-            end do
-         end if
+      do k = 1, degree
+         directions(k) = shiftl(int(first_numbers(k, number), int64), digit_count - k)
+      end do
+      do k = degree + 1, digit_count
+         directions(k) = ieor(directions(k - degree), shiftr(directions(k - degree), degree))
+         do i = 1, degree - 1
+            if (btest(polynomials(number), degree - i)) directions(k) = ieor(directions(k), directions(k - i))
+         end do
       end do
    end function direction_numbers
 

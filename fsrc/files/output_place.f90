@@ -4,12 +4,12 @@ module output_place
    use file_system, only: first_bytes, is_directory, is_writable, make_directory, path_exists
    use log_file, only: log_magic
    use result_format, only: result_magic
-   use scene_types, only: compute_profile, scene_t, task_film
+   use scene_types, only: compute_profile, scene_t, task_film, task_motion
    use summary_file, only: summary_magic
    implicit none(type, external)
    private
 
-   public :: result_path, profiles_path, summary_path, log_path, check_output_place
+   public :: result_path, profiles_path, state_path, summary_path, log_path, check_output_place
 
 contains
 
@@ -30,6 +30,15 @@ contains
 
       path = trim(scene%output%directory)//'/'//trim(scene%name)//'.profiles.rattle'
    end function profiles_path
+
+   !> Path of the state from which a run can be carried on.
+   pure function state_path(scene) result(path)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: path
+
+      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.state'
+   end function state_path
 
    !> Path of the summary.
    pure function summary_path(scene) result(path)
@@ -84,6 +93,7 @@ contains
       if (scene%task == task_film .or. scene%output%series) call check_file(result_path(scene), result_magic)
       if (scene%task == task_film .and. scene%points%compute(compute_profile)) &
          call check_file(profiles_path(scene), result_magic)
+      if (scene%task == task_motion) call check_file(state_path(scene), result_magic)
       call check_file(summary_path(scene), summary_magic)
       call check_file(log_path(scene), log_magic)
 

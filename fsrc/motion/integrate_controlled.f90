@@ -3,6 +3,7 @@
 !> A run that stops once the motion repeats is solved without samples first. How long it is then known, and the
 !> samples that are wanted are made in blocks of periods, each carried on from the one before to the last bit.
 module integrate_controlled
+   use checkpoint, only: checkpoint_t
    use clock, only: wall_seconds
    use errors, only: error_t
    use film_law, only: film_t
@@ -30,13 +31,15 @@ module integrate_controlled
 contains
 
    !> Solve the motion of a scene.
-   subroutine solve_controlled(scene, film, initial_film, wants_all, sink, watcher, ending, error)
+   subroutine solve_controlled(scene, film, initial_film, start, wants_all, sink, watcher, ending, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Its film
       type(film_t), intent(in) :: film
       !> Film at t = 0 [m]
       real(dp), intent(in) :: initial_film
+      !> State to carry on from; 0 periods: start at t = 0. A run until steady always starts there.
+      type(checkpoint_t), intent(in) :: start
       !> Whether the sink wants all samples, or those of the window only
       logical, intent(in) :: wants_all
       !> Takes the samples
@@ -65,7 +68,7 @@ contains
          periods = found%periods
          if (found%orbit > 0) window = found%orbit
       end if
-      call solve_blocks(scene, lane, periods, window, wants_all, sink, watcher, ending, error)
+      call solve_blocks(scene, lane, start, periods, window, wants_all, sink, watcher, ending, error)
       if (ending%status == status_complete .and. scene%solver%until == until_steady .and. found%orbit > 0) then
          ending%status = status_steady
          ending%orbit = found%orbit
@@ -132,9 +135,10 @@ contains
    end subroutine look_for_repetition
 
    !> Solve a known number of periods in blocks and hand over the samples that are wanted.
-   subroutine solve_blocks(scene, lane, periods, window, wants_all, sink, watcher, ending, error)
+   subroutine solve_blocks(scene, lane, start, periods, window, wants_all, sink, watcher, ending, error)
       type(scene_t), intent(in) :: scene
       type(lane_scene_t), intent(in) :: lane
+      type(checkpoint_t), intent(in) :: start
       integer, intent(in) :: periods
       integer, intent(in) :: window
       logical, intent(in) :: wants_all
@@ -161,16 +165,29 @@ contains
       carried = lane
 
       call sink%begin_window(int(periods - window, int64)*int(samples, int64) + 1_int64, window*samples)
-      call accelerations_at_start(lane, first)
-      call sink%take(0_int64, [applied_force(lane%steady_force, lane%force_amplitude, 0.0_dp)], [lane%initial_film], &
-                     [lane%initial_velocity], first, error)
-      done = 0
+      if (start%periods > 0) then
+         carried%carried_on = .true.
+         carried%periods_done = start%periods
+         carried%implicit = start%implicit
+         carried%initial_film = start%film
+         carried%initial_velocity = start%velocity
+         carried%initial_momentum = start%momentum
+         ending%count%evaluations = start%evaluations
+      else
+         call accelerations_at_start(lane, first)
+         call sink%take(0_int64, [applied_force(lane%steady_force, lane%force_amplitude, 0.0_dp)], [lane%initial_film], &
+                        [lane%initial_velocity], first, error)
+      end if
+      ending%checkpoint = start
+      done = start%periods
       do while (done < periods .and. .not. allocated(error))
          if (done < sampled_from) then
             request%sampled_periods = 0
             request%periods = min(sampled_from, done + block_periods)
          else
             request%periods = min(periods, done + block)
+            ! A block ends where the window begins: from there the run can be carried on.
+            if (done < periods - window) request%periods = min(request%periods, periods - window)
             request%sampled_periods = request%periods - done
          end if
          call solve_motions([carried], request, films, velocities, endings)
@@ -180,6 +197,7 @@ contains
          if (allocated(error) .or. .not. is_success(endings(1)%status)) return
          done = request%periods
          call carry_on(endings(1), carried)
+         if (done <= periods - window) ending%checkpoint = checkpoint_of(endings(1), ending%count%evaluations)
          call watcher%period_done(done, periods)
          if (done == periods) exit
          if (caught_signal() /= 0) ending%status = status_interrupted
@@ -232,6 +250,20 @@ contains
       lane%initial_velocity = ending%velocity
       lane%initial_momentum = ending%momentum
    end subroutine carry_on
+
+   !> State at the end of a lane's run, with what it cost.
+   pure function checkpoint_of(ending, evaluations) result(here)
+      type(lane_ending_t), intent(in) :: ending
+      integer(int64), intent(in) :: evaluations
+      type(checkpoint_t) :: here
+
+      here%periods = ending%periods
+      here%film = ending%film
+      here%velocity = ending%velocity
+      here%momentum = ending%momentum
+      here%implicit = ending%implicit
+      here%evaluations = evaluations
+   end function checkpoint_of
 
    !> Ending of a lane as that of the motion.
    pure subroutine record_ending(scene, found, ending)

@@ -1,5 +1,6 @@
 !> Whole motion of a scene: from the first state through all periods, samples handed to a sink.
 module integrate_motion
+   use checkpoint, only: checkpoint_t
    use clock, only: wall_seconds
    use constants, only: two_pi
    use errors, only: error_t
@@ -30,6 +31,8 @@ module integrate_motion
       !> Periods after which a steady motion repeats, else 0
       integer :: orbit = 0
       type(motion_count_t) :: count
+      !> State from which the run can be extended
+      type(checkpoint_t) :: checkpoint
    end type motion_end_t
 
    !> Watcher of the motion, told after every period.
@@ -59,13 +62,15 @@ module integrate_motion
 contains
 
    !> Solve the motion of a scene. The film law is chosen here, once.
-   subroutine solve_motion(scene, film, initial_film, sink, watcher, ending, error)
+   subroutine solve_motion(scene, film, initial_film, start, sink, watcher, ending, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Its film
       type(film_t), intent(in) :: film
       !> Film at t = 0 [m]
       real(dp), intent(in) :: initial_film
+      !> State to carry on from; 0 periods: start at t = 0
+      type(checkpoint_t), intent(in) :: start
       !> Takes the samples
       class(sample_sink_t), intent(inout) :: sink
       !> Told of progress
@@ -77,26 +82,27 @@ contains
 
       select case (film%kernel)
       case (kernel_half_pi)
-         call run_periods(load_half_pi, scene, film, initial_film, sink, watcher, ending, error)
+         call run_periods(load_half_pi, scene, film, initial_film, start, sink, watcher, ending, error)
       case (kernel_solved_fast)
-         call run_periods(load_solved_fast, scene, film, initial_film, sink, watcher, ending, error)
+         call run_periods(load_solved_fast, scene, film, initial_film, start, sink, watcher, ending, error)
       case (kernel_solved_successive)
-         call run_periods(load_solved_successive, scene, film, initial_film, sink, watcher, ending, error)
+         call run_periods(load_solved_successive, scene, film, initial_film, start, sink, watcher, ending, error)
       case (kernel_reynolds_iso)
-         call run_periods(load_reynolds_iso, scene, film, initial_film, sink, watcher, ending, error)
+         call run_periods(load_reynolds_iso, scene, film, initial_film, start, sink, watcher, ending, error)
       case (kernel_reynolds_piezo)
-         call run_periods(load_reynolds_piezo, scene, film, initial_film, sink, watcher, ending, error)
+         call run_periods(load_reynolds_piezo, scene, film, initial_film, start, sink, watcher, ending, error)
       case default
-         call run_periods(load_piezo, scene, film, initial_film, sink, watcher, ending, error)
+         call run_periods(load_piezo, scene, film, initial_film, start, sink, watcher, ending, error)
       end select
    end subroutine solve_motion
 
    !> All periods with one kernel.
-   subroutine run_periods(kernel, scene, film, initial_film, sink, watcher, ending, error)
+   subroutine run_periods(kernel, scene, film, initial_film, start, sink, watcher, ending, error)
       procedure(film_kernel) :: kernel
       type(scene_t), intent(in) :: scene
       type(film_t), intent(in) :: film
       real(dp), intent(in) :: initial_film
+      type(checkpoint_t), intent(in) :: start
       class(sample_sink_t), intent(inout) :: sink
       class(motion_watcher_t), intent(inout) :: watcher
       type(motion_end_t), intent(out) :: ending
@@ -118,17 +124,24 @@ contains
       ! Without a film to start from there is none that carries the static load.
       ending%status = film%status_without_load
       if (.not. initial_film > 0.0_dp) return
-      call start_motion(kernel, film, method, initial_film, scene%film%initial_velocity, state, ending%count, ending%status)
-      ending%film = state%film
-      if (ending%status /= status_complete) return
-      call sink%take(0_int64, [applied_force(method%steady_force, method%force_amplitude, 0.0_dp)], [state%film], &
-                     [state%velocity], [state%acceleration], error)
-      if (allocated(error)) return
+      if (start%periods > 0) then
+         state = motion_state_t(start%film, start%velocity, start%acceleration)
+         ending%count = motion_count_t(start%steps, start%evaluations, start%cuts)
+      else
+         call start_motion(kernel, film, method, initial_film, scene%film%initial_velocity, state, ending%count, ending%status)
+         ending%film = state%film
+         if (ending%status /= status_complete) return
+         call sink%take(0_int64, [applied_force(method%steady_force, method%force_amplitude, 0.0_dp)], [state%film], &
+                        [state%velocity], [state%acceleration], error)
+         if (allocated(error)) return
+      end if
+      ending%status = status_complete
+      ending%checkpoint = start
 
       last_period = scene%solver%periods
       window = scene%spectrum%periods
       call sink%begin_window(int(last_period - window, int64)*int(steps, int64) + 1_int64, window*steps)
-      period = 0
+      period = start%periods
       do while (period < last_period)
          period = period + 1
          first_step = int(period - 1, int64)*int(steps, int64) + 1_int64
@@ -140,6 +153,7 @@ contains
          ending%time = real(first_step + int(done - 1, int64), dp)/(method%frequency*real(steps, dp))
          if (allocated(error) .or. ending%status /= status_complete) return
          ending%periods = period
+         if (period <= scene%solver%periods - window) ending%checkpoint = checkpoint_of(period, state, ending%count)
          call watcher%period_done(period, last_period)
          if (period == last_period) exit
          if (caught_signal() /= 0) ending%status = status_interrupted
@@ -155,6 +169,22 @@ contains
       end do
       if (ending%orbit > 0) ending%status = status_steady
    end subroutine run_periods
+
+   !> State at the end of a period, with what it cost.
+   pure function checkpoint_of(period, state, count) result(here)
+      integer, intent(in) :: period
+      type(motion_state_t), intent(in) :: state
+      type(motion_count_t), intent(in) :: count
+      type(checkpoint_t) :: here
+
+      here%periods = period
+      here%film = state%film
+      here%velocity = state%velocity
+      here%acceleration = state%acceleration
+      here%steps = count%steps
+      here%evaluations = count%evaluations
+      here%cuts = count%cuts
+   end function checkpoint_of
 
    !> Whether a scene has used up its time.
    logical function time_is_up(scene, started)

@@ -18,12 +18,27 @@ module newmark_lane_group
    !> Lanes are used in blocks of this many, a register at most, so that none is left to other instructions.
    integer, parameter, public :: block_lanes = 8
 
+   !> A step at work. The iterate is the state of the group.
+   type, public :: newmark_lane_step_t
+      !> h and V at the end of the step were A zero there [m]
+      real(dp) :: known_film(lanes) = 0.0_dp
+      real(dp) :: known_velocity(lanes) = 0.0_dp
+      !> Force at the end of the step, as L [m]
+      real(dp) :: force(lanes) = 0.0_dp
+      !> Iterate before the present one: h, never below `smallest`, and A [m]
+      real(dp) :: film(lanes) = 1.0_dp
+      real(dp) :: acceleration(lanes) = 0.0_dp
+      !> Film that fails, least film of all iterates; 0 also if the law had no value [m]
+      real(dp) :: smallest(lanes) = 0.0_dp
+      real(dp) :: least(lanes) = 1.0_dp
+      !> Exponential of (37) [-], or its argument
+      real(dp) :: growth(lanes) = 1.0_dp
+      !> Positive where the step has met the criterion of (36) and kept its film
+      real(dp) :: margin(lanes) = 1.0_dp
+   end type newmark_lane_step_t
+
    !> Group of scenes that share film law and steps per period.
    type, public :: newmark_lane_group_t
-      !> Film law: kernel_half_pi or kernel_piezo of film_law
-      integer :: kernel = kernel_half_pi
-      !> Lanes in use, a multiple of `block_lanes`
-      integer :: used = 0
       !> h [m], V [m] and A [m]
       real(dp) :: film(lanes) = 1.0_dp
       real(dp) :: velocity(lanes) = 0.0_dp
@@ -45,6 +60,12 @@ module newmark_lane_group
       logical :: failed(lanes) = .false.
       !> Passes beyond two, of all steps
       integer(int64) :: further_passes(lanes) = 0_int64
+      !> The step at work
+      type(newmark_lane_step_t) :: step
+      !> Film law: kernel_half_pi or kernel_piezo of film_law
+      integer :: kernel = kernel_half_pi
+      !> Lanes in use, a multiple of `block_lanes`
+      integer :: used = 0
    end type newmark_lane_group_t
 
    public :: has_lanes, load_lane, rest_lane, set_lane_state, lane_state

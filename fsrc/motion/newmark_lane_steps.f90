@@ -16,22 +16,6 @@ module newmark_lane_steps
    !> A step in which the film loses more than this factor, or goes to zero and below, fails.
    real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp
 
-   !> What a step knows besides the iterate, which is the state of the group.
-   type :: lane_step_t
-      !> h and V at the end of the step were A zero there [m]
-      real(dp), dimension(lanes) :: known_film, known_velocity
-      !> Force at the end of the step, as a load [m]
-      real(dp), dimension(lanes) :: force
-      !> Iterate before the present one: h, never below `smallest`, and A [m]
-      real(dp), dimension(lanes) :: film, acceleration
-      !> Film that fails, least film of all iterates; 0 also if the law had no value [m]
-      real(dp), dimension(lanes) :: smallest, least
-      !> exp(-703 w/u) of (37) [-], or its exponent
-      real(dp), dimension(lanes) :: growth
-      !> 1 where the criterion is not met yet, else 0
-      real(dp), dimension(lanes) :: unsettled
-   end type lane_step_t
-
    public :: advance_lanes
 
 contains
@@ -42,170 +26,171 @@ contains
       type(newmark_lane_group_t), intent(inout) :: group
       !> cos(2 pi f_exc t) at the end of every step [-]; its size is the number of steps
       real(dp), intent(in) :: cosine(:)
-      type(lane_step_t) :: step
-      integer :: i, unsettled
+      integer :: i
 
       do i = 1, size(cosine)
          if (group%kernel == kernel_half_pi) then
-            call first_half_pi_pass(group, cosine(i), step)
-            call second_half_pi_pass(group, step, unsettled)
+            call first_half_pi_pass(group, cosine(i))
+            call second_half_pi_pass(group)
          else
-            call first_piezo_pass(group, cosine(i), step)
-            call second_piezo_pass(group, step, unsettled)
+            call first_piezo_pass(group, cosine(i))
+            call second_piezo_pass(group)
          end if
-         if (unsettled > 0) call settle_lanes(group, step)
+         if (unsettled_lanes(group) > 0) call settle_lanes(group)
       end do
    end subroutine advance_lanes
 
    !> Start of a step and its first pass, film (35).
-   pure subroutine first_half_pi_pass(group, cosine, step)
-      type(newmark_lane_group_t), intent(in) :: group
+   pure subroutine first_half_pi_pass(group, cosine)
+      type(newmark_lane_group_t), intent(inout) :: group
       !> cos(2 pi f_exc t) at the end of the step [-]
       real(dp), intent(in) :: cosine
-      !> The step, started
-      type(lane_step_t), intent(inout) :: step
       real(dp) :: a, film, load, load_by_film, load_by_velocity
       integer :: l
 
-      !$omp simd private(a, film, load, load_by_film, load_by_velocity)
-      do l = 1, group%used
-         a = group%acceleration(l)
-         step%force(l) = group%mean_force(l) + group%force_amplitude(l)*cosine
-         step%smallest(l) = smallest_film_ratio*group%film(l)
-         step%known_film(l) = group%film(l) + group%velocity(l) + a
-         step%known_velocity(l) = group%velocity(l) + 2.0_dp*a
-         film = step%known_film(l) + a
-         call half_pi_rupture_load(group%strength(l), group%squeeze(l), max(film, step%smallest(l)), &
-                                   step%known_velocity(l) + 2.0_dp*a, load, load_by_film, load_by_velocity)
-         a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
-         step%acceleration(l) = a
-         step%least(l) = merge(min(film, step%known_film(l) + a), 0.0_dp, load < group%largest_load(l))
-         step%film(l) = max(step%known_film(l) + a, step%smallest(l))
-      end do
+      associate (step => group%step)
+         !$omp simd private(a, film, load, load_by_film, load_by_velocity)
+         do l = 1, group%used
+            a = group%acceleration(l)
+            step%force(l) = group%mean_force(l) + group%force_amplitude(l)*cosine
+            step%smallest(l) = smallest_film_ratio*group%film(l)
+            step%known_film(l) = group%film(l) + group%velocity(l) + a
+            step%known_velocity(l) = group%velocity(l) + 2.0_dp*a
+            film = step%known_film(l) + a
+            call half_pi_rupture_load(group%strength(l), group%squeeze(l), max(film, step%smallest(l)), &
+                                      step%known_velocity(l) + 2.0_dp*a, load, load_by_film, load_by_velocity)
+            a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
+            step%acceleration(l) = a
+            step%least(l) = merge(min(film, step%known_film(l) + a), 0.0_dp, load < group%largest_load(l))
+            step%film(l) = max(step%known_film(l) + a, step%smallest(l))
+         end do
+      end associate
    end subroutine first_half_pi_pass
 
    !> Second pass, film (35): its iterate becomes the state of the group.
-   pure subroutine second_half_pi_pass(group, step, unsettled)
+   pure subroutine second_half_pi_pass(group)
       type(newmark_lane_group_t), intent(inout) :: group
-      type(lane_step_t), intent(inout) :: step
-      !> Lanes that do not meet the criterion
-      integer, intent(out) :: unsettled
-      real(dp) :: a, film, load, load_by_film, load_by_velocity, total
-      integer :: l
-
-      total = 0.0_dp
-      !$omp simd private(a, film, load, load_by_film, load_by_velocity) reduction(+: total)
-      do l = 1, group%used
-         a = step%acceleration(l)
-         call half_pi_rupture_load(group%strength(l), group%squeeze(l), step%film(l), &
-                                   step%known_velocity(l) + 2.0_dp*a, load, load_by_film, load_by_velocity)
-         a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
-         film = step%known_film(l) + a
-         step%least(l) = merge(min(film, step%least(l)), 0.0_dp, load < group%largest_load(l))
-         step%unsettled(l) = merge(0.0_dp, 1.0_dp, abs(film - step%film(l)) < group%tolerance(l) .and. &
-                                   step%least(l) > step%smallest(l))
-         total = total + step%unsettled(l)
-         group%film(l) = film
-         group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
-         group%acceleration(l) = a
-      end do
-      unsettled = nint(total)
-   end subroutine second_half_pi_pass
-
-   !> Start of a step and its first pass, film (37).
-   pure subroutine first_piezo_pass(group, cosine, step)
-      type(newmark_lane_group_t), intent(in) :: group
-      !> cos(2 pi f_exc t) at the end of the step [-]
-      real(dp), intent(in) :: cosine
-      !> The step, started
-      type(lane_step_t), intent(inout) :: step
       real(dp) :: a, film, load, load_by_film, load_by_velocity
       integer :: l
 
-      !$omp simd
-      do l = 1, group%used
-         step%known_velocity(l) = group%velocity(l) + 2.0_dp*group%acceleration(l)
-         step%growth(l) = -group%squeeze(l)*(step%known_velocity(l) + 2.0_dp*group%acceleration(l))
-      end do
-      call raise_lanes(step%growth(:group%used))
-      !$omp simd private(a, film, load, load_by_film, load_by_velocity)
-      do l = 1, group%used
-         a = group%acceleration(l)
-         step%force(l) = group%mean_force(l) + group%force_amplitude(l)*cosine
-         step%smallest(l) = smallest_film_ratio*group%film(l)
-         step%known_film(l) = group%film(l) + group%velocity(l) + a
-         film = step%known_film(l) + a
-         call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), max(film, step%smallest(l)), &
-                                       step%growth(l), load, load_by_film, load_by_velocity)
-         a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
-         step%acceleration(l) = a
-         step%least(l) = merge(min(film, step%known_film(l) + a), 0.0_dp, load < group%largest_load(l))
-         step%film(l) = max(step%known_film(l) + a, step%smallest(l))
-      end do
+      associate (step => group%step)
+         !$omp simd private(a, film, load, load_by_film, load_by_velocity)
+         do l = 1, group%used
+            a = step%acceleration(l)
+            call half_pi_rupture_load(group%strength(l), group%squeeze(l), step%film(l), &
+                                      step%known_velocity(l) + 2.0_dp*a, load, load_by_film, load_by_velocity)
+            a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
+            film = step%known_film(l) + a
+            step%margin(l) = min(group%tolerance(l) - abs(film - step%film(l)), group%largest_load(l) - load, &
+                                 min(film, step%least(l)) - step%smallest(l))
+            group%film(l) = film
+            group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
+            group%acceleration(l) = a
+         end do
+      end associate
+   end subroutine second_half_pi_pass
+
+   !> Start of a step and its first pass, film (37).
+   pure subroutine first_piezo_pass(group, cosine)
+      type(newmark_lane_group_t), intent(inout) :: group
+      !> cos(2 pi f_exc t) at the end of the step [-]
+      real(dp), intent(in) :: cosine
+      real(dp) :: a, film, load, load_by_film, load_by_velocity
+      integer :: l
+
+      associate (step => group%step)
+         !$omp simd
+         do l = 1, group%used
+            step%known_velocity(l) = group%velocity(l) + 2.0_dp*group%acceleration(l)
+            step%growth(l) = -group%squeeze(l)*(step%known_velocity(l) + 2.0_dp*group%acceleration(l))
+         end do
+         call raise_lanes(step%growth(:group%used))
+         !$omp simd private(a, film, load, load_by_film, load_by_velocity)
+         do l = 1, group%used
+            a = group%acceleration(l)
+            step%force(l) = group%mean_force(l) + group%force_amplitude(l)*cosine
+            step%smallest(l) = smallest_film_ratio*group%film(l)
+            step%known_film(l) = group%film(l) + group%velocity(l) + a
+            film = step%known_film(l) + a
+            call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), max(film, step%smallest(l)), &
+                                          step%growth(l), load, load_by_film, load_by_velocity)
+            a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
+            step%acceleration(l) = a
+            step%least(l) = merge(min(film, step%known_film(l) + a), 0.0_dp, load < group%largest_load(l))
+            step%film(l) = max(step%known_film(l) + a, step%smallest(l))
+         end do
+      end associate
    end subroutine first_piezo_pass
 
    !> Second pass, film (37). The exponent has hardly changed since the first one; where it has, the step is not settled.
-   pure subroutine second_piezo_pass(group, step, unsettled)
+   pure subroutine second_piezo_pass(group)
       type(newmark_lane_group_t), intent(inout) :: group
-      type(lane_step_t), intent(inout) :: step
-      !> Lanes that do not meet the criterion
-      integer, intent(out) :: unsettled
-      real(dp) :: a, film, load, load_by_film, load_by_velocity, change, total
+      real(dp) :: a, film, load, load_by_film, load_by_velocity, change
       integer :: l
 
-      total = 0.0_dp
-      !$omp simd private(a, film, load, load_by_film, load_by_velocity, change) reduction(+: total)
-      do l = 1, group%used
-         a = step%acceleration(l)
-         change = 2.0_dp*group%squeeze(l)*(group%acceleration(l) - a)
-         call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), step%film(l), &
-                                       step%growth(l)*near_exponential(change), load, load_by_film, load_by_velocity)
-         a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
-         film = step%known_film(l) + a
-         step%least(l) = merge(min(film, step%least(l)), 0.0_dp, load < group%largest_load(l))
-         step%unsettled(l) = merge(0.0_dp, 1.0_dp, abs(film - step%film(l)) < group%tolerance(l) .and. &
-                                   step%least(l) > step%smallest(l) .and. abs(change) < nearness)
-         total = total + step%unsettled(l)
-         group%film(l) = film
-         group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
-         group%acceleration(l) = a
-      end do
-      unsettled = nint(total)
+      associate (step => group%step)
+         !$omp simd private(a, film, load, load_by_film, load_by_velocity, change)
+         do l = 1, group%used
+            a = step%acceleration(l)
+            change = 2.0_dp*group%squeeze(l)*(group%acceleration(l) - a)
+            call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), step%film(l), &
+                                          step%growth(l)*near_exponential(change), load, load_by_film, load_by_velocity)
+            a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
+            film = step%known_film(l) + a
+            step%margin(l) = min(group%tolerance(l) - abs(film - step%film(l)), group%largest_load(l) - load, &
+                                 min(film, step%least(l)) - step%smallest(l), nearness - abs(change))
+            group%film(l) = film
+            group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
+            group%acceleration(l) = a
+         end do
+      end associate
    end subroutine second_piezo_pass
 
+   !> Number of lanes that do not meet the criterion.
+   pure integer(int64) function unsettled_lanes(group)
+      type(newmark_lane_group_t), intent(in) :: group
+      integer :: l
+
+      unsettled_lanes = 0_int64
+      do l = 1, group%used
+         unsettled_lanes = unsettled_lanes + merge(0_int64, 1_int64, group%step%margin(l) > 0.0_dp)
+      end do
+   end function unsettled_lanes
+
    !> Further passes for the lanes that need them.
-   pure subroutine settle_lanes(group, step)
+   pure subroutine settle_lanes(group)
       type(newmark_lane_group_t), intent(inout) :: group
-      type(lane_step_t), intent(inout) :: step
       real(dp), dimension(lanes) :: load, load_by_film, load_by_velocity
       real(dp) :: a, film
       integer :: l, pass
 
-      pass = 2
-      do
-         do l = 1, group%used
-            if (.not. step%unsettled(l) > 0.0_dp) cycle
-            if (step%least(l) > step%smallest(l) .and. pass < group%pass_limit(l)) cycle
-            group%failed(l) = .true.
-            step%unsettled(l) = 0.0_dp
-            call rest_lane(group, l)
+      associate (step => group%step)
+         pass = 2
+         do
+            do l = 1, group%used
+               if (step%margin(l) > 0.0_dp) cycle
+               step%least(l) = min(group%film(l), step%least(l))
+               if (step%least(l) > step%smallest(l) .and. pass < group%pass_limit(l)) cycle
+               group%failed(l) = .true.
+               step%margin(l) = 1.0_dp
+               call rest_lane(group, l)
+            end do
+            if (unsettled_lanes(group) == 0) return
+            pass = pass + 1
+            call load_lanes(group, step%growth, load, load_by_film, load_by_velocity)
+            do l = 1, group%used
+               if (step%margin(l) > 0.0_dp) cycle
+               a = corrected(group%acceleration(l), load(l), load_by_film(l), load_by_velocity(l), step%force(l))
+               film = step%known_film(l) + a
+               step%least(l) = merge(min(film, step%least(l)), 0.0_dp, load(l) < group%largest_load(l))
+               step%margin(l) = min(group%tolerance(l) - abs(film - group%film(l)), step%least(l) - step%smallest(l))
+               group%film(l) = film
+               group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
+               group%acceleration(l) = a
+               group%further_passes(l) = group%further_passes(l) + 1_int64
+            end do
          end do
-         if (.not. any(step%unsettled(:group%used) > 0.0_dp)) return
-         pass = pass + 1
-         call load_lanes(group, step%growth, load, load_by_film, load_by_velocity)
-         do l = 1, group%used
-            if (.not. step%unsettled(l) > 0.0_dp) cycle
-            a = corrected(group%acceleration(l), load(l), load_by_film(l), load_by_velocity(l), step%force(l))
-            film = step%known_film(l) + a
-            step%least(l) = merge(min(film, step%least(l)), 0.0_dp, load(l) < group%largest_load(l))
-            if (abs(film - group%film(l)) < group%tolerance(l) .and. step%least(l) > step%smallest(l)) &
-               step%unsettled(l) = 0.0_dp
-            group%film(l) = film
-            group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
-            group%acceleration(l) = a
-            group%further_passes(l) = group%further_passes(l) + 1_int64
-         end do
-      end do
+      end associate
    end subroutine settle_lanes
 
    !> Load and slopes at the states of all lanes, of which none has failed.

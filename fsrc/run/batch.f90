@@ -1,10 +1,12 @@
 !> All scenes of a call: everything is read and checked before anything runs.
 module batch
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use checkpoint, only: checkpoint_t
    use command_line, only: command_t
    use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
    use output_place, only: check_output_place
    use resolved_scene, only: resolve
+   use resume, only: load_state
    use run_film, only: run_film_task
    use run_scene, only: run_one_scene
    use scene_reader, only: input_name, read_scene
@@ -39,6 +41,7 @@ contains
       if (.not. command%check) then
          ! Look first, make folders after, so that a fault in one scene leaves nothing behind for another.
          if (faults%count() == 0) call check_places(command, scenes, .false., faults)
+         if (faults%count() == 0 .and. command%resume) call check_states(command, scenes, faults)
          if (faults%count() == 0) call check_places(command, scenes, .true., faults)
       end if
       if (faults%count() > 0) then
@@ -64,7 +67,7 @@ contains
          if (scenes(i)%task == task_film) then
             call run_film_task(scenes(i), command%quiet, status, error)
          else
-            call run_one_scene(scenes(i), command%quiet, status, error)
+            call run_one_scene(scenes(i), command%quiet, command%resume, status, error)
          end if
          if (allocated(error)) then
             write (error_unit, '(a)') error%message
@@ -96,6 +99,22 @@ contains
          end do
       end do
    end subroutine check_names
+
+   !> States to be carried on belong to these very scenes.
+   subroutine check_states(command, scenes, faults)
+      type(command_t), intent(in) :: command
+      type(scene_t), intent(in) :: scenes(:)
+      type(fault_list_t), intent(inout) :: faults
+      type(checkpoint_t) :: state
+      type(error_t), allocatable :: error
+      integer :: i
+
+      do i = 1, size(scenes)
+         if (scenes(i)%task /= task_motion) cycle
+         call load_state(scenes(i), state, error)
+         if (allocated(error)) call faults%add(input_name(command%files(i)%text), 0, '', '', error%message)
+      end do
+   end subroutine check_states
 
    subroutine check_places(command, scenes, may_make, faults)
       type(command_t), intent(in) :: command

@@ -16,7 +16,8 @@ module command_line
    type, public :: command_t
       type(argument_t), allocatable :: files(:)
       type(override_t), allocatable :: overrides(:)
-      logical :: check = .false., template = .false., page = .false., quiet = .false., version = .false., help = .false.
+      logical :: check = .false., template = .false., page = .false., resume = .false., quiet = .false.
+      logical :: version = .false., help = .false.
       !> Group of --template, empty for all
       character(:), allocatable :: template_group
    end type command_t
@@ -62,6 +63,10 @@ contains
                command%help = .true.
             case ('--keys')
                command%page = .true.
+            case ('--resume')
+               command%resume = .true.
+               ! What is carried on is replaced by what it becomes.
+               call add_override('output.overwrite=.true.', argument)
             case ('--overwrite')
                call add_override('output.overwrite=.true.', argument)
             case ('--template')
@@ -150,6 +155,7 @@ contains
              '  --keys                 print the page of all keys'//end_of_line// &
              '  --set group.key=value  override a key in every file; may be repeated'//end_of_line// &
              '  --output DIR           folder of the output files'//end_of_line// &
+             '  --resume               carry on an earlier run from its state, or begin it'//end_of_line// &
              '  --overwrite            replace output files of an earlier run'//end_of_line// &
              '  --quiet                nothing to the terminal but faults'//end_of_line// &
              '  --version              print the version'//end_of_line// &

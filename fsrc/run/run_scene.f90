@@ -1,5 +1,6 @@
 !> One scene from input to files: resolve, solve, judge, record.
 module run_scene
+   use checkpoint, only: checkpoint_t
    use clock, only: wall_seconds
    use errors, only: error_t
    use integrate_controlled, only: solve_controlled
@@ -9,12 +10,14 @@ module run_scene
    use output_place, only: log_path, result_path, summary_path
    use progress, only: progress_t
    use resolved_scene, only: resolve, resolved_scene_t
+   use resume, only: load_state, save_state
    use sample_recorder, only: sample_recorder_t
    use scene_report, only: report_ending, report_start
    use scene_result, only: judge, scene_result_t
    use scene_status, only: status_complete, status_not_written
    use scene_summary, only: write_scene_summary
-   use scene_types, only: method_newmark, scene_t
+   use scene_types, only: method_newmark, scene_t, until_steady
+   use text, only: integer_text
    implicit none(type, external)
    private
 
@@ -24,11 +27,13 @@ contains
 
    !> Run a scene and write its files. An error is one of the system (disk); how the physics ended
    !> stands in the status.
-   subroutine run_one_scene(scene, quiet, status, error)
+   subroutine run_one_scene(scene, quiet, carry_on, status, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Nothing to the terminal
       logical, intent(in) :: quiet
+      !> Take up the state of an earlier run, if there is one
+      logical, intent(in) :: carry_on
       !> Status of scene_status
       integer, intent(out) :: status
       !> Set if a file could not be written
@@ -36,6 +41,7 @@ contains
       type(resolved_scene_t) :: resolved
       type(scene_result_t) :: result
       type(sample_recorder_t) :: recorder
+      type(checkpoint_t) :: start
       type(progress_t) :: watcher
       type(log_t), target :: log
       type(error_t), allocatable :: write_error, ignored
@@ -48,14 +54,16 @@ contains
       if (allocated(error)) return
       call report_start(log, scene, resolved)
 
-      call recorder%open(scene, result_path(scene), error)
+      if (carry_on .and. scene%solver%until /= until_steady) call load_state(scene, start, error)
+      if (start%periods > 0) call log%line('  carried on from period '//integer_text(start%periods))
+      if (.not. allocated(error)) call recorder%open(scene, result_path(scene), start%periods, error)
       if (.not. allocated(error)) then
          call watcher%start(log, quiet)
          if (scene%solver%method == method_newmark) then
-            call solve_motion(scene, resolved%film, resolved%initial_film, recorder, watcher, result%ending, error)
+            call solve_motion(scene, resolved%film, resolved%initial_film, start, recorder, watcher, result%ending, error)
          else
-            call solve_controlled(scene, resolved%film, resolved%initial_film, scene%output%series, recorder, watcher, &
-                                  result%ending, error)
+            call solve_controlled(scene, resolved%film, resolved%initial_film, start, scene%output%series, recorder, &
+                                  watcher, result%ending, error)
          end if
          call watcher%clear()
          result%solve_seconds = wall_seconds() - started
@@ -63,6 +71,7 @@ contains
          result%judge_seconds = wall_seconds() - started - result%solve_seconds
          call recorder%close(write_error)
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
+         if (.not. allocated(error)) call save_state(scene, result%ending%checkpoint, error)
       end if
       if (allocated(error)) result%ending%status = status_not_written
       status = result%ending%status

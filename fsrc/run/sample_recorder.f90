@@ -1,8 +1,10 @@
 !> Keeps of the samples of a motion what the scene asks for: the window at the end, and the time series
 !> in its file. A scene without a series keeps nothing beyond the window, however long it runs.
 module sample_recorder
-   use errors, only: error_t
+   use errors, only: error_t, exit_bad_input, exit_system, raise
+   use file_system, only: rename_file
    use kinds, only: dp, int64
+   use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use sample_sink, only: sample_sink_t
    use scene_types, only: column_acceleration, column_applied_force, column_film_thickness, &
@@ -22,6 +24,8 @@ module sample_recorder
       integer, allocatable :: columns(:)
       real(dp), allocatable :: rows(:, :)
       type(result_writer_t) :: writer
+      !> Where the series belongs, and where it is written until it is complete
+      character(:), allocatable :: path, written_path
    contains
       procedure :: open => open_recorder
       procedure :: take => take_samples
@@ -32,12 +36,14 @@ module sample_recorder
 contains
 
    !> Prepare for the samples of a scene; its series is opened if it is asked for.
-   subroutine open_recorder(self, scene, path, error)
+   subroutine open_recorder(self, scene, path, resumed_periods, error)
       class(sample_recorder_t), intent(inout) :: self
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Path of the series
       character(*), intent(in) :: path
+      !> Periods of an earlier series at this path that are kept, 0: none
+      integer, intent(in) :: resumed_periods
       !> Set if the file cannot be written
       type(error_t), allocatable, intent(out) :: error
       integer :: samples
@@ -51,8 +57,35 @@ contains
       self%stride = scene%output%stride
       self%columns = scene%output%columns
       allocate (self%rows(size(self%columns), samples/self%stride + 1))
-      call self%writer%open(path, scene%resolved_input, column_names(self%columns), column_units(self%columns), error)
+      self%path = path
+      self%written_path = path
+      if (resumed_periods > 0) self%written_path = path//'.resumed'
+      call self%writer%open(self%written_path, scene%resolved_input, column_names(self%columns), column_units(self%columns), &
+                            error)
+      if (resumed_periods > 0 .and. .not. allocated(error)) &
+         call copy_rows(self, int(resumed_periods, int64)*int(samples, int64)/int(self%stride, int64) + 1_int64, error)
    end subroutine open_recorder
+
+   !> Copy the first rows of the earlier series.
+   subroutine copy_rows(self, count, error)
+      class(sample_recorder_t), intent(inout) :: self
+      integer(int64), intent(in) :: count
+      type(error_t), allocatable, intent(out) :: error
+      type(result_reader_t) :: reader
+      integer(int64) :: done, part
+
+      call reader%open(self%path, error)
+      if (.not. allocated(error) .and. reader%columns /= size(self%columns)) &
+         call raise(error, exit_bad_input, self%path//' has other columns')
+      done = 0
+      do while (done < count .and. .not. allocated(error))
+         part = min(count - done, int(size(self%rows, 2), int64))
+         call reader%read_rows(done + 1_int64, self%rows(:, :int(part)), error)
+         if (.not. allocated(error)) call self%writer%write_rows(self%rows(:, :int(part)), error)
+         done = done + part
+      end do
+      call reader%close()
+   end subroutine copy_rows
 
    !> Make room for the window.
    subroutine begin_window(self, first_step, samples)
@@ -135,7 +168,13 @@ contains
       !> Set if the file could not be completed
       type(error_t), allocatable, intent(out) :: error
 
-      if (self%series) call self%writer%close(error)
+      logical :: moved
+
+      if (.not. self%series) return
+      call self%writer%close(error)
+      if (allocated(error) .or. self%written_path == self%path) return
+      call rename_file(self%written_path, self%path, moved)
+      if (.not. moved) call raise(error, exit_system, self%path//' cannot be replaced by '//self%written_path)
    end subroutine close_recorder
 
 end module sample_recorder

@@ -6,4 +6,13 @@ from rattle.summary import SummaryError, read_summary
 
 version = "0.1.0"
 
-__all__ = ["Campaign", "Result", "ResultError", "SummaryError", "read", "read_campaign", "read_summary", "version"]
+__all__ = [
+    "Campaign",
+    "Result",
+    "ResultError",
+    "SummaryError",
+    "read",
+    "read_campaign",
+    "read_summary",
+    "version",
+]

@@ -56,7 +56,13 @@ class Campaign:
     """
 
     def __init__(
-        self, path: Path, header: ResultHeader, chunks: ChunkTable, rows: np.ndarray, row_count: int, plan: Plan
+        self,
+        path: Path,
+        header: ResultHeader,
+        chunks: ChunkTable,
+        rows: np.ndarray,
+        row_count: int,
+        plan: Plan,
     ) -> None:
         self.path = path
         self.header = header

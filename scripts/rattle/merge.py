@@ -99,7 +99,9 @@ def _difference(part: Campaign, other: Campaign) -> str:
             if (group, key) in (("campaign", "part"), ("campaign", "parts")):
                 continue
             if mine.get(key) != theirs.get(key):
-                return f"{group}.{key} is {_shown(mine.get(key))} in one, {_shown(theirs.get(key))} in the other"
+                return (
+                    f"{group}.{key} is {_shown(mine.get(key))} in one, {_shown(theirs.get(key))} in the other"
+                )
     return "their texts are not the same"
 
 

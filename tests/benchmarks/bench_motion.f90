@@ -43,6 +43,7 @@ end module silent_motion
 
 !> Cost of a Newmark step on the scenes whose inputs are given: median over rounds, one line a scene.
 program bench_motion
+   use checkpoint, only: checkpoint_t
    use errors, only: error_t, fault_list_t
    use integrate_motion, only: motion_end_t, solve_motion
    use kinds, only: dp, int64
@@ -72,7 +73,7 @@ program bench_motion
       resolved = resolve(scene)
       do round = 1, rounds
          call system_clock(start, rate)
-         call solve_motion(scene, resolved%film, resolved%initial_film, sink, watcher, ending, error)
+         call solve_motion(scene, resolved%film, resolved%initial_film, checkpoint_t(), sink, watcher, ending, error)
          call system_clock(finish)
          nanoseconds(round) = 1.0e9_dp*real(finish - start, dp)/real(rate, dp)/real(ending%count%steps, dp)
       end do

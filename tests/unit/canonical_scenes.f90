@@ -1,5 +1,6 @@
 !> The canonical scenes, and a run of any scene that leaves its window.
 module canonical_scenes
+   use checkpoint, only: checkpoint_t
    use constants, only: standard_gravity
    use errors, only: error_t
    use film_law, only: film_t, new_film, steady_film
@@ -73,9 +74,9 @@ contains
          steady_film(film, scene%load%steady_force + scene%load%mass*scene%load%gravity)
       call recorder%open(scene, '', error)
       if (present(watcher)) then
-         call solve_motion(scene, film, initial_film, recorder, watcher, ending, error)
+         call solve_motion(scene, film, initial_film, checkpoint_t(), recorder, watcher, ending, error)
       else
-         call solve_motion(scene, film, initial_film, recorder, unwatched, ending, error)
+         call solve_motion(scene, film, initial_film, checkpoint_t(), recorder, unwatched, ending, error)
       end if
    end subroutine run_window
 

@@ -1,0 +1,78 @@
+!> Which key two resolved inputs first differ in.
+module input_difference
+   use errors, only: fault_list_t
+   use namelist_text, only: assignment_t, scan_namelists
+   use text, only: integer_text
+   implicit none(type, external)
+   private
+
+   public :: first_difference
+
+contains
+
+   !> A sentence that names the first key that differs, with both values; empty if no key differs.
+   function first_difference(stored, current) result(sentence)
+      !> Resolved input of an earlier run
+      character(*), intent(in) :: stored
+      !> Resolved input of this run
+      character(*), intent(in) :: current
+      character(:), allocatable :: sentence
+      type(assignment_t), allocatable :: old(:), new(:)
+      type(fault_list_t) :: ignored
+      integer :: i, place
+
+      call scan_namelists(stored, '', 1, old, ignored)
+      call scan_namelists(current, '', 1, new, ignored)
+      sentence = ''
+      do i = 1, size(new)
+         if (len(new(i)%key) == 0) cycle
+         place = find(old, new(i))
+         if (place == 0) then
+            sentence = key_name(new(i))//' is '//values_text(new(i))//' now and was not set'
+         else if (values_text(old(place)) /= values_text(new(i))) then
+            sentence = key_name(new(i))//' is '//values_text(new(i))//' now and was '//values_text(old(place))
+         end if
+         if (len(sentence) > 0) return
+      end do
+      do i = 1, size(old)
+         if (len(old(i)%key) == 0 .or. find(new, old(i)) > 0) cycle
+         sentence = key_name(old(i))//' was '//values_text(old(i))//' and is not set now'
+         return
+      end do
+   end function first_difference
+
+   !> Place of the assignment to the same key, 0 if there is none.
+   pure integer function find(assignments, sought)
+      type(assignment_t), intent(in) :: assignments(:)
+      type(assignment_t), intent(in) :: sought
+
+      do find = 1, size(assignments)
+         if (assignments(find)%group == sought%group .and. assignments(find)%key == sought%key .and. &
+             assignments(find)%first_element == sought%first_element) return
+      end do
+      find = 0
+   end function find
+
+   pure function key_name(assignment) result(name)
+      type(assignment_t), intent(in) :: assignment
+      character(:), allocatable :: name
+
+      name = assignment%group//'.'//assignment%key
+      if (assignment%first_element > 0) name = name//'('//integer_text(assignment%first_element)//')'
+   end function key_name
+
+   !> Values as they stand, with commas between.
+   pure function values_text(assignment) result(words)
+      type(assignment_t), intent(in) :: assignment
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      if (.not. allocated(assignment%values)) return
+      do i = 1, size(assignment%values)
+         if (i > 1) words = words//', '
+         words = words//assignment%values(i)%text
+      end do
+   end function values_text
+
+end module input_difference

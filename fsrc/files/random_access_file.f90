@@ -1,0 +1,374 @@
+!> Files that are read and written at any place, by several threads at once as long as their places differ,
+!> with every failure seen. Thin calls of the C library.
+module random_access_file
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, &
+                                          c_ptr, c_size_t
+   use errors, only: error_t, exit_system, raise
+   use kinds, only: dp, int64
+   use system_error, only: error_words, interrupted_call, last_error, no_locks, no_such_call, not_supported
+   implicit none(type, external)
+   private
+
+   integer(c_int), parameter :: read_and_write = 2, exclusive_without_waiting = 6, from_end = 2
+
+   !> What came of asking for the lock.
+   integer, parameter, public :: lock_held = 1, lock_refused = 2, lock_unknown = 3
+
+   !> An open file. Its procedures change nothing in it but open and close.
+   type, public :: random_access_file_t
+      private
+      integer(c_int) :: descriptor = -1
+      character(:), allocatable :: path
+   contains
+      procedure :: open => open_file
+      procedure :: is_open
+      procedure :: rename_path
+      procedure :: lock
+      procedure :: set_size
+      procedure :: bytes => file_bytes
+      generic :: write_at => write_text_at, write_reals_at, write_longs_at
+      generic :: read_at => read_text_at, read_reals_at, read_longs_at
+      procedure :: synchronise
+      procedure :: close => close_file
+      procedure, private :: write_text_at
+      procedure, private :: write_reals_at
+      procedure, private :: write_longs_at
+      procedure, private :: read_text_at
+      procedure, private :: read_reals_at
+      procedure, private :: read_longs_at
+      procedure, private :: write_bytes
+      procedure, private :: read_bytes
+      procedure, private :: fail
+   end type random_access_file_t
+
+   interface
+      function c_open(path, flags) bind(c, name='open') result(descriptor)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: flags
+         integer(c_int) :: descriptor
+      end function c_open
+
+      function c_fopen(path, mode) bind(c, name='fopen') result(stream)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(in) :: mode(*)
+         type(c_ptr) :: stream
+      end function c_fopen
+
+      function c_fclose(stream) bind(c, name='fclose') result(stat)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_int) :: stat
+      end function c_fclose
+
+      function c_close(descriptor) bind(c, name='close') result(stat)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: stat
+      end function c_close
+
+      function c_flock(descriptor, operation) bind(c, name='flock') result(stat)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int), value :: operation
+         integer(c_int) :: stat
+      end function c_flock
+
+      function c_ftruncate(descriptor, length) bind(c, name='ftruncate') result(stat)
+         import :: c_int, c_long
+         integer(c_int), value :: descriptor
+         integer(c_long), value :: length
+         integer(c_int) :: stat
+      end function c_ftruncate
+
+      function c_lseek(descriptor, offset, origin) bind(c, name='lseek') result(place)
+         import :: c_int, c_long
+         integer(c_int), value :: descriptor
+         integer(c_long), value :: offset
+         integer(c_int), value :: origin
+         integer(c_long) :: place
+      end function c_lseek
+
+      function c_fsync(descriptor) bind(c, name='fsync') result(stat)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: stat
+      end function c_fsync
+
+      function c_pwrite(descriptor, bytes, count, offset) bind(c, name='pwrite') result(written)
+         import :: c_char, c_int, c_long, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(in) :: bytes(*)
+         integer(c_size_t), value :: count
+         integer(c_long), value :: offset
+         integer(c_size_t) :: written
+      end function c_pwrite
+
+      function c_pread(descriptor, bytes, count, offset) bind(c, name='pread') result(got)
+         import :: c_char, c_int, c_long, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(out) :: bytes(*)
+         integer(c_size_t), value :: count
+         integer(c_long), value :: offset
+         integer(c_size_t) :: got
+      end function c_pread
+   end interface
+
+contains
+
+   !> Open a file for reading and writing, whatever it holds.
+   subroutine open_file(self, path, may_make, error)
+      class(random_access_file_t), intent(inout) :: self
+      !> Path of the file
+      character(*), intent(in) :: path
+      !> Whether an empty file is made if there is none
+      logical, intent(in) :: may_make
+      !> Set if it cannot be opened
+      type(error_t), allocatable, intent(out) :: error
+      type(c_ptr) :: stream
+      integer(c_int) :: ignored
+
+      self%path = path
+      if (may_make) then
+         ! To append makes a missing file and leaves any other as it is.
+         stream = c_fopen(path//c_null_char, 'a'//c_null_char)
+         if (.not. c_associated(stream)) then
+            call self%fail('opened', error)
+            return
+         end if
+         ignored = c_fclose(stream)
+      end if
+      self%descriptor = c_open(path//c_null_char, read_and_write)
+      if (self%descriptor < 0) call self%fail('opened', error)
+   end subroutine open_file
+
+   !> Whether there is an open file.
+   pure logical function is_open(self)
+      class(random_access_file_t), intent(in) :: self
+
+      is_open = self%descriptor >= 0
+   end function is_open
+
+   !> Note that the open file has another path now.
+   subroutine rename_path(self, path)
+      class(random_access_file_t), intent(inout) :: self
+      !> New path
+      character(*), intent(in) :: path
+
+      self%path = path
+   end subroutine rename_path
+
+   !> Ask for the advisory lock of the file, without waiting for it. It lasts until the file is closed or
+   !> the program ends in whatever way. Some file systems of clusters know no locks.
+   subroutine lock(self, outcome)
+      class(random_access_file_t), intent(in) :: self
+      !> lock_held, lock_refused (another run has it), or lock_unknown (there are no locks here)
+      integer, intent(out) :: outcome
+      integer(c_int) :: cause
+
+      do
+         outcome = lock_held
+         if (c_flock(self%descriptor, exclusive_without_waiting) == 0) return
+         cause = last_error()
+         outcome = lock_refused
+         if (any(cause == [no_locks, no_such_call, not_supported])) outcome = lock_unknown
+         if (cause /= interrupted_call) return
+      end do
+   end subroutine lock
+
+   !> Cut the file to a length, or lengthen it by zeros that take no place on the disk.
+   subroutine set_size(self, bytes, error)
+      class(random_access_file_t), intent(in) :: self
+      !> New length
+      integer(int64), intent(in) :: bytes
+      !> Set if it cannot be done
+      type(error_t), allocatable, intent(out) :: error
+
+      if (c_ftruncate(self%descriptor, int(bytes, c_long)) /= 0) call self%fail('written', error)
+   end subroutine set_size
+
+   !> Length of the file.
+   integer(int64) function file_bytes(self)
+      class(random_access_file_t), intent(in) :: self
+
+      file_bytes = int(c_lseek(self%descriptor, 0_c_long, from_end), int64)
+   end function file_bytes
+
+   !> Write text.
+   subroutine write_text_at(self, offset, text, error)
+      class(random_access_file_t), intent(in) :: self
+      !> Bytes before it
+      integer(int64), intent(in) :: offset
+      !> Bytes as they are
+      character(*), intent(in) :: text
+      !> Set if the disk is full, say
+      type(error_t), allocatable, intent(out) :: error
+
+      call self%write_bytes(offset, len(text, int64), text, error)
+   end subroutine write_text_at
+
+   !> Write numbers in the byte order of the machine.
+   subroutine write_reals_at(self, offset, numbers, error)
+      class(random_access_file_t), intent(in) :: self
+      !> Bytes before them
+      integer(int64), intent(in) :: offset
+      !> Numbers in the order of the file
+      real(dp), contiguous, target, intent(in) :: numbers(:, :)
+      !> Set if the disk is full, say
+      type(error_t), allocatable, intent(out) :: error
+      character(kind=c_char), pointer :: bytes(:)
+
+      if (size(numbers) == 0) return
+      call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
+      call self%write_bytes(offset, size(bytes, kind=int64), bytes, error)
+   end subroutine write_reals_at
+
+   !> Write long integers in the byte order of the machine.
+   subroutine write_longs_at(self, offset, numbers, error)
+      class(random_access_file_t), intent(in) :: self
+      !> Bytes before them
+      integer(int64), intent(in) :: offset
+      !> Numbers in the order of the file
+      integer(int64), contiguous, target, intent(in) :: numbers(:)
+      !> Set if the disk is full, say
+      type(error_t), allocatable, intent(out) :: error
+      character(kind=c_char), pointer :: bytes(:)
+
+      if (size(numbers) == 0) return
+      call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
+      call self%write_bytes(offset, size(bytes, kind=int64), bytes, error)
+   end subroutine write_longs_at
+
+   !> Read text; `complete` tells whether the file went so far.
+   subroutine read_text_at(self, offset, text, complete)
+      class(random_access_file_t), intent(in) :: self
+      !> Bytes before it
+      integer(int64), intent(in) :: offset
+      !> Filled from the left
+      character(*), intent(out) :: text
+      !> Whether all of it was read
+      logical, intent(out) :: complete
+
+      call self%read_bytes(offset, len(text, int64), text, complete)
+   end subroutine read_text_at
+
+   !> Read numbers; `complete` tells whether the file went so far.
+   subroutine read_reals_at(self, offset, numbers, complete)
+      class(random_access_file_t), intent(in) :: self
+      !> Bytes before them
+      integer(int64), intent(in) :: offset
+      !> Numbers in the order of the file
+      real(dp), contiguous, target, intent(out) :: numbers(:, :)
+      !> Whether all of them were read
+      logical, intent(out) :: complete
+      character(kind=c_char), pointer :: bytes(:)
+
+      complete = .true.
+      if (size(numbers) == 0) return
+      call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
+      call self%read_bytes(offset, size(bytes, kind=int64), bytes, complete)
+   end subroutine read_reals_at
+
+   !> Read long integers; `complete` tells whether the file went so far.
+   subroutine read_longs_at(self, offset, numbers, complete)
+      class(random_access_file_t), intent(in) :: self
+      !> Bytes before them
+      integer(int64), intent(in) :: offset
+      !> Numbers in the order of the file
+      integer(int64), contiguous, target, intent(out) :: numbers(:)
+      !> Whether all of them were read
+      logical, intent(out) :: complete
+      character(kind=c_char), pointer :: bytes(:)
+
+      complete = .true.
+      if (size(numbers) == 0) return
+      call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
+      call self%read_bytes(offset, size(bytes, kind=int64), bytes, complete)
+   end subroutine read_longs_at
+
+   !> See that everything stands on the disk itself.
+   subroutine synchronise(self, error)
+      class(random_access_file_t), intent(in) :: self
+      !> Set if the disk is full, say
+      type(error_t), allocatable, intent(out) :: error
+
+      do
+         if (c_fsync(self%descriptor) == 0) return
+         if (last_error() /= interrupted_call) exit
+      end do
+      call self%fail('written', error)
+   end subroutine synchronise
+
+   !> Close the file, and give back its lock.
+   subroutine close_file(self, error)
+      class(random_access_file_t), intent(inout) :: self
+      !> Set if the file is not complete
+      type(error_t), allocatable, intent(out) :: error
+      integer(c_int) :: descriptor
+
+      if (self%descriptor < 0) return
+      descriptor = self%descriptor
+      self%descriptor = -1
+      ! A disk across the network may report only now that it is full.
+      if (c_close(descriptor) /= 0) call self%fail('written', error)
+   end subroutine close_file
+
+   !> Write bytes, in as many calls as it takes.
+   subroutine write_bytes(self, offset, count, bytes, error)
+      class(random_access_file_t), intent(in) :: self
+      integer(int64), intent(in) :: offset
+      integer(int64), intent(in) :: count
+      character(kind=c_char), intent(in) :: bytes(count)
+      type(error_t), allocatable, intent(out) :: error
+      integer(int64) :: done
+      integer(c_size_t) :: written
+
+      done = 0_int64
+      do while (done < count)
+         written = c_pwrite(self%descriptor, bytes(done + 1_int64:), int(count - done, c_size_t), &
+                            int(offset + done, c_long))
+         if (written > 0_c_size_t) then
+            done = done + int(written, int64)
+            cycle
+         end if
+         if (written < 0_c_size_t) then
+            if (last_error() == interrupted_call) cycle
+         end if
+         call self%fail('written', error)
+         return
+      end do
+   end subroutine write_bytes
+
+   !> Read bytes, in as many calls as it takes.
+   subroutine read_bytes(self, offset, count, bytes, complete)
+      class(random_access_file_t), intent(in) :: self
+      integer(int64), intent(in) :: offset
+      integer(int64), intent(in) :: count
+      character(kind=c_char), intent(out) :: bytes(count)
+      logical, intent(out) :: complete
+      integer(int64) :: done
+      integer(c_size_t) :: got
+
+      done = 0_int64
+      do while (done < count)
+         got = c_pread(self%descriptor, bytes(done + 1_int64:), int(count - done, c_size_t), int(offset + done, c_long))
+         if (got < 0_c_size_t) then
+            if (last_error() == interrupted_call) cycle
+         end if
+         if (got <= 0_c_size_t) exit
+         done = done + int(got, int64)
+      end do
+      complete = done == count
+   end subroutine read_bytes
+
+   !> Turn the failure of the last call into an error.
+   subroutine fail(self, what, error)
+      class(random_access_file_t), intent(in) :: self
+      character(*), intent(in) :: what
+      type(error_t), allocatable, intent(out) :: error
+
+      call raise(error, exit_system, self%path//' cannot be '//what//': '//error_words(last_error()))
+   end subroutine fail
+
+end module random_access_file

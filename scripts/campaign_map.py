@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""Draw maps, slices and a one-page summary of a campaign."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+import rattle
+from rattle import command, rerun
+from rattle.campaign import Campaign
+from rattle.campaign_plan import GRID
+from rattle.campaign_section import new_section
+from rattle.figures import campaign_map, campaign_slice, campaign_summary, style
+
+SLICE_COLUMNS = ("acceleration_maximum", "film_minimum", "harmonic_distortion", "rattle_class")
+
+
+def main() -> None:
+    options = parse_options()
+    campaign = rattle.read_campaign(options.campaign)
+    if not campaign.closed:
+        done = int(campaign.done.sum())
+        command.note(f"{campaign.path} is not finished; {done} of {campaign.row_count} scenes are done.")
+    if not campaign.done.any():
+        raise command.CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
+    slices = one_each(options.slice)
+    with style.house_style():
+        if options.summary:
+            draw_summary(campaign, options)
+        elif options.along or (len(campaign.varied) == 1 and campaign.kind == GRID):
+            draw_slices(campaign, options, slices)
+        else:
+            draw_maps(campaign, options, slices)
+
+
+def draw_maps(campaign: Campaign, options: argparse.Namespace, slices: dict[str, float]) -> None:
+    """A map of each column asked for."""
+    x, y = plane(campaign, options.x, options.y)
+    look = campaign_map.Options(options.contours, options.colours)
+    for name in campaign_map.lacking_contours(campaign, options.contours):
+        command.note(f"{campaign.path} does not record what the contours of {name} need; they are left out.")
+    columns = options.columns or ["rattle_class"]
+    check_columns(campaign, columns)
+    if campaign.kind == GRID:
+        section = new_section(campaign, (x, y), slices)
+        for sentence in section.remarks():
+            command.note(sentence)
+    elif slices:
+        raise command.CommandError(
+            f"{campaign.path} is no grid but a {campaign.kind} campaign: --slice needs a grid."
+        )
+    for column in columns:
+        if campaign.kind == GRID:
+            figure = campaign_map.draw(section, column, look)
+        else:
+            figure = campaign_map.draw_points(campaign, x, y, column, look)
+        save(figure, options.output, f"{campaign.name}_map_{column}")
+
+
+def draw_slices(campaign: Campaign, options: argparse.Namespace, slices: dict[str, float]) -> None:
+    """Columns along one key."""
+    if campaign.kind != GRID:
+        raise command.CommandError(
+            f"{campaign.path} is no grid but a {campaign.kind} campaign: it has no slices."
+        )
+    along = options.along or campaign.varied[0]
+    section = new_section(campaign, (along,), slices)
+    for sentence in section.remarks():
+        command.note(sentence)
+    columns = options.columns or [name for name in SLICE_COLUMNS if name in campaign]
+    check_columns(campaign, columns)
+    figure = campaign_slice.draw(section, columns)
+    save(figure, options.output, f"{campaign.name}_slice_{along.rpartition('.')[2]}")
+
+
+def draw_summary(campaign: Campaign, options: argparse.Namespace) -> None:
+    """The page, and the inputs of the worst scenes that it lists."""
+    rows = rerun.extreme_rows(campaign, options.by, options.worst, smallest=options.smallest)
+    worst = campaign_summary.Worst(list(rows), options.by, options.smallest)
+    save(campaign_summary.draw(campaign, worst), options.output, f"{campaign.name}_summary")
+    directory = options.output / f"{campaign.name}_scenes"
+    for path in rerun.write_inputs(campaign, list(rows), directory, "results"):
+        print(path)
+
+
+def plane(campaign: Campaign, x: str | None, y: str | None) -> tuple[str, str]:
+    """The two keys of a map: those asked for, filled up with the first ones that vary."""
+    if len(campaign.varied) < 2:
+        raise command.CommandError(f"{campaign.path} varies {campaign.varied[0]} only; a map needs two keys.")
+    for key in (x, y):
+        if key is not None:
+            campaign.axis(key)
+    rest = [key for key in campaign.varied if key not in (x, y)]
+    x = x or rest.pop(0)
+    return x, y or rest.pop(0)
+
+
+def check_columns(campaign: Campaign, columns: Sequence[str]) -> None:
+    for name in columns:
+        campaign[name]  # an unknown name ends the work before a picture is drawn
+
+
+def save(figure, output: Path, stem: str) -> None:
+    for path in style.save(figure, output, stem):
+        print(path)
+
+
+def one_each(pairs: Sequence[tuple[str, float]]) -> dict[str, float]:
+    keys = [key for key, _ in pairs]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise command.CommandError(f"--slice gives {key} twice.")
+    return dict(pairs)
+
+
+def held_key(text: str) -> tuple[str, float]:
+    key, _, value = text.partition("=")
+    try:
+        return key.strip(), float(value)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not group.key=value") from None
+
+
+def contour_names(text: str) -> list[str]:
+    names = [] if text == "none" else [name.strip() for name in text.split(",")]
+    for name in names:
+        if name not in campaign_map.CONTOURS:
+            raise argparse.ArgumentTypeError(
+                f"'{name}' is not one of {', '.join(campaign_map.CONTOURS)}, none"
+            )
+    return names
+
+
+def column_names(text: str) -> list[str]:
+    return [name.strip() for name in text.split(",") if name.strip()]
+
+
+def parse_options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description="Draw a campaign: a map of the class or of any column over two varied keys (default), "
+        "columns along one key (--along), or one page on all of it (--summary), each as PNG and PDF."
+    )
+    parser.add_argument("campaign", type=Path, metavar="FILE", help="campaign result, NAME.rattle")
+    parser.add_argument(
+        "--columns", type=column_names, metavar="NAME,NAME", help="what is drawn; rattle_class for a map"
+    )
+    parser.add_argument("--x", metavar="KEY", help="varied key on the x axis, by default the first")
+    parser.add_argument("--y", metavar="KEY", help="varied key on the y axis, by default the next")
+    parser.add_argument("--along", metavar="KEY", help="draw columns along this key instead of a map")
+    parser.add_argument(
+        "--slice",
+        type=held_key,
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="hold another varied key at the grid point nearest to this value; by default its middle",
+    )
+    parser.add_argument(
+        "--contours",
+        type=contour_names,
+        default=list(campaign_map.CONTOURS),
+        metavar="NAMES",
+        help="lines over a map: frequency,damping (default), one of them, or none",
+    )
+    parser.add_argument(
+        "--colours",
+        choices=("auto", "linear", "logarithmic"),
+        default="auto",
+        help="scale of the colours; auto is logarithmic over more than two decades",
+    )
+    parser.add_argument(
+        "--summary", action="store_true", help="draw one page, write inputs of the worst scenes"
+    )
+    parser.add_argument(
+        "--worst", type=command.positive, default=10, metavar="N", help="scenes listed there (10)"
+    )
+    parser.add_argument(
+        "--by", default="acceleration_maximum", metavar="COLUMN", help="(acceleration_maximum)"
+    )
+    parser.add_argument("--smallest", action="store_true", help="the smallest in --by are the worst")
+    parser.add_argument("--output", type=Path, default=Path("."), metavar="DIR", help="where the figures go")
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    command.run(main)

@@ -1,0 +1,203 @@
+"""What the pictures of campaigns share: colours of classes, hatches of gaps, axes and their labels."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib import patheffects
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis as MatplotlibAxis
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.patches import Patch
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
+
+from rattle.campaign import Axis, Campaign
+from rattle.campaign_codes import STATUSES, SUCCESSES, words_of
+from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC
+from rattle.campaign_section import short_name
+
+# From the palette of Okabe and Ito, ordered so that they also differ in lightness.
+CLASS_COLOURS = {1: "#DCE6EC", 2: "#56B4E9", 3: "#D55E00", 4: "#4B2E63"}
+OTHER_COLOURS = (
+    "#DCE6EC",
+    "#56B4E9",
+    "#E69F00",
+    "#009E73",
+    "#CC79A7",
+    "#D55E00",
+    "#0072B2",
+    "#F0E442",
+    "#4D4D4D",
+)
+FLAG_COLOURS = {
+    "certified": {0: "#D55E00", 1: "#DCE6EC"},
+    "law_contradicted": {0: "#DCE6EC", 1: "#D55E00"},
+}
+COLOUR_MAP = "cividis"
+GAP_COLOUR = "#F6F6F6"
+HATCH_COLOUR = "#777777"
+HATCHES = ("xxxx", "////", "\\\\\\\\", "++++", "||||", "----", "oo")
+NOT_DONE_HATCH = "...."
+UNKNOWN_HATCH = "**"
+HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
+MICROMETRES = "\N{MICRO SIGN}m"
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Scenes without a value: why, and which (for every scene; not done ones are False here)."""
+
+    words: str
+    hatch: str
+    scenes: np.ndarray
+
+
+def code_colours(column: str) -> Mapping[int, str] | None:
+    """The colour of each code of a column of codes; None for plain numbers."""
+    words = words_of(column)
+    if words is None:
+        return None
+    if column == "rattle_class":
+        return CLASS_COLOURS
+    return FLAG_COLOURS.get(column) or dict(zip(words, OTHER_COLOURS, strict=False))
+
+
+def gaps(campaign: Campaign, column: str) -> list[Gap]:
+    """Scenes that failed, by status, and those done whose value is unknown."""
+    found = []
+    values = campaign[column]
+    rest = campaign.done & ~np.isfinite(values)
+    if "status" in campaign and column != "status":
+        status = campaign["status"]
+        codes = np.unique(status[campaign.failed])
+        for position, code in enumerate(code for code in codes if code not in SUCCESSES):
+            scenes = campaign.done & (status == code)
+            words = STATUSES.get(int(code), f"status {int(code)}").replace("_", " ")
+            found.append(Gap(words, HATCHES[position % len(HATCHES)], scenes))
+            rest = rest & ~scenes
+    if rest.any():
+        found.append(Gap(f"{short_name(column)} unknown", UNKNOWN_HATCH, rest))
+    return found
+
+
+def gap_patch(words: str, hatch: str) -> Patch:
+    """What a gap looks like in a legend."""
+    return Patch(facecolor=GAP_COLOUR, edgecolor=HATCH_COLOUR, hatch=hatch, linewidth=0.5, label=words)
+
+
+def share(count: int, whole: int) -> str:
+    """As in '12.3 %'."""
+    if whole == 0:
+        return "0 %"
+    percent = 100.0 * count / whole
+    if 0.0 < percent < 0.1:
+        return "< 0.1 %"
+    return f"{percent:.1f} %"
+
+
+def column_scale(campaign: Campaign, column: str) -> tuple[float, str]:
+    """Factor and unit in which a column is shown: thin films in micrometres."""
+    unit = campaign.units[column]
+    values = campaign[column]
+    if unit == "m" and np.nanmax(np.abs(values), initial=0.0) < 1e-3:
+        return 1e6, MICROMETRES
+    return 1.0, unit
+
+
+def column_label(campaign: Campaign, column: str) -> str:
+    """As in 'Acceleration maximum [m/s2]'."""
+    unit = "" if words_of(column) else column_scale(campaign, column)[1]
+    return _with_unit(short_name(column), unit)
+
+
+def axis_label(axis: Axis) -> str:
+    return _with_unit(short_name(axis.key), axis.unit)
+
+
+def _with_unit(words: str, unit: str) -> str:
+    words = words[:1].upper() + words[1:]
+    unit = unit.replace("m/s2", r"m/s$^2$")
+    return words if unit == "" else f"{words} [{unit}]"
+
+
+def is_logarithmic(axis: Axis) -> bool:
+    """Whether an axis is drawn so: as planned, or because its listed values grow by factors."""
+    values = axis.values
+    if axis.scale == LOGARITHMIC:
+        return bool((values > 0.0).all())
+    if axis.scale == LINEAR or values.size < 3 or values[0] <= 0.0:
+        return False
+    return bool(np.ptp(np.diff(np.log(values))) < np.ptp(np.diff(values)) / np.mean(np.diff(values)))
+
+
+def cell_edges(axis: Axis) -> np.ndarray:
+    """Borders of the cells whose middles are the grid points."""
+    logarithmic = is_logarithmic(axis)
+    points = np.log(axis.values) if logarithmic else axis.values
+    if points.size == 1:
+        width = 0.1 if logarithmic else 0.1 * abs(points[0]) or 1.0
+        edges = np.array([points[0] - width / 2, points[0] + width / 2])
+    else:
+        middles = 0.5 * (points[1:] + points[:-1])
+        edges = np.concatenate([[2 * points[0] - middles[0]], middles, [2 * points[-1] - middles[-1]]])
+    return np.exp(edges) if logarithmic else edges
+
+
+def set_axis(axes: Axes, which: str, axis: Axis, *, to_edges: bool) -> None:
+    """Scale, limits and label of the x or the y axis."""
+    edges = cell_edges(axis) if to_edges else axis.values[[0, -1]]
+    getattr(axes, f"set_{which}scale")("log" if is_logarithmic(axis) else "linear")
+    getattr(axes, f"set_{which}label")(axis_label(axis))
+    if edges[0] < edges[-1]:
+        getattr(axes, f"set_{which}lim")(edges[0], edges[-1])
+    target = axes.xaxis if which == "x" else axes.yaxis
+    if is_logarithmic(axis):
+        plain_log_ticks(target, edges[0], edges[-1])
+
+
+def plain_log_ticks(target: MatplotlibAxis, low: float, high: float) -> None:
+    """Ticks such as 0.5, 1, 2, 5 on a short logarithmic axis; powers of ten on a long one."""
+    decades = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
+    steps = (1.0, 2.0, 5.0) if high / low < 300.0 else (1.0,)
+    ticks = [step * 10.0**decade for decade in decades for step in steps]
+    if sum(low <= tick <= high for tick in ticks) < 3:
+        steps = (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)
+        ticks = [step * 10.0**decade for decade in decades for step in steps]
+    if high / low < 1e5:
+        target.set_major_locator(FixedLocator([tick for tick in ticks if low <= tick <= high]))
+        target.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    target.set_minor_formatter(NullFormatter())
+
+
+def colour_norm(values: np.ndarray, scale: str) -> Normalize:
+    """Linear or logarithmic colours; 'auto' takes the latter over more than two decades."""
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    if scale == "logarithmic" or (scale == "auto" and low > 0.0 and high / low > 100.0):
+        positive = finite[finite > 0.0]
+        if positive.size:
+            return LogNorm(float(positive.min()), max(high, float(positive.min()) * 1.0001))
+    if high == low:
+        return Normalize(low - 0.5 * (abs(low) or 1.0), high + 0.5 * (abs(high) or 1.0))
+    return Normalize(low, high)
+
+
+def headline(campaign: Campaign) -> str:
+    """As in 'campaign map, 300 scenes'."""
+    done = int(campaign.done.sum())
+    count = f"{done:,}" if done == campaign.row_count else f"{done:,} of {campaign.row_count:,}"
+    part = f", part {campaign.part} of {campaign.parts}" if campaign.parts > 1 else ""
+    kind = {GRID: "", "sample": ", sampled", "csv": ", from a table"}[campaign.kind]
+    return f"campaign {campaign.name}{part}, {count} scenes{kind}"
+
+
+def frequency_ratio(campaign: Campaign) -> np.ndarray | None:
+    """Natural over excitation frequency of every scene, None where one of them is unknown."""
+    if "natural_frequency" not in campaign:
+        return None
+    if "load.frequency" in campaign:
+        return campaign["natural_frequency"] / campaign["load.frequency"]
+    excitation = campaign.input.get("load", {}).get("frequency")
+    return campaign["natural_frequency"] / float(excitation) if excitation else None

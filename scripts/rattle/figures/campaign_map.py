@@ -1,0 +1,267 @@
+"""Maps of a campaign: class or any column over two varied keys."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
+from matplotlib.contour import ContourSet
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
+
+from rattle.campaign import Campaign
+from rattle.campaign_codes import word
+from rattle.campaign_section import Section
+from rattle.command import CommandError
+from rattle.figures import campaign_look as look
+from rattle.figures import style
+
+RATIO_LEVELS = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0)
+CONTOUR_LOOKS = {
+    "frequency": ("-", r"natural frequency $f_n/f_\mathrm{exc}$", "%g"),
+    "damping": ("--", r"damping ratio $\zeta$", r"$\zeta$ %g"),
+}
+CONTOURS = tuple(CONTOUR_LOOKS)
+
+
+@dataclass(frozen=True)
+class Options:
+    """Which contours lie over a map, and how numbers become colours."""
+
+    contours: Sequence[str] = CONTOURS
+    colours: str = "auto"
+
+
+def draw(section: Section, column: str, options: Options) -> Figure:
+    """The map of a grid campaign on a cut with two free keys."""
+    figure, axes = _new_figure()
+    handles, colours = draw_cells(axes, section, column, options.colours)
+    handles += draw_contours(axes, section, options.contours)
+    _finish(figure, axes, section.campaign, column, handles, colours)
+    held = f"\n{section.words}" if section.held else ""
+    axes.set_title(f"{_subject(column)}, {look.headline(section.campaign)}{held}")
+    return figure
+
+
+def draw_points(campaign: Campaign, x: str, y: str, column: str, options: Options) -> Figure:
+    """The map of a campaign that is no grid: a dot for each scene."""
+    figure, axes = _new_figure()
+    handles, colours = scatter(axes, campaign, x, y, column, options.colours)
+    if len(campaign.varied) == 2:  # with more keys, neighbours in the picture are no neighbours
+        handles += _point_contours(axes, campaign, x, y, options.contours)
+    _finish(figure, axes, campaign, column, handles, colours)
+    others = [look.short_name(key) for key in campaign.varied if key not in (x, y)]
+    also = f"\nall values of {', '.join(others)}" if others else ""
+    axes.set_title(f"{_subject(column)}, {look.headline(campaign)}{also}")
+    return figure
+
+
+def draw_cells(
+    axes: Axes, section: Section, column: str, colours: str = "auto"
+) -> tuple[list[Patch], ScalarMappable | None]:
+    """Coloured cells and hatched gaps; returns legend entries, or what a colour bar needs."""
+    campaign = section.campaign
+    x, y = section.free
+    factor, _ = look.column_scale(campaign, column)
+    values = factor * section.values(column)
+    edges = look.cell_edges(x), look.cell_edges(y)
+    palette = look.code_colours(column)
+    if palette is not None:
+        handles, drawn = _code_patches(column, values, palette), None
+        colour_map, norm = _code_colours(palette)
+        axes.pcolormesh(*edges, values.T, cmap=colour_map, norm=norm, rasterized=True)
+    else:
+        handles, norm = [], look.colour_norm(values, colours)
+        drawn = axes.pcolormesh(*edges, values.T, cmap=look.COLOUR_MAP, norm=norm, rasterized=True)
+    done = section.mask(campaign.done)
+    for gap in look.gaps(campaign, column):
+        handles += _hatch(axes, edges, section.mask(gap.scenes), gap.words, gap.hatch)
+    handles += _hatch(axes, edges, ~done, "not done", look.NOT_DONE_HATCH)
+    look.set_axis(axes, "x", x, to_edges=True)
+    look.set_axis(axes, "y", y, to_edges=True)
+    return handles, drawn
+
+
+def scatter(
+    axes: Axes, campaign: Campaign, x: str, y: str, column: str, colours: str = "auto"
+) -> tuple[list, ScalarMappable | None]:
+    """A coloured dot for each scene, a cross for each that failed."""
+    factor, _ = look.column_scale(campaign, column)
+    values = factor * campaign[column]
+    known = campaign.done & ~campaign.failed & np.isfinite(values)
+    size = float(np.clip(6000.0 / max(known.sum(), 1), 2.0, 30.0))
+    palette = look.code_colours(column)
+    dots = {"s": size, "linewidths": 0.2, "edgecolors": "black", "rasterized": known.sum() > 5000}
+    if palette is not None:
+        handles, drawn = _code_patches(column, values[known], palette), None
+        colour_map, norm = _code_colours(palette)
+    else:
+        handles, drawn = [], None
+        colour_map, norm = look.COLOUR_MAP, look.colour_norm(values[known], colours)
+    points = axes.scatter(
+        campaign[x][known], campaign[y][known], c=values[known], cmap=colour_map, norm=norm, zorder=2, **dots
+    )
+    if palette is None:
+        drawn = points
+    for position, gap in enumerate(look.gaps(campaign, column)):
+        marker = "x+1234|"[position % 7]
+        axes.scatter(
+            campaign[x][gap.scenes],
+            campaign[y][gap.scenes],
+            marker=marker,
+            s=18,
+            linewidths=0.8,
+            color="black",
+        )
+        words = f"{gap.words} ({int(gap.scenes.sum())})"
+        handles.append(Line2D([], [], marker=marker, linestyle="", color="black", markersize=5, label=words))
+    for which, key in (("x", x), ("y", y)):
+        look.set_axis(axes, which, campaign.axis(key), to_edges=False)
+        axes.margins(0.02)
+    return handles, drawn
+
+
+def draw_contours(axes: Axes, section: Section, names: Sequence[str]) -> list[Line2D]:
+    """Lines of equal frequency ratio and damping ratio over the cells of a grid; returns legend entries."""
+    x, y = section.free
+    if min(x.values.size, y.values.size) < 2:
+        return []
+    campaign, handles = section.campaign, []
+    for name in names:
+        column = _contoured(campaign, name)
+        if column is None:
+            continue
+        grid = np.full(campaign.shape, np.nan)
+        grid[campaign.places] = column[campaign.done]
+        values = np.ma.masked_invalid(section.cut(grid).T)
+        levels = _levels(values.compressed(), name)
+        if levels:
+            dashes, words, form = CONTOUR_LOOKS[name]
+            lines = axes.contour(
+                x.values, y.values, values, levels=levels, colors="black", linewidths=0.9, linestyles=dashes
+            )
+            _label(axes, lines, form)
+            handles.append(Line2D([], [], color="black", linewidth=0.9, linestyle=dashes, label=words))
+    return handles
+
+
+def lacking_contours(campaign: Campaign, names: Sequence[str]) -> list[str]:
+    """Contours that the campaign cannot give."""
+    return [name for name in names if _contoured(campaign, name) is None]
+
+
+def _point_contours(axes: Axes, campaign: Campaign, x: str, y: str, names: Sequence[str]) -> list[Line2D]:
+    handles = []
+    for name in names:
+        column = _contoured(campaign, name)
+        if column is None:
+            continue
+        known = campaign.done & np.isfinite(column)
+        levels = _levels(column[known], name)
+        if levels and known.sum() >= 10:
+            dashes, words, form = CONTOUR_LOOKS[name]
+            lines = axes.tricontour(
+                campaign[x][known],
+                campaign[y][known],
+                column[known],
+                levels=levels,
+                colors="black",
+                linewidths=0.9,
+                linestyles=dashes,
+                zorder=3,
+            )
+            _label(axes, lines, form)
+            handles.append(Line2D([], [], color="black", linewidth=0.9, linestyle=dashes, label=words))
+    return handles
+
+
+def _contoured(campaign: Campaign, name: str) -> np.ndarray | None:
+    if name == "frequency":
+        return look.frequency_ratio(campaign)
+    return campaign["damping_ratio"] if "damping_ratio" in campaign else None
+
+
+def _levels(values: np.ndarray, name: str) -> list[float]:
+    """Round levels strictly within the values."""
+    if values.size == 0:
+        return []
+    low, high = float(values.min()), float(values.max())
+    if high - low <= 1e-9 * abs(high):
+        return []
+    levels = list(RATIO_LEVELS) if name == "frequency" else []
+    within = [level for level in levels if low < level < high]
+    if len(within) < 3:
+        within = [
+            float(level)
+            for level in MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(low, high)
+            if low < level < high
+        ]
+    return within
+
+
+def _label(axes: Axes, lines: ContourSet, form: str) -> None:
+    lines.set_path_effects(look.HALO)
+    for label in axes.clabel(lines, fontsize=7, fmt=form, inline_spacing=3):
+        label.set_path_effects(look.HALO)
+
+
+def _code_colours(palette) -> tuple[ListedColormap, Normalize]:
+    codes = sorted(palette)
+    bounds = [
+        codes[0] - 0.5,
+        *(0.5 * (a + b) for a, b in zip(codes, codes[1:], strict=False)),
+        codes[-1] + 0.5,
+    ]
+    return ListedColormap([palette[code] for code in codes]), BoundaryNorm(bounds, len(codes))
+
+
+def _code_patches(column: str, values: np.ndarray, palette) -> list[Patch]:
+    """Legend entries of the codes; those of classes all, of other columns those that occur."""
+    patches = []
+    for code, colour in palette.items():
+        count = int((values == code).sum())
+        if count or column == "rattle_class":
+            words = f"{word(column, code).replace('_', ' ')} ({look.share(count, values.size)})"
+            patches.append(Patch(facecolor=colour, edgecolor=look.HATCH_COLOUR, linewidth=0.5, label=words))
+    return patches
+
+
+def _hatch(axes: Axes, edges, where: np.ndarray, words: str, hatch: str) -> list[Patch]:
+    """Hatch the cells where a condition holds; `where` has the indices x, y."""
+    if not where.any():
+        return []
+    # Every cell becomes a square of four equal corners, so the border follows the cells exactly.
+    corners = [np.repeat(edge, 2)[1:-1] for edge in edges]
+    cells = np.repeat(np.repeat(where.T, 2, axis=0), 2, axis=1).astype(float)
+    area = axes.contourf(*corners, cells, levels=(0.5, 1.5), colors=[look.GAP_COLOUR], hatches=[hatch])
+    area.set(edgecolor=look.HATCH_COLOUR, linewidth=0.0, hatch_linewidth=0.5)
+    return [look.gap_patch(f"{words} ({look.share(int(where.sum()), where.size)})", hatch)]
+
+
+def _new_figure() -> tuple[Figure, Axes]:
+    figure = Figure(figsize=(style.WIDTH, 4.9))
+    axes = figure.subplots()
+    axes.set_facecolor("white")
+    return figure, axes
+
+
+def _finish(
+    figure: Figure, axes: Axes, campaign: Campaign, column: str, handles: list, colours: ScalarMappable | None
+) -> None:
+    if not campaign.done.any():
+        raise CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
+    if colours is not None:
+        figure.colorbar(colours, ax=axes, label=look.column_label(campaign, column), pad=0.02, aspect=30)
+    if handles:
+        figure.legend(handles=handles, loc="outside lower center", ncols=3)
+
+
+def _subject(column: str) -> str:
+    words = look.short_name(column)
+    return words[:1].upper() + words[1:]
