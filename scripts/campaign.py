@@ -272,8 +272,8 @@ def add_slurm(commands: argparse._SubParsersAction) -> None:
     job = commands.add_parser(
         "slurm",
         help="write a job script",
-        description="Write a job script that runs a campaign as an array of parts (--array) or as one MPI job "
-        "(--ranks), stops before the time limit, goes back into the queue and resumes.",
+        description="Write a job script that runs a campaign as an array of parts (--array), as one MPI job "
+        "(--ranks) or as one plain job, stops before the time limit, goes back into the queue and resumes.",
     )
     job.add_argument("input", type=Path, metavar="FILE.nml", help="input with a group &campaign")
     kind = job.add_mutually_exclusive_group()
@@ -305,7 +305,7 @@ def add_merge(commands: argparse._SubParsersAction) -> None:
     parts = commands.add_parser(
         "merge",
         help="join the parts of an array job",
-        description="Join the parts of a campaign into the file that one undivided run writes. Gaps, overlaps, "
+        description="Join the parts of a campaign into the file of one undivided run. Gaps, overlaps, "
         "different inputs and unfinished parts are refused.",
     )
     parts.add_argument("parts", nargs="+", type=Path, metavar="PART", help="NAME.part-K-of-N.rattle")

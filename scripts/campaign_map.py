@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 import rattle
@@ -37,7 +37,7 @@ def main() -> None:
 
 def draw_maps(campaign: Campaign, options: argparse.Namespace, slices: dict[str, float]) -> None:
     """A map of each column asked for."""
-    x, y = plane(campaign, options.x, options.y)
+    x, y = plane(campaign, options.x, options.y, slices)
     look = campaign_map.Options(options.contours, options.colours)
     for name in campaign_map.lacking_contours(campaign, options.contours):
         command.note(f"{campaign.path} does not record what the contours of {name} need; they are left out.")
@@ -85,14 +85,15 @@ def draw_summary(campaign: Campaign, options: argparse.Namespace) -> None:
         print(path)
 
 
-def plane(campaign: Campaign, x: str | None, y: str | None) -> tuple[str, str]:
-    """The two keys of a map: those asked for, filled up with the first ones that vary."""
+def plane(campaign: Campaign, x: str | None, y: str | None, slices: Collection[str]) -> tuple[str, str]:
+    """The two keys of a map: those asked for, filled up with the first ones that vary and are not held."""
     if len(campaign.varied) < 2:
         raise command.CommandError(f"{campaign.path} varies {campaign.varied[0]} only; a map needs two keys.")
-    for key in (x, y):
-        if key is not None:
-            campaign.axis(key)
-    rest = [key for key in campaign.varied if key not in (x, y)]
+    for key in (key for key in (x, y) if key is not None):
+        campaign.axis(key)
+    rest = [key for key in campaign.varied if key not in (x, y, *slices)]
+    if len(rest) < (x is None) + (y is None):
+        raise command.CommandError("too many keys are sliced: a map needs two that are not.")
     x = x or rest.pop(0)
     return x, y or rest.pop(0)
 

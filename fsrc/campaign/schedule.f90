@@ -45,12 +45,18 @@ contains
       !> Cost of each chunk, in any unit, finite
       real(dp), intent(in), optional :: costs(:)
       type(chunk_schedule_t) :: plan
-      integer(int64) :: i
+      integer(int64) :: i, left
       integer, allocatable :: order(:)
 
-      plan%chunks = pack([(i, i=1_int64, size(done, kind=int64))],.not. done)
+      left = 0_int64
+      allocate (plan%chunks(count(.not. done, kind=int64)))
+      do i = 1_int64, size(done, kind=int64)
+         if (done(i)) cycle
+         left = left + 1_int64
+         plan%chunks(left) = i
+      end do
       if (.not. present(costs)) return
-      allocate (order(size(plan%chunks)))
+      allocate (order(left))
       call cost_order(-costs(plan%chunks), order)
       plan%chunks = plan%chunks(order)
    end function new_chunk_schedule

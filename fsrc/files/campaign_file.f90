@@ -71,7 +71,7 @@ contains
       character(:), allocatable :: new_path
       character(len(result_magic)) :: magic
       integer :: got
-      logical :: stood, moved
+      logical :: stood, overtaken, moved
 
       self%path = path
       stood = path_exists(path)
@@ -93,7 +93,9 @@ contains
       if (.not. allocated(error)) call self%file%open(new_path, .true., error)
       if (.not. allocated(error)) call self%take_lock(new_path, error)
       ! Between the opening and the lock another run may have brought this very file to its path.
-      if (.not. allocated(error) .and. .not. (path_exists(new_path) .and. (stood .or. .not. path_exists(path)))) &
+      overtaken = .not. path_exists(new_path)
+      if (.not. (stood .or. overtaken)) overtaken = path_exists(path)
+      if (overtaken .and. .not. allocated(error)) &
          call raise(error, exit_bad_input, path//' is being written by another run')
       if (allocated(error)) then
          ! Nothing has run yet: a place that cannot be written is bad input.

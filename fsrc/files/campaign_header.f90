@@ -78,8 +78,8 @@ contains
       type(campaign_layout_t), intent(in) :: layout
       type(result_header_t) :: header
 
-      header%names = layout%names
-      header%units = layout%units
+      allocate (header%names, source=layout%names)
+      allocate (header%units, source=layout%units)
       header%input_text = layout%input_text
    end function header_for
 

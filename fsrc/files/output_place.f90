@@ -90,7 +90,7 @@ contains
          call faults%add(file, 0, 'output', 'directory', "the folder '"//directory//"' is not writable")
          return
       end if
-      if (scene%task == task_film .or. scene%output%series) call check_file(result_path(scene), result_magic)
+      if (scene%task /= task_motion .or. scene%output%series) call check_file(result_path(scene), result_magic)
       if (scene%task == task_film .and. scene%points%compute(compute_profile)) &
          call check_file(profiles_path(scene), result_magic)
       if (scene%task == task_motion) call check_file(state_path(scene), result_magic)

@@ -26,7 +26,7 @@ module integrate_controlled
    !> Periods of a block without samples.
    integer, parameter :: block_periods = 256
 
-   public :: solve_controlled, solve_window
+   public :: solve_controlled, solve_window, find_steady_motion
 
 contains
 
@@ -60,7 +60,7 @@ contains
       periods = scene%solver%periods
       window = scene%spectrum%periods
       if (scene%solver%until == until_steady) then
-         call look_for_repetition(lane, scene%solver%accuracy, periods, window, found)
+         call find_steady_motion(lane, scene%solver%accuracy, periods, window, found)
          if (.not. is_success(found%status)) then
             call record_ending(scene, found, ending)
             return
@@ -113,12 +113,15 @@ contains
    end subroutine solve_window
 
    !> Solve until the motion repeats, without samples.
-   subroutine look_for_repetition(lane, accuracy, periods, window, found)
+   subroutine find_steady_motion(lane, accuracy, periods, window, found)
+      !> The scene
       type(lane_scene_t), intent(in) :: lane
+      !> Relative accuracy [-]
       real(dp), intent(in) :: accuracy
       !> Most periods, and periods of the window at their end
       integer, intent(in) :: periods
       integer, intent(in) :: window
+      !> How it ended
       type(lane_ending_t), intent(out) :: found
       type(lane_request_t) :: request
       type(lane_ending_t) :: endings(1)
@@ -132,7 +135,7 @@ contains
       allocate (no_films(request%sampled_periods, 1), no_velocities(request%sampled_periods, 1), source=0.0_dp)
       call solve_motions([lane], request, no_films, no_velocities, endings)
       found = endings(1)
-   end subroutine look_for_repetition
+   end subroutine find_steady_motion
 
    !> Solve a known number of periods in blocks and hand over the samples that are wanted.
    subroutine solve_blocks(scene, lane, start, periods, window, wants_all, sink, watcher, ending, error)

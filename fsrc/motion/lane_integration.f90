@@ -18,9 +18,9 @@ module lane_integration
    use period_repetition, only: note_state, orbit_watch_t, watch_from
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
    use taylor_iso_viscous, only: iso_viscous_series
-   use taylor_reynolds_iso, only: reynolds_iso_series
+   use taylor_reynolds_iso, only: reynolds_iso_series, reynolds_order
    use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
-   use taylor_step_control, only: evaluate_series, lane_steps, momentum_weight
+   use taylor_step_control, only: evaluate_series, lane_steps, momentum_weight, order, reynolds_share_rate, share_rate
    implicit none(type, external)
    private
 
@@ -263,6 +263,7 @@ contains
       integer, intent(in) :: kernel
       type(lane_block_t), intent(inout) :: block
       real(dp) :: cosine(lanes), sine(lanes)
+      logical :: exact
       integer :: l
 
       call lane_cosine_sine(block%phase, cosine, sine)
@@ -283,7 +284,9 @@ contains
          call reynolds_iso_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
                                   block%momentum, block%damping_rate)
       end select
-      call lane_steps(block%accuracy, block%force, block%film, block%momentum, block%damping_rate, block%remaining, &
+      exact = kernel == kernel_reynolds_iso
+      call lane_steps(merge(reynolds_order, order, exact), merge(reynolds_share_rate, share_rate, exact), &
+                      block%accuracy, block%force, block%film, block%momentum, block%damping_rate, block%remaining, &
                       block%limit, block%step)
       call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
       !$omp simd

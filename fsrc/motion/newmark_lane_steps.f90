@@ -99,18 +99,15 @@ contains
       integer :: l
 
       associate (step => group%step)
-         !$omp simd
-         do l = 1, group%used
-            step%known_velocity(l) = group%velocity(l) + 2.0_dp*group%acceleration(l)
-            step%growth(l) = -group%squeeze(l)*(step%known_velocity(l) + 2.0_dp*group%acceleration(l))
-         end do
-         call raise_lanes(step%growth(:group%used))
+         call raise_lanes(group%squeeze(:group%used), group%velocity(:group%used), group%acceleration(:group%used), &
+                          step%growth(:group%used))
          !$omp simd private(a, film, load, load_by_film, load_by_velocity)
          do l = 1, group%used
             a = group%acceleration(l)
             step%force(l) = group%mean_force(l) + group%force_amplitude(l)*cosine
             step%smallest(l) = smallest_film_ratio*group%film(l)
             step%known_film(l) = group%film(l) + group%velocity(l) + a
+            step%known_velocity(l) = group%velocity(l) + 2.0_dp*a
             film = step%known_film(l) + a
             call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), max(film, step%smallest(l)), &
                                           step%growth(l), load, load_by_film, load_by_velocity)
@@ -204,6 +201,7 @@ contains
       real(dp), intent(out) :: load_by_film(lanes)
       !> dL/dV [-]
       real(dp), intent(out) :: load_by_velocity(lanes)
+      real(dp) :: still(lanes)
       integer :: l
 
       if (group%kernel == kernel_half_pi) then
@@ -213,11 +211,9 @@ contains
                                       load(l), load_by_film(l), load_by_velocity(l))
          end do
       else
-         !$omp simd
-         do l = 1, group%used
-            growth(l) = -group%squeeze(l)*group%velocity(l)
-         end do
-         call raise_lanes(growth(:group%used))
+         still = 0.0_dp
+         call raise_lanes(group%squeeze(:group%used), group%velocity(:group%used), still(:group%used), &
+                          growth(:group%used))
          !$omp simd
          do l = 1, group%used
             call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), group%film(l), growth(l), &

@@ -38,6 +38,9 @@ module taylor_reynolds_iso
    real(dp), parameter :: wave(order) = &
       [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
 
+   !> Order of this series: its coefficients are dearer than those of the published films, so a lower one is best.
+   integer, parameter, public :: reynolds_order = 12
+
    public :: reynolds_iso_series
 
 contains
@@ -70,7 +73,7 @@ contains
       end do
    end subroutine rupture_states
 
-   !> Coefficients 1 to `order` of H and V, and the damping rate.
+   !> Coefficients 1 to `reynolds_order` of H and V, and the damping rate.
    pure subroutine reynolds_iso_series(strength, rate, load, force_cosine, force_sine, film, momentum, damping_rate)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
@@ -87,8 +90,8 @@ contains
       real(dp), intent(inout) :: momentum(lanes, 0:order)
       !> -dV'/dV [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
-      real(dp), dimension(lanes, 0:order) :: p, r, group, group_slope, square, opening, tangent, tangent_slope, tau, s
-      real(dp), dimension(lanes, 0:order) :: angle_slope, share, width, both_parts, y, phi, w
+      real(dp), dimension(lanes, 0:reynolds_order) :: p, r, group, group_slope, square, opening, tangent, tangent_slope, tau, s
+      real(dp), dimension(lanes, 0:reynolds_order) :: angle_slope, share, width, both_parts, y, phi, w
       real(dp) :: force(lanes, 0:1), both(lanes), half_root(lanes), half_opening(lanes)
       real(dp) :: sum, half
       integer :: k, j, l
@@ -120,7 +123,7 @@ contains
             *(0.125_dp*width(l, 0) - 0.25_dp*s(l, 0)*s(l, 0)*both_parts(l, 0))
       end do
       !GCC$ unroll 24
-      do k = 1, order - 1
+      do k = 1, reynolds_order - 1
          !$omp simd private(sum, half)
          do l = 1, lanes
             ! r**2 = p, p H = 1

@@ -23,11 +23,13 @@ module taylor_step_control
    implicit none(type, external)
    private
 
-   !> Order n of the series. Cheapest for accuracies from 1e-5 to 1e-11, at most a tenth dearer than the best order.
+   !> Highest order n of the series. For the published films it is the cheapest for accuracies from 1e-5 to 1e-11, at
+   !> most a tenth dearer than the best order.
    integer, parameter, public :: order = 14
 
-   !> Share of the accuracy that a step of length x may use up is x times this; found by trial [1/periods].
-   real(dp), parameter :: share_rate = 4.0_dp
+   !> Share of the accuracy that a step of length x may use up is x times this; found by trial, for the published
+   !> films and the exact one [1/periods].
+   real(dp), parameter, public :: share_rate = 4.0_dp, reynolds_share_rate = 12.0_dp
    !> Error that is rounding alone.
    real(dp), parameter :: rounding = 2.0_dp*epsilon(1.0_dp)
    !> Longest step [periods]
@@ -44,7 +46,11 @@ contains
 
    !> Step of every lane. The last steps of a period are cut so that its end is hit, two of equal length rather
    !> than a long and a short one.
-   pure subroutine lane_steps(accuracy, force, film, momentum, damping_rate, remaining, limit, step)
+   pure subroutine lane_steps(last_order, share, accuracy, force, film, momentum, damping_rate, remaining, limit, step)
+      !> Order n of the series
+      integer, intent(in) :: last_order
+      !> Share of the accuracy that a step may use up, over its length [1/periods]
+      real(dp), intent(in) :: share
       !> Relative accuracy of the film [-]
       real(dp), intent(in) :: accuracy(lanes)
       !> P of the header [-]
@@ -61,17 +67,18 @@ contains
       real(dp), intent(in) :: limit(lanes)
       !> Step, equal to `remaining` where the period ends with it [periods]
       real(dp), intent(out) :: step(lanes)
-      real(dp), parameter :: root(2) = [1.0_dp/real(order - 1, dp), 1.0_dp/real(order - 2, dp)]
-      real(dp) :: weight, level, last, next_to_last, reach
+      real(dp) :: weight, level, last, next_to_last, reach, root, next_root
       integer :: l
 
+      root = 1.0_dp/real(last_order - 1, dp)
+      next_root = 1.0_dp/real(last_order - 2, dp)
       !$omp simd private(weight, level, last, next_to_last, reach)
       do l = 1, lanes
          weight = momentum_weight(film(l, 0), damping_rate(l), force(l))
-         level = coarse_log(share_rate*max(accuracy(l)*film_weight(film(l, 0)), rounding*film(l, 0)))
-         last = coarse_log(max(abs(film(l, order)), abs(momentum(l, order))*weight))
-         next_to_last = coarse_log(max(abs(film(l, order - 1)), abs(momentum(l, order - 1))*weight))
-         reach = min((level - last)*root(1), (level - next_to_last)*root(2), 0.0_dp)
+         level = coarse_log(share*max(accuracy(l)*film_weight(film(l, 0)), rounding*film(l, 0)))
+         last = coarse_log(max(abs(film(l, last_order)), abs(momentum(l, last_order))*weight))
+         next_to_last = coarse_log(max(abs(film(l, last_order - 1)), abs(momentum(l, last_order - 1))*weight))
+         reach = min((level - last)*root, (level - next_to_last)*next_root, 0.0_dp)
          reach = min(coarse_power(reach), longest_step, limit(l))
          step(l) = merge(0.5_dp*remaining(l), reach, remaining(l) < 2.0_dp*reach)
          step(l) = merge(remaining(l), step(l), remaining(l) <= reach)

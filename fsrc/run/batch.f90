@@ -9,10 +9,11 @@ module batch
    use resume, only: load_state
    use run_film, only: run_film_task
    use run_scene, only: run_one_scene
+   use run_sweep, only: run_sweep_task
    use scene_reader, only: input_name, read_scene
    use scene_report, only: law_sentence, resolved_lines
    use scene_status, only: is_success, status_interrupted
-   use scene_types, only: scene_t, task_film, task_motion
+   use scene_types, only: scene_t, task_film, task_motion, task_sweep
    use signals, only: caught_signal
    use text, only: integer_text
    implicit none(type, external)
@@ -64,11 +65,14 @@ contains
 
       exit_code = exit_complete
       do i = 1, size(scenes)
-         if (scenes(i)%task == task_film) then
+         select case (scenes(i)%task)
+         case (task_film)
             call run_film_task(scenes(i), command%quiet, status, error)
-         else
+         case (task_sweep)
+            call run_sweep_task(scenes(i), command%quiet, status, error)
+         case default
             call run_one_scene(scenes(i), command%quiet, command%resume, status, error)
-         end if
+         end select
          if (allocated(error)) then
             write (error_unit, '(a)') error%message
             exit_code = error%exit_code
@@ -136,7 +140,7 @@ contains
 
       do i = 1, size(scenes)
          write (output_unit, '(a)', iostat=ignored) '! '//input_name(command%files(i)%text)//': valid; '//law_sentence(scenes(i))
-         if (scenes(i)%task == task_motion) &
+         if (scenes(i)%task /= task_film) &
             write (output_unit, '(a)', iostat=ignored) resolved_lines(scenes(i), resolve(scenes(i)))
          write (output_unit, '(a)', advance='no', iostat=ignored) scenes(i)%resolved_input
       end do

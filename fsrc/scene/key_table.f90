@@ -56,8 +56,9 @@ module key_table
    type(key_t), parameter, public :: keys(*) = [ &
       key_t('scene', 'name', text_kind, '', '', any_number, '', '', &
             'Name of the scene and stem of its output files: letters, digits, . _ - only; absent: the stem of the input file.'), &
-      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion film', '', &
-            'What is computed: motion solves the transient film and tooth motion; film the oil film at given points.'), &
+      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion film sweep', '', &
+            'What is computed: motion, the transient film and tooth motion; film, the oil film at given points; sweep, steady '// &
+            'motions along a key, each from the one before.'), &
       key_t('contact', 'radius', real_kind, 'm', '', positive, '', '', &
             'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', &
             example='0.0127'), &
@@ -90,21 +91,21 @@ module key_table
             'Surface speed of the first flank; the sum of both must be positive.'), &
       key_t('kinematics', 'surface_speed_2', real_kind, 'm/s', '', any_number, '', '', &
             'Surface speed of the second flank.'), &
-      key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', 'scene.task=motion', &
+      key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', 'scene.task=motion|sweep', &
             'Equivalent mass m of the impacting tooth pair.', &
             example='3.0'), &
-      key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion', &
+      key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion|sweep', &
             'Steady force Q of (34), of either sign as long as Q + m g is positive.', &
             example='199.2'), &
-      key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', 'scene.task=motion', &
+      key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', 'scene.task=motion|sweep', &
             'Amplitude F0 of the oscillating force of (34).', &
             example='205.7'), &
-      key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', 'scene.task=motion', &
+      key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', 'scene.task=motion|sweep', &
             'Frequency f_exc of the oscillating force.', &
             example='600.0'), &
-      key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', 'scene.task=motion', &
+      key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', 'scene.task=motion|sweep', &
             'Acceleration of free fall g.'), &
-      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', 'scene.task=motion', &
+      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', 'scene.task=motion|sweep', &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
             example='iso-viscous'), &
       key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical', '', &
@@ -115,11 +116,12 @@ module key_table
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
       key_t('film', 'rupture_solver', text_kind, '', 'fast', any_number, 'fast successive', 'film.rupture=solved', &
             'Root finder of (18): fast takes a table good to rounding, successive the paper''s substitution; same root.'), &
-      key_t('film', 'initial_film', real_kind, 'm', '', positive, '', 'scene.task=motion', &
+      key_t('film', 'initial_film', real_kind, 'm', '', positive, '', 'scene.task=motion|sweep', &
             'Film at t = 0; absent: the steady film under Q + m g.'), &
-      key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion', &
+      key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion|sweep', &
             'Film velocity dh/dt at t = 0, negative on approach.'), &
-      key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark newmark-extrapolated taylor', 'scene.task=motion', &
+      key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark newmark-extrapolated taylor', &
+            'scene.task=motion|sweep', &
             'Time integration: taylor (error-controlled series, implicit where the film is stiff), the paper''s newmark, or '// &
             'newmark extrapolated in its step.'), &
       key_t('solver', 'accuracy', real_kind, '-', '1.0e-8', range_t(1.0e-12_dp, .false., 1.0e-2_dp, .false.), '', &
@@ -127,7 +129,7 @@ module key_table
             'Relative accuracy of the film that an error-controlled method aims at.'), &
       key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion', &
             'End of the run: all periods, or as soon as the motion is verified to repeat; then one orbit is the window.'), &
-      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', 'scene.task=motion', &
+      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', 'scene.task=motion|sweep', &
             'Periods of the force that are solved (the most, until steady); at least those of the spectrum window.'), &
       key_t('solver', 'time_limit', real_kind, 's', '', positive, '', 'scene.task=motion', &
             'Wall time after which the run ends cleanly, to be resumed; absent: none.'), &
@@ -145,15 +147,15 @@ module key_table
             'Most passes in a step; a step that needs more ends the scene as not_converged.'), &
       key_t('solver', 'steps_per_period', integer_kind, '-', '512', at_least_8, '', 'solver.method=newmark', &
             'Time steps in one period of the force; every one is a sample.'), &
-      key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', 'scene.task=motion', &
+      key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', 'scene.task=motion|sweep', &
             'Whole periods at the end of the run that spectrum, extremes and regime are taken from.'), &
-      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', 'scene.task=motion', &
+      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep', &
             'A harmonic counts as a line if it exceeds this share of the first.'), &
-      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', 'scene.task=motion', &
+      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', 'scene.task=motion|sweep', &
             'From this many lines on the motion is idle rattle.'), &
-      key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', 'scene.task=motion', &
+      key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', 'scene.task=motion|sweep', &
             'Below this harmonic distortion the motion is quiet.'), &
-      key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', 'scene.task=motion', &
+      key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep', &
             'Above this share of power off the harmonics the motion is irregular.'), &
       key_t('spectrum', 'certify', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &
             'Whether the scene is solved again tighter, to say how large its errors are and whether its class stands.'), &
@@ -183,6 +185,19 @@ module key_table
       key_t('points', 'cells', integer_kind, '-', '4096', range_t(32.0_dp, .false., 1.0e6_dp, .false.), '', &
             'film.model=numerical', &
             'Cells of the finite-volume solution, an even number; its load is extrapolated from these and half of these.'), &
+      key_t('sweep', 'key', text_kind, '', 'required', any_number, 'frequency force_amplitude steady_force entrainment_speed', &
+            'scene.task=sweep', &
+            'What is swept: a key of &load, or the entrainment speed.'), &
+      key_t('sweep', 'first', real_kind, '', 'required', any_number, '', 'scene.task=sweep', &
+            'Value that the sweep begins with, unit of the key.'), &
+      key_t('sweep', 'last', real_kind, '', 'required', any_number, '', 'scene.task=sweep', &
+            'Value at which it turns or ends.'), &
+      key_t('sweep', 'count', integer_kind, '-', '101', range_t(2.0_dp, .false., 1.0e6_dp, .false.), '', 'scene.task=sweep', &
+            'Values from first to last.'), &
+      key_t('sweep', 'spacing', text_kind, '', 'linear', any_number, 'linear logarithmic', 'scene.task=sweep', &
+            'How the values are spaced.'), &
+      key_t('sweep', 'turn', logical_kind, '', '.true.', any_number, '', 'scene.task=sweep', &
+            'Whether the sweep goes back to first, so that jumps and hysteresis show.'), &
       key_t('output', 'directory', text_kind, '', 'results', any_number, '', '', &
             'Folder of the output files, relative to the working directory; made if missing.'), &
       key_t('output', 'series', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &

@@ -1,7 +1,7 @@
 !> What must hold between the keys of a scene. What a single key must be stands in the key table.
 module scene_checker
    use errors, only: fault_list_t
-   use key_table, only: allowed_text, find_key, keys
+   use key_table, only: allowed_text, find_key, in_range, keys
    use kinds, only: dp
    use scene_input, only: scene_input_t, word_position
    use text, only: integer_text
@@ -31,6 +31,7 @@ contains
       else
          call check_static_load(input, faults)
          call check_window(input, faults)
+         if (input%word('scene', 'task') == 'sweep') call check_sweep(input, faults)
       end if
    end subroutine check_together
 
@@ -235,6 +236,34 @@ contains
       if (input%word('lubricant', 'viscosity_law') == 'roelands' .and. .not. numerical) &
          call input%add_fault('lubricant', 'viscosity_law', "'roelands' needs task = 'film' and model = 'numerical'", faults)
    end subroutine check_film_model
+
+   !> A sweep goes somewhere, through values that its key allows, with the engine that can follow it.
+   subroutine check_sweep(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: key, group
+      real(dp) :: ends(2)
+      integer :: i, position
+
+      if (input%word('solver', 'method') /= 'taylor') &
+         call input%add_fault('solver', 'method', 'a sweep needs the taylor method', faults)
+      if (faulty(input, 'sweep', 'key') .or. faulty(input, 'sweep', 'first') .or. faulty(input, 'sweep', 'last')) return
+      if (.not. all([input%is_given('sweep', 'key'), input%is_given('sweep', 'first'), input%is_given('sweep', 'last')])) return
+      key = input%word('sweep', 'key')
+      group = trim(merge('kinematics', 'load      ', key == 'entrainment_speed'))
+      position = find_key(group, key)
+      ends = [input%number('sweep', 'first'), input%number('sweep', 'last')]
+      if (.not. abs(ends(2) - ends(1)) > 0.0_dp) call input%add_fault('sweep', 'last', 'it must differ from first', faults)
+      do i = 1, 2
+         if (.not. in_range(keys(position), ends(i)) .or. &
+             (input%word('sweep', 'spacing') == 'logarithmic' .and. .not. ends(i) > 0.0_dp)) &
+            call input%add_fault('sweep', trim(merge('first', 'last ', i == 1)), &
+                                 'not allowed for '//key//'; allowed: '//allowed_text(keys(position))// &
+                                 ', and above zero where the spacing is logarithmic', faults)
+      end do
+      if (key == 'steady_force' .and. .not. minval(ends) + input%number('load', 'mass')*input%number('load', 'gravity') > 0.0_dp) &
+         call input%add_fault('sweep', 'first', 'the static load steady_force + mass*gravity must stay positive', faults)
+   end subroutine check_sweep
 
    !> One way to give each list of a film task, and no more points than anyone means.
    subroutine check_points(input, faults)

@@ -9,7 +9,8 @@ module scene_reader
    use scene_checker, only: check_together, in_use
    use scene_input, only: new_scene_input, scene_input_t, value_text, word_position
    use scene_types, only: column_names, contact_t, film_choice_t, film_points_t, kinematics_t, load_t, lubricant_t, &
-                          model_numerical, model_published, output_t, scene_t, solver_t, spectrum_choice_t
+                          model_numerical, model_published, output_t, scene_t, solver_t, spectrum_choice_t, sweep_t, &
+                          task_sweep
    use text, only: integer_text, quoted
    implicit none(type, external)
    private
@@ -82,6 +83,7 @@ contains
       scene%solver = read_solver(input)
       scene%spectrum = read_spectrum(input)
       scene%points = read_points(input, scene)
+      if (scene%task == task_sweep) scene%sweep = read_sweep(input)
       scene%output = read_output(input)
       scene%resolved_input = resolved_text(input, trim(scene%name))
    end subroutine read_scene
@@ -253,28 +255,54 @@ contains
          logical, intent(in) :: logarithmic
          real(dp), allocatable, intent(out) :: numbers(:)
          real(dp), allocatable :: bounds(:)
-         real(dp) :: share
-         integer :: n, count
 
          if (.not. input%is_given('points', range)) then
             allocate (numbers, source=input%numbers('points', list))
             return
          end if
          allocate (bounds, source=input%numbers('points', range))
-         count = nint(bounds(3))
-         allocate (numbers(count))
-         do n = 1, count - 1
-            share = real(n - 1, dp)/real(count - 1, dp)
-            if (logarithmic) then
-               numbers(n) = bounds(1)*(bounds(2)/bounds(1))**share
-            else
-               numbers(n) = bounds(1) + (bounds(2) - bounds(1))*share
-            end if
-         end do
-         numbers(count) = bounds(2)
+         allocate (numbers, source=spread_between(bounds(1), bounds(2), nint(bounds(3)), logarithmic))
       end subroutine take_list
 
    end function read_points
+
+   !> &sweep
+   function read_sweep(input) result(sweep)
+      type(scene_input_t), intent(in) :: input
+      type(sweep_t) :: sweep
+      real(dp), allocatable :: values(:)
+
+      sweep%key = input%choice('sweep', 'key')
+      sweep%outward = input%count('sweep', 'count')
+      allocate (values, source=spread_between(input%number('sweep', 'first'), input%number('sweep', 'last'), sweep%outward, &
+                                              input%word('sweep', 'spacing') == 'logarithmic'))
+      if (input%flag('sweep', 'turn')) then
+         allocate (sweep%values, source=[values, values(sweep%outward - 1:1:-1)])
+      else
+         allocate (sweep%values, source=values)
+      end if
+   end function read_sweep
+
+   !> Numbers from first to last, both hit exactly.
+   pure function spread_between(first, last, count, logarithmic) result(numbers)
+      real(dp), intent(in) :: first
+      real(dp), intent(in) :: last
+      integer, intent(in) :: count
+      logical, intent(in) :: logarithmic
+      real(dp) :: numbers(count)
+      real(dp) :: share
+      integer :: n
+
+      do n = 1, count - 1
+         share = real(n - 1, dp)/real(count - 1, dp)
+         if (logarithmic) then
+            numbers(n) = first*(last/first)**share
+         else
+            numbers(n) = first + (last - first)*share
+         end if
+      end do
+      numbers(count) = last
+   end function spread_between
 
    !> &output
    function read_output(input) result(output)

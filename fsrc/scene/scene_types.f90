@@ -8,7 +8,10 @@ module scene_types
    ! The codes of a key count its choices in the order of the key table.
 
    !> What is computed.
-   integer, parameter, public :: task_motion = 1, task_film = 2
+   integer, parameter, public :: task_motion = 1, task_film = 2, task_sweep = 3
+   !> What a sweep varies.
+   integer, parameter, public :: sweep_frequency = 1, sweep_force_amplitude = 2, sweep_steady_force = 3, &
+                                 sweep_entrainment_speed = 4
    !> What a film task computes of every point.
    integer, parameter, public :: compute_rupture = 1, compute_load = 2, compute_stiffness = 3, compute_damping = 4, &
                                  compute_pressure = 5, compute_limits = 6, compute_profile = 7
@@ -157,6 +160,15 @@ module scene_types
       integer :: cells = 0
    end type film_points_t
 
+   !> &sweep
+   type, public :: sweep_t
+      integer :: key = sweep_frequency
+      !> Values in their order, there and back [unit of the key]
+      real(dp), allocatable :: values(:)
+      !> How many of them lead there; the others lead back
+      integer :: outward = 0
+   end type sweep_t
+
    !> &output
    type, public :: output_t
       character(path_limit) :: directory = ''
@@ -179,6 +191,7 @@ module scene_types
       type(solver_t) :: solver
       type(spectrum_choice_t) :: spectrum
       type(film_points_t) :: points
+      type(sweep_t) :: sweep
       type(output_t) :: output
       !> All keys with their resolved values as namelist text, without places on this machine
       character(:), allocatable :: resolved_input

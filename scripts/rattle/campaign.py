@@ -244,8 +244,9 @@ def _row_count(path: Path, header: ResultHeader, chunks: ChunkTable, data_bytes:
     if done.size:
         needed = min((int(done[-1]) + 1) * size, row_count)
         if held < needed:
+            chunk = int(done[-1]) + 1
             raise ResultError(
-                f"{path} is cut short: its chunk {done[-1] + 1} counts as done, but it holds {held} rows only."
+                f"{path} is cut short: its chunk {chunk} counts as done, but {held} rows are all it holds."
             )
     return row_count
 

@@ -59,7 +59,8 @@ def _unfinished(parts: Sequence[Campaign]) -> list[str]:
         if not part.closed:
             done, count = int(part.chunks.done.sum()), part.chunks.checksums.size
             faults.append(
-                f"{part.path} is not finished: {done} of its {count} chunks are done; go on with rattle --resume."
+                f"{part.path} is not finished: {done} of its {count} chunks are done; "
+                "rattle --resume goes on."
             )
         elif part.row_count == 0:
             faults.append(f"{part.path} holds no scene.")

@@ -179,7 +179,10 @@ DAMAGE = [
     (lambda c, t: changed(c, t + 16, "<q", 2**60), "has a damaged chunk table: its sizes contradict"),
     (lambda c, t: changed(c, t + 8, "<q", 10), "5 chunks of 10 rows are not 300 rows."),
     (lambda c, t: changed(c, t + 32, "<q", 0), "it is closed, but its chunk 2 is not done."),
-    (lambda c, _: changed(c, 24, "<q", -1)[:-8], "its chunk 5 counts as done, but it holds 299 rows only."),
+    (
+        lambda c, _: changed(c, 24, "<q", -1)[:-8],
+        "its chunk 5 counts as done, but 299 rows are all it holds.",
+    ),
     (lambda c, _: c.replace(b"&campaign", b"&campaigx"), "has no group &campaign."),
     (lambda c, _: c.replace(b"count(1) = 20", b"count(1) = 19"), "load.force_amplitude has values such as"),
     (lambda c, _: c.replace(b"scene   ", b"stage   ", 1), "its columns are not a scene and the varied keys."),

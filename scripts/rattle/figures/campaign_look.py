@@ -145,9 +145,17 @@ def cell_edges(axis: Axis) -> np.ndarray:
     return np.exp(edges) if logarithmic else edges
 
 
+def _widened(axis: Axis) -> np.ndarray:
+    """The ends of an axis with some room, so that dots at the ends are whole."""
+    ends = np.log(axis.values[[0, -1]]) if is_logarithmic(axis) else axis.values[[0, -1]]
+    room = 0.03 * (ends[1] - ends[0])
+    ends = ends + np.array([-room, room])
+    return np.exp(ends) if is_logarithmic(axis) else ends
+
+
 def set_axis(axes: Axes, which: str, axis: Axis, *, to_edges: bool) -> None:
     """Scale, limits and label of the x or the y axis."""
-    edges = cell_edges(axis) if to_edges else axis.values[[0, -1]]
+    edges = cell_edges(axis) if to_edges else _widened(axis)
     getattr(axes, f"set_{which}scale")("log" if is_logarithmic(axis) else "linear")
     getattr(axes, f"set_{which}label")(axis_label(axis))
     if edges[0] < edges[-1]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import Triangulation
 
 from rattle.campaign import Campaign
 from rattle.campaign_codes import word
@@ -73,7 +74,7 @@ def draw_cells(
     edges = look.cell_edges(x), look.cell_edges(y)
     palette = look.code_colours(column)
     if palette is not None:
-        handles, drawn = _code_patches(column, values, palette), None
+        handles, drawn = _code_patches(column, values, palette, values.size), None
         colour_map, norm = _code_colours(palette)
         axes.pcolormesh(*edges, values.T, cmap=colour_map, norm=norm, rasterized=True)
     else:
@@ -99,7 +100,7 @@ def scatter(
     palette = look.code_colours(column)
     dots = {"s": size, "linewidths": 0.2, "edgecolors": "black", "rasterized": known.sum() > 5000}
     if palette is not None:
-        handles, drawn = _code_patches(column, values[known], palette), None
+        handles, drawn = _code_patches(column, values[known], palette, int(campaign.done.sum())), None
         colour_map, norm = _code_colours(palette)
     else:
         handles, drawn = [], None
@@ -123,7 +124,6 @@ def scatter(
         handles.append(Line2D([], [], marker=marker, linestyle="", color="black", markersize=5, label=words))
     for which, key in (("x", x), ("y", y)):
         look.set_axis(axes, which, campaign.axis(key), to_edges=False)
-        axes.margins(0.02)
     return handles, drawn
 
 
@@ -166,9 +166,9 @@ def _point_contours(axes: Axes, campaign: Campaign, x: str, y: str, names: Seque
         levels = _levels(column[known], name)
         if levels and known.sum() >= 10:
             dashes, words, form = CONTOUR_LOOKS[name]
+            triangles = _triangles(campaign, x, y, known)
             lines = axes.tricontour(
-                campaign[x][known],
-                campaign[y][known],
+                triangles,
                 column[known],
                 levels=levels,
                 colors="black",
@@ -181,10 +181,22 @@ def _point_contours(axes: Axes, campaign: Campaign, x: str, y: str, names: Seque
     return handles
 
 
+def _triangles(campaign: Campaign, x: str, y: str, known: np.ndarray) -> Triangulation:
+    """Triangles between scenes that are neighbours in the picture, whatever the units of its axes."""
+    places = []
+    for key in (x, y):
+        axis, values = campaign.axis(key), campaign[key][known]
+        seen = np.log(values) if look.is_logarithmic(axis) else values
+        places.append((seen - seen.min()) / (np.ptp(seen) or 1.0))
+    return Triangulation(campaign[x][known], campaign[y][known], Triangulation(*places).triangles)
+
+
 def _contoured(campaign: Campaign, name: str) -> np.ndarray | None:
     if name == "frequency":
         return look.frequency_ratio(campaign)
-    return campaign["damping_ratio"] if "damping_ratio" in campaign else None
+    if "damping_ratio" not in campaign:
+        return None
+    return campaign["damping_ratio"]
 
 
 def _levels(values: np.ndarray, name: str) -> list[float]:
@@ -211,7 +223,7 @@ def _label(axes: Axes, lines: ContourSet, form: str) -> None:
         label.set_path_effects(look.HALO)
 
 
-def _code_colours(palette) -> tuple[ListedColormap, Normalize]:
+def _code_colours(palette: Mapping[int, str]) -> tuple[ListedColormap, Normalize]:
     codes = sorted(palette)
     bounds = [
         codes[0] - 0.5,
@@ -221,18 +233,18 @@ def _code_colours(palette) -> tuple[ListedColormap, Normalize]:
     return ListedColormap([palette[code] for code in codes]), BoundaryNorm(bounds, len(codes))
 
 
-def _code_patches(column: str, values: np.ndarray, palette) -> list[Patch]:
-    """Legend entries of the codes; those of classes all, of other columns those that occur."""
+def _code_patches(column: str, values: np.ndarray, palette: Mapping[int, str], whole: int) -> list[Patch]:
+    """Legend entries of the codes with their share of `whole`: all classes, of other codes those that occur."""
     patches = []
     for code, colour in palette.items():
         count = int((values == code).sum())
         if count or column == "rattle_class":
-            words = f"{word(column, code).replace('_', ' ')} ({look.share(count, values.size)})"
+            words = f"{word(column, code).replace('_', ' ')} ({look.share(count, whole)})"
             patches.append(Patch(facecolor=colour, edgecolor=look.HATCH_COLOUR, linewidth=0.5, label=words))
     return patches
 
 
-def _hatch(axes: Axes, edges, where: np.ndarray, words: str, hatch: str) -> list[Patch]:
+def _hatch(axes: Axes, edges: Sequence[np.ndarray], where: np.ndarray, words: str, hatch: str) -> list[Patch]:
     """Hatch the cells where a condition holds; `where` has the indices x, y."""
     if not where.any():
         return []

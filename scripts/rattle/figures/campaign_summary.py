@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -38,10 +39,10 @@ def draw(campaign: Campaign, worst: Worst) -> Figure:
     """The page."""
     figure = Figure(figsize=PAGE, layout="none")  # fixed places: long words move nothing
     left, right = 0.11, 0.95
-    head = figure.add_axes((left, 0.87, right - left, 0.09))
-    maps = figure.add_gridspec(1, 2, left=left, right=right, bottom=0.575, top=0.835, wspace=0.32)
-    bars = figure.add_gridspec(1, 2, left=left, right=right, bottom=0.305, top=0.455, wspace=0.42)
-    scenes = figure.add_axes((0.06, 0.04, right - 0.06, 0.21))
+    head = figure.add_axes((left, 0.875, right - left, 0.09))
+    maps = figure.add_gridspec(1, 2, left=left, right=right, bottom=0.55, top=0.805, wspace=0.32)
+    bars = figure.add_gridspec(1, 2, left=left, right=right, bottom=0.26, top=0.405, wspace=0.42)
+    scenes = figure.add_axes((0.06, 0.03, right - 0.06, 0.175))
     _draw_head(head, campaign)
     _draw_classes_map(figure.add_subplot(maps[0]), campaign)
     _draw_certificates(figure, figure.add_subplot(maps[1]), campaign)
@@ -80,7 +81,7 @@ def _draw_classes_map(axes: Axes, campaign: Campaign) -> None:
         handles, _ = campaign_map.draw_cells(axes, section, "rattle_class")
         handles += campaign_map.draw_contours(axes, section, campaign_map.CONTOURS)
         if section.held:
-            axes.set_title(f"Rattle class at\n{section.words}")
+            axes.set_title("Rattle class at\n" + textwrap.fill(section.words, 48), fontsize=8)
     else:
         handles, _ = campaign_map.scatter(axes, campaign, *campaign.varied[:2], "rattle_class")
     if handles:
@@ -171,7 +172,8 @@ def _draw_class_shares(axes: Axes, campaign: Campaign) -> None:
 
 def _draw_statuses(axes: Axes, campaign: Campaign) -> None:
     failures = int(campaign.failed.sum())
-    axes.set_title(f"How scenes ended: {look.share(failures, int(campaign.done.sum()))} failed")
+    failed = look.share(failures, int(campaign.done.sum())) if failures else "none"
+    axes.set_title(f"How scenes ended: {failed} failed")
     if "status" not in campaign:
         _say(axes, "status is not recorded")
         return
@@ -199,7 +201,7 @@ def _bars(axes: Axes, names: Sequence[str], counts: Sequence[int], colours: Sequ
             size=7.5,
         )
     axes.set_yticks(places, names)
-    axes.set_ylim(-0.7, max(len(names), 4) - 0.3)
+    axes.set_ylim(min(-0.7, len(names) - 4.7), len(names) - 0.3)
     axes.set_xlim(0.0, 1.35 * max(*counts, 1))
     axes.tick_params(axis="y", length=0)
     axes.set_xticks([])

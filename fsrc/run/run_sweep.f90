@@ -1,0 +1,189 @@
+!> A sweep from input to files: steady motions along a key, each carried on from the one before, there and back.
+!> Where two motions are possible, the way there and the way back show different ones: jumps and hysteresis.
+module run_sweep
+   use clock, only: wall_seconds
+   use errors, only: error_t
+   use floquet, only: orbit_stability
+   use integrate_controlled, only: find_steady_motion
+   use kinds, only: dp
+   use lane_scenes, only: lane_ending_t
+   use log_file, only: log_magic, log_t
+   use output_place, only: log_path, result_path, summary_path
+   use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
+   use fine_window, only: solve_fine_window, window_t
+   use progress, only: progress_t
+   use rattle_class, only: rattle_verdict_t
+   use resolved_scene, only: resolve, resolved_scene_t
+   use result_writer, only: result_writer_t
+   use scene_lane, only: lane_of_scene
+   use scene_report, only: law_sentence
+   use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written, status_sentence
+   use scene_types, only: scene_t, sweep_force_amplitude, sweep_frequency, sweep_steady_force
+   use signals, only: caught_signal
+   use summary_file, only: summary_t
+   use text, only: integer_text, short_text
+   use version, only: program_version
+   implicit none (type, external)
+   private
+
+   character(*), parameter :: names(17) = [character(24) :: 'value', 'direction', 'film_minimum', 'film_maximum', &
+      'acceleration_minimum', 'acceleration_maximum', 'orbit_period', 'floquet_modulus', 'orbit_stability', 'line_count', &
+      'harmonic_distortion', 'irregular_fraction', 'rattle_class', 'natural_frequency', 'periods', 'status', 'first_harmonic']
+   character(*), parameter :: units(17) = [character(8) :: '-', '-', 'm', 'm', 'm/s2', 'm/s2', '-', '-', '-', '-', '-', '-', '-', &
+                                           'Hz', '-', '-', 'm/s2']
+   !> A periodic motion farther away than this is another one [-].
+   real(dp), parameter :: orbit_nearness = 1.0e-3_dp
+
+   public :: run_sweep_task
+
+contains
+
+   !> Run a sweep and write its files.
+   subroutine run_sweep_task(scene, quiet, status, error)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Nothing to the terminal
+      logical, intent(in) :: quiet
+      !> Status of scene_status
+      integer, intent(out) :: status
+      !> Set if a file could not be written
+      type(error_t), allocatable, intent(out) :: error
+      type(log_t), target :: log
+      type(progress_t) :: watcher
+      type(result_writer_t) :: writer
+      type(error_t), allocatable :: write_error
+      real(dp) :: started, film, velocity, row(size(names), 1)
+      integer :: i, failed
+
+      status = status_complete
+      started = wall_seconds()
+      call log%open(log_path(scene), quiet, error)
+      if (allocated(error)) return
+      call log%line(log_magic//program_version//', scene '//trim(scene%name)//': sweep of '// &
+                    integer_text(size(scene%sweep%values))//' motions, '//law_sentence(scene))
+      call writer%open(result_path(scene), scene%resolved_input, names, units, error)
+      call watcher%start(log, quiet)
+      film = 0.0_dp
+      velocity = 0.0_dp
+      failed = 0
+      do i = 1, size(scene%sweep%values)
+         if (allocated(error)) exit
+         if (caught_signal() /= 0) then
+            status = status_interrupted
+            exit
+         end if
+         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, row(:, 1))
+         row(1:2, 1) = [scene%sweep%values(i), merge(1.0_dp, -1.0_dp, i <= scene%sweep%outward)]
+         if (.not. is_success(nint(row(16, 1)))) failed = failed + 1
+         call writer%write_rows(row, error)
+         call watcher%period_done(i, size(scene%sweep%values))
+      end do
+      call watcher%clear()
+      if (.not. allocated(error)) call writer%close(error)
+      if (allocated(error)) status = status_not_written
+      call write_sweep_summary(scene, failed, wall_seconds() - started, status, write_error)
+      if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
+      if (allocated(error)) then
+         call log%line('  '//error%message)
+      else
+         call log%line('  '//integer_text(failed)//' motions failed; '//short_text(wall_seconds() - started, 3)//' s: '// &
+                       status_sentence(status))
+         call log%line('  '//result_path(scene))
+         call log%line('  '//summary_path(scene))
+      end if
+      call log%close()
+   end subroutine run_sweep_task
+
+   !> The scene at one value of the swept key.
+   pure function swept_scene(scene, value) result(swept)
+      type(scene_t), intent(in) :: scene
+      real(dp), intent(in) :: value
+      type(scene_t) :: swept
+
+      swept = scene
+      select case (scene%sweep%key)
+      case (sweep_frequency)
+         swept%load%frequency = value
+      case (sweep_force_amplitude)
+         swept%load%force_amplitude = value
+      case (sweep_steady_force)
+         swept%load%steady_force = value
+      case default
+         swept%kinematics%entrainment_speed = value
+      end select
+   end function swept_scene
+
+   !> Steady motion of one value, from the state given; that state becomes the one for the next value.
+   subroutine solve_value(scene, film, velocity, row)
+      type(scene_t), intent(in) :: scene
+      !> State to start from; no film: the steady film at rest [m], [m/s]
+      real(dp), intent(inout) :: film
+      real(dp), intent(inout) :: velocity
+      !> Row of the table but its first two values; NaN-free: what is unknown is 0
+      real(dp), intent(out) :: row(:)
+      type(resolved_scene_t) :: resolved
+      type(lane_ending_t) :: ending, window_ending
+      type(periodic_orbit_t) :: orbit
+      type(rattle_verdict_t) :: verdict
+      type(window_t) :: window
+
+      row = 0.0_dp
+      resolved = resolve(scene)
+      row(14) = resolved%natural_frequency
+      if (.not. film > 0.0_dp) then
+         film = resolved%initial_film
+         velocity = scene%film%initial_velocity
+      end if
+      if (.not. film > 0.0_dp) then
+         row(16) = real(resolved%film%status_without_load, dp)
+         return
+      end if
+      call find_steady_motion(lane_of_scene(scene, resolved%film, film, velocity), scene%solver%accuracy, &
+                              scene%solver%periods, scene%spectrum%periods, ending)
+      row(15) = real(ending%periods, dp)
+      row(16) = real(ending%status, dp)
+      if (.not. is_success(ending%status)) then
+         film = 0.0_dp
+         return
+      end if
+      film = ending%film
+      velocity = ending%velocity
+      window%periods = scene%spectrum%periods
+      if (ending%orbit > 0) window%periods = ending%orbit
+      window%samples_per_period = scene%solver%samples_per_period()
+      call solve_fine_window(scene, lane_of_scene(scene, resolved%film, film, velocity), scene%solver%accuracy, window%periods, &
+                             resolved%noise_floor, window, verdict, window_ending)
+      if (.not. is_success(window_ending%status)) then
+         row(16) = real(window_ending%status, dp)
+         return
+      end if
+      orbit = find_periodic_orbit(lane_of_scene(scene, resolved%film, film, velocity), film, velocity, orbit_nearness)
+      row(3:6) = [minval(window%films), maxval(window%films), minval(window%accelerations), maxval(window%accelerations)]
+      row(7) = real(orbit%period, dp)
+      if (orbit%period > 0) row(8:9) = [abs(orbit%multipliers(1)), real(orbit_stability(orbit%multipliers), dp)]
+      if (verdict%lines%moving) row(10:12) = [real(verdict%lines%line_count, dp), verdict%lines%harmonic_distortion, &
+                                              verdict%lines%irregular_fraction]
+      row(13) = real(verdict%class, dp)
+      row(17) = verdict%lines%harmonics(1)
+   end subroutine solve_value
+
+   !> What the sweep did.
+   subroutine write_sweep_summary(scene, failed, seconds, status, error)
+      type(scene_t), intent(in) :: scene
+      integer, intent(in) :: failed
+      real(dp), intent(in) :: seconds
+      integer, intent(in) :: status
+      type(error_t), allocatable, intent(out) :: error
+      type(summary_t) :: summary
+
+      call summary%add('name', trim(scene%name))
+      call summary%add('program_version', program_version)
+      call summary%add('status', status_name(status))
+      call summary%add('status_text', status_sentence(status))
+      call summary%add('motions', size(scene%sweep%values))
+      call summary%add('motions_failed', failed)
+      call summary%add('wall_seconds', seconds)
+      call summary%write(summary_path(scene), error)
+   end subroutine write_sweep_summary
+
+end module run_sweep

@@ -1,0 +1,74 @@
+"""Steady motions along a swept key, on the way there and on the way back."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rattle.figures import style
+from rattle.result import Result, ResultError
+
+KEY_LABELS = {
+    "frequency": r"Excitation frequency $f_\mathrm{exc}$ [Hz]",
+    "force_amplitude": r"Force amplitude $F_0$ [N]",
+    "steady_force": r"Steady force $Q$ [N]",
+    "entrainment_speed": r"Entrainment speed $U$ [m/s]",
+}
+WAYS = (("there", 1.0, style.RUN_COLOURS[0], "-"), ("back", -1.0, style.RUN_COLOURS[1], (0, (4, 2))))
+
+
+def draw(result: Result) -> Figure:
+    """Film range, peak acceleration, period of the motion and Floquet multiplier over the swept key."""
+    if str(result.value("scene", "task")).strip() != "sweep":
+        raise ResultError(f"{result.path} is no sweep; plot_motion.py and plot_film.py draw the other results.")
+    key = str(result.value("sweep", "key")).strip()
+    figure = Figure(figsize=(style.WIDTH, 6.2))
+    film, acceleration, period, multiplier = figure.subplots(
+        4, 1, sharex=True, gridspec_kw={"height_ratios": (2.2, 2.2, 1, 1.6)}
+    )
+    for name, direction, colour, dashes in WAYS:
+        rows = way(result, direction)
+        if rows.size == 0:
+            continue
+        value = result["value"][rows]
+        look = {"color": colour, "linestyle": dashes}
+        film.semilogy(value, column(result, "film_maximum", rows, 1e6), label=f"way {name}", **look)
+        film.semilogy(value, column(result, "film_minimum", rows, 1e6), **look)
+        peak = np.maximum(
+            np.abs(column(result, "acceleration_minimum", rows)), column(result, "acceleration_maximum", rows)
+        )
+        acceleration.plot(value, peak, **look)
+        period.plot(value, column(result, "orbit_period", rows), **look)
+        multiplier.plot(value, column(result, "floquet_modulus", rows), **look)
+    labels(film, r"Film, least and" "\n" r"largest [$\mathrm{\mu}$m]")
+    labels(acceleration, r"Largest $|\ddot{z}|$" "\n" r"[m/s$^2$]")
+    labels(period, "Period\n[$1/f_\\mathrm{exc}$]")
+    labels(multiplier, "Largest Floquet\nmultiplier")
+    period.set_ylim(0.5, max(2.5, float(np.nanmax(result["orbit_period"])) + 0.5))
+    multiplier.axhline(1.0, color=style.FAINT_COLOUR, linewidth=0.8)
+    multiplier.set_ylim(0.0, 1.1)
+    multiplier.set_xlabel(KEY_LABELS[key])
+    film.set_title(f"Steady motions along a sweep\nScene {result.scene_name}, {result.law} film")
+    style.legend_below(figure, film, columns=2)
+    return figure
+
+
+def way(result: Result, direction: float) -> np.ndarray:
+    """Rows of one way; the way back begins with the last motion of the way there."""
+    rows = np.flatnonzero(result["direction"] == direction)
+    if direction < 0.0 and rows.size:
+        rows = np.concatenate(([rows[0] - 1], rows))
+    return rows
+
+
+def column(result: Result, name: str, rows: np.ndarray, scale: float = 1.0) -> np.ndarray:
+    """Values of some rows; motions that failed or were not found leave a gap."""
+    values = scale * np.asarray(result[name][rows])
+    unknown = result["orbit_period"][rows] == 0 if name in ("orbit_period", "floquet_modulus") else False
+    return np.where((result["status"][rows] > 1) | unknown, np.nan, values)
+
+
+def labels(axes: Axes, text: str) -> None:
+    axes.set_ylabel(text)
+    axes.margins(x=0.01)

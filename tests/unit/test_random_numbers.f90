@@ -1,0 +1,123 @@
+!> Tests of the random numbers: known answers of Philox, range, evenness, orders.
+module test_random_numbers
+   use checks, only: check_list_t
+   use hash_permutation, only: hash_permutation_t, largest_permutation, new_hash_permutation, permuted
+   use kinds, only: dp, int64
+   use random_numbers, only: next_uniform, philox_words, random_bits, random_permutation, random_state_t, uniform_at
+   use text, only: integer_text
+   implicit none(type, external)
+   private
+
+   public :: run_random_numbers_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_random_numbers_tests(checks)
+      !> Collects the results
+      type(check_list_t), intent(inout) :: checks
+
+      call checks%start('random_numbers')
+      call test_known_answers(checks)
+      call test_uniform(checks)
+      call test_permutation(checks)
+      call checks%start('hash_permutation')
+      call test_hash_permutation(checks)
+   end subroutine run_random_numbers_tests
+
+   !> The known answers that come with the published generator.
+   subroutine test_known_answers(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer(int64), parameter :: ones = int(z'FFFFFFFF', int64)
+
+      call checks%check(all(philox_words([0_int64, 0_int64, 0_int64, 0_int64], [0_int64, 0_int64]) == &
+                            [int(z'6627E8D5', int64), int(z'E169C58D', int64), int(z'BC57AC4C', int64), &
+                             int(z'9B00DBD8', int64)]), 'zeros')
+      call checks%check(all(philox_words([ones, ones, ones, ones], [ones, ones]) == &
+                            [int(z'408F276D', int64), int(z'41C83B0E', int64), int(z'A20BC7C6', int64), &
+                             int(z'6D5451FD', int64)]), 'ones')
+      call checks%check(all(philox_words([int(z'243F6A88', int64), int(z'85A308D3', int64), int(z'13198A2E', int64), &
+                                          int(z'03707344', int64)], [int(z'A4093822', int64), int(z'299F31D0', int64)]) == &
+                            [int(z'D16CFE09', int64), int(z'94FDCCEB', int64), int(z'5001E420', int64), &
+                             int(z'24126EA1', int64)]), 'digits of pi')
+   end subroutine test_known_answers
+
+   !> Between 0 and 1; mean, variance and neighbours as they should be; places can be had in any order.
+   subroutine test_uniform(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer, parameter :: count = 40000
+      type(random_state_t) :: state
+      real(dp) :: numbers(count)
+      real(dp), parameter :: deviation = 1.0_dp/sqrt(12.0_dp*count)
+      integer :: i
+
+      state%seed = 20080618_int64
+      do i = 1, count
+         call next_uniform(state, numbers(i))
+      end do
+      call checks%check(minval(numbers) > 0.0_dp .and. maxval(numbers) < 1.0_dp, 'between 0 and 1')
+      call checks%check_close(sum(numbers)/count, 0.5_dp, 4.0_dp*deviation, 'mean')
+      call checks%check_close(sum((numbers - 0.5_dp)**2)/count, 1.0_dp/12.0_dp, 4.0_dp*deviation, 'variance')
+      call checks%check_close(sum((numbers(2:) - 0.5_dp)*(numbers(:count - 1) - 0.5_dp))/count, 0.0_dp, deviation, 'neighbours')
+      call checks%check(state%place == count, 'places passed')
+      call checks%check_close(uniform_at(20080618_int64, 0_int64, 12345_int64), numbers(12346), 0.0_dp, 'any place alone')
+      call checks%check(random_bits(1_int64, 0_int64, 7_int64) /= random_bits(2_int64, 0_int64, 7_int64), 'seeds differ')
+      call checks%check(random_bits(1_int64, 0_int64, 7_int64) /= random_bits(1_int64, 1_int64, 7_int64), 'streams differ')
+      call checks%check(random_bits(-1_int64, -1_int64, -1_int64) >= 0_int64, 'negative arguments')
+      call checks%check(random_bits(shiftl(1_int64, 32), 0_int64, 0_int64) /= random_bits(0_int64, 0_int64, 0_int64), &
+                        'upper half of the seed counts')
+   end subroutine test_uniform
+
+   !> Every number once, and every order about as often.
+   subroutine test_permutation(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(random_state_t) :: state
+      integer :: order(100), small(3), seen(123:321), i
+
+      call random_permutation(state, order)
+      call checks%check(all([(count(order == i) == 1, i=1, 100)]), 'every number once')
+      call checks%check(any(order /= [(i, i=1, 100)]), 'not in its old order')
+      seen = 0
+      do i = 1, 6000
+         call random_permutation(state, small)
+         seen(100*small(1) + 10*small(2) + small(3)) = seen(100*small(1) + 10*small(2) + small(3)) + 1
+      end do
+      call checks%check(count(seen > 0) == 6, 'all orders of three')
+      call checks%check(all(pack(seen, seen > 0) > 850 .and. pack(seen, seen > 0) < 1150), 'all orders as often')
+   end subroutine test_permutation
+
+   !> Every number once, for awkward sizes; seeds differ; no trend.
+   subroutine test_hash_permutation(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer(int64), parameter :: sizes(12) = [1_int64, 2_int64, 3_int64, 4_int64, 5_int64, 7_int64, 16_int64, 17_int64, &
+                                                99_int64, 1000_int64, 4096_int64, 4099_int64]
+      type(hash_permutation_t) :: permutation, other
+      logical :: seen(0:4098)
+      real(dp) :: trend
+      integer(int64) :: place, number
+      integer :: i
+
+      do i = 1, size(sizes)
+         permutation = new_hash_permutation(sizes(i), 5_int64, 1_int64)
+         seen = .false.
+         do place = 0_int64, sizes(i) - 1_int64
+            number = permuted(permutation, place)
+            if (number >= 0_int64 .and. number < sizes(i)) seen(number) = .true.
+         end do
+         call checks%check(count(seen) == sizes(i), 'every number once, size '//integer_text(sizes(i)))
+      end do
+      other = new_hash_permutation(4099_int64, 6_int64, 1_int64)
+      call checks%check(count([(permuted(permutation, place) == permuted(other, place), place=0_int64, 4098_int64)]) < 10, &
+                        'another seed gives another order')
+      trend = 0.0_dp
+      do place = 0_int64, 4098_int64
+         trend = trend + (real(place, dp)/4098.0_dp - 0.5_dp)*(real(permuted(permutation, place), dp)/4098.0_dp - 0.5_dp)
+      end do
+      ! Its standard deviation is sqrt(n)/12.
+      call checks%check(abs(trend) < 4.0_dp*sqrt(4099.0_dp)/12.0_dp, 'no trend')
+      permutation = new_hash_permutation(largest_permutation, 5_int64, 1_int64)
+      number = permuted(permutation, largest_permutation - 1_int64)
+      call checks%check(number >= 0_int64 .and. number < largest_permutation, 'the largest size')
+   end subroutine test_hash_permutation
+
+end module test_random_numbers

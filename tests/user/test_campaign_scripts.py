@@ -1,0 +1,342 @@
+"""campaign.py: job scripts, state, export, single scenes again."""
+
+from __future__ import annotations
+
+import csv
+import os
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from campaign_writer import FORCE, FORCES, SPEED, SPEEDS, Key, grid, sample
+
+import rattle as package
+from rattle.namelist import parse
+
+SCRIPT = Path(__file__).parents[2] / "scripts" / "campaign.py"
+
+
+def call(directory: Path, *arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, str(SCRIPT), *map(str, arguments)],
+        cwd=directory,
+        capture_output=True,
+        text=True,
+        check=False,
+        env=os.environ | environment,
+    )
+
+
+@pytest.fixture
+def made():
+    return grid(FORCES, SPEEDS, failures=True)
+
+
+@pytest.fixture
+def whole(made, tmp_path):
+    return made.write(tmp_path / "map.rattle")
+
+
+# --- job scripts
+
+
+@pytest.fixture
+def campaign_input(made, tmp_path) -> Path:
+    path = tmp_path / "map.nml"
+    path.write_text(made.input_text())
+    return path
+
+
+def script_text(directory: Path, *arguments: object) -> str:
+    done = call(directory, "slurm", "map.nml", "--program", "/opt/rattle", *arguments)
+    assert done.returncode == 0, done.stderr
+    text = Path(directory, done.stdout.strip()).read_text()
+    checked = subprocess.run(["bash", "-n"], input=text, text=True, capture_output=True, check=False)
+    assert checked.returncode == 0, checked.stderr
+    return text
+
+
+def test_array_job(campaign_input, tmp_path):
+    text = script_text(
+        tmp_path, "--array", 8, "--time", "02:30:00", "--partition", "long", "--signal-seconds", 300
+    )
+    lines = text.splitlines()
+    assert lines[0] == "#!/bin/bash"
+    for directive in (
+        "--job-name=map",
+        "--array=1-8",
+        "--ntasks=1",
+        "--cpus-per-task=1",
+        "--signal=B:USR1@300",
+        "--requeue",
+        "--open-mode=append",
+        "--time=02:30:00",
+        "--partition=long",
+        f"--chdir={tmp_path}",
+        "--output=%x-%A-%a.log",
+    ):
+        assert f"#SBATCH {directive}" in lines
+    assert (
+        '/opt/rattle --resume --threads "$OMP_NUM_THREADS" --set campaign.part="$SLURM_ARRAY_TASK_ID" '
+        "--set campaign.parts=8 map.nml &" in lines
+    )
+    assert 'exec scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"' in text
+
+
+def test_mpi_job(campaign_input, tmp_path):
+    text = script_text(
+        tmp_path, "--ranks", 64, "--threads", 2, "--output", "out", "--launcher", "srun --mpi=pmix"
+    )
+    assert "#SBATCH --ntasks=64" in text and "#SBATCH --cpus-per-task=2" in text
+    assert "--array" not in text
+    assert 'srun --mpi=pmix /opt/rattle --resume --threads "$OMP_NUM_THREADS" --output out map.nml &' in text
+    assert "#SBATCH --output=out/%x-%j.log" in text
+    assert (tmp_path / "out" / "map.slurm").exists()
+
+
+FAKE_PROGRAM = """#!/bin/bash
+echo "$@" >> {log}
+trap 'exit {code}' USR1
+for i in $(seq 50); do sleep 0.1; done
+"""
+
+
+@pytest.mark.parametrize(("code", "requeued"), [(138, True), (0, False), (3, False)])
+def test_warning_is_handed_on_and_only_an_interrupted_job_goes_back(campaign_input, tmp_path, code, requeued):
+    log = tmp_path / "calls"
+    for name, text in (
+        ("rattle", FAKE_PROGRAM.format(log=log, code=code)),
+        ("scontrol", f'#!/bin/sh\necho scontrol "$@" >> {log}\n'),
+    ):
+        (tmp_path / name).write_text(text)
+        (tmp_path / name).chmod(stat.S_IRWXU)
+    made = call(tmp_path, "slurm", "map.nml", "--array", 3, "--program", tmp_path / "rattle")
+    job = subprocess.Popen(
+        ["bash", made.stdout.strip()],
+        cwd=tmp_path,
+        env=os.environ
+        | {"PATH": f"{tmp_path}:{os.environ['PATH']}", "SLURM_ARRAY_JOB_ID": "7", "SLURM_ARRAY_TASK_ID": "2"},
+    )
+    for _ in range(100):
+        if log.exists():
+            break
+        with pytest.raises(subprocess.TimeoutExpired):
+            job.wait(0.05)
+    with pytest.raises(subprocess.TimeoutExpired):
+        job.wait(0.3)  # the trap of the program has to be set
+    job.send_signal(10)
+    assert job.wait(10) == (0 if requeued else code)
+    lines = log.read_text().splitlines()
+    expected = "--resume --threads 1 --set campaign.part=2 --set campaign.parts=3 map.nml"
+    assert lines == [expected, "scontrol requeue 7_2"][: 1 + requeued]
+
+
+def test_job_script_without_warning_keeps_the_exit_code(campaign_input, tmp_path):
+    (tmp_path / "rattle").write_text("#!/bin/sh\nexit 1\n")
+    (tmp_path / "rattle").chmod(stat.S_IRWXU)
+    done = call(tmp_path, "slurm", "map.nml", "--program", tmp_path / "rattle")
+    assert subprocess.run(["bash", done.stdout.strip()], cwd=tmp_path, check=False).returncode == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["absent.nml"], "No such file or directory"),
+        (["map.nml", "--array", "0"], "is not a positive whole number"),
+        (["map.nml", "--array", "2", "--ranks", "2"], "not allowed with argument"),
+        (["map.nml", "--time", "90"], "'90' is not a time such as 02:30:00"),
+        (["map.nml", "--time", "00:02:00"], "leaves no time to compute: Slurm may warn 180 s before it"),
+        (["plain.nml"], "plain.nml has no group &campaign."),
+    ],
+)
+def test_job_scripts_that_cannot_work_are_refused(campaign_input, tmp_path, arguments, words):
+    (tmp_path / "plain.nml").write_text("&scene\n   name = 'a'\n/\n")
+    done = call(tmp_path, "slurm", *arguments, "--program", "/opt/rattle")
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not list(tmp_path.glob("*.slurm"))
+
+
+def test_an_older_script_is_kept(campaign_input, tmp_path):
+    script_text(tmp_path)
+    before = (tmp_path / "map.slurm").read_text()
+    done = call(tmp_path, "slurm", "map.nml", "--array", 2, "--program", "/opt/rattle")
+    assert done.returncode == 2
+    assert (tmp_path / "map.slurm").read_text() == before
+    assert "--array=1-2" in script_text(tmp_path, "--array", 2, "--overwrite")
+
+
+# --- state
+
+
+def test_status_of_a_finished_campaign(whole):
+    done = call(whole.parent, "status", "map.rattle")
+    assert (done.returncode, done.stderr) == (0, "")
+    rows = {line[:20].strip(): line[20:].strip() for line in done.stdout.splitlines()}
+    assert any(value == "finished" for value in rows.values())
+    assert "5 of 5" in done.stdout
+    assert "300 of 300 (100 %)" in done.stdout
+    assert "status film_lost" in done.stdout
+
+
+def test_status_of_an_unfinished_one_shows_its_progress(made, tmp_path):
+    made.write(tmp_path / "map.rattle", undone=[2, 4], closed=False)
+    (tmp_path / "map.progress.nml").write_text("&progress\n   rate = 1234.5678\n   time_left = 12\n/\n")
+    done = call(tmp_path, "status", "map.rattle")
+    assert done.returncode == 0
+    assert "not finished; rattle --resume goes on" in done.stdout
+    assert "3 of 5" in done.stdout and "192 of 300 (64 %)" in done.stdout
+    assert "progress: rate" in done.stdout and "1234.57" in done.stdout
+    (tmp_path / "map.progress.nml").write_text("&progress\n   rate = 12")
+    assert call(tmp_path, "status", "map.rattle").returncode == 0
+
+
+def test_status_of_parts_goes_on_past_a_bad_one(made, tmp_path):
+    made.write_parts(tmp_path, 2)
+    done = call(tmp_path, "status", "map.part-1-of-2.rattle", "absent.rattle", "map.part-2-of-2.rattle")
+    assert done.returncode == 2
+    assert "1 of 2" in done.stdout and "2 of 2" in done.stdout
+    assert "absent.rattle cannot be read" in done.stderr
+
+
+# --- export
+
+
+def test_csv_reads_back_exactly(made, whole):
+    done = call(whole.parent, "export", "map.rattle", "--to", "csv")
+    assert (done.returncode, done.stdout) == (0, "map.csv\n"), done.stderr
+    with whole.with_suffix(".csv").open(newline="") as stream:
+        head, *rows = csv.reader(stream)
+    assert head[:3] == ["scene[-]", f"{FORCE}[N]", f"{SPEED}[m/s]"]
+    assert head[-3:] == ["rattle_class_word", "film_regime_word", "status_word"]
+    numbers = np.array([[float(cell) for cell in row[:-3]] for row in rows])
+    np.testing.assert_array_equal(numbers, made.rows)
+    assert {row[-1] for row in rows} == {"steady", "film_lost", "no_rigid_film"}
+
+
+def test_parquet_holds_columns_units_and_input(made, whole):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    done = call(whole.parent, "export", "map.rattle", "--to", "parquet")
+    assert done.returncode == 0, done.stderr
+    table = parquet.read_table(whole.with_suffix(".parquet"))
+    for name, _ in made.columns[1:]:
+        np.testing.assert_array_equal(table[name].to_numpy(), made.column(name))
+    assert table.schema.field("film_minimum").metadata == {b"unit": b"m"}
+    assert b"&campaign" in table.schema.metadata[b"resolved_input"]
+    assert "film_lost" in table["status_word"].unique().to_pylist()
+
+
+def test_netcdf_holds_the_grid(made, whole):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("netCDF4")
+    done = call(whole.parent, "export", "map.rattle", "--to", "netcdf", "--output", "grid.nc")
+    assert (done.returncode, done.stdout) == (0, "grid.nc\n"), done.stderr
+    with xarray.open_dataset(whole.parent / "grid.nc") as data:
+        assert dict(data.sizes) == {FORCE: 20, SPEED: 15}
+        expected = package.read_campaign(whole).dataset()
+        np.testing.assert_array_equal(
+            data["acceleration_maximum"].values, expected["acceleration_maximum"].values
+        )
+        assert data["film_minimum"].attrs["units"] == "m"
+        assert data.attrs["source"] == "rattle 0.1.0"
+
+
+@pytest.mark.parametrize("form", ["csv", "parquet", "netcdf"])
+def test_unfinished_and_sampled_campaigns_are_exported_too(tmp_path, form):
+    sample().write(tmp_path / "cloud.rattle", undone=[1], closed=False)
+    done = call(tmp_path, "export", "cloud.rattle", "--to", form)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == (
+        "campaign.py: cloud.rattle is not finished; 236 of 300 scenes are done and used.\n"
+    )
+    again = call(tmp_path, "export", "cloud.rattle", "--to", form)
+    assert again.returncode == 2
+    assert "exists; --overwrite replaces it." in again.stderr
+
+
+def test_a_missing_package_is_one_sentence(whole, tmp_path):
+    (tmp_path / "hidden").mkdir()
+    (tmp_path / "hidden" / "xarray.py").write_text("raise ImportError('No module named xarray')\n")
+    done = call(tmp_path, "export", "map.rattle", "--to", "netcdf", PYTHONPATH=str(tmp_path / "hidden"))
+    assert done.returncode == 2
+    assert "A Python module cannot be loaded (No module named xarray)" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+# --- single scenes again
+
+
+def test_worst_scenes_become_inputs(made, whole):
+    done = call(whole.parent, "rerun", "map.rattle", "--worst", 4, "--by", "film_maximum")
+    assert done.returncode == 0, done.stderr
+    usable = np.where(made.column("status") == 1, made.column("film_maximum"), -1.0)
+    scenes = np.argsort(-usable, kind="stable")[:4] + 1
+    assert done.stdout.split() == [f"map_scenes/map_{scene:03d}.nml" for scene in scenes]
+    groups = parse((whole.parent / done.stdout.split()[0]).read_text())
+    assert "campaign" not in groups
+    assert groups["scene"]["name"] == f"map_{scenes[0]:03d}"
+    assert groups["output"]["series"] is True
+    assert groups["load"]["force_amplitude"] == made.column(FORCE)[scenes[0] - 1]
+    assert groups["kinematics"]["entrainment_speed"] == made.column(SPEED)[scenes[0] - 1]
+    assert groups["load"]["mass"] == 3.0
+
+
+def test_smallest_failed_and_named_scenes(made, whole):
+    done = call(
+        whole.parent,
+        "rerun",
+        "map.rattle",
+        "--worst",
+        1,
+        "--by",
+        "film_minimum",
+        "--smallest",
+        "--output",
+        "s",
+    )
+    assert done.stdout == f"s/map_{np.nanargmin(made.column('film_minimum')) + 1:03d}.nml\n"
+    failures = np.flatnonzero(made.column("status") > 1) + 1
+    done = call(whole.parent, "rerun", "map.rattle", "--failed", 2, "--output", "f")
+    assert done.stdout.split() == [f"f/map_{scene:03d}.nml" for scene in failures[:2]]
+    done = call(whole.parent, "rerun", "map.rattle", "--scenes", "7,3", "--output", "n")
+    assert done.stdout.split() == ["n/map_007.nml", "n/map_003.nml"]
+
+
+def test_a_key_that_takes_whole_numbers_stays_whole(tmp_path):
+    made = grid(FORCES, name="steps")
+    made.columns[1] = ("solver.periods", "-")
+    made.group = made.group.replace(FORCE, "solver.periods")
+    made.write(tmp_path / "steps.rattle")
+    done = call(tmp_path, "rerun", "steps.rattle", "--scenes", "1")
+    assert "periods = 20\n" in (tmp_path / done.stdout.strip()).read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--worst", "2", "--by", "film"], "has no column 'film'"),
+        (["--scenes", "301"], "holds no scene 301 that is done."),
+        (["--failed", "1", "--worst", "1"], "not allowed with argument"),
+        ([], "one of the arguments --worst --failed --scenes is required"),
+    ],
+)
+def test_scenes_that_are_not_there_are_refused(whole, arguments, words):
+    done = call(whole.parent, "rerun", "map.rattle", *arguments)
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert not (whole.parent / "map_scenes").exists()
+
+
+def test_the_program_takes_the_inputs(run, tmp_path):
+    made = grid(Key(FORCE, 100.0, 205.7, 3), name="small")
+    made.write(tmp_path / "small.rattle")
+    inputs = call(tmp_path, "rerun", "small.rattle", "--worst", 3).stdout.split()
+    done = run("--quiet", *inputs, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    result = package.read(tmp_path / "results" / "small_1.rattle")
+    assert result.number("load", "force_amplitude") == 100.0
+    assert result.closed
