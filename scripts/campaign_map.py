@@ -37,6 +37,10 @@ def main() -> None:
 
 def draw_maps(campaign: Campaign, options: argparse.Namespace, slices: dict[str, float]) -> None:
     """A map of each column asked for."""
+    if slices and campaign.kind != GRID:
+        raise command.CommandError(
+            f"{campaign.path} is no grid but a {campaign.kind} campaign: nothing to slice."
+        )
     x, y = plane(campaign, options.x, options.y, slices)
     look = campaign_map.Options(options.contours, options.colours)
     for name in campaign_map.lacking_contours(campaign, options.contours):
@@ -47,10 +51,6 @@ def draw_maps(campaign: Campaign, options: argparse.Namespace, slices: dict[str,
         section = new_section(campaign, (x, y), slices)
         for sentence in section.remarks():
             command.note(sentence)
-    elif slices:
-        raise command.CommandError(
-            f"{campaign.path} is no grid but a {campaign.kind} campaign: --slice needs a grid."
-        )
     for column in columns:
         if campaign.kind == GRID:
             figure = campaign_map.draw(section, column, look)

@@ -71,11 +71,17 @@ contains
    elemental real(dp) function barus_pressure(alpha_p) result(alpha_q)
       !> Reduced pressure times Barus coefficient [-]
       real(dp), intent(in) :: alpha_p
+      real(dp) :: remainder, rounded
 
-      if (alpha_p < 1.0_dp) then
-         alpha_q = -log(1.0_dp - alpha_p)
-      else
+      remainder = 1.0_dp - alpha_p
+      rounded = 1.0_dp - remainder
+      if (.not. alpha_p < 1.0_dp) then
          alpha_q = huge(1.0_dp)
+      else if (abs(rounded) > 0.0_dp) then
+         ! log(1 - x) of the rounded x, scaled to the true one: no digit of a small x is lost.
+         alpha_q = -log(remainder)*(alpha_p/rounded)
+      else
+         alpha_q = alpha_p
       end if
    end function barus_pressure
 

@@ -4,6 +4,7 @@
 !> hundreds of periods as in the first. The film is scaled by the power of two next to the reference film: scaling
 !> costs no digit, and a motion carried on from `film` and `momentum` of its ending goes on as if never stopped.
 module lane_scenes
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use constants, only: pi
    use film_law, only: film_load, film_t, kernel_piezo, kernel_reynolds_iso, overflow_load, steady_film
    use kinds, only: dp, int64
@@ -129,7 +130,8 @@ contains
       real(dp) :: load, load_by_film, load_by_velocity
 
       start_status = status_film_lost
-      if (.not. scene%initial_film > 0.0_dp) return
+      if (.not. (ieee_is_finite(scene%initial_film) .and. ieee_is_finite(scene%initial_velocity))) return
+      if (scene%initial_film <= 0.0_dp) return
       call film_load(scene%film, scene%initial_film, scene%initial_velocity, load, load_by_film, load_by_velocity)
       start_status = merge(status_complete, status_overflow, abs(load) < overflow_load)
    end function start_status

@@ -130,7 +130,9 @@ class Result:
         if str(self.input.get("solver", {}).get("until", "periods")).strip() == "steady":
             beside = self.path.with_suffix(".summary.nml")
             if not beside.exists():
-                raise ResultError(f"{self.path} ran until steady; its window stands in {beside}, which is not there.")
+                raise ResultError(
+                    f"{self.path} ran until steady; its window stands in {beside}, which is not there."
+                )
             return int(read_summary(beside)["window_periods"])
         return self.positive_integer("spectrum", "periods")
 

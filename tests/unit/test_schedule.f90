@@ -31,7 +31,8 @@ contains
       integer :: i
 
       plan = new_chunk_schedule(done)
-      call checks%check(plan%count() == 4_int64 .and. plan%left() == 4_int64, 'count of what is left')
+      call checks%check(plan%count() == 4_int64, 'count of chunks')
+      call checks%check(plan%left() == 4_int64, 'count of what is left')
       do i = 1, 6
          call plan%take(taken(i))
       end do

@@ -36,7 +36,7 @@ def stems(directory: Path) -> list[str]:
     for path in directory.glob("*.png"):
         picture = imread(path)
         assert picture.shape[1] > 1000
-        assert 0.02 < (picture[:, :, :3].min(axis=2) < 0.9).mean() < 0.95, path
+        assert 0.01 < (picture[:, :, :3].min(axis=2) < 0.9).mean() < 0.95, path
     return found
 
 

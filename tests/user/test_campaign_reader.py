@@ -181,7 +181,7 @@ DAMAGE = [
     (lambda c, t: changed(c, t + 32, "<q", 0), "it is closed, but its chunk 2 is not done."),
     (
         lambda c, _: changed(c, 24, "<q", -1)[:-8],
-        "its chunk 5 counts as done, but 299 rows are all it holds.",
+        "chunk 5 counts as done, but 299 rows are all it holds.",
     ),
     (lambda c, _: c.replace(b"&campaign", b"&campaigx"), "has no group &campaign."),
     (lambda c, _: c.replace(b"count(1) = 20", b"count(1) = 19"), "load.force_amplitude has values such as"),

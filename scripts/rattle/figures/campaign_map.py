@@ -234,7 +234,7 @@ def _code_colours(palette: Mapping[int, str]) -> tuple[ListedColormap, Normalize
 
 
 def _code_patches(column: str, values: np.ndarray, palette: Mapping[int, str], whole: int) -> list[Patch]:
-    """Legend entries of the codes with their share of `whole`: all classes, of other codes those that occur."""
+    """Legend entries with the share of `whole`: all classes, of other codes those that occur."""
     patches = []
     for code, colour in palette.items():
         count = int((values == code).sum())

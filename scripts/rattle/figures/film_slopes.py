@@ -46,7 +46,7 @@ def draw(points: Result, slope: Slope, choice: Choice) -> Figure:
     if max(curve["film_thickness"].size for curve in found) < 2:
         raise ResultError(f"{points.path} has a single film thickness; figure 4 needs several.")
 
-    figure = Figure(figsize=(style.WIDTH, 5.0))
+    figure = Figure(figsize=(style.WIDTH + 0.9, 5.0))
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.1, 1.0))
     for curve, colour in zip(found, film_points.colours(found), strict=True):
         film = 1e6 * curve["film_thickness"]
@@ -91,8 +91,9 @@ def _legends(axes: Axes, found: Sequence[Curve], models: Sequence[str]) -> None:
     colours = film_points.colours(found)
     handles = [Line2D([], [], color=colour) for colour in colours]
     words = [film_points.squeeze_words(curve.squeeze_ratio) for curve in found]
-    first = axes.legend(handles, words, title=film_points.SQUEEZE_TITLE, loc="upper right", alignment="left")
-    axes.add_artist(first)
+    axes.figure.legend(
+        handles, words, title=film_points.SQUEEZE_TITLE, loc="outside right upper", alignment="left"
+    )
     kinds = [Line2D([], [], color=style.FORCE_COLOUR, linestyle=LINES[model]) for model in models]
     axes.legend(kinds, [WORDS[model] for model in models], loc="lower left", handlelength=2.6)
 

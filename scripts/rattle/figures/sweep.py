@@ -21,7 +21,9 @@ WAYS = (("there", 1.0, style.RUN_COLOURS[0], "-"), ("back", -1.0, style.RUN_COLO
 def draw(result: Result) -> Figure:
     """Film range, peak acceleration, period of the motion and Floquet multiplier over the swept key."""
     if str(result.value("scene", "task")).strip() != "sweep":
-        raise ResultError(f"{result.path} is no sweep; plot_motion.py and plot_film.py draw the other results.")
+        raise ResultError(
+            f"{result.path} is no sweep; plot_motion.py and plot_film.py draw the other results."
+        )
     key = str(result.value("sweep", "key")).strip()
     figure = Figure(figsize=(style.WIDTH, 6.2))
     film, acceleration, period, multiplier = figure.subplots(

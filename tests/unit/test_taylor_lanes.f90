@@ -1,0 +1,352 @@
+!> Tests of the error-controlled engine: accuracy against itself, against collocation, against Newmark's method
+!> and reference values; equal bits in any lane; repetition; motions carried on; failures.
+module test_taylor_lanes
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use checks, only: check_list_t
+   use constants, only: standard_gravity, two_pi
+   use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso
+   use kinds, only: dp
+   use lane_functions, only: coarse_log, coarse_power, lane_cosine_sine, lane_exponential, lanes, log_of_one
+   use lane_motions, only: accelerations, solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use published_iso_viscous, only: rolling_coefficient, squeeze_coefficient
+   use published_piezo_viscous, only: piezo_coefficient, squeeze_exponent_rate
+   use reynolds_load, only: squeeze_rate
+   use scene_status, only: status_complete, status_film_lost, status_overflow, status_steady
+   implicit none(type, external)
+   private
+
+   real(dp), parameter :: radius = 0.0127_dp, viscosity = 0.3_dp, pressure_viscosity = 2.0e-8_dp, mass = 3.0_dp
+   real(dp), parameter :: frequency = 600.0_dp, first_film = 0.89e-6_dp
+
+   public :: run_taylor_lanes_tests
+
+contains
+
+   !> Run all tests of this module.
+   subroutine run_taylor_lanes_tests(checks)
+      !> Outcome so far
+      type(check_list_t), intent(inout) :: checks
+
+      call checks%start('taylor lanes')
+      call test_functions(checks)
+      call test_reference(checks)
+      call test_accuracy(checks)
+      call test_against_newmark(checks)
+      call test_equal_bits(checks)
+      call test_repetition(checks)
+      call test_carrying_on(checks)
+      call test_failures(checks)
+   end subroutine run_taylor_lanes_tests
+
+   !> Scene whose film carries Q + m g at h = 0.89 um at rest, Q = 40 N.
+   pure function scene_of(kernel, speed, force_ratio) result(scene)
+      !> Film law
+      integer, intent(in) :: kernel
+      !> Speed u [m/s]
+      real(dp), intent(in) :: speed
+      !> F0/Q [-]
+      real(dp), intent(in) :: force_ratio
+      type(lane_scene_t) :: scene
+      real(dp) :: load, length
+
+      scene%mass = mass
+      scene%weight = mass*standard_gravity
+      scene%steady_force = 40.0_dp
+      scene%force_amplitude = force_ratio*scene%steady_force
+      scene%frequency = frequency
+      scene%initial_film = first_film
+      load = scene%steady_force + scene%weight
+      scene%film%kernel = kernel
+      scene%film%radius = radius
+      scene%film%speed = speed
+      select case (kernel)
+      case (kernel_half_pi)
+         length = load*first_film/rolling_coefficient(1.0_dp, speed, viscosity, radius)
+         scene%film%rolling = rolling_coefficient(length, speed, viscosity, radius)
+         scene%film%squeeze = squeeze_coefficient(length, viscosity, radius)
+      case (kernel_piezo)
+         length = load*first_film**3.5_dp/piezo_coefficient(1.0_dp, speed, viscosity, radius, pressure_viscosity)
+         scene%film%piezo = piezo_coefficient(length, speed, viscosity, radius, pressure_viscosity)
+         scene%film%rate = squeeze_exponent_rate(speed)
+      case default
+         scene%film%scale = load*first_film/0.203957020579723718_dp
+         scene%film%squeeze_rate = squeeze_rate(speed, radius)
+      end select
+   end function scene_of
+
+   !> Films of the last periods of one scene.
+   subroutine films_of(scene, accuracy, periods, sampled, per_period, films, ending)
+      type(lane_scene_t), intent(in) :: scene
+      real(dp), intent(in) :: accuracy
+      integer, intent(in) :: periods
+      integer, intent(in) :: sampled
+      integer, intent(in) :: per_period
+      real(dp), allocatable, intent(out) :: films(:)
+      type(lane_ending_t), intent(out) :: ending
+      type(lane_ending_t) :: endings(1)
+      real(dp) :: film_table(sampled*per_period, 1), velocity_table(sampled*per_period, 1)
+
+      film_table = 0.0_dp
+      call solve_motions([scene], lane_request_t(accuracy=accuracy, periods=periods, samples_per_period=per_period, &
+                                                 sampled_periods=sampled), film_table, velocity_table, endings)
+      ending = endings(1)
+      films = film_table(:, 1)
+   end subroutine films_of
+
+   !> Exponential, cosine and sine, coarse logarithm.
+   subroutine test_functions(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp) :: x(lanes), y(lanes), cosine(lanes), sine(lanes), worst_exponential, worst_circle
+      integer :: i, l
+
+      worst_exponential = 0.0_dp
+      worst_circle = 0.0_dp
+      do i = 0, 200
+         x = [(-299.0_dp + real(i*lanes + l, dp)*598.0_dp/real(201*lanes, dp), l=1, lanes)]
+         call lane_exponential(x, y)
+         worst_exponential = max(worst_exponential, maxval(abs(y/exp(x) - 1.0_dp)))
+         x = [(real(i*lanes + l, dp)/real(201*lanes, dp), l=1, lanes)]
+         call lane_cosine_sine(x, cosine, sine)
+         worst_circle = max(worst_circle, maxval(abs(cosine - cos(two_pi*x))), maxval(abs(sine - sin(two_pi*x))))
+      end do
+      call checks%check_close(worst_exponential, 0.0_dp, 4.0_dp*epsilon(1.0_dp), 'exponential')
+      call checks%check_close(worst_circle, 0.0_dp, 6.0_dp*epsilon(1.0_dp), 'cosine and sine')
+      x = [(10.0_dp**(l - 8), l=1, lanes)]
+      call checks%check(maxval(abs(coarse_power(coarse_log(x) - log_of_one)/x - 1.0_dp)) < 2.0e-6_dp, 'coarse power inverts')
+   end subroutine test_functions
+
+   !> Start-up of the canonical idle scene, films known to 13 digits.
+   subroutine test_reference(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(lane_scene_t) :: scene
+      type(lane_ending_t) :: ending
+      real(dp), allocatable :: films(:)
+
+      scene%mass = 3.0_dp
+      scene%weight = 3.0_dp*standard_gravity
+      scene%steady_force = 199.2_dp
+      scene%force_amplitude = 205.7_dp
+      scene%frequency = 600.0_dp
+      scene%film%rolling = rolling_coefficient(0.010_dp, 1.905_dp, 0.3_dp, radius)
+      scene%film%squeeze = squeeze_coefficient(0.010_dp, 0.3_dp, radius)
+      scene%initial_film = scene%film%rolling/(scene%steady_force + scene%weight)
+      call films_of(scene, 1.0e-12_dp, 2, 2, 2, films, ending)
+      call checks%check(ending%status == status_complete, 'canonical scene completes')
+      call checks%check_close(films(1)/1.916633193569e-06_dp, 1.0_dp, 1.0e-12_dp, 'film after half a period')
+      call checks%check_close(films(2)/3.794375605713e-07_dp, 1.0_dp, 1.0e-12_dp, 'film after one period')
+      call checks%check_close(films(4)/3.795117960374e-07_dp, 1.0_dp, 1.0e-12_dp, 'film after two periods')
+   end subroutine test_reference
+
+   !> Errors follow the accuracy asked for, and two methods agree.
+   subroutine test_accuracy(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer, parameter :: kernels(3) = [kernel_half_pi, kernel_piezo, kernel_reynolds_iso]
+      type(lane_scene_t) :: scene
+      type(lane_ending_t) :: ending
+      real(dp), allocatable :: films(:), exact(:)
+      character(8) :: text
+      integer :: k, digits
+
+      do k = 1, size(kernels)
+         scene = scene_of(kernels(k), 1.9_dp, 3.0_dp)
+         call films_of(scene, 1.0e-13_dp, 20, 20, 16, exact, ending)
+         do digits = 4, 10, 2
+            call films_of(scene, 10.0_dp**(-digits), 20, 20, 16, films, ending)
+            write (text, '(i0, a, i0)') kernels(k), ', ', digits
+            call checks%check(maxval(abs(films/exact - 1.0_dp)) < 4.0_dp*10.0_dp**(-digits), 'accuracy of kernel, digits '//text)
+         end do
+         scene%implicit = .true.
+         call films_of(scene, 1.0e-9_dp, 20, 20, 16, films, ending)
+         call checks%check(ending%implicit, 'collocation was asked for')
+         call checks%check(maxval(abs(films/exact - 1.0_dp)) < 1.0e-9_dp, 'collocation agrees '//text)
+      end do
+   end subroutine test_accuracy
+
+   !> Newmark's average acceleration with Richardson extrapolation comes to the same film.
+   subroutine test_against_newmark(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(lane_scene_t) :: scene
+      type(lane_ending_t) :: ending
+      real(dp), allocatable :: films(:)
+      real(dp) :: rough, fine, finest
+
+      scene = scene_of(kernel_half_pi, 1.9_dp, 1.0_dp)
+      call films_of(scene, 1.0e-10_dp, 5, 1, 1, films, ending)
+      rough = newmark_film(scene, 5, 512)
+      fine = newmark_film(scene, 5, 1024)
+      finest = newmark_film(scene, 5, 2048)
+      rough = fine + (fine - rough)/3.0_dp
+      finest = finest + (finest - fine)/3.0_dp
+      call checks%check_close((finest + (finest - rough)/15.0_dp)/films(1), 1.0_dp, 1.0e-9_dp, 'Newmark, extrapolated twice')
+   end subroutine test_against_newmark
+
+   !> Film after some periods by Newmark's method, every step solved by Newton's.
+   real(dp) function newmark_film(scene, periods, steps)
+      type(lane_scene_t), intent(in) :: scene
+      integer, intent(in) :: periods
+      integer, intent(in) :: steps
+      real(dp) :: h, v, a, next, dt, force, load, by_film, by_velocity, residual
+      integer :: i, pass
+
+      dt = 1.0_dp/(scene%frequency*real(steps, dp))
+      h = scene%initial_film
+      v = scene%initial_velocity
+      call film_load(scene%film, h, v, load, by_film, by_velocity)
+      a = (load - scene%weight - scene%steady_force - scene%force_amplitude)/scene%mass
+      do i = 1, periods*steps
+         force = scene%steady_force + scene%force_amplitude*cos(two_pi*real(modulo(i, steps), dp)/real(steps, dp))
+         next = a
+         do pass = 1, 20
+            call film_load(scene%film, h + dt*v + 0.25_dp*dt*dt*(a + next), v + 0.5_dp*dt*(a + next), load, by_film, by_velocity)
+            residual = (load - scene%weight - force)/scene%mass - next
+            next = next + residual/(1.0_dp - (0.25_dp*dt*dt*by_film + 0.5_dp*dt*by_velocity)/scene%mass)
+            if (abs(residual) < 1.0e-11_dp*max(1.0_dp, abs(next))) exit
+         end do
+         h = h + dt*v + 0.25_dp*dt*dt*(a + next)
+         v = v + 0.5_dp*dt*(a + next)
+         a = next
+      end do
+      newmark_film = h
+   end function newmark_film
+
+   !> Equal bits alone, in any lane, among any neighbours, by series and by collocation.
+   subroutine test_equal_bits(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer, parameter :: count = 2*lanes + 3, per_period = 8, periods = 6
+      type(lane_scene_t) :: scenes(count), mixed(count)
+      type(lane_ending_t) :: endings(count), alone(1)
+      type(lane_request_t) :: request
+      real(dp) :: films(periods*per_period, count), velocities(periods*per_period, count)
+      real(dp) :: film(periods*per_period, 1), velocity(periods*per_period, 1)
+      integer :: i, shift
+      logical :: equal
+
+      request = lane_request_t(accuracy=1.0e-7_dp, periods=periods, samples_per_period=per_period, sampled_periods=periods)
+      do i = 1, count
+         scenes(i) = scene_of(merge(kernel_half_pi, kernel_piezo, modulo(i, 3) < 2), 0.5_dp + 0.1_dp*real(i, dp), &
+                              0.1_dp*real(i, dp))
+         scenes(i)%implicit = modulo(i, 7) == 0
+         if (modulo(i, 5) == 0) scenes(i) = scene_of(kernel_reynolds_iso, 1.0_dp, 0.1_dp*real(i, dp))
+      end do
+      do shift = 0, lanes, 5
+         mixed = cshift(scenes, shift)
+         films = 0.0_dp
+         velocities = 0.0_dp
+         call solve_motions(mixed, request, films, velocities, endings)
+         equal = .true.
+         do i = 1, count, 4
+            film = 0.0_dp
+            velocity = 0.0_dp
+            call solve_motions(mixed(i:i), request, film, velocity, alone)
+            equal = equal .and. all(same(film(:, 1), films(:, i))) .and. all(same(velocity(:, 1), velocities(:, i))) &
+               .and. same(alone(1)%momentum, endings(i)%momentum) .and. alone(1)%steps == endings(i)%steps
+         end do
+         call checks%check(equal, 'equal bits alone and in company')
+      end do
+   end subroutine test_equal_bits
+
+   !> Equal to the last bit.
+   elemental logical function same(x, y)
+      real(dp), intent(in) :: x
+      real(dp), intent(in) :: y
+
+      same = .not. (x < y .or. x > y)
+   end function same
+
+   !> Motions that repeat, after one period and after two, and one that never does.
+   subroutine test_repetition(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(lane_scene_t) :: scenes(4)
+      type(lane_ending_t) :: endings(4)
+      type(lane_request_t) :: request
+      real(dp), allocatable :: exact(:)
+      type(lane_ending_t) :: ending
+      real(dp) :: films(8*16, 4), velocities(8*16, 4)
+
+      scenes(1) = scene_of(kernel_half_pi, 1.9_dp, 1.0_dp)
+      scenes(2) = scene_of(kernel_piezo, 1.9_dp, 0.0_dp)
+      ! Three times the static load on a film with f_n = 2.5 f_exc: the motion doubles its period.
+      scenes(3) = scenes(1)
+      scenes(3)%film%kernel = kernel_piezo
+      scenes(3)%film%piezo = piezo_coefficient(1.958e-3_dp, 1.905_dp, viscosity, radius, pressure_viscosity)
+      scenes(3)%film%rate = squeeze_exponent_rate(1.905_dp)
+      scenes(3)%steady_force = 38.27_dp
+      scenes(3)%force_amplitude = 203.1_dp
+      scenes(3)%initial_film = 0.889e-6_dp
+      ! Slow surfaces: the film rises for hundreds of periods.
+      scenes(4) = scene_of(kernel_piezo, 0.05_dp, 3.0_dp)
+      request = lane_request_t(accuracy=1.0e-8_dp, periods=300, samples_per_period=16, sampled_periods=8, until_steady=.true.)
+      films = 0.0_dp
+      velocities = 0.0_dp
+      call solve_motions(scenes, request, films, velocities, endings)
+      call checks%check(all(endings(1:3)%status == status_steady), 'motions that repeat are found')
+      call checks%check(all(endings(1:3)%orbit == [1, 1, 2]), 'they repeat after 1, 1, 2 periods')
+      call checks%check(all(endings(1:3)%distance < 1.0e-8_dp), 'their distance is below the accuracy')
+      call checks%check(all(endings(1:2)%periods < 15), 'soon')
+      call checks%check(all(endings%samples == [16, 16, 32, 128]), 'one orbit is sampled')
+      call checks%check(endings(4)%status == status_complete, 'a film that rises slowly does not repeat')
+      call films_of(scenes(1), 1.0e-10_dp, 300, 1, 16, exact, ending)
+      call checks%check_close(maxval(abs(films(:16, 1)/exact - 1.0_dp)), 0.0_dp, 2.0e-8_dp, 'orbit of the whole run')
+      call films_of(scenes(3), 1.0e-10_dp, 300 + modulo(endings(3)%periods, 2), 2, 16, exact, ending)
+      call checks%check_close(maxval(abs(films(:32, 3)/exact - 1.0_dp)), 0.0_dp, 5.0e-8_dp, 'orbit of two periods')
+   end subroutine test_repetition
+
+   !> One long run is two chained ones, bit for bit, by series and by collocation.
+   subroutine test_carrying_on(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(lane_scene_t) :: scene, rest
+      type(lane_ending_t) :: long(1), first(1), second(1)
+      type(lane_request_t) :: request
+      real(dp) :: films(12*8, 1), velocities(12*8, 1), whole(12*8, 1)
+      integer :: method
+
+      do method = 1, 2
+         scene = scene_of(kernel_half_pi, 1.9_dp, 2.0_dp)
+         scene%implicit = method == 2
+         films = 0.0_dp
+         velocities = 0.0_dp
+         request = lane_request_t(accuracy=1.0e-6_dp, periods=30, samples_per_period=8, sampled_periods=12)
+         call solve_motions([scene], request, films, velocities, long)
+         whole = films
+         request%periods = 13
+         request%sampled_periods = 0
+         call solve_motions([scene], request, films, velocities, first)
+         rest = scene
+         rest%initial_film = first(1)%film
+         rest%initial_velocity = first(1)%velocity
+         rest%initial_momentum = first(1)%momentum
+         rest%implicit = first(1)%implicit
+         rest%periods_done = first(1)%periods
+         rest%carried_on = .true.
+         request%periods = 30
+         request%sampled_periods = 12
+         films = 0.0_dp
+         call solve_motions([rest], request, films, velocities, second)
+         call checks%check(all(same(films, whole)) .and. same(long(1)%momentum, second(1)%momentum), 'carried on, bit for bit')
+      end do
+   end subroutine test_carrying_on
+
+   !> Scenes that cannot start say so; accelerations follow from the equation of motion.
+   subroutine test_failures(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(lane_scene_t) :: scenes(4)
+      type(lane_ending_t) :: endings(4)
+      real(dp) :: films(4, 4), velocities(4, 4), values(4)
+
+      films = 1.0_dp
+      velocities = 0.0_dp
+      scenes = scene_of(kernel_piezo, 1.9_dp, 1.0_dp)
+      scenes(1)%initial_film = -1.0e-9_dp
+      scenes(2)%initial_film = ieee_value(1.0_dp, ieee_quiet_nan)
+      scenes(3)%initial_velocity = -2.0_dp
+      call solve_motions(scenes, lane_request_t(accuracy=1.0e-6_dp, periods=2, samples_per_period=4, sampled_periods=1), &
+                         films, velocities, endings)
+      call checks%check(all(endings%status == [status_film_lost, status_film_lost, status_overflow, status_complete]), &
+                        'statuses of scenes that cannot start')
+      call checks%check(all(endings%samples == [0, 0, 0, 4]), 'samples of scenes that cannot start')
+      call accelerations(scenes(4), 4, [first_film], [0.0_dp], values(:1))
+      call checks%check_close(values(1), 0.0_dp, 1.0e-9_dp, 'balance at a quarter of a period')
+   end subroutine test_failures
+
+end module test_taylor_lanes

@@ -1,0 +1,260 @@
+"""What a user does beyond one motion: film tasks, sweeps, steady runs, certificates, carrying on."""
+
+from __future__ import annotations
+
+import hashlib
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import f90nml
+import numpy as np
+import pytest
+
+import rattle as package
+
+FILM = {"load": None, "film": None, "solver": None, "spectrum": None, "kinematics": None}
+
+
+def film_text(scene_text, **points: str) -> str:
+    """A film task at a few points."""
+    given = {"film_ratios": "70.0e-6", "speed_groups": "0.45e-6", **points}
+    return scene_text(scene={"task": "'film'"}, points=given, **FILM)
+
+
+def solve(run, folder: Path, text: str, *options: str, name: str = "scene") -> Path:
+    """Run one input and return the folder of its results."""
+    (folder / f"{name}.nml").write_text(text)
+    ended = run(*options, f"{name}.nml", cwd=folder)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    return folder / "results"
+
+
+def summary(results: Path, name: str = "scene") -> dict:
+    return f90nml.read(results / f"{name}.summary.nml")["summary"]
+
+
+def digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+# --- film ---------------------------------------------------------------------------------------------
+
+
+def test_film_task_knows_the_paper_s_figure_5(run, scene_text, tmp_path: Path) -> None:
+    """alpha p and the highest pressure of the figure, with p halved; as printed there is no rigid film."""
+    text = film_text(scene_text, squeeze_ratios="-5.0e-4, 0.0", speed_groups="0.45e-6, 0.9e-6")
+    result = package.read(solve(run, tmp_path, text) / "scene.rattle")
+    assert result.row_count == 4
+    assert result["alpha_p_maximum"][1] == pytest.approx(0.826, abs=5e-4)
+    assert result["pressure_maximum"][0] == pytest.approx(201e6, abs=0.5e6)
+    assert np.isnan(result["load_piezo_viscous"][2:]).all()
+    assert np.isfinite(result["load_iso_viscous"]).all()
+    assert (result["film_regime"] == [2, 2, 3, 3]).all()
+
+
+def test_film_task_computes_what_is_asked_for_only(run, scene_text, tmp_path: Path) -> None:
+    text = film_text(scene_text, compute="'load'")
+    published = text.replace("&points", "&film model = 'published' /\n&points")
+    result = package.read(solve(run, tmp_path, published) / "scene.rattle")
+    assert [name for name in result.columns if name.startswith("load")] == ["load_published"]
+    assert not [
+        name for name in result.columns if "stiffness" in name or "alpha" in name or "rupture" in name
+    ]
+    assert not (tmp_path / "results" / "scene.profiles.rattle").exists()
+
+
+def test_film_referee_agrees_with_the_closed_forms(run, scene_text, tmp_path: Path) -> None:
+    """Extrapolated from 2048 and 4096 cells the finite volumes are good to 1e-8."""
+    text = film_text(scene_text, squeeze_ratios="-5.0e-4, 0.0, 5.0e-4", speed_groups="0.4e-6")
+    text = text.replace("&points", "&film model = 'numerical' /\n&points")
+    result = package.read(solve(run, tmp_path, text) / "scene.rattle")
+    assert result["load_numerical"] == pytest.approx(result["load_piezo_viscous"], rel=1e-8)
+    assert result["rupture_angle_numerical"] == pytest.approx(result["rupture_angle"], abs=1e-8)
+
+
+def test_film_profiles_end_at_the_rupture(run, scene_text, tmp_path: Path) -> None:
+    text = film_text(
+        scene_text, compute="'rupture', 'profile'", profile_nodes="33", squeeze_ratios="-3e-4, 3e-4"
+    )
+    results = solve(run, tmp_path, text)
+    points = package.read(results / "scene.rattle")
+    profiles = package.read(results / "scene.profiles.rattle")
+    assert profiles.row_count == 2 * 33
+    for point in range(2):
+        rows = slice(33 * point, 33 * (point + 1))
+        assert profiles["coordinate"][rows][-1] == pytest.approx(points["rupture_angle"][point], rel=1e-14)
+        assert profiles["pressure_group"][rows][-1] == pytest.approx(0.0, abs=1e-15)
+        assert (profiles["piezo_viscous_pressure"][rows] >= profiles["reduced_pressure"][rows]).all()
+
+
+def test_film_speed_reading(run, scene_text, tmp_path: Path) -> None:
+    """The sum of the speeds makes u* twice that of the mean."""
+    groups = {**FILM, "kinematics": {"entrainment_speed": "1.0"}}
+    speeds = []
+    for reading in ("mean", "sum"):
+        points = {"film_ratios": "70e-6", "speed_reading": f"'{reading}'"}
+        text = scene_text(scene={"task": "'film'"}, points=points, **groups)
+        speeds.append(
+            package.read(solve(run, tmp_path, text, name=reading) / f"{reading}.rattle")["speed"][0]
+        )
+    assert speeds == [1.0, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("points", "key"),
+    [
+        ({"film_ratio_range": "1e-5, 1e-4, 5"}, "film_ratio_range"),
+        ({"film_ratios": None}, "film_ratios"),
+        ({"film_ratios": None, "film_ratio_range": "1e-4, 1e-5, 5"}, "film_ratio_range"),
+        ({"film_ratios": None, "film_ratio_range": "1e-5, 1e-4, 1"}, "film_ratio_range"),
+        ({"film_ratios": None, "film_ratio_range": "1e-5, 1e-4, 2.5"}, "film_ratio_range"),
+        ({"film_ratios": None, "film_ratio_range": "1e-5, 1e-4"}, "film_ratio_range"),
+        ({"film_ratios": "-1e-5"}, "film_ratios"),
+        ({"compute": "'everything'"}, "compute"),
+        ({"compute": "'load', 'load'"}, "compute"),
+        ({"speed_groups": None}, "entrainment_speed"),
+    ],
+)
+def test_bad_points(points: dict, key: str, run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "bad.nml").write_text(film_text(scene_text, **points))
+    ended = run("bad.nml", cwd=tmp_path)
+    assert ended.returncode == 2
+    assert key in ended.stderr and ended.stdout == ""
+    assert not (tmp_path / "results").exists()
+
+
+# --- certificates and steady runs ------------------------------------------------------------------------
+
+
+def canonical(scene_text, law: str = "iso-viscous", **solver: str | None) -> str:
+    given = {"steps_per_period": None, "method": None, "periods": "60", **solver}
+    return scene_text(film={"law": f"'{law}'"}, solver=given, spectrum={"periods": "16"})
+
+
+@pytest.mark.parametrize(
+    ("law", "lines", "name"), [("iso-viscous", 30, "idle"), ("piezo-viscous", 12, "creep")]
+)
+def test_steady_run_equals_the_full_run(
+    law: str, lines: int, name: str, run, scene_text, tmp_path: Path
+) -> None:
+    """The orbit that ends a steady run has the harmonics of the full run, at a fraction of its steps."""
+    full = summary(solve(run, tmp_path, canonical(scene_text, law), name="full"), "full")
+    steady = summary(
+        solve(run, tmp_path, canonical(scene_text, law, until="'steady'"), name="steady"), "steady"
+    )
+    assert (full["status"], steady["status"]) == ("complete", "steady")
+    assert steady["harmonics"] == pytest.approx(full["harmonics"], rel=1e-5)
+    assert steady["film_minimum"] == pytest.approx(full["film_minimum"], rel=1e-6)
+    assert 5 * steady["steps"] < full["steps"]
+    for one in (full, steady):
+        assert (one["rattle_class"], one["line_count"], one["certificate"]) == (name, lines, "certified")
+        assert (one["orbit_period"], one["orbit_stability"]) == (1, "stable")
+
+
+def test_newmark_error_is_that_of_its_certificate(run, scene_text, tmp_path: Path) -> None:
+    """The error fourfold at half the steps, as second order asks."""
+    errors = []
+    for steps in ("256", "512"):
+        text = canonical(scene_text, method="'newmark'", steps_per_period=steps, periods="30")
+        errors.append(summary(solve(run, tmp_path, text, name=f"n{steps}"), f"n{steps}")["film_error"])
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
+
+
+def test_forged_line_is_not_certified(run, repository: Path, tmp_path: Path) -> None:
+    """The artefact of a loose tolerance changes its class when solved tighter, and says so."""
+    solve(run, tmp_path, (repository / "input" / "creep_forged_line.nml").read_text(), name="forged")
+    forged = summary(tmp_path / "results", "forged")
+    assert (forged["rattle_class"], forged["certificate"]) == ("irregular", "uncertain")
+    assert "quiet" in forged["certificate_text"]
+
+
+def test_period_two_is_found(run, repository: Path, tmp_path: Path) -> None:
+    """The true line at 2.5 f_exc belongs to a stable motion of twice the period."""
+    solve(run, tmp_path, (repository / "input" / "creep_period_two.nml").read_text(), name="two")
+    two = summary(tmp_path / "results", "two")
+    assert (two["orbit_period"], two["orbit_stability"], two["certificate"]) == (2, "stable", "certified")
+    assert two["harmonics"][0] == pytest.approx(54.14, abs=0.01)
+
+
+# --- sweeps ----------------------------------------------------------------------------------------------
+
+
+def test_sweep_goes_there_and_back(run, repository: Path, tmp_path: Path) -> None:
+    """Every motion is steady; over the resonance the way back differs, far from it it does not."""
+    text = (repository / "input" / "sweep.nml").read_text()
+    results = solve(run, tmp_path, text, name="sweep")
+    result = package.read(results / "sweep.rattle")
+    count = int(result.input["sweep"]["count"])
+    assert result.row_count == 2 * count - 1
+    assert (result["status"] == 1).all() and (result["floquet_modulus"] < 1.0).all()
+    there = result["film_maximum"][:count]
+    back = result["film_maximum"][count - 1 :][::-1]
+    differs = np.abs(back / there - 1.0)
+    assert differs.max() > 0.5
+    assert differs[[0, -1]] == pytest.approx([0.0, 0.0], abs=1e-6)
+
+
+# --- carrying on -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("method", ["newmark", "taylor"])
+def test_one_long_run_equals_three_chained(method: str, run, scene_text, tmp_path: Path) -> None:
+    solver = {"method": f"'{method}'", "steps_per_period": "64" if method == "newmark" else None}
+    (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver))
+    for periods in (17, 20, 60):
+        ended = run(
+            "--resume", "--output", "chained", "--set", f"solver.periods={periods}", "scene.nml", cwd=tmp_path
+        )
+        assert ended.returncode == 0, ended.stderr
+    assert "carried on from period 4" in ended.stdout
+    assert run("--output", "long", "scene.nml", cwd=tmp_path).returncode == 0
+    for name in ("scene.rattle", "scene.state"):
+        assert digest(tmp_path / "chained" / name) == digest(tmp_path / "long" / name)
+    both = [summary(tmp_path / folder) for folder in ("chained", "long")]
+    for one in both:
+        del one["wall_seconds"]
+    assert both[0] == both[1]
+
+
+@pytest.mark.parametrize("method", ["newmark", "taylor"])
+def test_interrupted_run_is_carried_on(method: str, rattle: Path, run, scene_text, tmp_path: Path) -> None:
+    """A terminated run resumed ends like one that was left alone."""
+    solver = {
+        "method": f"'{method}'",
+        "steps_per_period": "512" if method == "newmark" else None,
+        "periods": "20000",
+    }
+    (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver))
+    quiet = ["--set", "output.series=.false.", "--set", "spectrum.certify=.false.", "--quiet"]
+    process = subprocess.Popen([rattle, *quiet, "--output", "cut", "scene.nml"], cwd=tmp_path)
+    time.sleep(0.1)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(20) == 128 + signal.SIGTERM
+    cut = summary(tmp_path / "cut")
+    assert cut["status"] == "interrupted" and 0 < cut["periods_solved"] < 20000
+    assert run(*quiet, "--resume", "--output", "cut", "scene.nml", cwd=tmp_path).returncode == 0
+    assert run(*quiet, "--output", "whole", "scene.nml", cwd=tmp_path).returncode == 0
+    assert digest(tmp_path / "cut" / "scene.state") == digest(tmp_path / "whole" / "scene.state")
+
+
+def test_time_limit_ends_cleanly(run, scene_text, tmp_path: Path) -> None:
+    text = canonical(
+        scene_text, method="'newmark'", steps_per_period="4096", periods="1000000", time_limit="0.05"
+    )
+    (tmp_path / "scene.nml").write_text(text)
+    ended = run("--set", "output.series=.false.", "scene.nml", cwd=tmp_path)
+    assert ended.returncode == 1
+    assert summary(tmp_path / "results")["status"] == "time_limit"
+    assert (tmp_path / "results" / "scene.state").exists()
+
+
+def test_resume_refuses_another_scene(run, scene_text, tmp_path: Path) -> None:
+    """The key that changed is named, and nothing of the earlier run is touched."""
+    results = solve(run, tmp_path, canonical(scene_text))
+    before = {path.name: digest(path) for path in results.iterdir()}
+    ended = run("--resume", "--set", "load.mass=4", "scene.nml", cwd=tmp_path)
+    assert ended.returncode == 2
+    assert "load.mass" in ended.stderr
+    assert {path.name: digest(path) for path in results.iterdir()} == before
