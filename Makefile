@@ -1,5 +1,6 @@
 # rattle: make, make run, make test. Everything else: make help.
 #
+#   MPI=1        campaigns over the ranks of an MPI job (needs Open MPI)
 #   NATIVE=1     compile for this very processor instead of any x86-64-v3
 #   BUILD=DIR    build folder (default: build)
 #   PREFIX=DIR   where make install puts the program
@@ -7,7 +8,7 @@
 BUILD ?= build
 PREFIX ?= /usr/local
 VERSION := $(shell cat fsrc/VERSION)
-FC := gfortran
+FC := $(if $(MPI),mpifort,gfortran)
 PYTHON_ENV := .venv
 PYTHON := $(PYTHON_ENV)/bin/python
 
@@ -33,7 +34,8 @@ DEBUG_FLAGS := -O1 -g -fcheck=all -finit-real=snan -ffpe-trap=invalid,overflow,z
 STRICT_FLAGS := -O1 -fopenmp
 FFLAGS := $(WARNINGS) $(if $(DEBUG),$(DEBUG_FLAGS),$(if $(STRICT),$(STRICT_FLAGS),$(RELEASE_FLAGS))) $(addprefix -I,$(dir $(FFTW_INCLUDE)))
 
-ROOMS := foundation scene film film/coefficients motion orbit spectrum verdict files run campaign
+ROOMS := foundation scene film film/coefficients motion orbit spectrum verdict files run campaign \
+  campaign/$(if $(MPI),mpi,serial)
 SOURCES := $(foreach room,$(ROOMS),$(sort $(wildcard fsrc/$(room)/*.f90)))
 OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(SOURCES)))
 UNIT_SOURCES := $(sort $(wildcard tests/unit/*.f90))

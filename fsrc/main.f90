@@ -1,11 +1,12 @@
 !> rattle: transient oil film and tooth motion of a loose gear pair, and the class of its rattle.
 program main
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use batch, only: print_faults, run_batch
+   use batch, only: print_faults
    use command_line, only: command_t, read_arguments, usage_text
    use errors, only: exit_bad_input, exit_complete, fault_list_t
    use key_page, only: page_text, template_text
    use key_table, only: known_group, nearest_group
+   use run_tasks, only: run_all_tasks
    use signals, only: catch_signals
    use version, only: program_version
    implicit none(type, external)
@@ -35,7 +36,7 @@ program main
       exit_code = exit_bad_input
    else
       call catch_signals()
-      call run_batch(command, exit_code)
+      call run_all_tasks(command, exit_code)
    end if
    flush (output_unit, iostat=ignored)
    stop exit_code, quiet = .true.

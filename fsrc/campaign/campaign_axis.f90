@@ -167,7 +167,8 @@ contains
       else if (axis%whole) then
          spread_value = min(axis%first + aint(share*(axis%last - axis%first + 1.0_dp)), axis%last)
       else
-         spread_value = min(axis%first*(1.0_dp - share) + axis%last*share, axis%last)
+         ! Rounding may lead a little beyond an end.
+         spread_value = max(axis%first, min(axis%first*(1.0_dp - share) + axis%last*share, axis%last))
       end if
    end function spread_value
 

@@ -68,7 +68,8 @@ contains
       ! Pipes and devices have no length; they are not opened.
       inquire (file=path, size=bytes)
       if (bytes <= 0_int64) return
-      open (newunit=self%unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=stat)
+      open (newunit=self%unit, file=path, access='stream', form='unformatted', status='old', action='read', &
+            iostat=stat)
       if (stat /= 0) then
          message = 'it may not be read'
          return
@@ -162,13 +163,14 @@ contains
       character(*), parameter :: blanks = ' '//horizontal_tab
       integer :: first
 
+      first = verify(self%letters, blanks)
       if (self%length > longest_field) then
          word = trim(self%letters)//'...'
-         return
+      else if (first == 0) then
+         word = ''
+      else
+         word = self%letters(first:verify(self%letters, blanks, back=.true.))
       end if
-      first = verify(self%letters, blanks)
-      word = ''
-      if (first > 0) word = self%letters(first:verify(self%letters, blanks, back=.true.))
    end function field_word
 
    !> The field for a sentence: short, and every character can be printed.

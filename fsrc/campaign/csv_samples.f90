@@ -48,7 +48,8 @@ contains
       end if
       if (lines == 0_int64) then
          call faults%add(path, 0, '', '', &
-                         'the file is empty; its first line must name the keys, as in load.mass,load.frequency')
+                         'the file is empty; its first line must name the keys, such as '// &
+                         'load.mass,load.frequency')
       else
          call read_header(text, path, samples%positions, faults)
       end if
@@ -73,47 +74,50 @@ contains
       integer, allocatable, intent(inout) :: positions(:)
       type(fault_list_t), intent(inout) :: faults
       type(field_t) :: field
-      character(:), allocatable :: message, word
-      integer :: column, position
+      character(:), allocatable :: message
+      integer :: position
 
-      column = 0
       do
          call text%take_field(field)
-         column = column + 1
-         if (column > most_columns) then
+         if (size(positions) == most_columns) then
             call faults%add(path, 1, '', '', 'more than '//integer_text(most_columns)//' columns')
             return
          end if
-         word = unquoted(field%word())
-         position = 0
-         if (len(word) == 0) then
-            message = 'a key must be named here, as in load.mass'
-         else if (word(1:1) == '#' .or. word(1:1) == '!') then
-            message = "'"//field%shown()//"' looks like a comment; comments are not allowed"
-         else
-            call find_varied_key(word, position, message)
-            if (position > 0 .and. any(positions == position)) then
-               message = 'this key stands in column '//integer_text(place_of(position))//' already'
-            end if
-            if (len(message) > 0) message = "'"//field%shown()//"': "//message
-         end if
-         if (len(message) > 0) call faults%add(path, 1, '', '', 'column '//integer_text(column)//': '//message)
+         call read_name(field, positions, position, message)
          ! A column that cannot be used keeps its place.
          positions = [positions, position]
+         if (len(message) > 0) &
+            call faults%add(path, 1, '', '', 'column '//integer_text(size(positions))//': '//message)
          if (field%ends_line) return
       end do
-
-   contains
-
-      pure integer function place_of(position)
-         integer, intent(in) :: position
-
-         do place_of = 1, size(positions)
-            if (positions(place_of) == position) return
-         end do
-      end function place_of
-
    end subroutine read_header
+
+   !> One name of the header.
+   pure subroutine read_name(field, positions, position, message)
+      type(field_t), intent(in) :: field
+      integer, intent(in) :: positions(:)
+      integer, intent(out) :: position
+      character(:), allocatable, intent(out) :: message
+      character(:), allocatable :: word
+      integer :: i
+
+      position = 0
+      word = unquoted(field%word())
+      if (len(word) == 0) then
+         message = 'a key must be named here, as in load.mass'
+         return
+      end if
+      if (scan(word(1:1), '#!') > 0) then
+         message = 'comments are not allowed'
+      else
+         call find_varied_key(word, position, message)
+      end if
+      do i = 1, size(positions)
+         if (position > 0 .and. positions(i) == position) &
+            message = 'this key stands in column '//integer_text(i)//' already'
+      end do
+      if (len(message) > 0) message = "'"//field%shown()//"': "//message
+   end subroutine read_name
 
    !> All other lines: numbers.
    subroutine read_rows(text, path, samples, faults)
@@ -137,8 +141,9 @@ contains
             empty = column == 1 .and. field%ends_line .and. len(field%word()) == 0
             if (column <= columns .and. .not. empty) then
                call read_number(field, samples%positions(column), samples%values(column, row), message)
-               if (len(message) > 0) call faults%add(path, line, '', '', 'column '//integer_text(column)//' ('// &
-                                                     varied_key_name(samples%positions(column))//'): '//message)
+               if (len(message) > 0) &
+                  call faults%add(path, line, '', '', 'column '//integer_text(column)//' ('// &
+                                  varied_key_name(samples%positions(column))//'): '//message)
             end if
             if (field%ends_line) exit
          end do
@@ -149,8 +154,8 @@ contains
          if (empty) then
             call faults%add(path, line, '', '', 'the line is empty; every line must hold one scene')
          else if (column /= columns) then
-            call faults%add(path, line, '', '', 'the line has '//integer_text(column)//' columns, the header '// &
-                            integer_text(columns))
+            call faults%add(path, line, '', '', 'the line has '//integer_text(column)// &
+                            ' columns, the header '//integer_text(columns))
          end if
          ! What comes after a full list of faults is not told anyway.
          if (faults%not_kept() > 0) return
@@ -190,7 +195,8 @@ contains
 
       name = word
       if (len(word) < 2) return
-      if (scan(word(1:1), '"'//"'") > 0 .and. word(1:1) == word(len(word):)) name = trim(adjustl(word(2:len(word) - 1)))
+      if (scan(word(1:1), '"'//"'") > 0 .and. word(1:1) == word(len(word):)) &
+         name = trim(adjustl(word(2:len(word) - 1)))
    end function unquoted
 
 end module csv_samples

@@ -61,7 +61,8 @@ contains
          ! Streams 1 to the number of dimensions made the orders.
          stream = int(size(point) + i, int64)
          place = shiftr(random_bits(hypercube%seed, stream, index), random_bit_count - place_digits)
-         point(i) = (real(stratum, dp) + scale(real(place, dp) + 0.5_dp, -place_digits))/real(hypercube%size, dp)
+         point(i) = (real(stratum, dp) + scale(real(place, dp) + 0.5_dp, &
+                                               -place_digits))/real(hypercube%size, dp)
       end do
    end subroutine hypercube_point
 

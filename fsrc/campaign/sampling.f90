@@ -4,12 +4,14 @@ module sampling
    use campaign_axis, only: axis_count, campaign_axis_t, check_axis, grid_value, spread_value
    use kinds, only: dp, int64
    use latin_hypercube, only: hypercube_point, largest_hypercube_size, latin_hypercube_t, new_latin_hypercube
-   use sobol_sequence, only: largest_dimension, largest_sobol_size, new_sobol_sequence, sobol_point, sobol_sequence_t
+   use sobol_sequence, only: largest_dimension, largest_sobol_size, new_sobol_sequence, sobol_point, &
+      sobol_sequence_t
    use text, only: integer_text
    implicit none(type, external)
    private
 
-   integer, parameter, public :: method_grid = 1, method_sobol = 2, method_latin_hypercube = 3, method_table = 4
+   integer, parameter, public :: method_grid = 1, method_sobol = 2, method_latin_hypercube = 3, &
+      method_table = 4
    !> Most axes of a full grid
    integer, parameter, public :: most_grid_axes = 6
 
@@ -49,7 +51,8 @@ contains
       call take_axes(axes, .true., plan, bad_axis, message)
       if (len(message) > 0) return
       if (size(axes) > most_grid_axes) then
-         message = 'a full grid varies '//integer_text(most_grid_axes)//' keys at most, here are '//integer_text(size(axes))
+         message = 'a full grid varies '//integer_text(most_grid_axes)//' keys at most, here are '// &
+            integer_text(size(axes))
          return
       end if
       plan%size = 1_int64
@@ -83,7 +86,8 @@ contains
       if (len(message) == 0) call take_size(scene_count, largest_sobol_size, plan, message)
       if (len(message) > 0) return
       if (size(axes) > largest_dimension) then
-         message = 'sobol varies '//integer_text(largest_dimension)//' keys at most, here are '//integer_text(size(axes))
+         message = 'sobol varies '//integer_text(largest_dimension)//' keys at most, here are '// &
+            integer_text(size(axes))
          return
       end if
       plan%sequence = new_sobol_sequence(size(axes), seed)
@@ -158,8 +162,8 @@ contains
       character(:), allocatable, intent(inout) :: message
 
       plan%size = scene_count
-      if (scene_count < 1_int64 .or. scene_count > largest) message = 'the size must be from 1 to '//integer_text(largest)// &
-                                                          ', it is '//integer_text(scene_count)
+      if (scene_count < 1_int64 .or. scene_count > largest) &
+         message = 'the size must be from 1 to '//integer_text(largest)//', it is '//integer_text(scene_count)
    end subroutine take_size
 
    !> Values of the varied keys in one scene.

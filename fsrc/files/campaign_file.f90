@@ -10,8 +10,8 @@
 !> at any moment leaves chunks that are whole or count as not done. The bytes of the finished file depend
 !> neither on the order of the chunks nor on the number of runs that it took.
 module campaign_file
-   use campaign_header, only: campaign_layout_t, campaign_places_t, check_same_campaign, find_places, header_front, &
-                              places_for
+   use campaign_header, only: campaign_layout_t, campaign_places_t, check_same_campaign, find_places, &
+                              header_front, places_for
    use checksum, only: checksum_of
    use errors, only: error_t, exit_bad_input, exit_system, raise
    use file_system, only: delete_file, first_bytes, path_exists, rename_file
@@ -82,7 +82,8 @@ contains
       if (stood) then
          call first_bytes(path, magic, got)
          if (got < len(magic) .or. magic /= result_magic) then
-            call raise(error, exit_bad_input, path//' exists and was not written by rattle; it is never replaced')
+            call raise(error, exit_bad_input, path// &
+                       ' exists and was not written by rattle; it is never replaced')
             return
          end if
          old%path = path
@@ -116,7 +117,8 @@ contains
       if (.not. allocated(error)) call self%file%synchronise(error)
       if (.not. allocated(error)) then
          call rename_file(new_path, path, moved)
-         if (.not. moved) call raise(error, exit_system, path//' cannot be written: '//new_path//' cannot be moved there')
+         if (.not. moved) call raise(error, exit_system, path//' cannot be written: '//new_path// &
+                                     ' cannot be moved there')
       end if
       if (allocated(error)) then
          call delete_file(new_path)
@@ -179,8 +181,9 @@ contains
 
       call self%file%lock(outcome)
       self%locked = outcome == lock_held
-      if (outcome == lock_refused) call raise(error, exit_bad_input, path//' is being written by another run; '// &
-                                              'wait for its end, or choose another name or output directory')
+      if (outcome == lock_refused) &
+         call raise(error, exit_bad_input, path//' is being written by another run; wait for its end, or '// &
+                    'choose another name or output directory')
    end subroutine take_lock
 
    !> Whether other runs are kept out; false on file systems without locks.
@@ -234,7 +237,8 @@ contains
          if (sound) cycle
          ! A closed file that turns out to be spoilt is open again.
          if (spoilt_chunks == 0_int64) call self%file%write_at(row_count_offset, [rows_unknown], error)
-         if (.not. allocated(error)) call self%file%write_at(self%places%checksum_place(chunk), [0_int64], error)
+         if (.not. allocated(error)) &
+            call self%file%write_at(self%places%checksum_place(chunk), [0_int64], error)
          if (allocated(error)) return
          self%checksums(chunk) = 0_int64
          spoilt_chunks = spoilt_chunks + 1_int64
@@ -297,7 +301,8 @@ contains
       end if
       sum_of_rows = checksum_of(rows)
       call self%file%write_at(self%places%row_place(first), rows, error)
-      if (.not. allocated(error)) call self%file%write_at(self%places%checksum_place(chunk), [sum_of_rows], error)
+      if (.not. allocated(error)) &
+         call self%file%write_at(self%places%checksum_place(chunk), [sum_of_rows], error)
       if (.not. allocated(error)) self%checksums(chunk) = sum_of_rows
    end subroutine write_chunk
 

@@ -51,13 +51,15 @@ contains
       !> What is computed
       type(campaign_layout_t), intent(in) :: layout
       type(campaign_places_t) :: places
+      integer(int64) :: table_end
 
       places%column_count = size(layout%names)
       places%chunk_rows = layout%chunk_rows
       places%chunk_count = (layout%scene_count - 1_int64)/layout%chunk_rows + 1_int64
       places%table = aligned_text_end(header_for(layout))
       places%checksums = places%table + table_start_bytes
-      places%first_row = ((places%checksums + word_bytes*places%chunk_count + alignment - 1_int64)/alignment)*alignment
+      table_end = places%checksums + word_bytes*places%chunk_count
+      places%first_row = ((table_end + alignment - 1_int64)/alignment)*alignment
    end function places_for
 
    !> Header of a new file up to the end of the input text.
@@ -104,8 +106,8 @@ contains
          call raise(error, exit_bad_input, path//' was begun with another input: '//difference// &
                     '; --overwrite begins anew')
       else if (header%version /= program_version) then
-         call raise(error, exit_bad_input, path//' was begun by version '//trim(header%version)//' of the program, this is '// &
-                    program_version//'; --overwrite begins anew')
+         call raise(error, exit_bad_input, path//' was begun by version '//trim(header%version)// &
+                    ' of the program, this is '//program_version//'; --overwrite begins anew')
       else if (size(header%names) /= size(layout%names)) then
          call raise(error, exit_bad_input, path//' was begun with other columns; --overwrite begins anew')
       else if (any(header%names /= layout%names) .or. any(header%units /= layout%units)) then
@@ -137,7 +139,8 @@ contains
       call file%read_at(places%table, magic, sound)
       if (sound) sound = magic == table_magic
       if (.not. sound) then
-         call raise(error, exit_bad_input, path//' is not the result of a campaign, it has no table of chunks')
+         call raise(error, exit_bad_input, path// &
+                    ' is not the result of a campaign, it has no table of chunks')
          return
       end if
       call file%read_at(places%table + len(table_magic), counts, sound)
@@ -148,7 +151,8 @@ contains
          places = places_for(stored)
          sound = counts(2) == places%chunk_count .and. header%header_bytes == places%first_row
       end if
-      if (.not. sound) call raise(error, exit_bad_input, path//' has a damaged table of chunks; --overwrite begins anew')
+      if (.not. sound) &
+         call raise(error, exit_bad_input, path//' has a damaged table of chunks; --overwrite begins anew')
    end subroutine find_places
 
    !> Place of the checksum of a chunk.
@@ -166,7 +170,7 @@ contains
       !> From 1
       integer(int64), intent(in) :: scene
 
-      row_place = self%first_row + word_bytes*self%column_count*(scene - 1_int64)
+      row_place = self%first_row + word_bytes*int(self%column_count, int64)*(scene - 1_int64)
    end function row_place
 
    !> Table of chunks before its checksums.
@@ -174,7 +178,8 @@ contains
       class(campaign_places_t), intent(in) :: self
       character(table_start_bytes) :: bytes
 
-      bytes = table_magic//transfer(self%chunk_rows, repeat(' ', 8))//transfer(self%chunk_count, repeat(' ', 8))
+      bytes = table_magic//transfer(self%chunk_rows, repeat(' ', 8))// &
+              transfer(self%chunk_count, repeat(' ', 8))
    end function table_start
 
 end module campaign_header

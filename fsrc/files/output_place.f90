@@ -9,7 +9,8 @@ module output_place
    implicit none(type, external)
    private
 
-   public :: result_path, profiles_path, state_path, summary_path, log_path, check_output_place
+   public :: result_path, profiles_path, state_path, summary_path, log_path, progress_path, check_output_place, &
+             check_folder
 
 contains
 
@@ -30,6 +31,15 @@ contains
 
       path = trim(scene%output%directory)//'/'//trim(scene%name)//'.profiles.rattle'
    end function profiles_path
+
+   !> Path of the progress of a campaign.
+   pure function progress_path(scene) result(path)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: path
+
+      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.progress.nml'
+   end function progress_path
 
    !> Path of the state from which a run can be carried on.
    pure function state_path(scene) result(path)
@@ -57,6 +67,22 @@ contains
 
       path = trim(scene%output%directory)//'/'//trim(scene%name)//'.log'
    end function log_path
+
+   !> Make the folder of a campaign; what may stand there already is for its file to say.
+   subroutine check_folder(scene, file, faults)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      logical :: made
+
+      call make_directory(trim(scene%output%directory), made)
+      if (made) made = is_writable(trim(scene%output%directory))
+      if (.not. made) call faults%add(file, 0, 'output', 'directory', "the folder '"//trim(scene%output%directory)// &
+                                      "' cannot be made or written")
+   end subroutine check_folder
 
    !> Make the folder if it is missing, and see that every file of the scene can be written there.
    subroutine check_output_place(scene, file, may_make, faults)

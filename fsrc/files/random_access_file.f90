@@ -1,8 +1,8 @@
 !> Files that are read and written at any place, by several threads at once as long as their places differ,
 !> with every failure seen. Thin calls of the C library.
 module random_access_file
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, &
-                                          c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_long, &
+                                          c_null_char, c_ptr, c_size_t
    use errors, only: error_t, exit_system, raise
    use kinds, only: dp, int64
    use system_error, only: error_words, interrupted_call, last_error, no_locks, no_such_call, not_supported
@@ -352,7 +352,8 @@ contains
 
       done = 0_int64
       do while (done < count)
-         got = c_pread(self%descriptor, bytes(done + 1_int64:), int(count - done, c_size_t), int(offset + done, c_long))
+         got = c_pread(self%descriptor, bytes(done + 1_int64:), int(count - done, c_size_t), &
+                       int(offset + done, c_long))
          if (got < 0_c_size_t) then
             if (last_error() == interrupted_call) cycle
          end if

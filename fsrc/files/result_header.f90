@@ -3,8 +3,8 @@ module result_header
    use errors, only: error_t, exit_bad_input, raise
    use kinds, only: int32, int64
    use random_access_file, only: random_access_file_t
-   use result_format, only: alignment, byte_order_mark, column_name_bytes, column_unit_bytes, fixed_header_bytes, &
-                            result_format_version, result_magic, rows_unknown
+   use result_format, only: alignment, byte_order_mark, column_name_bytes, column_unit_bytes, &
+                            fixed_header_bytes, result_format_version, result_magic, rows_unknown
    use text, only: integer_text
    use version, only: program_version
    implicit none(type, external)
@@ -36,9 +36,10 @@ contains
    pure integer(int64) function aligned_text_end(header)
       !> Its columns and input text are set
       type(result_header_t), intent(in) :: header
-      integer(int64) :: text_end
+      integer(int64) :: column_count, text_end
 
-      text_end = fixed_header_bytes + size(header%names, kind=int64)*(column_name_bytes + column_unit_bytes) + &
+      column_count = size(header%names, kind=int64)
+      text_end = fixed_header_bytes + column_count*(column_name_bytes + column_unit_bytes) + &
                  len(header%input_text, int64)
       aligned_text_end = ((text_end + alignment - 1_int64)/alignment)*alignment
    end function aligned_text_end
@@ -52,7 +53,8 @@ contains
 
       bytes = result_magic//int32_bytes(result_format_version)//int32_bytes(byte_order_mark)// &
               int64_bytes(header%header_bytes)//int64_bytes(header%row_count)// &
-              int32_bytes(size(header%names, kind=int32))//int32_bytes(len(header%input_text, int32))//header%version
+              int32_bytes(size(header%names, kind=int32))//int32_bytes(len(header%input_text, int32))// &
+              header%version
       do i = 1, size(header%names)
          bytes = bytes//header%names(i)//header%units(i)
       end do
@@ -72,6 +74,7 @@ contains
       character(fixed_header_bytes) :: fixed
       character(:), allocatable :: columns
       integer(int64) :: column_end, file_bytes
+      integer(int32) :: format_version
       integer :: i, column_count, text_bytes, width
       logical :: complete
 
@@ -80,9 +83,11 @@ contains
          call raise(error, exit_bad_input, path//' was not written by rattle, or only its beginning was')
          return
       end if
-      if (transfer(fixed(9:12), 0_int32) /= result_format_version .or. transfer(fixed(13:16), 0_int32) /= byte_order_mark) then
-         call raise(error, exit_bad_input, path//' has another format version or byte order than this program; version '// &
-                    integer_text(int(transfer(fixed(9:12), 0_int32)))//' stands in it')
+      format_version = transfer(fixed(9:12), 0_int32)
+      if (format_version /= result_format_version .or. &
+          transfer(fixed(13:16), 0_int32) /= byte_order_mark) then
+         call raise(error, exit_bad_input, path//' has another format version or byte order than this '// &
+                    'program; version '//integer_text(int(format_version))//' stands in it')
          return
       end if
       header%header_bytes = transfer(fixed(17:24), 0_int64)
@@ -93,7 +98,8 @@ contains
       width = column_name_bytes + column_unit_bytes
       column_end = fixed_header_bytes + int(max(column_count, 0), int64)*width
       file_bytes = file%bytes()
-      if (column_count < 1 .or. text_bytes < 0 .or. modulo(header%header_bytes, int(alignment, int64)) /= 0_int64 .or. &
+      if (column_count < 1 .or. text_bytes < 0 .or. &
+          modulo(header%header_bytes, int(alignment, int64)) /= 0_int64 .or. &
           header%header_bytes < column_end + text_bytes .or. header%header_bytes > file_bytes) then
          call raise(error, exit_bad_input, path//' has a damaged header: its sizes contradict each other')
          return

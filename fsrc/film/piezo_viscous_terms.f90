@@ -2,10 +2,11 @@
 !> exponentials at once or already know one nearby. (37) is the film-thickness regression (32) turned round.
 module piezo_viscous_terms
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
-   !> Exponents beyond this would overflow. The load is held there, far above the load by which the motion knows
+   !> Exponents beyond this would overflow. The load is held there, far above the load by which the motion
+   !> knows
    !> that the law has no value.
    real(dp), parameter, public :: largest_exponent = 550.0_dp
 
@@ -14,7 +15,8 @@ module piezo_viscous_terms
 contains
 
    !> Load of (37) and its slopes.
-   elemental subroutine piezo_viscous_terms_load(coefficient, rate, film, growth, load, load_by_film, load_by_velocity)
+   elemental subroutine piezo_viscous_terms_load(coefficient, rate, film, growth, load, load_by_film, &
+      load_by_velocity)
       !> Coefficient of h^(-7/2) [N m^(7/2)]
       real(dp), intent(in) :: coefficient
       !> 703/u [s/m]

@@ -72,10 +72,11 @@ contains
       integer(int64), intent(in) :: stream
       !> Any number
       integer(int64), intent(in) :: place
-      integer(int64) :: words(4)
+      integer(int64) :: words(4), counter(4), key(2)
 
-      words = philox_words([iand(place, low_half), shiftr(place, 32), iand(stream, low_half), shiftr(stream, 32)], &
-                           [iand(seed, low_half), shiftr(seed, 32)])
+      counter = [iand(place, low_half), shiftr(place, 32), iand(stream, low_half), shiftr(stream, 32)]
+      key = [iand(seed, low_half), shiftr(seed, 32)]
+      words = philox_words(counter, key)
       random_bits = ior(shiftl(words(1), random_bit_count - 32), shiftr(words(2), 64 - random_bit_count))
    end function random_bits
 

@@ -1,15 +1,16 @@
 !> Elementary functions for many scenes at once, one scene a lane.
 !>
 !> All lanes of a block go through the same vector instructions, written here as arithmetic and bit operations
-!> alone: a call of a vector library would treat the last lanes of a shorter block by scalar code, which differs
-!> in the last digit. So a scene gets the same bits in any lane, among any neighbours.
+!> alone: a call of a vector library would treat the last lanes of a shorter block by scalar code, which
+!> differs in the last digit. So a scene gets the same bits in any lane, among any neighbours.
 module lane_functions
    use constants, only: two_pi
    use kinds, only: dp, int64
    implicit none(type, external)
    private
 
-   !> Scenes in a block. A register holds 8 at most; two registers, interleaved, hide the latency of the arithmetic.
+   !> Scenes in a block. A register holds 8 at most; two registers, interleaved, hide the latency of the
+   !> arithmetic.
    integer, parameter, public :: lanes = 16
 
    !> 2^52 + 2^51: added and subtracted, it rounds to an integer, whose bits stand at the end of the sum.
@@ -91,8 +92,9 @@ contains
       end do
    end subroutine lane_exponential
 
-   !> Logarithm to the base 2 in units of 2^-20, plus 1023*2^20: the upper half of the bits of a number. Straight
-   !> between powers of two, so it is short of the logarithm by up to 0.086 octaves there. Zero gives 0.
+   !> Logarithm to the base 2 in units of 2^-20, plus 1023*2^20: the upper half of the bits of a number.
+   !> Straight between powers of two, so it is short of the logarithm by up to 0.086 octaves there. Zero gives
+   !> 0.
    elemental real(dp) function coarse_log(x)
       !> Not negative [-]
       real(dp), intent(in) :: x

@@ -1,37 +1,29 @@
 !> Motions of many scenes, a block of lanes at a time, each lane with its own time and step.
 !>
-!> A lane whose scene is done takes the next one; a lane without a scene rests. Every lane goes through the same
-!> instructions whatever its neighbours do, and no number of one lane enters another: a scene has the same bits
-!> alone, in any lane, in any company.
+!> A lane whose scene is done takes the next one; a lane without a scene rests. Every lane goes through the
+!> same instructions whatever its neighbours do, and no number of one lane enters another: a scene has the
+!> same bits alone, in any lane, in any company.
 !>
-!> The steps are Taylor series where the film law has one, or collocation. Taylor steps are explicit, and as short
-!> as the damping of the film makes them: a scene that needs too many of them in one period ends with
+!> The steps are Taylor series where the film law has one, or collocation. Taylor steps are explicit, and as
+!> short as the damping of the film makes them: a scene that needs too many of them in one period ends with
 !> status_not_converged at the start of that period, for collocation to go on.
 module lane_integration
    use collocation_step, only: take_collocation_step
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso
    use kinds, only: dp, int64
-   use lane_functions, only: lane_cosine_sine, lanes
+   use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
+   use lane_functions, only: lanes
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
    use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, load_scene, rest_lane, &
                           start_period, start_status, state_of_lane
    use period_repetition, only: note_state, orbit_watch_t, watch_from
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
-   use taylor_iso_viscous, only: iso_viscous_series
-   use taylor_reynolds_iso, only: reynolds_iso_series, reynolds_order
-   use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
-   use taylor_step_control, only: evaluate_series, lane_steps, momentum_weight, order, reynolds_share_rate, share_rate
+   use taylor_step_control, only: momentum_weight
    implicit none(type, external)
    private
 
    !> More Taylor steps in a period cost more than collocation; more steps of collocation lead nowhere.
    real(dp), parameter :: most_series_steps = 3000.0_dp, most_implicit_steps = 1.0e5_dp
-   !> A step in which the film changes by more than these factors is not trusted.
-   real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp, largest_film_ratio = 1.0e3_dp
-   !> Scaled film that is none any more, and damping rate that no Taylor step follows [1/periods].
-   real(dp), parameter :: lost_film = 1.0e-9_dp, largest_series_rate = 1.0e7_dp
-   !> Step that is too short to go on with [periods]
-   real(dp), parameter :: shortest_step = 1.0e-14_dp
    !> Share of the accuracy within which a motion counts as repeating.
    real(dp), parameter :: repetition_share = 0.3_dp
 
@@ -145,8 +137,10 @@ contains
          scene = queue(run%taken)
          status = start_status(scenes(scene))
          endings(scene) = lane_ending_t(status=status, film=scenes(scene)%initial_film, &
-                                        velocity=scenes(scene)%initial_velocity, implicit=.not. run%by_series, &
-                                        periods=scenes(scene)%periods_done, momentum=scenes(scene)%initial_momentum)
+                                        velocity=scenes(scene)%initial_velocity, &
+                                           implicit=.not. run%by_series, &
+                                        periods=scenes(scene)%periods_done, &
+                                           momentum=scenes(scene)%initial_momentum)
          if (status /= status_complete .or. request%periods <= scenes(scene)%periods_done) cycle
          call load_scene(scenes(scene), run%by_series, request%accuracy, lane, run%block)
          run%films(lane) = scenes(scene)%film
@@ -194,7 +188,8 @@ contains
          watch%momentum = block%momentum(lane, 0)
          if (request%until_steady .and. watch%period < watch%sample_from) then
             call note_state(watch%states, watch%film, watch%momentum, &
-                            momentum_weight(watch%film, block%damping_rate(lane), block%force(lane)), repetition_share*request%accuracy, orbit, distance)
+                            momentum_weight(watch%film, block%damping_rate(lane), block%force(lane)), &
+                               repetition_share*request%accuracy, orbit, distance)
             if (orbit > 0) then
                watch%ending%orbit = orbit
                watch%ending%distance = distance
@@ -250,85 +245,10 @@ contains
       integer, intent(in) :: lane
       type(lane_run_t), intent(in) :: run
 
-      in_trouble = .not. (run%block%limit(lane) > shortest_step .and. run%block%period_steps(lane) <= run%most_steps &
+      in_trouble = .not. (run%block%limit(lane) > shortest_step &
+         .and. run%block%period_steps(lane) <= run%most_steps &
                           .and. run%block%film(lane, 0) > lost_film &
                           .and. run%block%damping_rate(lane) < run%largest_rate)
    end function in_trouble
-
-   !> Series and steps of all lanes, and the states they lead to. A film that changes by some powers of ten in one
-   !> step is not trusted, nor is a series about a point of extreme damping. Conditions are numbers, 0 or 1, and their products: without branch and integer the loop
-   !> runs in full registers.
-   pure subroutine take_series_step(kernel, block)
-      !> Whose series
-      integer, intent(in) :: kernel
-      type(lane_block_t), intent(inout) :: block
-      real(dp) :: cosine(lanes), sine(lanes)
-      logical :: exact
-      integer :: l
-
-      call lane_cosine_sine(block%phase, cosine, sine)
-      !$omp simd
-      do l = 1, lanes
-         cosine(l) = block%amplitude(l)*cosine(l)
-         sine(l) = block%amplitude(l)*sine(l)
-         block%remaining(l) = 1.0_dp - block%phase(l)
-      end do
-      select case (kernel)
-      case (kernel_piezo)
-         call piezo_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
-                                   block%momentum, block%damping_rate)
-      case (kernel_half_pi)
-         call iso_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
-                                 block%momentum, block%damping_rate)
-      case default
-         call reynolds_iso_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
-                                  block%momentum, block%damping_rate)
-      end select
-      exact = kernel == kernel_reynolds_iso
-      call lane_steps(merge(reynolds_order, order, exact), merge(reynolds_share_rate, share_rate, exact), &
-                      block%accuracy, block%force, block%film, block%momentum, block%damping_rate, block%remaining, &
-                      block%limit, block%step)
-      call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
-      !$omp simd
-      do l = 1, lanes
-         block%trust(l) = merge(1.0_dp, 0.0_dp, block%next_film(l) > smallest_film_ratio*block%film(l, 0)) &
-            *merge(1.0_dp, 0.0_dp, block%next_film(l) < largest_film_ratio*block%film(l, 0)) &
-            *merge(1.0_dp, 0.0_dp, abs(block%next_momentum(l)) < huge(1.0_dp)) &
-            *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_series_rate)
-      end do
-      if (kernel == kernel_piezo) call distrust_load_from_nothing( &
-         block%strength, block%damping, block%force, block%accuracy, block%film, block%momentum, block%next_film, &
-         block%next_momentum, block%trust)
-   end subroutine take_series_step
-
-   !> Advance all lanes whose step is to be trusted; the others try again with a shorter one.
-   pure subroutine advance(most_steps, largest_rate, block, events)
-      !> Most steps in a period
-      real(dp), intent(in) :: most_steps
-      !> Largest damping rate [1/periods]
-      real(dp), intent(in) :: largest_rate
-      type(lane_block_t), intent(inout) :: block
-      !> Lanes that need attention: period ended, or trouble
-      integer, intent(out) :: events
-      real(dp) :: calm, quiet
-      integer :: l
-
-      quiet = 0.0_dp
-      !$omp simd private(calm) reduction(+: quiet)
-      do l = 1, lanes
-         block%film(l, 0) = merge(block%next_film(l), block%film(l, 0), block%trust(l) > 0.0_dp)
-         block%momentum(l, 0) = merge(block%next_momentum(l), block%momentum(l, 0), block%trust(l) > 0.0_dp)
-         block%limit(l) = merge(1.0_dp, 0.25_dp*block%step(l), block%trust(l) > 0.0_dp)
-         block%remaining(l) = merge(block%remaining(l) - block%step(l), 1.0_dp, block%trust(l) > 0.0_dp)
-         block%phase(l) = block%phase(l) + block%trust(l)*block%step(l)
-         block%period_steps(l) = block%period_steps(l) + 1.0_dp
-         calm = merge(1.0_dp, 0.0_dp, block%remaining(l) > 0.0_dp)*merge(1.0_dp, 0.0_dp, block%limit(l) > shortest_step) &
-            *merge(1.0_dp, 0.0_dp, block%period_steps(l) <= most_steps) &
-            *merge(1.0_dp, 0.0_dp, block%film(l, 0) > lost_film) &
-            *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_rate)
-         quiet = quiet + calm
-      end do
-      events = lanes - nint(quiet)
-   end subroutine advance
 
 end module lane_integration

@@ -1,12 +1,12 @@
-!> Motions of any number of scenes, error-controlled: Taylor series for the published film laws, collocation for all
-!> other laws and for scenes too stiff for explicit steps.
+!> Motions of any number of scenes, error-controlled: Taylor series for the published film laws, collocation
+!> for all other laws and for scenes too stiff for explicit steps.
 module lane_motions
    use film_law, only: film_load
    use kinds, only: dp
    use lane_integration, only: has_series, integrate_lanes
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use scene_status, only: status_film_lost, status_not_converged
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: solve_motions, accelerations
@@ -25,30 +25,32 @@ contains
       real(dp), contiguous, intent(inout) :: velocities(:, :)
       !> How the scenes ended
       type(lane_ending_t), intent(out) :: endings(:)
-      type(lane_scene_t) :: rest(size(scenes))
-      logical :: explicit(size(scenes)), left(size(scenes))
+      type(lane_scene_t), allocatable :: rest(:)
+      logical, allocatable :: explicit(:), left(:)
+      integer, allocatable :: number(:)
       integer :: i, first, kernel
-      integer :: number(size(scenes))
 
-      number = [(i, i=1, size(scenes))]
-      explicit = has_series(scenes%film) .and. .not. scenes%implicit
-      left = explicit
+      allocate (rest, source=scenes)
+      allocate (explicit(size(scenes)), left(size(scenes)), number(size(scenes)))
+      number(:) = [(i, i=1, size(scenes))]
+      explicit(:) = has_series(scenes%film) .and. .not. scenes%implicit
+      left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)
          kernel = scenes(first)%film%kernel
-         call integrate_lanes(.true., scenes, pack(number, left .and. scenes%film%kernel == kernel), request, films, &
-                              velocities, endings)
-         left = left .and. scenes%film%kernel /= kernel
+         call integrate_lanes(.true., scenes, pack(number, left .and. scenes%film%kernel == kernel), request, &
+                              films, velocities, endings)
+         left(:) = left .and. scenes%film%kernel /= kernel
       end do
 
-      rest = scenes
       do i = 1, size(scenes)
          left(i) = .not. explicit(i)
          if (left(i)) cycle
          left(i) = any(endings(i)%status == [status_not_converged, status_film_lost])
          if (left(i)) call go_on(endings(i), rest(i))
       end do
-      if (any(left)) call integrate_lanes(.false., rest, pack(number, left), request, films, velocities, endings)
+      if (any(left)) &
+         call integrate_lanes(.false., rest, pack(number, left), request, films, velocities, endings)
    end subroutine solve_motions
 
    !> The rest of a motion that Taylor series could not finish.

@@ -57,7 +57,8 @@ contains
       !> h [m] and z' [m/s] of all scenes: sample, scene
       real(dp), contiguous, intent(inout) :: films(:, :)
       real(dp), contiguous, intent(inout) :: velocities(:, :)
-      real(dp) :: x(lanes), film(lanes), momentum(lanes), velocity(lanes), inside(lanes), due_until(lanes), number
+      real(dp) :: x(lanes), film(lanes), momentum(lanes), velocity(lanes), inside(lanes), &
+         due_until(lanes), number
       integer :: l, due
 
       number = real(samples%per_period, dp)

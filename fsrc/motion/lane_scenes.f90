@@ -1,8 +1,9 @@
 !> Scenes as the lanes of a block: what is asked for, how it ends, and the scaled coefficients of every lane.
 !>
-!> Time is counted in periods of the force, x = f_exc t, within a period from 0 to 1, so the phase is as exact after
-!> hundreds of periods as in the first. The film is scaled by the power of two next to the reference film: scaling
-!> costs no digit, and a motion carried on from `film` and `momentum` of its ending goes on as if never stopped.
+!> Time is counted in periods of the force, x = f_exc t, within a period from 0 to 1, so the phase is as exact
+!> after hundreds of periods as in the first. The film is scaled by the power of two next to the reference
+!> film: scaling costs no digit, and a motion carried on from `film` and `momentum` of its ending goes on as
+!> if never stopped.
 module lane_scenes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use constants, only: pi
@@ -30,8 +31,8 @@ module lane_scenes
       !> h [m] and z' [m/s] at the start, which is the start of a period
       real(dp) :: initial_film = 0.0_dp
       real(dp) :: initial_velocity = 0.0_dp
-      !> A motion carried on: periods, momentum and method are those of its ending; the momentum stands for the
-      !> velocity
+      !> A motion carried on: periods, momentum and method are those of its ending; the momentum stands for
+      !> the velocity
       logical :: carried_on = .false.
       integer :: periods_done = 0
       logical :: implicit = .false.
@@ -97,8 +98,8 @@ module lane_scenes
       real(dp) :: slip(lanes)
       !> Damping rate at the state [1/periods]
       real(dp) :: damping_rate(lanes)
-      !> Collocation: next step proposed, last step taken [periods], polynomial of the acceleration in that step,
-      !> and whether the last try met a film that has no load
+      !> Collocation: next step proposed, last step taken [periods], polynomial of the acceleration in that
+      !> step, and whether the last try met a film that has no load
       real(dp) :: proposed(lanes), last_step(lanes), polynomial(lanes, stages)
       logical :: no_load(lanes)
       !> Steps of this period
@@ -132,7 +133,8 @@ contains
       start_status = status_film_lost
       if (.not. (ieee_is_finite(scene%initial_film) .and. ieee_is_finite(scene%initial_velocity))) return
       if (scene%initial_film <= 0.0_dp) return
-      call film_load(scene%film, scene%initial_film, scene%initial_velocity, load, load_by_film, load_by_velocity)
+      call film_load(scene%film, scene%initial_film, scene%initial_velocity, load, load_by_film, &
+         load_by_velocity)
       start_status = merge(status_complete, status_overflow, abs(load) < overflow_load)
    end function start_status
 

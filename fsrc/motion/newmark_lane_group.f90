@@ -1,6 +1,8 @@
-!> Scenes as the lanes of a group, for Newmark's method: coefficients and states of all scenes, scene by scene.
+!> Scenes as the lanes of a group, for Newmark's method: coefficients and states of all scenes, scene by
+!> scene.
 !>
-!> Time is counted in steps and force in the film that it moves in a step, so that the formulas of Newmark's method
+!> Time is counted in steps and force in the film that it moves in a step, so that the formulas of Newmark's
+!> method
 !> have no factors: with V = dt z', A = dt^2/4 z'' and the load L = dt^2/(4 m) W,
 !>
 !>    h_i = h_(i-1) + V_(i-1) + A_(i-1) + A_i ,   V_i = V_(i-1) + 2 (A_(i-1) + A_i) .
@@ -11,10 +13,11 @@ module newmark_lane_group
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, overflow_load
    use kinds, only: dp, int64
    use newmark, only: motion_state_t, newmark_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
-   !> Scenes of a group. So many hide the latency of divisions and roots, and their data stay in the nearest cache.
+   !> Scenes of a group. So many hide the latency of divisions and roots, and their data stay in the nearest
+   !> cache.
    !> A multiple of a cache line of numbers, so that every array of a group starts with one if the first does.
    integer, parameter, public :: lanes = 128
    !> Lanes are used in blocks of this many, a register at most, so that none is left to other instructions.
@@ -49,6 +52,8 @@ module newmark_lane_group
       real(dp) :: strength(lanes) = 0.0_dp
       !> Coefficient of the squeeze term of (35), of L and V, or the factor of V in the exponent of (37)
       real(dp) :: squeeze(lanes) = 0.0_dp
+      !> Factor of V in the exponent of (37) if its base is 2 [1/m]
+      real(dp) :: doubling_rate(lanes) = 0.0_dp
       !> Q + m g and F0, as L [m]
       real(dp) :: mean_force(lanes) = 0.0_dp
       real(dp) :: force_amplitude(lanes) = 0.0_dp
@@ -74,14 +79,16 @@ module newmark_lane_group
 
 contains
 
-   !> A group of resting lanes that starts with a cache line: registers as wide as a line are loaded at half the speed
+   !> A group of resting lanes that starts with a cache line: registers as wide as a line are loaded at half
+   !> the speed
    !> from anywhere else.
    subroutine place_group(room, group)
       !> Memory of the group
       real(dp), allocatable, target, intent(out) :: room(:)
       !> The group in it; lives as long as `room`, which has to be a target
       type(newmark_lane_group_t), pointer, intent(out) :: group
-      integer, parameter :: line_bytes = 64, number_bytes = storage_size(1.0_dp)/8, line = line_bytes/number_bytes
+      integer, parameter :: line_bytes = 64, number_bytes = storage_size(1.0_dp)/8, &
+         line = line_bytes/number_bytes
       integer :: numbers, skipped
 
       numbers = storage_size(newmark_lane_group_t())/storage_size(1.0_dp) + 1
@@ -91,7 +98,8 @@ contains
       group = newmark_lane_group_t()
    end subroutine place_group
 
-   !> Whether a scene can be solved in a lane: published film with a load in closed form, Newton's iteration from the
+   !> Whether a scene can be solved in a lane: published film with a load in closed form, Newton's iteration
+   !> from the
    !> extrapolated state.
    elemental logical function has_lanes(film, method)
       !> Its film
@@ -99,8 +107,8 @@ contains
       !> Its constants
       type(newmark_t), intent(in) :: method
 
-      has_lanes = (film%kernel == kernel_half_pi .or. film%kernel == kernel_piezo) .and. method%by_newton .and. &
-                  method%extrapolate .and. method%iteration_limit >= 2
+      has_lanes = (film%kernel == kernel_half_pi .or. film%kernel == kernel_piezo) .and. &
+         method%by_newton .and. method%extrapolate .and. method%iteration_limit >= 2
    end function has_lanes
 
    !> Put a scene into a lane.
@@ -123,6 +131,7 @@ contains
       if (group%kernel == kernel_piezo) then
          group%strength(lane) = film%piezo*film_by_force
          group%squeeze(lane) = film%rate/time_step
+         group%doubling_rate(lane) = group%squeeze(lane)/log(2.0_dp)
       else
          group%strength(lane) = film%rolling*film_by_force
          group%squeeze(lane) = film%squeeze*(film_by_force/time_step)
@@ -148,6 +157,7 @@ contains
       group%acceleration(lane) = 0.0_dp
       group%strength(lane) = 0.0_dp
       group%squeeze(lane) = 0.0_dp
+      group%doubling_rate(lane) = 0.0_dp
       group%mean_force(lane) = 0.0_dp
       group%force_amplitude(lane) = 0.0_dp
       group%largest_load(lane) = 1.0_dp

@@ -1,8 +1,11 @@
-!> Steps of Newmark's method for all lanes of a group at once: extrapolated first iterate, two Newton passes, then
+!> Steps of Newmark's method for all lanes of a group at once: extrapolated first iterate, two Newton passes,
+!> then
 !> the criterion of (36) lane by lane. Lanes that need more passes get them while the others wait, unchanged.
 !>
-!> A step is cut into loops over the lanes, short enough that the processor works on many lanes at once and never
-!> waits for a division. Every lane goes through the same instructions, and no number of one lane enters another.
+!> A step is cut into loops over the lanes, short enough that the processor works on many lanes at once and
+!> never
+!> waits for a division. Every lane goes through the same instructions, and no number of one lane enters
+!> another.
 module newmark_lane_steps
    use film_law, only: kernel_half_pi
    use kinds, only: dp, int64
@@ -10,7 +13,7 @@ module newmark_lane_steps
    use newmark_lane_group, only: lanes, newmark_lane_group_t, rest_lane
    use piezo_viscous_terms, only: piezo_viscous_terms_load
    use published_iso_viscous, only: half_pi_rupture_load
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> A step in which the film loses more than this factor, or goes to zero and below, fails.
@@ -61,7 +64,7 @@ contains
                                       step%known_velocity(l) + 2.0_dp*a, load, load_by_film, load_by_velocity)
             a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
             step%acceleration(l) = a
-            step%least(l) = merge(min(film, step%known_film(l) + a), 0.0_dp, load < group%largest_load(l))
+            step%least(l) = min(film, step%known_film(l) + a)
             step%film(l) = max(step%known_film(l) + a, step%smallest(l))
          end do
       end associate
@@ -81,8 +84,8 @@ contains
                                       step%known_velocity(l) + 2.0_dp*a, load, load_by_film, load_by_velocity)
             a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
             film = step%known_film(l) + a
-            step%margin(l) = min(group%tolerance(l) - abs(film - step%film(l)), group%largest_load(l) - load, &
-                                 min(film, step%least(l)) - step%smallest(l))
+            step%margin(l) = min(group%tolerance(l) - abs(film - step%film(l)), &
+               group%largest_load(l) - load, min(film, step%least(l)) - step%smallest(l))
             group%film(l) = film
             group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
             group%acceleration(l) = a
@@ -99,8 +102,8 @@ contains
       integer :: l
 
       associate (step => group%step)
-         call raise_lanes(group%squeeze(:group%used), group%velocity(:group%used), group%acceleration(:group%used), &
-                          step%growth(:group%used))
+         call raise_lanes(group%doubling_rate(:group%used), group%velocity(:group%used), &
+                          group%acceleration(:group%used), step%growth(:group%used))
          !$omp simd private(a, film, load, load_by_film, load_by_velocity)
          do l = 1, group%used
             a = group%acceleration(l)
@@ -113,13 +116,14 @@ contains
                                           step%growth(l), load, load_by_film, load_by_velocity)
             a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
             step%acceleration(l) = a
-            step%least(l) = merge(min(film, step%known_film(l) + a), 0.0_dp, load < group%largest_load(l))
+            step%least(l) = min(film, step%known_film(l) + a)
             step%film(l) = max(step%known_film(l) + a, step%smallest(l))
          end do
       end associate
    end subroutine first_piezo_pass
 
-   !> Second pass, film (37). The exponent has hardly changed since the first one; where it has, the step is not settled.
+   !> Second pass, film (37). The exponent has hardly changed since the first one; where it has, the step is
+   !> not settled.
    pure subroutine second_piezo_pass(group)
       type(newmark_lane_group_t), intent(inout) :: group
       real(dp) :: a, film, load, load_by_film, load_by_velocity, change
@@ -131,11 +135,13 @@ contains
             a = step%acceleration(l)
             change = 2.0_dp*group%squeeze(l)*(group%acceleration(l) - a)
             call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), step%film(l), &
-                                          step%growth(l)*near_exponential(change), load, load_by_film, load_by_velocity)
+                                          step%growth(l)*near_exponential(change), load, load_by_film, &
+                                          load_by_velocity)
             a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
             film = step%known_film(l) + a
-            step%margin(l) = min(group%tolerance(l) - abs(film - step%film(l)), group%largest_load(l) - load, &
-                                 min(film, step%least(l)) - step%smallest(l), nearness - abs(change))
+            step%margin(l) = min(group%tolerance(l) - abs(film - step%film(l)), &
+               group%largest_load(l) - load, min(film, step%least(l)) - step%smallest(l), &
+               nearness - abs(change))
             group%film(l) = film
             group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
             group%acceleration(l) = a
@@ -177,10 +183,12 @@ contains
             call load_lanes(group, step%growth, load, load_by_film, load_by_velocity)
             do l = 1, group%used
                if (step%margin(l) > 0.0_dp) cycle
-               a = corrected(group%acceleration(l), load(l), load_by_film(l), load_by_velocity(l), step%force(l))
+               a = corrected(group%acceleration(l), load(l), load_by_film(l), load_by_velocity(l), &
+                  step%force(l))
                film = step%known_film(l) + a
                step%least(l) = merge(min(film, step%least(l)), 0.0_dp, load(l) < group%largest_load(l))
-               step%margin(l) = min(group%tolerance(l) - abs(film - group%film(l)), step%least(l) - step%smallest(l))
+               step%margin(l) = min(group%tolerance(l) - abs(film - group%film(l)), &
+                  step%least(l) - step%smallest(l))
                group%film(l) = film
                group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
                group%acceleration(l) = a
@@ -212,7 +220,7 @@ contains
          end do
       else
          still = 0.0_dp
-         call raise_lanes(group%squeeze(:group%used), group%velocity(:group%used), still(:group%used), &
+         call raise_lanes(group%doubling_rate(:group%used), group%velocity(:group%used), still(:group%used), &
                           growth(:group%used))
          !$omp simd
          do l = 1, group%used
@@ -233,7 +241,8 @@ contains
       !> Force [m]
       real(dp), intent(in) :: force
 
-      corrected = acceleration + (load - force - acceleration)/((1.0_dp - load_by_film) - 2.0_dp*load_by_velocity)
+      corrected = acceleration + (load - force - acceleration)/ &
+         ((1.0_dp - load_by_film) - 2.0_dp*load_by_velocity)
    end function corrected
 
 end module newmark_lane_steps

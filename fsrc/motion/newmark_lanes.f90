@@ -1,20 +1,24 @@
-!> Motions of many scenes by Newmark's method, a scene a lane. All scenes of a call have the same number of steps a
+!> Motions of many scenes by Newmark's method, a scene a lane. All scenes of a call have the same number of
+!> steps a
 !> period; film law, forces, frequency and tolerance are each scene's own.
 !>
-!> A period in which a step of a lane fails is solved again alone, by module newmark, which can cut steps; so is every
-!> period of a scene that has no lane. No number of one scene enters another: a scene has the same bits alone, in any
-!> lane, among any neighbours. Against the scalar steps the last digits differ: here every step has at least two passes.
+!> A period in which a step of a lane fails is solved again alone, by module newmark, which can cut steps; so
+!> is every
+!> period of a scene that has no lane. No number of one scene enters another: a scene has the same bits alone,
+!> in any
+!> lane, among any neighbours. Against the scalar steps the last digits differ: here every step has at least
+!> two passes.
 module newmark_lanes
    use constants, only: two_pi
    use film_law, only: film_load, film_t
    use forcing, only: force_of_period
    use kinds, only: dp, int64
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
-   use newmark_lane_group, only: block_lanes, has_lanes, lane_state, lanes, load_lane, newmark_lane_group_t, place_group, &
-                                 rest_lane
+   use newmark_lane_group, only: block_lanes, has_lanes, lane_state, lanes, load_lane, newmark_lane_group_t, &
+      place_group, rest_lane
    use newmark_lane_steps, only: advance_lanes
    use scene_status, only: status_complete
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> One scene.
@@ -68,25 +72,27 @@ contains
       !> How they ended
       type(newmark_lane_ending_t), intent(out) :: endings(:)
       integer, allocatable :: queue(:)
+      real(dp), allocatable :: cosine(:)
       real(dp), allocatable, target :: room(:)
       type(newmark_lane_group_t), pointer :: group
-      real(dp) :: cosine(request%steps_per_period)
       integer :: i, first, last
 
       call place_group(room, group)
-      cosine = [(cos(two_pi*(real(i, dp)/real(size(cosine), dp))), i=1, size(cosine))]
+      cosine = [(cos(two_pi*(real(i, dp)/real(request%steps_per_period, dp))), i=1, request%steps_per_period)]
       do i = 1, size(scenes)
          associate (scene => scenes(i), ending => endings(i))
-            call start_motion(film_load, scene%film, scene%method, scene%thickness, scene%velocity, ending%state, &
-                              ending%count, ending%status)
+            call start_motion(film_load, scene%film, scene%method, scene%thickness, scene%velocity, &
+                              ending%state, ending%count, ending%status)
             if (has_lanes(scene%film, scene%method)) cycle
             do while (ending%status == status_complete .and. ending%periods < request%periods)
-               call solve_period_alone(scene, request, films(:, i), velocities(:, i), accelerations(:, i), ending)
+               call solve_period_alone(scene, request, films(:, i), velocities(:, i), accelerations(:, i), &
+                                       ending)
             end do
          end associate
       end do
 
-      queue = pack([(i, i=1, size(scenes))], endings%status == status_complete .and. endings%periods < request%periods)
+      queue = pack([(i, i=1, size(scenes))], endings%status == status_complete .and. &
+         endings%periods < request%periods)
       first = 1
       do while (first <= size(queue))
          ! As many as fit and have the law of the first.
@@ -95,7 +101,8 @@ contains
             if (scenes(queue(last + 1))%film%kernel /= scenes(queue(first))%film%kernel) exit
             last = last + 1
          end do
-         call solve_group(scenes, queue(first:last), request, cosine, group, films, velocities, accelerations, endings)
+         call solve_group(scenes, queue(first:last), request, cosine, group, films, velocities, &
+                          accelerations, endings)
          first = last + 1
       end do
    end subroutine solve_newmark_lanes
@@ -159,7 +166,8 @@ contains
          integer, intent(in) :: lane
 
          associate (scene => scenes(members(lane)))
-            call load_lane(group, lane, scene%film, scene%method, time_step(lane), endings(members(lane))%state)
+            call load_lane(group, lane, scene%film, scene%method, time_step(lane), &
+                           endings(members(lane))%state)
          end associate
       end subroutine load
 
@@ -173,9 +181,10 @@ contains
                ending%periods = ending%periods + 1
                ending%count%steps = ending%count%steps + int(size(cosine), int64)
                ending%count%evaluations = ending%count%evaluations + 2_int64*int(size(cosine), int64) + &
-                                          group%further_passes(lane)
+                  group%further_passes(lane)
             else
-               call solve_period_alone(scenes(i), request, films(:, i), velocities(:, i), accelerations(:, i), ending)
+               call solve_period_alone(scenes(i), request, films(:, i), velocities(:, i), &
+                                       accelerations(:, i), ending)
                if (ending%status == status_complete) call load(lane)
             end if
             group%further_passes(lane) = 0_int64
@@ -193,12 +202,14 @@ contains
       real(dp), contiguous, intent(inout) :: velocities(:)
       real(dp), contiguous, intent(inout) :: accelerations(:)
       type(newmark_lane_ending_t), intent(inout) :: ending
-      real(dp), dimension(request%steps_per_period) :: force, all_films, all_velocities, all_accelerations
+      real(dp), allocatable, dimension(:) :: force, all_films, all_velocities, all_accelerations
       integer :: done, first, last, stride
 
+      allocate (force(request%steps_per_period))
+      allocate (all_films, all_velocities, all_accelerations, mold=force)
       call force_of_period(scene%method%steady_force, scene%method%force_amplitude, force)
-      call advance_period(film_load, scene%film, scene%method, force, ending%state, ending%count, all_films, all_velocities, &
-                          all_accelerations, done, ending%status)
+      call advance_period(film_load, scene%film, scene%method, force, ending%state, ending%count, all_films, &
+                          all_velocities, all_accelerations, done, ending%status)
       if (ending%status /= status_complete) return
       ending%periods = ending%periods + 1
       ending%periods_alone = ending%periods_alone + 1
@@ -218,8 +229,9 @@ contains
       type(newmark_lane_request_t), intent(in) :: request
 
       first_sample_of = 0
-      if (period > request%periods - request%sampled_periods) first_sample_of = &
-         (period - 1 - (request%periods - request%sampled_periods))*request%samples_per_period + 1
+      if (period > request%periods - request%sampled_periods) &
+         first_sample_of = (period - 1 - (request%periods - &
+         request%sampled_periods))*request%samples_per_period + 1
    end function first_sample_of
 
 end module newmark_lanes

@@ -1,14 +1,14 @@
 !> Tells when a motion repeats, from its states at the ends of the periods of the force.
 !>
-!> The states x_n follow from one another by one map, the same for every period. With d_n the distance of x_n from
-!> x_(n-p), and q a bound of the ratios of successive d, the motion is still
+!> The states x_n follow from one another by one map, the same for every period. With d_n the distance of x_n
+!> from x_(n-p), and q a bound of the ratios of successive d, the motion is still
 !>
 !>     d_(n+p) + d_(n+2p) + ... <= d_n q/(1 - q)
 !>
-!> away from the one that repeats after p periods. It counts as repeating once that is below the tolerance. A small
-!> d_n alone proves nothing: a film that rises ever more slowly for hundreds of periods has q near one, and its
-!> bound stays large. q is the largest ratio of several; a single small one may be chance, as a state computed with
-!> one step more than the one before is off by up to the accuracy.
+!> away from the one that repeats after p periods. It counts as repeating once that is below the tolerance. A
+!> small d_n alone proves nothing: a film that rises ever more slowly for hundreds of periods has q near one,
+!> and its bound stays large. q is the largest ratio of several; a single small one may be chance, as a state
+!> computed with one step more than the one before is off by up to the accuracy.
 module period_repetition
    use kinds, only: dp
    use taylor_step_control, only: film_weight
@@ -139,7 +139,8 @@ contains
 
       i = modulo(watch%newest - back_1, kept)
       j = modulo(watch%newest - back_2, kept)
-      apart = max(abs(watch%film(i) - watch%film(j)), abs(watch%momentum(i) - watch%momentum(j))*momentum_weight) &
+      apart = max(abs(watch%film(i) - watch%film(j)), abs(watch%momentum(i) &
+         - watch%momentum(j))*momentum_weight) &
          /film_weight(watch%film(i))
    end function apart
 

@@ -4,8 +4,8 @@
 !>
 !>     H'' = a/H - b H' H^(-3/2) - q - f cos(2 pi x)
 !>
-!> (a: rolling, b: squeeze, q: static load, f: force amplitude, all in units of m h_s f_exc^2). The squeeze term
-!> is an exact derivative: with r = H^(-1/2) it is 2 b r'. In Lienard's form, V = H' - 2 b r,
+!> (a: rolling, b: squeeze, q: static load, f: force amplitude, all in units of m h_s f_exc^2). The squeeze
+!> term is an exact derivative: with r = H^(-1/2) it is 2 b r'. In Lienard's form, V = H' - 2 b r,
 !>
 !>     H' = V + 2 b r ,   V' = a p - q - f cos(2 pi x) ,   p = 1/H = r**2
 !>
@@ -14,8 +14,8 @@
 !>     (k+1) H_(k+1) = V_k + 2 b r_k                     p_k = -(sum of H_j p_(k-j), j = 1..k)/H_0
 !>     (k+1) V_(k+1) = a p_k - q - f cos_k               r_k = (p_k - sum of r_j r_(k-j), j = 1..k-1)/(2 r_0)
 !>
-!> V stays well-conditioned however heavy the damping: there H' is the small difference of V and -2 b r, but the
-!> film depends on V alone.
+!> V stays well-conditioned however heavy the damping: there H' is the small difference of V and -2 b r, but
+!> the film depends on V alone.
 module taylor_iso_viscous
    use constants, only: two_pi
    use kinds, only: dp
@@ -27,7 +27,8 @@ module taylor_iso_viscous
    integer :: i
    !> 1/k
    real(dp), parameter :: inverse(order) = [(1.0_dp/real(i, dp), i=1, order)]
-   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2 pi x0.
+   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2
+   !> pi x0.
    real(dp), parameter :: wave(order) = &
       [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
 
@@ -36,7 +37,8 @@ module taylor_iso_viscous
 contains
 
    !> Coefficients 1 to `order` of H and V, and the damping rate.
-   pure subroutine iso_viscous_series(rolling, squeeze, load, force_cosine, force_sine, film, momentum, damping_rate)
+   pure subroutine iso_viscous_series(rolling, squeeze, load, force_cosine, force_sine, film, momentum, &
+      damping_rate)
       !> a [-]
       real(dp), intent(in) :: rolling(lanes)
       !> 2 b [-]
@@ -71,8 +73,8 @@ contains
          p(l, 1) = minus_p(l)*(film(l, 1)*p(l, 0))
          r(l, 1) = both(l)*(film(l, 1)*p(l, 0))
       end do
-      ! The products with the newest coefficients come last: all others can be summed while those are still under
-      ! way. Unrolled, all coefficients of a lane live in registers.
+      ! The products with the newest coefficients come last: all others can be summed while those are still
+      ! under way. Unrolled, all coefficients of a lane live in registers.
       !GCC$ unroll 24
       do k = 2, order - 1
          !$omp simd private(product, square)
@@ -98,7 +100,8 @@ contains
       !$omp simd
       do l = 1, lanes
          film(l, order) = inverse(order)*(momentum(l, order - 1) + squeeze(l)*r(l, order - 1))
-         momentum(l, order) = (inverse(order)*rolling(l))*p(l, order - 1) - wave(order)*force(l, mod(order - 1, 2))
+         momentum(l, order) = (inverse(order)*rolling(l))*p(l, order - 1) - wave(order)*force(l, mod(order &
+            - 1, 2))
       end do
    end subroutine iso_viscous_series
 

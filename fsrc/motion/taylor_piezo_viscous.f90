@@ -25,7 +25,8 @@ module taylor_piezo_viscous
    integer :: i
    !> 1/k
    real(dp), parameter :: inverse(order) = [(1.0_dp/real(i, dp), i=1, order)]
-   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2 pi x0.
+   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2
+   !> pi x0.
    real(dp), parameter :: wave(order) = &
       [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
 
@@ -33,8 +34,8 @@ module taylor_piezo_viscous
    !> nothing [octaves]
    real(dp), parameter :: most_growth = 20.0_dp, negligible = -8.0_dp
 
-   !> Damping beyond this would overflow the coefficients [1/periods]. The load of such a lane is held there; its
-   !> damping rate, which is told as it is, keeps the series from being used.
+   !> Damping beyond this would overflow the coefficients [1/periods]. The load of such a lane is held there;
+   !> its damping rate, which is told as it is, keeps the series from being used.
    real(dp), parameter :: largest_rate = 1.0e14_dp
 
    public :: piezo_viscous_series, distrust_load_from_nothing
@@ -42,7 +43,8 @@ module taylor_piezo_viscous
 contains
 
    !> Coefficients 1 to `order` of H and V, and the damping rate.
-   pure subroutine piezo_viscous_series(strength, rate, load, force_cosine, force_sine, film, momentum, damping_rate)
+   pure subroutine piezo_viscous_series(strength, rate, load, force_cosine, force_sine, film, momentum, &
+      damping_rate)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
       !> c [periods]
@@ -81,8 +83,8 @@ contains
          g(l, 0) = -3.5_dp*y(l, 0) - rate(l)*momentum(l, 1)
          s(l, 1) = s(l, 0)*g(l, 0)
       end do
-      ! The products with the newest coefficients come last: all others can be summed while those are still under
-      ! way. Unrolled, all coefficients of a lane live in registers.
+      ! The products with the newest coefficients come last: all others can be summed while those are still
+      ! under way. Unrolled, all coefficients of a lane live in registers.
       !GCC$ unroll 24
       do k = 2, order - 1
          !$omp simd private(product)
@@ -111,10 +113,11 @@ contains
       end do
    end subroutine piezo_viscous_series
 
-   !> Take back the trust in steps at whose end the film carries a load that the series could not foresee. A tooth
-   !> on its way up meets a load smaller than exp(-100) times the forces; its coefficients vanish beside theirs.
-   !> When the tooth comes back down, the load grows by the same factor, all of it within one step of free fall.
-   !> Logarithms to the base 2 of the load over the force tell it: log2(S/P) = log2(a/P) - 7/2 log2 H - c V/ln 2.
+   !> Take back the trust in steps at whose end the film carries a load that the series could not foresee. A
+   !> tooth on its way up meets a load smaller than exp(-100) times the forces; its coefficients vanish beside
+   !> theirs. When the tooth comes back down, the load grows by the same factor, all of it within one step of
+   !> free fall. Logarithms to the base 2 of the load over the force tell it: log2(S/P) = log2(a/P) - 7/2 log2
+   !> H - c V/ln 2.
    pure subroutine distrust_load_from_nothing(strength, rate, force, accuracy, film, momentum, next_film, &
                                               next_momentum, trust)
       !> a [-]

@@ -4,13 +4,14 @@
 !>
 !>     H' = V ,   V' = a p Phi(A) - q - f cos(2 pi x) ,   p = 1/H ,   A = c V r ,   r = H^(-1/2) .
 !>
-!> Phi has no closed form in A, but its parts obey simple equations along the motion. With the rupture angle x_e,
-!> t = tan x_e, s = cos(x_e)**2, K = integral of cos**4 up to x_e, m = s**2/(4 K), P = x_e + pi/2 + t s:
+!> Phi has no closed form in A, but its parts obey simple equations along the motion. With the rupture angle
+!> x_e, t = tan x_e, s = cos(x_e)**2, K = integral of cos**4 up to x_e, m = s**2/(4 K), P = x_e + pi/2 + t s:
 !>
 !>     Phi = s/4 - A P/8                                      load, eq (21) corrected
 !>     (2 t + A) t' = -(m + t) A'                             eq (18) differentiated
 !>
-!> The second is (t**2 + A t)' = -m A'. With o = 2 t + A > 0 this becomes, and the rest follows by the chain rule,
+!> The second is (t**2 + A t)' = -m A'. With o = 2 t + A > 0 this becomes, and the rest follows by the chain
+!> rule,
 !>
 !>     (o**2)' = (2 A - 4 m) A' ,   t = (o - A)/2 ,   s (1 + t**2) = 1 ,
 !>     x_e' = s t' ,   m' = -4 x_e' m (m + t) ,   P' = 2 s x_e' .
@@ -28,17 +29,19 @@ module taylor_reynolds_iso
    use iso_viscous_coefficients, only: coordinate_scale, load_slope_table, tangent_slope_table, tangent_table
    use iso_viscous_sums, only: locate_block, sum_block
    use taylor_step_control, only: order
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer :: i
    !> 1/k
    real(dp), parameter :: inverse(order) = [(1.0_dp/real(i, dp), i=1, order)]
-   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2 pi x0.
+   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2
+   !> pi x0.
    real(dp), parameter :: wave(order) = &
       [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
 
-   !> Order of this series: its coefficients are dearer than those of the published films, so a lower one is best.
+   !> Order of this series: its coefficients are dearer than those of the published films, so a lower one is
+   !> best.
    integer, parameter, public :: reynolds_order = 12
 
    public :: reynolds_iso_series
@@ -74,7 +77,8 @@ contains
    end subroutine rupture_states
 
    !> Coefficients 1 to `reynolds_order` of H and V, and the damping rate.
-   pure subroutine reynolds_iso_series(strength, rate, load, force_cosine, force_sine, film, momentum, damping_rate)
+   pure subroutine reynolds_iso_series(strength, rate, load, force_cosine, force_sine, film, momentum, &
+      damping_rate)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
       !> c [periods]
@@ -90,7 +94,8 @@ contains
       real(dp), intent(inout) :: momentum(lanes, 0:order)
       !> -dV'/dV [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
-      real(dp), dimension(lanes, 0:reynolds_order) :: p, r, group, group_slope, square, opening, tangent, tangent_slope, tau, s
+      real(dp), dimension(lanes, 0:reynolds_order) :: p, r, group, group_slope, square, opening, tangent, &
+         tangent_slope, tau, s
       real(dp), dimension(lanes, 0:reynolds_order) :: angle_slope, share, width, both_parts, y, phi, w
       real(dp) :: force(lanes, 0:1), both(lanes), half_root(lanes), half_opening(lanes)
       real(dp) :: sum, half

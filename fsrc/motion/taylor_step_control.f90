@@ -1,20 +1,21 @@
 !> Step size of the Taylor series and its evaluation, for a block of lanes.
 !>
-!> Local error. Two unknowns are advanced, the scaled film H = h/h_s (h_s: the film that carries the static load)
-!> and a momentum V whose x-derivative is the sum of the forces. A momentum that is off by e moves the film by
-!> about e/(g + d): d is the damping rate, within 1/d the film forgets the momentum, and g one over the time it
-!> can act where there is no damping, taken as half a period. The same error changes the load by d e; where that is
-!> much, the film law is not linear any more in e, and the acceleration is lost: it is held below 100 times the
-!> accuracy, in units of the force P = q + f. So the size of a term of the series is
+!> Local error. Two unknowns are advanced, the scaled film H = h/h_s (h_s: the film that carries the static
+!> load) and a momentum V whose x-derivative is the sum of the forces. A momentum that is off by e moves the
+!> film by about e/(g + d): d is the damping rate, within 1/d the film forgets the momentum, and g one over
+!> the time it can act where there is no damping, taken as half a period. The same error changes the load by d
+!> e; where that is much, the film law is not linear any more in e, and the acceleration is lost: it is held
+!> below 100 times the accuracy, in units of the force P = q + f. So the size of a term of the series is
 !>
 !>     max(|H_k|, |V_k| max(1/(2 + d), d w/(100 P))) x^k
 !>
-!> and it is held against accuracy*w, w = H/(1 + H**2). For thin films that is the relative accuracy of the film. A thick
-!> film falls freely and an error of H is an error of the time of impact, which returns magnified in the thin
-!> film that follows: H**2 stands for that. Without either of the two, a tooth thrown to 8 h_s has errors 1000
-!> times the accuracy; with them the error stays close to it whatever the force.
+!> and it is held against accuracy*w, w = H/(1 + H**2). For thin films that is the relative accuracy of the
+!> film. A thick film falls freely and an error of H is an error of the time of impact, which returns
+!> magnified in the thin film that follows: H**2 stands for that. Without either of the two, a tooth thrown to
+!> 8 h_s has errors 1000 times the accuracy; with them the error stays close to it whatever the force.
 !>
-!> Errors add up: a step may use up the share of it that its length has in a period, and no less than rounding.
+!> Errors add up: a step may use up the share of it that its length has in a period, and no less than
+!> rounding.
 !>
 !> The step is the smaller of those that bring the terms of order n and n-1 to that size (Jorba and Zou 2005).
 module taylor_step_control
@@ -23,12 +24,12 @@ module taylor_step_control
    implicit none(type, external)
    private
 
-   !> Highest order n of the series. For the published films it is the cheapest for accuracies from 1e-5 to 1e-11, at
-   !> most a tenth dearer than the best order.
+   !> Highest order n of the series. For the published films it is the cheapest for accuracies from 1e-5 to
+   !> 1e-11, at most a tenth dearer than the best order.
    integer, parameter, public :: order = 14
 
-   !> Share of the accuracy that a step of length x may use up is x times this; found by trial, for the published
-   !> films and the exact one [1/periods].
+   !> Share of the accuracy that a step of length x may use up is x times this; found by trial, for the
+   !> published films and the exact one [1/periods].
    real(dp), parameter, public :: share_rate = 4.0_dp, reynolds_share_rate = 12.0_dp
    !> Error that is rounding alone.
    real(dp), parameter :: rounding = 2.0_dp*epsilon(1.0_dp)
@@ -44,9 +45,10 @@ module taylor_step_control
 
 contains
 
-   !> Step of every lane. The last steps of a period are cut so that its end is hit, two of equal length rather
-   !> than a long and a short one.
-   pure subroutine lane_steps(last_order, share, accuracy, force, film, momentum, damping_rate, remaining, limit, step)
+   !> Step of every lane. The last steps of a period are cut so that its end is hit, two of equal length
+   !> rather than a long and a short one.
+   pure subroutine lane_steps(last_order, share, accuracy, force, film, momentum, damping_rate, &
+      remaining, limit, step)
       !> Order n of the series
       integer, intent(in) :: last_order
       !> Share of the accuracy that a step may use up, over its length [1/periods]
@@ -102,7 +104,8 @@ contains
       !> P of the header [-]
       real(dp), intent(in) :: force
 
-      momentum_weight = max(1.0_dp/(free_rate + damping_rate), damping_rate*film_weight(film)/(load_error*force))
+      momentum_weight = max(1.0_dp/(free_rate + damping_rate), &
+         damping_rate*film_weight(film)/(load_error*force))
    end function momentum_weight
 
    !> Sum of two series. Even and odd powers go apart: four short chains instead of two long ones.

@@ -1,4 +1,4 @@
-!> All scenes of a call: everything is read and checked before anything runs.
+!> All scenes of a call: everything is checked before anything runs.
 module batch
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use checkpoint, only: checkpoint_t
@@ -19,26 +19,22 @@ module batch
    implicit none(type, external)
    private
 
-   public :: run_batch, print_faults
+   public :: run_batch, print_faults, input_name
 
 contains
 
-   !> Read, check and run the scenes of a call.
-   subroutine run_batch(command, exit_code)
+   !> Check and run the scenes of a call.
+   subroutine run_batch(command, scenes, exit_code)
       !> What the arguments ask for
       type(command_t), intent(in) :: command
+      !> The scenes of its files
+      type(scene_t), intent(in) :: scenes(:)
       !> Exit code of the program
       integer, intent(out) :: exit_code
-      type(scene_t), allocatable :: scenes(:)
       type(fault_list_t) :: faults
-      integer :: i
 
       exit_code = exit_complete
-      allocate (scenes(size(command%files)))
-      do i = 1, size(scenes)
-         call read_scene(command%files(i)%text, command%overrides, scenes(i), faults)
-      end do
-      if (faults%count() == 0) call check_names(command, scenes, faults)
+      call check_names(command, scenes, faults)
       if (.not. command%check) then
          ! Look first, make folders after, so that a fault in one scene leaves nothing behind for another.
          if (faults%count() == 0) call check_places(command, scenes, .false., faults)

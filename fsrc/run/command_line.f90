@@ -18,6 +18,8 @@ module command_line
       type(override_t), allocatable :: overrides(:)
       logical :: check = .false., template = .false., page = .false., resume = .false., quiet = .false.
       logical :: version = .false., help = .false.
+      !> Threads of a campaign, 0: as many as there are cores
+      integer :: threads = 0
       !> Group of --template, empty for all
       character(:), allocatable :: template_group
    end type command_t
@@ -67,6 +69,8 @@ contains
                command%resume = .true.
                ! What is carried on is replaced by what it becomes.
                call add_override('output.overwrite=.true.', argument)
+            case ('--threads')
+               if (value_follows()) call read_threads()
             case ('--overwrite')
                call add_override('output.overwrite=.true.', argument)
             case ('--template')
@@ -97,6 +101,18 @@ contains
             call faults%add(argument, 0, '', '', 'a value must follow this option')
          end if
       end function value_follows
+
+      !> A positive number of threads.
+      subroutine read_threads()
+         integer :: stat
+
+         associate (text => argument_text(i))
+            stat = merge(0, 1, verify(text, '0123456789') == 0 .and. len(text) > 0 .and. len(text) < 6)
+            if (stat == 0) read (text, *, iostat=stat) command%threads
+            if (stat /= 0 .or. command%threads < 1) call faults%add(argument//' '//text, 0, '', '', &
+                                                                    'a positive number of threads is needed')
+         end associate
+      end subroutine read_threads
 
       !> Turn group.key=value into namelist text.
       subroutine add_override(setting, source)
@@ -156,6 +172,7 @@ contains
              '  --set group.key=value  override a key in every file; may be repeated'//end_of_line// &
              '  --output DIR           folder of the output files'//end_of_line// &
              '  --resume               carry on an earlier run from its state, or begin it'//end_of_line// &
+             '  --threads N            threads of a campaign'//end_of_line// &
              '  --overwrite            replace output files of an earlier run'//end_of_line// &
              '  --quiet                nothing to the terminal but faults'//end_of_line// &
              '  --version              print the version'//end_of_line// &

@@ -41,8 +41,8 @@ contains
       if (unit == '-') unit = ''
       if (len(unit) > 0) unit = ' ['//unit//']'
       text = '   ! '//trim(key%sentence)//unit//' Allowed: '//allowed_text(key)//'.'//end_of_line
-      ! An example is there to be run; one of a film task would contradict the motion that the template solves.
-      if (key%example /= '' .and. key%used_when /= 'scene.task=film') then
+      ! An example is there to be run; one of another task would contradict the motion that the template solves.
+      if (key%example /= '' .and. (key%used_when == '' .or. index(key%used_when, 'motion') > 0)) then
          text = text//'   '//trim(key%name)//' = '//value//end_of_line
       else
          text = text//'   ! '//trim(key%name)//' = '//value//end_of_line

@@ -8,7 +8,7 @@ module key_table
    private
 
    integer, parameter, public :: real_kind = 1, integer_kind = 2, logical_kind = 3, text_kind = 4, list_kind = 5, &
-                                 reals_kind = 6
+                                 reals_kind = 6, table_kind = 7
 
    !> Allowed numbers; an open bound itself is not allowed.
    type, public :: range_t
@@ -29,11 +29,11 @@ module key_table
       !> SI unit, '-' for a pure number, empty where it does not apply
       character(8) :: unit
       !> 'required', a value, or empty: optional, its absence means what the sentence says
-      character(48) :: default
+      character(256) :: default
       !> Allowed numbers
       type(range_t) :: range
       !> Allowed words, separated by blanks; empty: any text that the reader accepts
-      character(112) :: choices
+      character(400) :: choices
       !> 'group.key=word[|word] [& ...]': legal only then; empty: always
       character(48) :: used_when
       !> What it means
@@ -56,9 +56,9 @@ module key_table
    type(key_t), parameter, public :: keys(*) = [ &
       key_t('scene', 'name', text_kind, '', '', any_number, '', '', &
             'Name of the scene and stem of its output files: letters, digits, . _ - only; absent: the stem of the input file.'), &
-      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion film sweep', '', &
+      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion film sweep campaign', '', &
             'What is computed: motion, the transient film and tooth motion; film, the oil film at given points; sweep, steady '// &
-            'motions along a key, each from the one before.'), &
+            'motions along a key, each from the one before; campaign, many motions that differ in some keys.'), &
       key_t('contact', 'radius', real_kind, 'm', '', positive, '', '', &
             'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', &
             example='0.0127'), &
@@ -91,21 +91,21 @@ module key_table
             'Surface speed of the first flank; the sum of both must be positive.'), &
       key_t('kinematics', 'surface_speed_2', real_kind, 'm/s', '', any_number, '', '', &
             'Surface speed of the second flank.'), &
-      key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', 'scene.task=motion|sweep', &
+      key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
             'Equivalent mass m of the impacting tooth pair.', &
             example='3.0'), &
-      key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion|sweep', &
+      key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Steady force Q of (34), of either sign as long as Q + m g is positive.', &
             example='199.2'), &
-      key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', 'scene.task=motion|sweep', &
+      key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Amplitude F0 of the oscillating force of (34).', &
             example='205.7'), &
-      key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', 'scene.task=motion|sweep', &
+      key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
             'Frequency f_exc of the oscillating force.', &
             example='600.0'), &
-      key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', 'scene.task=motion|sweep', &
+      key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Acceleration of free fall g.'), &
-      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', 'scene.task=motion|sweep', &
+      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', 'scene.task=motion|sweep|campaign', &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
             example='iso-viscous'), &
       key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical', '', &
@@ -116,20 +116,20 @@ module key_table
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
       key_t('film', 'rupture_solver', text_kind, '', 'fast', any_number, 'fast successive', 'film.rupture=solved', &
             'Root finder of (18): fast takes a table good to rounding, successive the paper''s substitution; same root.'), &
-      key_t('film', 'initial_film', real_kind, 'm', '', positive, '', 'scene.task=motion|sweep', &
+      key_t('film', 'initial_film', real_kind, 'm', '', positive, '', 'scene.task=motion|sweep|campaign', &
             'Film at t = 0; absent: the steady film under Q + m g.'), &
-      key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion|sweep', &
+      key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Film velocity dh/dt at t = 0, negative on approach.'), &
       key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark newmark-extrapolated taylor', &
-            'scene.task=motion|sweep', &
+            'scene.task=motion|sweep|campaign', &
             'Time integration: taylor (error-controlled series, implicit where the film is stiff), the paper''s newmark, or '// &
             'newmark extrapolated in its step.'), &
       key_t('solver', 'accuracy', real_kind, '-', '1.0e-8', range_t(1.0e-12_dp, .false., 1.0e-2_dp, .false.), '', &
             'solver.method=newmark-extrapolated|taylor', &
             'Relative accuracy of the film that an error-controlled method aims at.'), &
-      key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion', &
+      key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion|campaign', &
             'End of the run: all periods, or as soon as the motion is verified to repeat; then one orbit is the window.'), &
-      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', 'scene.task=motion|sweep', &
+      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', 'scene.task=motion|sweep|campaign', &
             'Periods of the force that are solved (the most, until steady); at least those of the spectrum window.'), &
       key_t('solver', 'time_limit', real_kind, 's', '', positive, '', 'scene.task=motion', &
             'Wall time after which the run ends cleanly, to be resumed; absent: none.'), &
@@ -147,15 +147,15 @@ module key_table
             'Most passes in a step; a step that needs more ends the scene as not_converged.'), &
       key_t('solver', 'steps_per_period', integer_kind, '-', '512', at_least_8, '', 'solver.method=newmark', &
             'Time steps in one period of the force; every one is a sample.'), &
-      key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', 'scene.task=motion|sweep', &
+      key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', 'scene.task=motion|sweep|campaign', &
             'Whole periods at the end of the run that spectrum, extremes and regime are taken from.'), &
-      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep', &
+      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep|campaign', &
             'A harmonic counts as a line if it exceeds this share of the first.'), &
-      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', 'scene.task=motion|sweep', &
+      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', 'scene.task=motion|sweep|campaign', &
             'From this many lines on the motion is idle rattle.'), &
-      key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', 'scene.task=motion|sweep', &
+      key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', 'scene.task=motion|sweep|campaign', &
             'Below this harmonic distortion the motion is quiet.'), &
-      key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep', &
+      key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep|campaign', &
             'Above this share of power off the harmonics the motion is irregular.'), &
       key_t('spectrum', 'certify', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &
             'Whether the scene is solved again tighter, to say how large its errors are and whether its class stands.'), &
@@ -187,17 +187,60 @@ module key_table
             'Cells of the finite-volume solution, an even number; its load is extrapolated from these and half of these.'), &
       key_t('sweep', 'key', text_kind, '', 'required', any_number, 'frequency force_amplitude steady_force entrainment_speed', &
             'scene.task=sweep', &
-            'What is swept: a key of &load, or the entrainment speed.'), &
-      key_t('sweep', 'first', real_kind, '', 'required', any_number, '', 'scene.task=sweep', &
-            'Value that the sweep begins with, unit of the key.'), &
-      key_t('sweep', 'last', real_kind, '', 'required', any_number, '', 'scene.task=sweep', &
-            'Value at which it turns or ends.'), &
+            'What is swept: a key of &load, or the entrainment speed.', &
+            example='frequency'), &
+      key_t('sweep', 'first', real_kind, 'of key', 'required', any_number, '', 'scene.task=sweep', &
+            'Value that the sweep begins with.', &
+            example='200.0'), &
+      key_t('sweep', 'last', real_kind, 'of key', 'required', any_number, '', 'scene.task=sweep', &
+            'Value at which it turns or ends.', &
+            example='800.0'), &
       key_t('sweep', 'count', integer_kind, '-', '101', range_t(2.0_dp, .false., 1.0e6_dp, .false.), '', 'scene.task=sweep', &
             'Values from first to last.'), &
       key_t('sweep', 'spacing', text_kind, '', 'linear', any_number, 'linear logarithmic', 'scene.task=sweep', &
             'How the values are spaced.'), &
       key_t('sweep', 'turn', logical_kind, '', '.true.', any_number, '', 'scene.task=sweep', &
             'Whether the sweep goes back to first, so that jumps and hysteresis show.'), &
+      key_t('campaign', 'vary', list_kind, '', '', any_number, '', 'scene.task=campaign', &
+            'Keys that are varied, as ''group.key'': vary(1) = ..., vary(2) = ...; any numeric key of a motion.'), &
+      key_t('campaign', 'scale', list_kind, '', '', any_number, 'linear logarithmic', 'scene.task=campaign', &
+            'How the range of each varied key is divided; absent: linear.'), &
+      key_t('campaign', 'first', reals_kind, 'of key', '', any_number, '', 'scene.task=campaign', &
+            'First value of each varied key.'), &
+      key_t('campaign', 'last', reals_kind, 'of key', '', any_number, '', 'scene.task=campaign', &
+            'Last value of each varied key.'), &
+      key_t('campaign', 'count', reals_kind, '-', '', at_least_1, '', 'scene.task=campaign', &
+            'Values of each varied key on a grid, both ends included.'), &
+      key_t('campaign', 'values', table_kind, 'of key', '', any_number, '', 'scene.task=campaign', &
+            'Values of a varied key instead of a range: values(:, 1) = ..., all of vary(1).'), &
+      key_t('campaign', 'sample', text_kind, '', 'grid', any_number, 'grid sobol latin-hypercube', 'scene.task=campaign', &
+            'Which scenes: the full grid, or a sample of the ranges.'), &
+      key_t('campaign', 'size', integer_kind, '-', '', at_least_1, '', 'campaign.sample=sobol|latin-hypercube', &
+            'Scenes of a sample.'), &
+      key_t('campaign', 'seed', integer_kind, '-', '1', range_t(0.0_dp, .false., 2.0e9_dp, .false.), '', &
+            'campaign.sample=sobol|latin-hypercube', &
+            'Seed of a sample: the same seed gives the same scenes everywhere.'), &
+      key_t('campaign', 'csv', text_kind, '', '', any_number, '', 'scene.task=campaign', &
+            'Table of scenes instead of vary: a CSV file whose header names group.key, one scene per row.'), &
+      key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
+            'natural_frequency damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period '// &
+            'rattle_class film_regime alpha_p_maximum harmonics', any_number, &
+            'film_minimum film_maximum acceleration_minimum acceleration_maximum steady_film natural_frequency '// &
+            'damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period rattle_class '// &
+            'film_regime law_contradicted alpha_p_maximum pressure_maximum deflection harmonics orbit_period '// &
+            'periods_solved sampling_sufficient', 'scene.task=campaign', &
+            'Quantities that are recorded of every scene, beside its number, its varied keys and its status.'), &
+      key_t('campaign', 'samples_per_period', integer_kind, '-', '256', range_t(32.0_dp, .false., 16384.0_dp, .false.), '', &
+            'scene.task=campaign', &
+            'Samples of a period that a scene is judged by; sampling_sufficient says where they are too few.'), &
+      key_t('campaign', 'allow_invalid', logical_kind, '', '.false.', any_number, '', 'scene.task=campaign', &
+            'Whether scenes that are no valid scenes are recorded as such; else they stop the campaign before it begins.'), &
+      key_t('campaign', 'confirm_size', logical_kind, '', '.false.', any_number, '', 'scene.task=campaign', &
+            'Must be true for more than ten million scenes.'), &
+      key_t('campaign', 'part', integer_kind, '-', '1', at_least_1, '', 'scene.task=campaign', &
+            'Which part of the campaign this run solves, as a job of an array.'), &
+      key_t('campaign', 'parts', integer_kind, '-', '1', at_least_1, '', 'scene.task=campaign', &
+            'Parts that the campaign is divided into.'), &
       key_t('output', 'directory', text_kind, '', 'results', any_number, '', '', &
             'Folder of the output files, relative to the working directory; made if missing.'), &
       key_t('output', 'series', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &
@@ -324,7 +367,7 @@ contains
          bounded_below = key%range%lower > -huge(1.0_dp)
          bounded_above = key%range%upper < huge(1.0_dp)
          allowed = trim(merge('an integer', 'a number  ', key%kind == integer_kind))
-         if (key%kind == reals_kind) allowed = 'numbers'
+         if (key%kind == reals_kind .or. key%kind == table_kind) allowed = 'numbers'
          if (bounded_below) allowed = allowed//trim(merge(' >  ', ' >= ', key%range%lower_open))// &
                                       ' '//bound_text(key%range%lower, key%kind)
          if (bounded_below .and. bounded_above) allowed = allowed//' and'

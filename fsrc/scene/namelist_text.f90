@@ -25,6 +25,8 @@ module namelist_text
       integer :: line = 0
       !> First element that is set; 0: no index was given
       integer :: first_element = 0
+      !> Whether the index was (:, first_element): a column of a table
+      logical :: whole_column = .false.
       type(value_t), allocatable :: values(:)
    end type assignment_t
 
@@ -193,7 +195,7 @@ contains
       call skip_blanks(scanner)
       if (.not. ended(scanner)) then
          if (letter(scanner) == '(') then
-            call take_index(scanner, assignment%first_element)
+            call take_index(scanner, assignment%first_element, assignment%whole_column)
             if (assignment%first_element < 1) then
                call faults%add(scanner%file, scanner%line, group, assignment%key, &
                                'the index in parentheses must be one positive integer')
@@ -302,18 +304,26 @@ contains
    end subroutine take_value
 
    !> Number in parentheses after a key; 0 if it is not one positive integer.
-   subroutine take_index(scanner, first_element)
+   subroutine take_index(scanner, first_element, whole_column)
       type(scanner_t), intent(inout) :: scanner
       integer, intent(out) :: first_element
+      logical, intent(out) :: whole_column
+      character(:), allocatable :: inside
       integer :: closing, stat
 
       first_element = 0
+      whole_column = .false.
       closing = index(scanner%content(scanner%at:), ')')
-      if (closing < 3 .or. closing > 12) return
-      associate (inside => scanner%content(scanner%at + 1:scanner%at + closing - 2))
-         if (verify(trim(adjustl(inside)), '0123456789') > 0) return
-         read (inside, *, iostat=stat) first_element
-      end associate
+      if (closing < 3 .or. closing > 16) return
+      inside = adjustl(scanner%content(scanner%at + 1:scanner%at + closing - 2))
+      if (inside(1:1) == ':') then
+         whole_column = .true.
+         inside = adjustl(inside(2:))
+         if (inside(1:1) /= ',') return
+         inside = adjustl(inside(2:))
+      end if
+      if (verify(trim(inside), '0123456789') > 0 .or. len_trim(inside) == 0) return
+      read (inside, *, iostat=stat) first_element
       if (stat /= 0) first_element = 0
       scanner%at = scanner%at + closing
    end subroutine take_index

@@ -26,12 +26,15 @@ contains
       call check_film_model(input, faults)
       call check_no_word_twice(input, 'output', 'columns', faults)
       call check_no_word_twice(input, 'points', 'compute', faults)
+      call check_no_word_twice(input, 'campaign', 'vary', faults)
+      call check_no_word_twice(input, 'campaign', 'record', faults)
       if (input%word('scene', 'task') == 'film') then
          call check_points(input, faults)
       else
          call check_static_load(input, faults)
          call check_window(input, faults)
          if (input%word('scene', 'task') == 'sweep') call check_sweep(input, faults)
+         if (input%word('scene', 'task') == 'campaign') call check_campaign(input, faults)
       end if
    end subroutine check_together
 
@@ -43,6 +46,8 @@ contains
 
       do i = 1, size(keys)
          if (keys(i)%default /= 'required' .or. input%entries(i)%given .or. .not. in_use(input, i)) cycle
+         ! Which keys a task requires is not known before the task is.
+         if (keys(i)%used_when /= '' .and. faulty(input, 'scene', 'task')) cycle
          call faults%add(input%file, 0, trim(keys(i)%group), trim(keys(i)%name), &
                          'this key is required; allowed: '//allowed_text(keys(i)))
       end do
@@ -264,6 +269,22 @@ contains
       if (key == 'steady_force' .and. .not. minval(ends) + input%number('load', 'mass')*input%number('load', 'gravity') > 0.0_dp) &
          call input%add_fault('sweep', 'first', 'the static load steady_force + mass*gravity must stay positive', faults)
    end subroutine check_sweep
+
+   !> A campaign varies something, one way or another, and is solved by the engine of many lanes.
+   subroutine check_campaign(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+
+      if (input%word('solver', 'method') /= 'taylor') &
+         call input%add_fault('solver', 'method', 'a campaign needs the taylor method', faults)
+      if (input%is_given('campaign', 'vary') .eqv. input%is_given('campaign', 'csv')) &
+         call input%add_fault('campaign', 'vary', 'give either vary or csv', faults)
+      if (input%word('campaign', 'sample') /= 'grid' .and. .not. input%is_given('campaign', 'size')) &
+         call input%add_fault('campaign', 'size', 'a sample needs its size', faults)
+      if (.not. (faulty(input, 'campaign', 'part') .or. faulty(input, 'campaign', 'parts')) .and. &
+          input%count('campaign', 'part') > input%count('campaign', 'parts')) &
+         call input%add_fault('campaign', 'part', 'at most parts ('//integer_text(input%count('campaign', 'parts'))//')', faults)
+   end subroutine check_campaign
 
    !> One way to give each list of a film task, and no more points than anyone means.
    subroutine check_points(input, faults)

@@ -2,12 +2,18 @@
 module scene_input
    use errors, only: fault_list_t
    use key_table, only: allowed_text, find_key, in_range, integer_kind, key_t, keys, known_group, list_kind, &
-                        logical_kind, nearest_group, nearest_key, path_limit, real_kind, reals_kind, text_kind
+                        logical_kind, nearest_group, nearest_key, path_limit, real_kind, reals_kind, table_kind, &
+                        text_kind
    use kinds, only: dp
    use namelist_text, only: assignment_t, value_t
    use text, only: integer_text, logical_text, lower, quoted, quoted_words, real_text
    implicit none(type, external)
    private
+
+   !> One column of a table.
+   type, public :: column_t
+      real(dp), allocatable :: numbers(:)
+   end type column_t
 
    !> Value of one key.
    type, public :: entry_t
@@ -26,6 +32,8 @@ module scene_input
       character(:), allocatable :: words
       !> Numbers of a list
       real(dp), allocatable :: numbers(:)
+      !> Columns of a table
+      type(column_t), allocatable :: columns(:)
    end type entry_t
 
    !> All keys of one scene.
@@ -43,10 +51,11 @@ module scene_input
       procedure :: word => word_of
       procedure :: words => words_of
       procedure :: numbers => numbers_of
+      procedure :: columns => columns_of
       procedure :: add_fault
    end type scene_input_t
 
-   public :: new_scene_input, value_text, word_position
+   public :: new_scene_input, numbers_text, value_text, word_position
 
 contains
 
@@ -64,7 +73,7 @@ contains
          input%entries(i)%file = file
          input%entries(i)%word = ''
          input%entries(i)%words = ''
-         allocate (input%entries(i)%numbers(0))
+         allocate (input%entries(i)%numbers(0), input%entries(i)%columns(0))
          if (keys(i)%default == '' .or. keys(i)%default == 'required') cycle
          select case (keys(i)%kind)
          case (list_kind)
@@ -106,7 +115,8 @@ contains
                                                    'unknown key; '//nearest_key(assignment%group, assignment%key))
                cycle
             end if
-            if (self%entries(position)%given .and. .not. overriding) then
+            if (self%entries(position)%given .and. .not. overriding .and. &
+                .not. continues_list(keys(position), assignment, self%entries(position))) then
                call faults%add(file, assignment%line, assignment%group, assignment%key, &
                                'this key is set in line '//integer_text(self%entries(position)%line)//' already')
                cycle
@@ -130,24 +140,35 @@ contains
       entry%line = assignment%line
       entry%faulty = .not. assignment%sound
       if (entry%faulty) return
-      if (assignment%first_element /= 0 .and. key%kind /= list_kind .and. key%kind /= reals_kind) then
-         call refuse('takes no index')
+      if (assignment%whole_column .neqv. key%kind == table_kind) then
+         call refuse(trim(merge('give it as '//trim(key%name)//'(:, 1) = ..., '//trim(key%name)//'(:, 2) = ...', &
+                                'takes no (:, i)'//repeat(' ', 27 + 2*len_trim(key%name)), key%kind == table_kind)))
          return
       end if
-      if (assignment%first_element > 1) then
-         call refuse('give the whole list at once, without an index')
+      if (.not. is_list(key)) then
+         if (assignment%first_element /= 0) then
+            call refuse('takes no index')
+            return
+         else if (size(assignment%values) > 1) then
+            call refuse('takes one value, '//integer_text(size(assignment%values))//' are given')
+            return
+         end if
+      else if (assignment%first_element > 1 .and. assignment%first_element /= list_length(key, entry) + 1) then
+         call refuse('elements must be given one after the other; element '//integer_text(list_length(key, entry) + 1)// &
+                     ' comes next')
          return
       end if
-      if (size(assignment%values) > 1 .and. key%kind /= list_kind .and. key%kind /= reals_kind) then
-         call refuse('takes one value, '//integer_text(size(assignment%values))//' are given')
-         return
+      if (assignment%first_element <= 1) then
+         entry%words = ''
+         entry%numbers = [real(dp) ::]
+         entry%columns = [column_t ::]
       end if
-      entry%words = ''
-      entry%numbers = [real(dp) ::]
+      if (key%kind == table_kind) entry%numbers = [real(dp) ::]
       do i = 1, size(assignment%values)
          call read_value(key, assignment%values(i), entry, file, faults)
          if (entry%faulty) return
       end do
+      if (key%kind == table_kind) entry%columns = [entry%columns, column_t(entry%numbers)]
       entry%present = .true.
 
    contains
@@ -160,6 +181,40 @@ contains
       end subroutine refuse
 
    end subroutine set_entry
+
+   !> Whether a key holds several values.
+   pure logical function is_list(key)
+      type(key_t), intent(in) :: key
+
+      is_list = any(key%kind == [list_kind, reals_kind, table_kind])
+   end function is_list
+
+   !> Elements that a list has so far.
+   pure integer function list_length(key, entry)
+      type(key_t), intent(in) :: key
+      type(entry_t), intent(in) :: entry
+      integer :: i
+
+      select case (key%kind)
+      case (reals_kind)
+         list_length = size(entry%numbers)
+      case (table_kind)
+         list_length = size(entry%columns)
+      case default
+         list_length = 0
+         if (len(entry%words) > 0) list_length = 1 + count([(entry%words(i:i) == ' ', i=1, len(entry%words))])
+      end select
+   end function list_length
+
+   !> Whether an assignment adds elements to a list: key(i) = ... behind key(i - 1) = ...
+   pure logical function continues_list(key, assignment, entry)
+      type(key_t), intent(in) :: key
+      type(assignment_t), intent(in) :: assignment
+      type(entry_t), intent(in) :: entry
+
+      continues_list = is_list(key) .and. assignment%first_element > 1 .and. &
+                       assignment%first_element > list_length(key, entry)
+   end function continues_list
 
    !> Read one value as its key asks.
    subroutine read_value(key, value, entry, file, faults)
@@ -175,7 +230,7 @@ contains
       case (real_kind)
          if (.not. value%quoted) call read_real(value%text, entry%number, sound)
          if (sound) sound = in_range(key, entry%number)
-      case (reals_kind)
+      case (reals_kind, table_kind)
          if (.not. value%quoted) call read_real(value%text, entry%number, sound)
          if (sound) sound = in_range(key, entry%number)
          if (sound) entry%numbers = [entry%numbers, entry%number]
@@ -188,6 +243,7 @@ contains
          sound = value%quoted .and. len_trim(value%text) > 0 .and. len(value%text) <= path_limit
          if (sound .and. key%choices /= '') sound = &
             index(' '//trim(key%choices)//' ', ' '//trim(value%text)//' ') > 0 .and. scan(trim(value%text), ' ') == 0
+         if (sound .and. key%kind == list_kind) sound = scan(trim(value%text), ' ') == 0
          if (sound .and. key%kind == text_kind) entry%word = value%text
          if (sound .and. key%kind == list_kind) entry%words = trim(entry%words//' '//value%text)
          if (sound .and. key%kind == list_kind) entry%words = trim(adjustl(entry%words))
@@ -394,6 +450,18 @@ contains
       numbers = self%entries(find_key(group, name))%numbers
    end function numbers_of
 
+   !> Columns of a table key.
+   pure function columns_of(self, group, name) result(columns)
+      class(scene_input_t), intent(in) :: self
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+      type(column_t), allocatable :: columns(:)
+
+      allocate (columns, source=self%entries(find_key(group, name))%columns)
+   end function columns_of
+
    !> Position of the word of a key among its choices in the table, from 1.
    pure integer function choice_of(self, group, name)
       class(scene_input_t), intent(in) :: self
@@ -443,7 +511,6 @@ contains
       !> Entry with a value
       type(entry_t), intent(in) :: entry
       character(:), allocatable :: words
-      integer :: i
 
       select case (key%kind)
       case (real_kind)
@@ -455,14 +522,24 @@ contains
       case (text_kind)
          words = quoted(entry%word)
       case (reals_kind)
-         words = ''
-         do i = 1, size(entry%numbers)
-            if (i > 1) words = words//', '
-            words = words//real_text(entry%numbers(i))
-         end do
+         words = numbers_text(entry%numbers)
       case default
          words = quoted_words(entry%words, ' ')
       end select
    end function value_text
+
+   !> Numbers with commas between.
+   pure function numbers_text(numbers) result(words)
+      !> Finite numbers
+      real(dp), intent(in) :: numbers(:)
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      do i = 1, size(numbers)
+         if (i > 1) words = words//', '
+         words = words//real_text(numbers(i))
+      end do
+   end function numbers_text
 
 end module scene_input

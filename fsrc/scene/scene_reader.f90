@@ -3,14 +3,14 @@
 module scene_reader
    use errors, only: fault_list_t
    use file_system, only: read_whole_file
-   use key_table, only: choice_word, find_key, keys, name_limit
+   use key_table, only: choice_word, find_key, keys, name_limit, table_kind
    use kinds, only: dp
    use namelist_text, only: assignment_t, scan_namelists
    use scene_checker, only: check_together, in_use
-   use scene_input, only: new_scene_input, scene_input_t, value_text, word_position
-   use scene_types, only: column_names, contact_t, film_choice_t, film_points_t, kinematics_t, load_t, lubricant_t, &
-                          model_numerical, model_published, output_t, scene_t, solver_t, spectrum_choice_t, sweep_t, &
-                          task_sweep
+   use scene_input, only: column_t, new_scene_input, numbers_text, scene_input_t, value_text, word_position
+   use scene_types, only: campaign_choice_t, column_names, contact_t, film_choice_t, film_points_t, kinematics_t, load_t, &
+                          lubricant_t, model_numerical, model_published, output_t, scene_t, solver_t, spectrum_choice_t, &
+                          sweep_t, task_campaign, task_sweep, word_t
    use text, only: integer_text, quoted
    implicit none(type, external)
    private
@@ -84,6 +84,7 @@ contains
       scene%spectrum = read_spectrum(input)
       scene%points = read_points(input, scene)
       if (scene%task == task_sweep) scene%sweep = read_sweep(input)
+      if (scene%task == task_campaign) scene%campaign = read_campaign(input)
       scene%output = read_output(input)
       scene%resolved_input = resolved_text(input, trim(scene%name))
    end subroutine read_scene
@@ -154,6 +155,8 @@ contains
       type(scene_input_t), intent(in) :: input
       type(kinematics_t) :: kinematics
 
+      kinematics%surface_speed_1 = input%number('kinematics', 'surface_speed_1')
+      kinematics%surface_speed_2 = input%number('kinematics', 'surface_speed_2')
       if (input%is_given('kinematics', 'entrainment_speed')) then
          kinematics%entrainment_speed = input%number('kinematics', 'entrainment_speed')
       else if (input%is_given('kinematics', 'rolling_speed')) then
@@ -283,6 +286,61 @@ contains
       end if
    end function read_sweep
 
+   !> &campaign
+   function read_campaign(input) result(campaign)
+      type(scene_input_t), intent(in) :: input
+      type(campaign_choice_t) :: campaign
+      type(column_t), allocatable :: columns(:)
+      type(word_t), allocatable :: scales(:)
+      integer :: i
+
+      campaign%vary = words_of(input%words('campaign', 'vary'))
+      scales = words_of(input%words('campaign', 'scale'))
+      allocate (campaign%scale(size(campaign%vary)), source=1)
+      do i = 1, min(size(scales), size(campaign%vary))
+         campaign%scale(i) = merge(2, 1, scales(i)%text == 'logarithmic')
+      end do
+      allocate (campaign%first, source=input%numbers('campaign', 'first'))
+      allocate (campaign%last, source=input%numbers('campaign', 'last'))
+      allocate (campaign%count, source=input%numbers('campaign', 'count'))
+      allocate (columns, source=input%columns('campaign', 'values'))
+      allocate (campaign%values(size(columns)))
+      do i = 1, size(columns)
+         campaign%values(i)%numbers = columns(i)%numbers
+      end do
+      campaign%sample = input%choice('campaign', 'sample')
+      campaign%size = input%count('campaign', 'size')
+      campaign%seed = input%count('campaign', 'seed')
+      campaign%csv = input%word('campaign', 'csv')
+      campaign%record = words_of(input%words('campaign', 'record'))
+      campaign%samples_per_period = input%count('campaign', 'samples_per_period')
+      campaign%allow_invalid = input%flag('campaign', 'allow_invalid')
+      campaign%confirm_size = input%flag('campaign', 'confirm_size')
+      campaign%part = input%count('campaign', 'part')
+      campaign%parts = input%count('campaign', 'parts')
+      allocate (campaign%in_base(size(keys)))
+      do i = 1, size(keys)
+         campaign%in_base(i) = input%entries(i)%present .and. in_use(input, i)
+      end do
+   end function read_campaign
+
+   !> Words of a blank-separated list.
+   function words_of(list) result(words)
+      character(*), intent(in) :: list
+      type(word_t), allocatable :: words(:)
+      integer :: i, start
+
+      allocate (words(0))
+      start = 1
+      do i = 1, len(list) + 1
+         if (i <= len(list)) then
+            if (list(i:i) /= ' ') cycle
+         end if
+         if (i > start) words = [words, word_t(list(start:i - 1))]
+         start = i + 1
+      end do
+   end function words_of
+
    !> Numbers from first to last, both hit exactly.
    pure function spread_between(first, last, count, logarithmic) result(numbers)
       real(dp), intent(in) :: first
@@ -342,13 +400,18 @@ contains
       character(*), intent(in) :: name
       character(:), allocatable :: text
       character(:), allocatable :: body
-      integer :: i
+      integer :: i, column
 
       text = ''
       body = ''
       do i = 1, size(keys)
          if (keys(i)%group == 'scene' .and. keys(i)%name == 'name') then
             body = body//'   name = '//quoted(name)//new_line('a')
+         else if (keys(i)%kind == table_kind) then
+            do column = 1, size(input%entries(i)%columns)
+               body = body//'   '//trim(keys(i)%name)//'(:, '//integer_text(column)//') = '// &
+                      numbers_text(input%entries(i)%columns(column)%numbers)//new_line('a')
+            end do
          else if (is_told(i)) then
             body = body//'   '//trim(keys(i)%name)//' = '//value_text(keys(i), input%entries(i))//new_line('a')
          end if

@@ -5,7 +5,8 @@ module scene_status
 
    integer, parameter, public :: status_complete = 0, status_steady = 1, status_not_converged = 2, &
                                  status_film_lost = 3, status_no_rigid_film = 4, status_overflow = 5, &
-                                 status_interrupted = 6, status_time_limit = 7, status_not_written = 8
+                                 status_interrupted = 6, status_time_limit = 7, status_not_written = 8, &
+                                 status_invalid = 9
 
    public :: status_name, status_sentence, is_success
 
@@ -16,8 +17,8 @@ contains
       !> Status code
       integer, intent(in) :: status
       character(:), allocatable :: name
-      character(*), parameter :: names(0:8) = [character(13) :: 'complete', 'steady', 'not_converged', 'film_lost', &
-                                               'no_rigid_film', 'overflow', 'interrupted', 'time_limit', 'not_written']
+      character(*), parameter :: names(0:9) = [character(13) :: 'complete', 'steady', 'not_converged', 'film_lost', &
+                                               'no_rigid_film', 'overflow', 'interrupted', 'time_limit', 'not_written', 'invalid']
 
       name = trim(names(status))
    end function status_name
@@ -43,6 +44,8 @@ contains
          sentence = 'The film load exceeds every number that can be represented; the film law does not hold here.'
       case (status_interrupted)
          sentence = 'A signal ended the run; what was computed so far was kept.'
+      case (status_invalid)
+         sentence = 'The values are no valid scene.'
       case (status_not_written)
          sentence = 'The time series could not be written; the disk may be full.'
       case default
@@ -51,7 +54,7 @@ contains
    end function status_sentence
 
    !> Whether the scene has its full result.
-   pure logical function is_success(status)
+   elemental logical function is_success(status)
       !> Status code
       integer, intent(in) :: status
 

@@ -8,7 +8,7 @@ module scene_types
    ! The codes of a key count its choices in the order of the key table.
 
    !> What is computed.
-   integer, parameter, public :: task_motion = 1, task_film = 2, task_sweep = 3
+   integer, parameter, public :: task_motion = 1, task_film = 2, task_sweep = 3, task_campaign = 4
    !> What a sweep varies.
    integer, parameter, public :: sweep_frequency = 1, sweep_force_amplitude = 2, sweep_steady_force = 3, &
                                  sweep_entrainment_speed = 4
@@ -70,6 +70,9 @@ module scene_types
    type, public :: kinematics_t
       !> Entrainment speed U, the mean of the surface speeds [m/s]
       real(dp) :: entrainment_speed = 0.0_dp
+      !> The surface speeds, where they were given [m/s]
+      real(dp) :: surface_speed_1 = 0.0_dp
+      real(dp) :: surface_speed_2 = 0.0_dp
    end type kinematics_t
 
    !> &load
@@ -169,6 +172,36 @@ module scene_types
       integer :: outward = 0
    end type sweep_t
 
+   !> Words or numbers of one varied key.
+   type, public :: word_t
+      character(:), allocatable :: text
+   end type word_t
+   type, public :: numbers_t
+      real(dp), allocatable :: numbers(:)
+   end type numbers_t
+
+   !> &campaign, as given; the campaign room makes scenes of it.
+   type, public :: campaign_choice_t
+      type(word_t), allocatable :: vary(:)
+      !> Scale code of each varied key: 1 linear, 2 logarithmic
+      integer, allocatable :: scale(:)
+      real(dp), allocatable :: first(:), last(:), count(:)
+      type(numbers_t), allocatable :: values(:)
+      !> 1 grid, 2 Sobol, 3 Latin hypercube
+      integer :: sample = 1
+      integer :: size = 0
+      integer :: seed = 1
+      character(:), allocatable :: csv
+      !> Names of the recorded quantities
+      type(word_t), allocatable :: record(:)
+      integer :: samples_per_period = 256
+      logical :: allow_invalid = .false.
+      logical :: confirm_size = .false.
+      integer :: part = 1, parts = 1
+      !> Keys that the base input gives or has a default for, by position in the key table
+      logical, allocatable :: in_base(:)
+   end type campaign_choice_t
+
    !> &output
    type, public :: output_t
       character(path_limit) :: directory = ''
@@ -192,6 +225,7 @@ module scene_types
       type(spectrum_choice_t) :: spectrum
       type(film_points_t) :: points
       type(sweep_t) :: sweep
+      type(campaign_choice_t) :: campaign
       type(output_t) :: output
       !> All keys with their resolved values as namelist text, without places on this machine
       character(:), allocatable :: resolved_input

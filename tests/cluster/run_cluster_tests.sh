@@ -25,6 +25,7 @@ cd "$repository" || exit 1
 place=$(mktemp -d) || exit 1
 work=$place/work
 mkdir -p "$work"
+chmod 711 "$place" # the way to the sockets must be open
 finish() {
     "$here/stop_cluster.sh" "$place/cluster" || failed=1
     if [ "$failed" = 0 ] && [ "${1:-0}" = 0 ]; then rm -rf "$place"; else say "all files are left in $place"; fi
@@ -35,7 +36,7 @@ trap 'exit 143' TERM
 
 "$here/setup_cluster.sh" "$place/cluster" || give_up 'the cluster does not start'
 . "$place/cluster/environment"
-program=${RATTLE_PROGRAM:-}
+program=${RATTLE_PROGRAM:+$(realpath "$RATTLE_PROGRAM")}
 if [ -z "$program" ]; then
     say 'building with MPI'
     make --no-print-directory MPI=1 BUILD="$build" "$build/rattle" > "$work/make.log" 2>&1 ||

@@ -72,7 +72,7 @@ contains
       initial_film = scene%film%initial_film
       if (.not. initial_film > 0.0_dp) initial_film = &
          steady_film(film, scene%load%steady_force + scene%load%mass*scene%load%gravity)
-      call recorder%open(scene, '', error)
+      call recorder%open(scene, '', 0, error)
       if (present(watcher)) then
          call solve_motion(scene, film, initial_film, checkpoint_t(), recorder, watcher, ending, error)
       else

@@ -15,7 +15,8 @@ module test_campaign_file
 
    character(*), parameter :: path = 'unit_test_campaign.tmp', other_path = 'unit_test_campaign_other.tmp'
    character(*), parameter :: line_feed = achar(10)
-   character(*), parameter :: input = '&load'//line_feed//'   mass = 3.0'//line_feed//'   frequency = 600.0'//line_feed//'/'// &
+   character(*), parameter :: input = '&load'//line_feed//'   mass = 3.0'//line_feed// &
+      '   frequency = 600.0'//line_feed//'/'// &
                               line_feed//'&solver'//line_feed//'   periods = 20'//line_feed//'/'//line_feed
    integer, parameter :: scenes = 1000, chunk_rows = 64, chunks = 16, columns = 3
    integer, parameter :: size_limit = 1000000
@@ -81,7 +82,8 @@ contains
 
       call file%chunk_bounds(int(chunk, int64), first, last)
       call file%write_chunk(int(chunk, int64), rows_of(first, last), error)
-      call checks%check(.not. allocated(error) .and. file%is_done(int(chunk, int64)), 'write chunk '//integer_text(chunk))
+      call checks%check(.not. allocated(error) .and. file%is_done(int(chunk, int64)), 'write chunk '// &
+                        integer_text(chunk))
    end subroutine compute
 
    subroutine create(checks, file, overwrite)
@@ -172,8 +174,10 @@ contains
       do chunk = 1, chunks
          first = int(chunk - 1, int64)*chunk_rows + 1
          last = min(first + chunk_rows - 1, int(scenes, int64))
-         call checks%check(long_at(undisturbed, table + 24 + 8*(chunk - 1)) == checksum_of(rows_of(first, last)), 'checksum')
-         call checks%check(undisturbed(first_row + 24*(first - 1) + 1:first_row + 24*last) == bytes_of(rows_of(first, last)), &
+         call checks%check(long_at(undisturbed, table + 24 + 8*(chunk - 1)) == checksum_of(rows_of(first, &
+                                                            last)), 'checksum')
+         call checks%check(undisturbed(first_row + 24*(first - 1) + 1:first_row + 24*last) == &
+                           bytes_of(rows_of(first, last)), &
                            'rows')
       end do
    end subroutine test_layout
@@ -209,8 +213,8 @@ contains
       call checks%check(content_of(path) == undisturbed, 'the last chunk first')
       call create(checks, file, .true.)
       failed = 0
-      !$omp parallel do num_threads(4) schedule(dynamic) default(none) shared(file) private(first, last, error) &
-      !$omp reduction(+:failed)
+      !$omp parallel do num_threads(4) schedule(dynamic) default(none) shared(file) &
+      !$omp private(first, last, error) reduction(+:failed)
       do i = 1, chunks
          call file%chunk_bounds(int(i, int64), first, last)
          call file%write_chunk(int(i, int64), rows_of(first, last), error)
@@ -354,7 +358,8 @@ contains
       layout = layout_of(input)
       layout%chunk_rows = 100
       call file%resume(path, layout, spoilt, error)
-      call checks%check(.not. allocated(error) .and. file%chunk_count() == chunks, 'chunks are those of the file')
+      call checks%check(.not. allocated(error) .and. file%chunk_count() == chunks, &
+                        'chunks are those of the file')
       call close_file(checks, file, .false.)
       layout%scene_count = 2000
       call file%resume(path, layout, spoilt, error)
@@ -365,12 +370,18 @@ contains
       type(check_list_t), intent(inout) :: checks
 
       call checks%check(first_difference(input, input) == '', 'no difference')
-      call checks%check(first_difference('&a b = 1, 2 c = 3 /', '&a b = 1, 2 c = 4 /') == 'a.c is 4 now and was 3', 'number')
-      call checks%check(first_difference('&a b = 1, 2 /', '&a b = 1 /') == 'a.b is 1 now and was 1, 2', 'list')
-      call checks%check(first_difference('&a c = 3 /', '&a b = 1 c = 3 /') == 'a.b is 1 now and was not set', 'new key')
-      call checks%check(first_difference("&a b = 'x' c = 3 /", '&a c = 3 /') == 'a.b was x and is not set now', 'lost key')
-      call checks%check(first_difference('&a b = 1 / &d b = 1 /', '&a b = 1 / &d b = 2 /') == 'd.b is 2 now and was 1', 'group')
-      call checks%check(first_difference('&a v(1) = 1 v(2) = 1 /', '&a v(1) = 1 v(2) = 2 /') == 'a.v(2) is 2 now and was 1', &
+      call checks%check(first_difference('&a b = 1, 2 c = 3 /', &
+                                         '&a b = 1, 2 c = 4 /') == 'a.c is 4 now and was 3', 'number')
+      call checks%check(first_difference('&a b = 1, 2 /', '&a b = 1 /') == 'a.b is 1 now and was 1, 2', &
+                        'list')
+      call checks%check(first_difference('&a c = 3 /', '&a b = 1 c = 3 /') == &
+                        'a.b is 1 now and was not set', 'new key')
+      call checks%check(first_difference("&a b = 'x' c = 3 /", &
+                                         '&a c = 3 /') == 'a.b was x and is not set now', 'lost key')
+      call checks%check(first_difference('&a b = 1 / &d b = 1 /', &
+                                         '&a b = 1 / &d b = 2 /') == 'd.b is 2 now and was 1', 'group')
+      call checks%check(first_difference('&a v(1) = 1 v(2) = 1 /', &
+                                         '&a v(1) = 1 v(2) = 2 /') == 'a.v(2) is 2 now and was 1', &
                         'element')
    end subroutine test_difference
 

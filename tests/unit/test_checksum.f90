@@ -32,7 +32,8 @@ contains
       integer :: n
 
       do n = 1, size(numbers)
-         call checks%check(checksum_of(numbers(:n)) == defined(numbers(:n)), 'definition, '//integer_text(n)//' numbers')
+         call checks%check(checksum_of(numbers(:n)) == defined(numbers(:n)), 'definition, '// &
+                           integer_text(n)//' numbers')
       end do
       call checks%check(checksum_of(numbers) == int(z'509FE913779EF9FB', int64), 'a fixed value')
       call checks%check(checksum_of(numbers(:0)) /= 0_int64, 'no data: not 0')
@@ -54,7 +55,8 @@ contains
          integer, intent(in) :: place
          integer, parameter :: wide = selected_int_kind(38)
          integer(wide), parameter :: two_32 = 4294967296_wide
-         integer(wide), parameter :: multipliers(3) = [int(z'7FEB352D', wide), int(z'6C8E9CF5', wide), int(z'58F38DED', wide)]
+         integer(wide), parameter :: multipliers(3) = [int(z'7FEB352D', wide), int(z'6C8E9CF5', wide), &
+                                                       int(z'58F38DED', wide)]
          integer(wide) :: halves(2), product
          integer(int64) :: keyed
          integer :: k
@@ -63,7 +65,8 @@ contains
          halves = [int(ibits(keyed, 32, 32), wide), int(ibits(keyed, 0, 32), wide)]
          do k = 1, 3
             product = halves(1 + modulo(k, 2))*multipliers(k)
-            halves(2 - modulo(k, 2)) = ieor(halves(2 - modulo(k, 2)), modulo(ieor(product, product/two_32), two_32))
+            halves(2 - modulo(k, 2)) = ieor(halves(2 - modulo(k, 2)), modulo(ieor(product, product/two_32), &
+                                                            two_32))
          end do
          word = ior(shiftl(int(halves(1), int64), 32), int(halves(2), int64))
       end function word
@@ -111,7 +114,8 @@ contains
          bit = int(modulo(random_bits(1_int64, 1_int64, int(i, int64)), 64_int64))
          first = 1 + int(modulo(random_bits(1_int64, 2_int64, int(i, int64)), 32_int64))
          second = 33 + int(modulo(random_bits(1_int64, 3_int64, int(i, int64)), 32_int64))
-         if (checksum_of(flipped(transfer(flipped(words, first, bit), words), second, bit)) == whole) unseen = unseen + 1
+         if (checksum_of(flipped(transfer(flipped(words, first, bit), words), second, &
+                                 bit)) == whole) unseen = unseen + 1
       end do
       call checks%check(unseen == 0, 'two flips of the same bit')
    end subroutine test_flips
@@ -143,7 +147,8 @@ contains
          call checks%check(checksum_of(other) /= checksum_of(numbers), 'swap over '//integer_text(distance))
          other = cshift(numbers, distance)
          call checks%check(checksum_of(other) /= checksum_of(numbers), 'shift by '//integer_text(distance))
-         call checks%check(checksum_of(numbers(:distance)) /= checksum_of(numbers), 'cut at '//integer_text(distance))
+         call checks%check(checksum_of(numbers(:distance)) /= checksum_of(numbers), 'cut at '// &
+                           integer_text(distance))
          other = numbers
          other(distance:) = 0.0_dp
          call checks%check(checksum_of(other) /= checksum_of(numbers), 'zeros from '//integer_text(distance))

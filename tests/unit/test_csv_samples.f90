@@ -37,12 +37,17 @@ contains
    !> The same bits as the runtime reads, for numbers that take the short way and others.
    subroutine test_numbers(checks)
       type(check_list_t), intent(inout) :: checks
-      character(*), parameter :: good(18) = [character(26) :: '1', '-1.5', '+.5', '5.', '1e3', '1.0E-22', '123456789012345e22', &
-                                             '0.1', '2.2250738585072014e-300', '1.7976931348623157e306', '0.30000000000000004', &
-                                             '9007199254740993', '-0.0', '0e99', '0000001.50', '1d-3', '123456789012345678901', &
+      character(*), parameter :: good(18) = [character(26) :: '1', '-1.5', '+.5', '5.', '1e3', '1.0E-22', &
+                                             '123456789012345e22', &
+                                             '0.1', '2.2250738585072014e-300', '1.7976931348623157e306', &
+                                                '0.30000000000000004', &
+                                             '9007199254740993', '-0.0', '0e99', '0000001.50', '1d-3', &
+                                                '123456789012345678901', &
                                              '.000000000000000000001']
-      character(*), parameter :: bad(22) = [character(13) :: '', ' ', '.', 'e5', '1e', '1e+', '1.2.3', '--1', '1-2', '1e5.0', &
-                                            'nan', 'inf', '0x10', '1,5', '1 2', '1_dp', '1e400', '1e-400', '1e99999999999', &
+      character(*), parameter :: bad(22) = [character(13) :: '', ' ', '.', 'e5', '1e', '1e+', '1.2.3', &
+                                            '--1', '1-2', '1e5.0', &
+                                            'nan', 'inf', '0x10', '1,5', '1 2', '1_dp', '1e400', '1e-400', &
+                                               '1e99999999999', &
                                             '+', '3/4', '2*3']
       character(26) :: word
       real(dp) :: number, expected
@@ -86,12 +91,17 @@ contains
    subroutine test_sound_files(checks)
       type(check_list_t), intent(inout) :: checks
 
-      call accept(checks, 'load.mass,solver.periods'//line_feed//'1.5,20'//line_feed//'2.5,30'//line_feed, 'Unix ends')
-      call accept(checks, 'load.mass,solver.periods'//both_ends//'1.5,20'//both_ends//'2.5,30'//both_ends, 'Windows ends')
-      call accept(checks, 'load.mass,solver.periods'//line_feed//'1.5,20'//line_feed//'2.5,30', 'no end of the last line')
-      call accept(checks, '"load.mass", "Solver.Periods"'//line_feed//' 1.50 , +20'//line_feed//achar(9)//'25e-1,30 '// &
+      call accept(checks, 'load.mass,solver.periods'//line_feed//'1.5,20'//line_feed//'2.5,30'//line_feed, &
+                  'Unix ends')
+      call accept(checks, 'load.mass,solver.periods'//both_ends//'1.5,20'//both_ends//'2.5,30'//both_ends, &
+                  'Windows ends')
+      call accept(checks, 'load.mass,solver.periods'//line_feed//'1.5,20'//line_feed//'2.5,30', &
+                  'no end of the last line')
+      call accept(checks, '"load.mass", "Solver.Periods"'//line_feed//' 1.50 , +20'//line_feed//achar(9)// &
+                  '25e-1,30 '// &
                   line_feed, 'quotes, blanks, tabs, upper case')
-      call accept(checks, char(239)//char(187)//char(191)//'load.mass,solver.periods'//line_feed//'1.5,20'//line_feed// &
+      call accept(checks, char(239)//char(187)//char(191)//'load.mass,solver.periods'//line_feed//'1.5,20'// &
+                  line_feed// &
                   '2.5,30'//line_feed, 'byte-order mark')
    end subroutine test_sound_files
 
@@ -108,8 +118,10 @@ contains
       if (faults%count() > 0) print '(a)', faults%sentence(1)
       call checks%check(size(samples%positions) == 2 .and. size(samples%values) == 4, message//': size')
       if (size(samples%values) /= 4) return
-      call checks%check(all(samples%positions == [find_key('load', 'mass'), find_key('solver', 'periods')]), message//': keys')
-      call checks%check(maxval(abs(samples%values - reshape([1.5_dp, 20.0_dp, 2.5_dp, 30.0_dp], [2, 2]))) <= 0.0_dp, &
+      call checks%check(all(samples%positions == [find_key('load', 'mass'), find_key('solver', 'periods')]), &
+                        message//': keys')
+      call checks%check(maxval(abs(samples%values - reshape([1.5_dp, 20.0_dp, 2.5_dp, 30.0_dp], &
+                                                            [2, 2]))) <= 0.0_dp, &
                         message//': numbers')
    end subroutine accept
 
@@ -131,8 +143,10 @@ contains
       call checks%check(faults%count() == 0, 'many rows: no fault')
       call checks%check(size(samples%values, 2) == rows, 'many rows: count')
       if (size(samples%values, 2) /= rows) return
-      call checks%check(maxval(abs(samples%values(1, :) - [(real(i, dp), i=1, rows)])) <= 0.0_dp, 'many rows: first column')
-      call checks%check(maxval(abs(samples%values(2, :) - [(0.001_dp*i, i=1, rows)])) < 1.0e-14_dp, 'many rows: second column')
+      call checks%check(maxval(abs(samples%values(1, :) - [(real(i, dp), i=1, rows)])) <= 0.0_dp, &
+                        'many rows: first column')
+      call checks%check(maxval(abs(samples%values(2, :) - [(0.001_dp*i, i=1, rows)])) < 1.0e-14_dp, &
+                        'many rows: second column')
    end subroutine test_large_file
 
    subroutine test_headers(checks)
@@ -142,7 +156,8 @@ contains
       call write_file('')
       call refuse(checks, path, 'the file is empty')
       call refuse_text(checks, 'load.mass'//line_feed, ':1: there is no line of numbers')
-      call refuse_text(checks, 'load.mas'//row, ":1: column 1: 'load.mas': unknown key; the nearest known key is mass")
+      call refuse_text(checks, 'load.mas'//row, &
+                       ":1: column 1: 'load.mas': unknown key; the nearest known key is mass")
       call refuse_text(checks, 'lod.mass'//row, 'nearest known group is load')
       call refuse_text(checks, 'mass'//row, 'named as group.key')
       call refuse_text(checks, 'film.law'//row, 'not a number, so it cannot be varied')
@@ -150,7 +165,8 @@ contains
       call refuse_text(checks, 'output.stride'//row, 'does not describe the motion')
       call refuse_text(checks, 'load.mass,Load.Mass'//line_feed//'1,2'//line_feed, &
                        "column 2: 'Load.Mass': this key stands in column 1 already")
-      call refuse_text(checks, 'load.mass,'//line_feed//'1,2'//line_feed, 'column 2: a key must be named here')
+      call refuse_text(checks, 'load.mass,'//line_feed//'1,2'//line_feed, &
+                       'column 2: a key must be named here')
       call refuse_text(checks, '# a comment'//line_feed//'load.mass'//row, 'comments are not allowed')
       call refuse_text(checks, '1.0,2.0'//row, "column 1: '1.0': unknown group")
       call refuse_text(checks, achar(0)//achar(7)//row, "column 1: '??'")
@@ -162,12 +178,15 @@ contains
       type(check_list_t), intent(inout) :: checks
       character(*), parameter :: header = 'load.mass,solver.periods'//line_feed
 
-      call refuse_text(checks, header//'1,2'//line_feed//'1'//line_feed, ':3: the line has 1 columns, the header 2')
+      call refuse_text(checks, header//'1,2'//line_feed//'1'//line_feed, &
+                       ':3: the line has 1 columns, the header 2')
       call refuse_text(checks, header//'1,2,3'//line_feed, ':2: the line has 3 columns, the header 2')
       call refuse_text(checks, header//'1,2'//line_feed//line_feed//'1,2'//line_feed, ':3: the line is empty')
       call refuse_text(checks, header//'1,2'//line_feed//' '//both_ends, ':3: the line is empty')
-      call refuse_text(checks, header//'1,2'//line_feed//'abc,2'//line_feed, ":3: column 1 (load.mass): 'abc' is not a number")
-      call refuse_text(checks, header//'1,2.5'//line_feed, ":2: column 2 (solver.periods): '2.5' is not an integer")
+      call refuse_text(checks, header//'1,2'//line_feed//'abc,2'//line_feed, &
+                       ":3: column 1 (load.mass): 'abc' is not a number")
+      call refuse_text(checks, header//'1,2.5'//line_feed, &
+                       ":2: column 2 (solver.periods): '2.5' is not an integer")
       call refuse_text(checks, header//'1,'//line_feed, ':2: column 2 (solver.periods): a number is missing')
       call refuse_text(checks, header//'nan,2'//line_feed, "'nan' is not a number")
       call refuse_text(checks, header//'"1",2'//line_feed, "'""1""' is not a number")
@@ -200,7 +219,8 @@ contains
       if (faults%count() == 0) return
       call checks%check(any([(index(faults%sentence(i), words) > 0, i=1, faults%count())]), &
                         'refused: '//words//' (got: '//faults%sentence(1)//')')
-      call checks%check(all([(index(faults%sentence(i), name) == 1, i=1, faults%count())]), 'name of the file: '//words)
+      call checks%check(all([(index(faults%sentence(i), name) == 1, i=1, faults%count())]), &
+                        'name of the file: '//words)
    end subroutine refuse
 
    subroutine write_file(content)

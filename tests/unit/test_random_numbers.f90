@@ -3,7 +3,8 @@ module test_random_numbers
    use checks, only: check_list_t
    use hash_permutation, only: hash_permutation_t, largest_permutation, new_hash_permutation, permuted
    use kinds, only: dp, int64
-   use random_numbers, only: next_uniform, philox_words, random_bits, random_permutation, random_state_t, uniform_at
+   use random_numbers, only: next_uniform, philox_words, random_bits, random_permutation, random_state_t, &
+      uniform_at
    use text, only: integer_text
    implicit none(type, external)
    private
@@ -36,8 +37,10 @@ contains
       call checks%check(all(philox_words([ones, ones, ones, ones], [ones, ones]) == &
                             [int(z'408F276D', int64), int(z'41C83B0E', int64), int(z'A20BC7C6', int64), &
                              int(z'6D5451FD', int64)]), 'ones')
-      call checks%check(all(philox_words([int(z'243F6A88', int64), int(z'85A308D3', int64), int(z'13198A2E', int64), &
-                                          int(z'03707344', int64)], [int(z'A4093822', int64), int(z'299F31D0', int64)]) == &
+      call checks%check(all(philox_words([int(z'243F6A88', int64), int(z'85A308D3', int64), int(z'13198A2E', &
+                                                            int64), &
+                                          int(z'03707344', int64)], [int(z'A4093822', int64), &
+                                                            int(z'299F31D0', int64)]) == &
                             [int(z'D16CFE09', int64), int(z'94FDCCEB', int64), int(z'5001E420', int64), &
                              int(z'24126EA1', int64)]), 'digits of pi')
    end subroutine test_known_answers
@@ -58,13 +61,18 @@ contains
       call checks%check(minval(numbers) > 0.0_dp .and. maxval(numbers) < 1.0_dp, 'between 0 and 1')
       call checks%check_close(sum(numbers)/count, 0.5_dp, 4.0_dp*deviation, 'mean')
       call checks%check_close(sum((numbers - 0.5_dp)**2)/count, 1.0_dp/12.0_dp, 4.0_dp*deviation, 'variance')
-      call checks%check_close(sum((numbers(2:) - 0.5_dp)*(numbers(:count - 1) - 0.5_dp))/count, 0.0_dp, deviation, 'neighbours')
+      call checks%check_close(sum((numbers(2:) - 0.5_dp)*(numbers(:count - 1) - 0.5_dp))/count, 0.0_dp, &
+                              deviation, 'neighbours')
       call checks%check(state%place == count, 'places passed')
-      call checks%check_close(uniform_at(20080618_int64, 0_int64, 12345_int64), numbers(12346), 0.0_dp, 'any place alone')
-      call checks%check(random_bits(1_int64, 0_int64, 7_int64) /= random_bits(2_int64, 0_int64, 7_int64), 'seeds differ')
-      call checks%check(random_bits(1_int64, 0_int64, 7_int64) /= random_bits(1_int64, 1_int64, 7_int64), 'streams differ')
+      call checks%check_close(uniform_at(20080618_int64, 0_int64, 12345_int64), numbers(12346), 0.0_dp, &
+                              'any place alone')
+      call checks%check(random_bits(1_int64, 0_int64, 7_int64) /= random_bits(2_int64, 0_int64, 7_int64), &
+                        'seeds differ')
+      call checks%check(random_bits(1_int64, 0_int64, 7_int64) /= random_bits(1_int64, 1_int64, 7_int64), &
+                        'streams differ')
       call checks%check(random_bits(-1_int64, -1_int64, -1_int64) >= 0_int64, 'negative arguments')
-      call checks%check(random_bits(shiftl(1_int64, 32), 0_int64, 0_int64) /= random_bits(0_int64, 0_int64, 0_int64), &
+      call checks%check(random_bits(shiftl(1_int64, 32), 0_int64, 0_int64) /= random_bits(0_int64, 0_int64, &
+                                                            0_int64), &
                         'upper half of the seed counts')
    end subroutine test_uniform
 
@@ -83,13 +91,15 @@ contains
          seen(100*small(1) + 10*small(2) + small(3)) = seen(100*small(1) + 10*small(2) + small(3)) + 1
       end do
       call checks%check(count(seen > 0) == 6, 'all orders of three')
-      call checks%check(all(pack(seen, seen > 0) > 850 .and. pack(seen, seen > 0) < 1150), 'all orders as often')
+      call checks%check(all(pack(seen, seen > 0) > 850 .and. pack(seen, seen > 0) < 1150), &
+                        'all orders as often')
    end subroutine test_permutation
 
    !> Every number once, for awkward sizes; seeds differ; no trend.
    subroutine test_hash_permutation(checks)
       type(check_list_t), intent(inout) :: checks
-      integer(int64), parameter :: sizes(12) = [1_int64, 2_int64, 3_int64, 4_int64, 5_int64, 7_int64, 16_int64, 17_int64, &
+      integer(int64), parameter :: sizes(12) = [1_int64, 2_int64, 3_int64, 4_int64, 5_int64, 7_int64, &
+                                                16_int64, 17_int64, &
                                                 99_int64, 1000_int64, 4096_int64, 4099_int64]
       type(hash_permutation_t) :: permutation, other
       logical :: seen(0:4098)
@@ -107,11 +117,13 @@ contains
          call checks%check(count(seen) == sizes(i), 'every number once, size '//integer_text(sizes(i)))
       end do
       other = new_hash_permutation(4099_int64, 6_int64, 1_int64)
-      call checks%check(count([(permuted(permutation, place) == permuted(other, place), place=0_int64, 4098_int64)]) < 10, &
+      call checks%check(count([(permuted(permutation, place) == permuted(other, place), place=0_int64, &
+                                4098_int64)]) < 10, &
                         'another seed gives another order')
       trend = 0.0_dp
       do place = 0_int64, 4098_int64
-         trend = trend + (real(place, dp)/4098.0_dp - 0.5_dp)*(real(permuted(permutation, place), dp)/4098.0_dp - 0.5_dp)
+         trend = trend + (real(place, dp)/4098.0_dp - 0.5_dp)*(real(permuted(permutation, place), &
+                                                            dp)/4098.0_dp - 0.5_dp)
       end do
       ! Its standard deviation is sqrt(n)/12.
       call checks%check(abs(trend) < 4.0_dp*sqrt(4099.0_dp)/12.0_dp, 'no trend')

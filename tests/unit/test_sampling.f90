@@ -4,7 +4,8 @@ module test_sampling
    use checks, only: check_list_t
    use kinds, only: dp, int64
    use latin_hypercube, only: hypercube_point, latin_hypercube_t, new_latin_hypercube
-   use sampling, only: chunk_values, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, sample_plan_t, scene_values
+   use sampling, only: chunk_values, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, sample_plan_t, &
+      scene_values
    use sobol_sequence, only: largest_sobol_size, new_sobol_sequence, sobol_point, sobol_sequence_t
    use text, only: integer_text
    implicit none(type, external)
@@ -46,8 +47,10 @@ contains
                                                        10, 2, 14, 10, 10, 14, 2, 2, &
                                                        2, 10, 6, 2, 2, 6, 10, 10, &
                                                        3, 5, 15, 7, 9, 5, 7, 15], [8, 9])
-      integer, parameter :: point_1000(32) = [225, 99, 531, 693, 287, 929, 47, 921, 513, 71, 87, 261, 165, 393, 147, 379, &
-                                              737, 353, 1015, 743, 535, 563, 973, 553, 597, 929, 41, 1003, 61, 349, 151, 149]
+      integer, parameter :: point_1000(32) = [225, 99, 531, 693, 287, 929, 47, 921, 513, 71, 87, 261, 165, &
+                                              393, 147, 379, &
+                                              737, 353, 1015, 743, 535, 563, 973, 553, 597, 929, 41, 1003, &
+                                                 61, 349, 151, 149]
       type(sobol_sequence_t) :: sequence
       real(dp) :: point(32)
       integer :: i
@@ -55,7 +58,8 @@ contains
       sequence = new_sobol_sequence(8, 0_int64)
       do i = 1, 9
          call sobol_point(sequence, int(i - 1, int64), point(:8))
-         call checks%check(all(abs(16.0_dp*point(:8) - real(sixteenths(:, i), dp)) <= 0.0_dp), 'point '//integer_text(i - 1))
+         call checks%check(all(abs(16.0_dp*point(:8) - real(sixteenths(:, i), dp)) <= 0.0_dp), 'point '// &
+                           integer_text(i - 1))
       end do
       sequence = new_sobol_sequence(32, 0_int64)
       call sobol_point(sequence, 1000_int64, point)
@@ -114,7 +118,8 @@ contains
             end do
          end do
          call checks%check(inside, 'between 0 and 1, size '//integer_text(sizes(k)))
-         call checks%check(all(hits(:sizes(k) - 1, :) == 1), 'one in each stratum, size '//integer_text(sizes(k)))
+         call checks%check(all(hits(:sizes(k) - 1, :) == 1), 'one in each stratum, size '// &
+                           integer_text(sizes(k)))
       end do
       ! The upper end of the largest size, where rounding is worst.
       hypercube = new_latin_hypercube(1, 2_int64**30, 3_int64)
@@ -158,7 +163,8 @@ contains
                scene = scene + 1_int64
                call scene_values(plan, scene, values)
                ordered = ordered .and. abs(values(1) - (0.1_dp + 0.3_dp*i)) < 1.0e-15_dp
-               ordered = ordered .and. abs(log(values(2)/3.0e-7_dp) - j*log(7.0e3_dp/3.0e-7_dp)/10.0_dp) < 1.0e-13_dp
+               ordered = ordered .and. &
+                         abs(log(values(2)/3.0e-7_dp) - j*log(7.0e3_dp/3.0e-7_dp)/10.0_dp) < 1.0e-13_dp
                ordered = ordered .and. same(values(3), 5.0_dp - 6.0_dp*k)
             end do
          end do
@@ -223,17 +229,22 @@ contains
       call plan_sobol(axes, 1024_int64, 0_int64, plan, bad_axis, message)
       call checks%check(len(message) == 0, 'a sound sample: '//message)
       call chunk_values(plan, 1_int64, values)
-      call checks%check(all(same(values(:, 1), [-2.0_dp, 1.0e-6_dp, 3.0_dp, 7.0_dp])), 'the origin is the first of each')
+      call checks%check(all(same(values(:, 1), [-2.0_dp, 1.0e-6_dp, 3.0_dp, 7.0_dp])), &
+                        'the origin is the first of each')
       call checks%check_close(sum(values(1, :))/1024.0_dp, 2.0_dp, 0.01_dp, 'mean of a linear axis')
-      call checks%check_close(sum(log10(values(2, :)))/1024.0_dp, -2.0_dp, 0.01_dp, 'mean of a logarithmic axis')
+      call checks%check_close(sum(log10(values(2, :)))/1024.0_dp, -2.0_dp, 0.01_dp, &
+                              'mean of a logarithmic axis')
       call checks%check(all(same(values(3, :), anint(values(3, :)))), 'integers')
-      call checks%check(count(same(values(3, :), 3.0_dp)) == 128 .and. count(same(values(3, :), 10.0_dp)) == 128, &
+      call checks%check(count(same(values(3, :), 3.0_dp)) == 128 .and. count(same(values(3, :), &
+                                                            10.0_dp)) == 128, &
                         'equal shares of integers')
       call checks%check(count(same(values(4, :), 2.0_dp)) == 256, 'equal shares of a list')
       call plan_latin_hypercube(axes, 1024_int64, 9_int64, plan, bad_axis, message)
       call chunk_values(plan, 1_int64, values)
-      call checks%check(minval(values(1, :)) > -2.0_dp .and. maxval(values(1, :)) < 6.0_dp, 'within a linear range')
-      call checks%check(minval(values(2, :)) > 1.0e-6_dp .and. maxval(values(2, :)) < 1.0e2_dp, 'within a logarithmic range')
+      call checks%check(minval(values(1, :)) > -2.0_dp .and. maxval(values(1, :)) < 6.0_dp, &
+                        'within a linear range')
+      call checks%check(minval(values(2, :)) > 1.0e-6_dp .and. maxval(values(2, :)) < 1.0e2_dp, &
+                        'within a logarithmic range')
       call checks%check(count(same(values(4, :), 7.0_dp)) == 256, 'equal shares of a list, Latin hypercube')
    end subroutine test_spread_values
 
@@ -254,7 +265,8 @@ contains
       do method = 1, 3
          if (method == 1) call plan_grid(axes, plan, bad_axis, message)
          if (method == 2) call plan_sobol(axes, int(scenes, int64), 11_int64, plan, bad_axis, message)
-         if (method == 3) call plan_latin_hypercube(axes, int(scenes, int64), 11_int64, plan, bad_axis, message)
+         if (method == 3) call plan_latin_hypercube(axes, int(scenes, int64), 11_int64, plan, bad_axis, &
+                                                    message)
          call chunk_values(plan, 1_int64, whole)
          equal = .true.
          do width = 1, 19
@@ -291,9 +303,12 @@ contains
       whole%whole = .true.
       call refuse_grid(checks, [sound, range_axis(2, scale_linear, 2.0_dp, 1.0_dp, 3)], 2, 'below the last')
       call refuse_grid(checks, [sound, range_axis(2, scale_linear, 1.0_dp, 1.0_dp, 3)], 2, 'below the last')
-      call refuse_grid(checks, [range_axis(2, scale_logarithmic, 0.0_dp, 1.0_dp, 3)], 1, 'must lie above zero')
-      call refuse_grid(checks, [range_axis(2, scale_logarithmic, -2.0_dp, -1.0_dp, 3)], 1, 'must lie above zero')
-      call refuse_grid(checks, [range_axis(2, scale_linear, 1.0_dp, 1.0e200_dp, 3)], 1, 'between 1e-100 and 1e100')
+      call refuse_grid(checks, [range_axis(2, scale_logarithmic, 0.0_dp, 1.0_dp, 3)], 1, &
+                       'must lie above zero')
+      call refuse_grid(checks, [range_axis(2, scale_logarithmic, -2.0_dp, -1.0_dp, 3)], 1, &
+                       'must lie above zero')
+      call refuse_grid(checks, [range_axis(2, scale_linear, 1.0_dp, 1.0e200_dp, 3)], 1, &
+                       'between 1e-100 and 1e100')
       call refuse_grid(checks, [range_axis(2, scale_linear, 1.0_dp, 2.0_dp, 1)], 1, 'count must be 2 or more')
       call refuse_grid(checks, [list_axis(2, none)], 1, 'list of values is empty')
       call refuse_grid(checks, [list_axis(2, [1.0_dp, 3.0_dp, 1.0_dp])], 1, 'holds the value 1.0 twice')

@@ -1,5 +1,5 @@
-!> Tests of the error-controlled engine: accuracy against itself, against collocation, against Newmark's method
-!> and reference values; equal bits in any lane; repetition; motions carried on; failures.
+!> Tests of the error-controlled engine: accuracy against itself, against collocation, against Newmark's
+!> method and reference values; equal bits in any lane; repetition; motions carried on; failures.
 module test_taylor_lanes
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use checks, only: check_list_t
@@ -16,7 +16,8 @@ module test_taylor_lanes
    implicit none(type, external)
    private
 
-   real(dp), parameter :: radius = 0.0127_dp, viscosity = 0.3_dp, pressure_viscosity = 2.0e-8_dp, mass = 3.0_dp
+   real(dp), parameter :: radius = 0.0127_dp, viscosity = 0.3_dp, pressure_viscosity = 2.0e-8_dp, &
+      mass = 3.0_dp
    real(dp), parameter :: frequency = 600.0_dp, first_film = 0.89e-6_dp
 
    public :: run_taylor_lanes_tests
@@ -66,7 +67,8 @@ contains
          scene%film%rolling = rolling_coefficient(length, speed, viscosity, radius)
          scene%film%squeeze = squeeze_coefficient(length, viscosity, radius)
       case (kernel_piezo)
-         length = load*first_film**3.5_dp/piezo_coefficient(1.0_dp, speed, viscosity, radius, pressure_viscosity)
+         length = load*first_film**3.5_dp/piezo_coefficient(1.0_dp, speed, viscosity, radius, &
+            pressure_viscosity)
          scene%film%piezo = piezo_coefficient(length, speed, viscosity, radius, pressure_viscosity)
          scene%film%rate = squeeze_exponent_rate(speed)
       case default
@@ -88,8 +90,10 @@ contains
       real(dp) :: film_table(sampled*per_period, 1), velocity_table(sampled*per_period, 1)
 
       film_table = 0.0_dp
-      call solve_motions([scene], lane_request_t(accuracy=accuracy, periods=periods, samples_per_period=per_period, &
-                                                 sampled_periods=sampled), film_table, velocity_table, endings)
+      call solve_motions([scene], lane_request_t(accuracy=accuracy, periods=periods, &
+         samples_per_period=per_period, &
+                                                 sampled_periods=sampled), film_table, velocity_table, &
+                                                    endings)
       ending = endings(1)
       films = film_table(:, 1)
    end subroutine films_of
@@ -108,12 +112,14 @@ contains
          worst_exponential = max(worst_exponential, maxval(abs(y/exp(x) - 1.0_dp)))
          x = [(real(i*lanes + l, dp)/real(201*lanes, dp), l=1, lanes)]
          call lane_cosine_sine(x, cosine, sine)
-         worst_circle = max(worst_circle, maxval(abs(cosine - cos(two_pi*x))), maxval(abs(sine - sin(two_pi*x))))
+         worst_circle = max(worst_circle, maxval(abs(cosine - cos(two_pi*x))), maxval(abs(sine &
+            - sin(two_pi*x))))
       end do
       call checks%check_close(worst_exponential, 0.0_dp, 4.0_dp*epsilon(1.0_dp), 'exponential')
       call checks%check_close(worst_circle, 0.0_dp, 6.0_dp*epsilon(1.0_dp), 'cosine and sine')
       x = [(10.0_dp**(l - 8), l=1, lanes)]
-      call checks%check(maxval(abs(coarse_power(coarse_log(x) - log_of_one)/x - 1.0_dp)) < 2.0e-6_dp, 'coarse power inverts')
+      call checks%check(maxval(abs(coarse_power(coarse_log(x) - log_of_one)/x - 1.0_dp)) < 2.0e-6_dp, &
+         'coarse power inverts')
    end subroutine test_functions
 
    !> Start-up of the canonical idle scene, films known to 13 digits.
@@ -154,7 +160,8 @@ contains
          do digits = 4, 10, 2
             call films_of(scene, 10.0_dp**(-digits), 20, 20, 16, films, ending)
             write (text, '(i0, a, i0)') kernels(k), ', ', digits
-            call checks%check(maxval(abs(films/exact - 1.0_dp)) < 4.0_dp*10.0_dp**(-digits), 'accuracy of kernel, digits '//text)
+            call checks%check(maxval(abs(films/exact - 1.0_dp)) < 4.0_dp*10.0_dp**(-digits), &
+               'accuracy of kernel, digits '//text)
          end do
          scene%implicit = .true.
          call films_of(scene, 1.0e-9_dp, 20, 20, 16, films, ending)
@@ -178,7 +185,8 @@ contains
       finest = newmark_film(scene, 5, 2048)
       rough = fine + (fine - rough)/3.0_dp
       finest = finest + (finest - fine)/3.0_dp
-      call checks%check_close((finest + (finest - rough)/15.0_dp)/films(1), 1.0_dp, 1.0e-9_dp, 'Newmark, extrapolated twice')
+      call checks%check_close((finest + (finest - rough)/15.0_dp)/films(1), 1.0_dp, 1.0e-9_dp, 'Newmark, &
+&         extrapolated twice')
    end subroutine test_against_newmark
 
    !> Film after some periods by Newmark's method, every step solved by Newton's.
@@ -195,10 +203,12 @@ contains
       call film_load(scene%film, h, v, load, by_film, by_velocity)
       a = (load - scene%weight - scene%steady_force - scene%force_amplitude)/scene%mass
       do i = 1, periods*steps
-         force = scene%steady_force + scene%force_amplitude*cos(two_pi*real(modulo(i, steps), dp)/real(steps, dp))
+         force = scene%steady_force + scene%force_amplitude*cos(two_pi*real(modulo(i, steps), &
+            dp)/real(steps, dp))
          next = a
          do pass = 1, 20
-            call film_load(scene%film, h + dt*v + 0.25_dp*dt*dt*(a + next), v + 0.5_dp*dt*(a + next), load, by_film, by_velocity)
+            call film_load(scene%film, h + dt*v + 0.25_dp*dt*dt*(a + next), v + 0.5_dp*dt*(a + next), &
+               load, by_film, by_velocity)
             residual = (load - scene%weight - force)/scene%mass - next
             next = next + residual/(1.0_dp - (0.25_dp*dt*dt*by_film + 0.5_dp*dt*by_velocity)/scene%mass)
             if (abs(residual) < 1.0e-11_dp*max(1.0_dp, abs(next))) exit
@@ -222,9 +232,11 @@ contains
       integer :: i, shift
       logical :: equal
 
-      request = lane_request_t(accuracy=1.0e-7_dp, periods=periods, samples_per_period=per_period, sampled_periods=periods)
+      request = lane_request_t(accuracy=1.0e-7_dp, periods=periods, samples_per_period=per_period, &
+         sampled_periods=periods)
       do i = 1, count
-         scenes(i) = scene_of(merge(kernel_half_pi, kernel_piezo, modulo(i, 3) < 2), 0.5_dp + 0.1_dp*real(i, dp), &
+         scenes(i) = scene_of(merge(kernel_half_pi, kernel_piezo, modulo(i, 3) < 2), 0.5_dp &
+            + 0.1_dp*real(i, dp), &
                               0.1_dp*real(i, dp))
          scenes(i)%implicit = modulo(i, 7) == 0
          if (modulo(i, 5) == 0) scenes(i) = scene_of(kernel_reynolds_iso, 1.0_dp, 0.1_dp*real(i, dp))
@@ -239,7 +251,8 @@ contains
             film = 0.0_dp
             velocity = 0.0_dp
             call solve_motions(mixed(i:i), request, film, velocity, alone)
-            equal = equal .and. all(same(film(:, 1), films(:, i))) .and. all(same(velocity(:, 1), velocities(:, i))) &
+            equal = equal .and. all(same(film(:, 1), films(:, i))) .and. all(same(velocity(:, 1), &
+               velocities(:, i))) &
                .and. same(alone(1)%momentum, endings(i)%momentum) .and. alone(1)%steps == endings(i)%steps
          end do
          call checks%check(equal, 'equal bits alone and in company')
@@ -276,7 +289,8 @@ contains
       scenes(3)%initial_film = 0.889e-6_dp
       ! Slow surfaces: the film rises for hundreds of periods.
       scenes(4) = scene_of(kernel_piezo, 0.05_dp, 3.0_dp)
-      request = lane_request_t(accuracy=1.0e-8_dp, periods=300, samples_per_period=16, sampled_periods=8, until_steady=.true.)
+      request = lane_request_t(accuracy=1.0e-8_dp, periods=300, samples_per_period=16, sampled_periods=8, &
+         until_steady=.true.)
       films = 0.0_dp
       velocities = 0.0_dp
       call solve_motions(scenes, request, films, velocities, endings)
@@ -287,9 +301,11 @@ contains
       call checks%check(all(endings%samples == [16, 16, 32, 128]), 'one orbit is sampled')
       call checks%check(endings(4)%status == status_complete, 'a film that rises slowly does not repeat')
       call films_of(scenes(1), 1.0e-10_dp, 300, 1, 16, exact, ending)
-      call checks%check_close(maxval(abs(films(:16, 1)/exact - 1.0_dp)), 0.0_dp, 2.0e-8_dp, 'orbit of the whole run')
+      call checks%check_close(maxval(abs(films(:16, 1)/exact - 1.0_dp)), 0.0_dp, 2.0e-8_dp, &
+         'orbit of the whole run')
       call films_of(scenes(3), 1.0e-10_dp, 300 + modulo(endings(3)%periods, 2), 2, 16, exact, ending)
-      call checks%check_close(maxval(abs(films(:32, 3)/exact - 1.0_dp)), 0.0_dp, 5.0e-8_dp, 'orbit of two periods')
+      call checks%check_close(maxval(abs(films(:32, 3)/exact - 1.0_dp)), 0.0_dp, 5.0e-8_dp, &
+         'orbit of two periods')
    end subroutine test_repetition
 
    !> One long run is two chained ones, bit for bit, by series and by collocation.
@@ -323,7 +339,8 @@ contains
          request%sampled_periods = 12
          films = 0.0_dp
          call solve_motions([rest], request, films, velocities, second)
-         call checks%check(all(same(films, whole)) .and. same(long(1)%momentum, second(1)%momentum), 'carried on, bit for bit')
+         call checks%check(all(same(films, whole)) .and. same(long(1)%momentum, second(1)%momentum), &
+            'carried on, bit for bit')
       end do
    end subroutine test_carrying_on
 
@@ -340,9 +357,11 @@ contains
       scenes(1)%initial_film = -1.0e-9_dp
       scenes(2)%initial_film = ieee_value(1.0_dp, ieee_quiet_nan)
       scenes(3)%initial_velocity = -2.0_dp
-      call solve_motions(scenes, lane_request_t(accuracy=1.0e-6_dp, periods=2, samples_per_period=4, sampled_periods=1), &
+      call solve_motions(scenes, lane_request_t(accuracy=1.0e-6_dp, periods=2, samples_per_period=4, &
+         sampled_periods=1), &
                          films, velocities, endings)
-      call checks%check(all(endings%status == [status_film_lost, status_film_lost, status_overflow, status_complete]), &
+      call checks%check(all(endings%status == [status_film_lost, status_film_lost, status_overflow, &
+         status_complete]), &
                         'statuses of scenes that cannot start')
       call checks%check(all(endings%samples == [0, 0, 0, 4]), 'samples of scenes that cannot start')
       call accelerations(scenes(4), 4, [first_film], [0.0_dp], values(:1))

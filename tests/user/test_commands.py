@@ -29,6 +29,7 @@ GROUPS = (
     "solver",
     "spectrum",
     "points",
+    "sweep",
     "output",
 )
 CRASH = ("acktrace", "Program received", "Fortran runtime error")

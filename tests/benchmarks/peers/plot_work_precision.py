@@ -63,14 +63,19 @@ def read(path: Path) -> tuple[dict[str, str], Points]:
 
 
 def cost_at(series: list[tuple[float, float, float]], error: float) -> Cost | None:
-    """Cost on one scene, from the last pair of settings whose errors enclose the one asked for."""
+    """Cost on one scene, from the last pair of settings whose errors enclose the one asked for.
+
+    A setting that is more accurate and cheaper still counts instead.
+    """
+    accurate = [seconds for _, reached, seconds in series if reached <= error]
+    if not accurate:
+        return None
+    cheapest = min(accurate)
     for (_, coarse, before), (_, fine, after) in reversed(list(zip(series, series[1:], strict=False))):
         if coarse > error >= fine > 0:
             share = math.log(coarse / error) / math.log(coarse / fine)
-            return Cost(before * (after / before) ** share, bound=False)
-    if series and series[0][1] <= error:
-        return Cost(series[0][2], bound=True)
-    return None
+            return Cost(min(cheapest, before * (after / before) ** share), bound=False)
+    return Cost(cheapest, bound=True)
 
 
 def group_cost(films: dict, names: tuple[str, ...], count: int, error: float) -> Cost | None:

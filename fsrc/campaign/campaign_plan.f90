@@ -1,0 +1,173 @@
+!> From &campaign to a plan of scenes: which keys vary, which values they take, how many scenes that makes.
+module campaign_plan
+   use campaign_axis, only: campaign_axis_t
+   use csv_samples, only: csv_samples_t, read_csv_samples
+   use errors, only: fault_list_t
+   use kinds, only: dp, int64
+   use sampling, only: chunk_values, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, sample_plan_t
+   use scene_types, only: scene_t
+   use text, only: integer_text
+   use varied_keys, only: find_varied_key, is_whole, varied_key_name
+   use varied_scene, only: can_be_varied, is_valid_scene, set_varied_key
+   implicit none (type, external)
+   private
+
+   integer, parameter :: sample_grid = 1, sample_sobol = 2
+   !> Campaigns beyond this must be meant.
+   integer(int64), parameter :: unconfirmed_limit = 10000000_int64
+   !> Scenes that are looked at together
+   integer, parameter :: block = 4096
+   !> Invalid scenes that are named one by one
+   integer, parameter :: most_named = 20
+
+   public :: plan_campaign, count_invalid
+
+contains
+
+   !> Plan of a campaign; faults are added with the place in the input.
+   subroutine plan_campaign(scene, file, plan, faults)
+      !> Checked base scene
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> The plan; of use only if no fault was added
+      type(sample_plan_t), intent(out) :: plan
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(campaign_axis_t), allocatable :: axes(:)
+      type(csv_samples_t) :: samples
+      character(:), allocatable :: message
+      integer :: before, bad_axis, i
+
+      before = faults%count()
+      if (len(scene%campaign%csv) > 0) then
+         call read_csv_samples(scene%campaign%csv, samples, faults)
+         if (faults%count() > before) return
+         do i = 1, size(samples%positions)
+            call check_position(scene, scene%campaign%csv, varied_key_name(samples%positions(i)), samples%positions(i), faults)
+         end do
+         if (faults%count() > before) return
+         call plan_table(samples%positions, samples%values, plan)
+      else
+         call form_axes(scene, file, axes, faults)
+         if (faults%count() > before) return
+         select case (scene%campaign%sample)
+         case (sample_grid)
+            call plan_grid(axes, plan, bad_axis, message)
+         case (sample_sobol)
+            call plan_sobol(axes, int(scene%campaign%size, int64), int(scene%campaign%seed, int64), plan, bad_axis, message)
+         case default
+            call plan_latin_hypercube(axes, int(scene%campaign%size, int64), int(scene%campaign%seed, int64), plan, &
+                                      bad_axis, message)
+         end select
+         if (len(message) > 0) then
+            if (bad_axis > 0) message = scene%campaign%vary(bad_axis)%text//': '//message
+            call faults%add(file, 0, 'campaign', 'vary', message)
+            return
+         end if
+      end if
+      if (plan%size > unconfirmed_limit .and. .not. scene%campaign%confirm_size) &
+         call faults%add(file, 0, 'campaign', 'confirm_size', integer_text(plan%size)//' scenes; set it if that is meant')
+   end subroutine plan_campaign
+
+   !> Axes of the varied keys.
+   subroutine form_axes(scene, file, axes, faults)
+      type(scene_t), intent(in) :: scene
+      character(*), intent(in) :: file
+      type(campaign_axis_t), allocatable, intent(out) :: axes(:)
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: message
+      integer :: i
+
+      associate (campaign => scene%campaign)
+         allocate (axes(size(campaign%vary)))
+         do i = 1, size(axes)
+            call find_varied_key(campaign%vary(i)%text, axes(i)%position, message)
+            if (len(message) > 0) then
+               call faults%add(file, 0, 'campaign', 'vary', campaign%vary(i)%text//': '//message)
+               cycle
+            end if
+            call check_position(scene, file, campaign%vary(i)%text, axes(i)%position, faults)
+            axes(i)%whole = is_whole(axes(i)%position)
+            axes(i)%scale = campaign%scale(i)
+            if (i <= size(campaign%values)) then
+               if (size(campaign%values(i)%numbers) > 0) then
+                  axes(i)%values = campaign%values(i)%numbers
+                  cycle
+               end if
+            end if
+            if (i > size(campaign%first) .or. i > size(campaign%last) .or. &
+                (campaign%sample == sample_grid .and. i > size(campaign%count))) then
+               call faults%add(file, 0, 'campaign', 'vary', campaign%vary(i)%text// &
+                               ': give first('//integer_text(i)//'), last('//integer_text(i)//') and count('// &
+                               integer_text(i)//'), or values(:, '//integer_text(i)//')')
+               cycle
+            end if
+            axes(i)%first = campaign%first(i)
+            axes(i)%last = campaign%last(i)
+            if (i <= size(campaign%count)) axes(i)%count = nint(campaign%count(i))
+         end do
+         if (maxval([size(campaign%first), size(campaign%last), size(campaign%count), size(campaign%values)]) > size(axes)) &
+            call faults%add(file, 0, 'campaign', 'vary', 'there are more ranges than varied keys')
+      end associate
+   end subroutine form_axes
+
+   !> A varied key must be one of a single motion, and have its value in the base.
+   subroutine check_position(scene, file, name, position, faults)
+      type(scene_t), intent(in) :: scene
+      character(*), intent(in) :: file
+      character(*), intent(in) :: name
+      integer, intent(in) :: position
+      type(fault_list_t), intent(inout) :: faults
+
+      if (.not. can_be_varied(position)) then
+         call faults%add(file, 0, 'campaign', 'vary', name//': this key does not belong to the single motion')
+      else if (.not. scene%campaign%in_base(position)) then
+         call faults%add(file, 0, 'campaign', 'vary', name// &
+                         ': the base input does not use this key; give it there, or vary the one it uses')
+      end if
+   end subroutine check_position
+
+   !> Scenes that are no valid scenes; the first ones are named as faults unless they are allowed.
+   subroutine count_invalid(scene, file, plan, first, last, invalid, faults)
+      !> Checked base scene
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> The plan
+      type(sample_plan_t), intent(in) :: plan
+      !> First and last scene to look at
+      integer(int64), intent(in) :: first
+      integer(int64), intent(in) :: last
+      !> How many are invalid
+      integer(int64), intent(out) :: invalid
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(scene_t) :: trial
+      real(dp), allocatable :: values(:, :)
+      integer(int64) :: start
+      integer :: i, k, count
+
+      invalid = 0_int64
+      trial = scene
+      do start = first, last, int(block, int64)
+         count = int(min(int(block, int64), last - start + 1_int64))
+         if (allocated(values)) deallocate (values)
+         allocate (values(size(plan%positions), count))
+         call chunk_values(plan, start, values)
+         do i = 1, count
+            do k = 1, size(plan%positions)
+               call set_varied_key(trial, plan%positions(k), values(k, i))
+            end do
+            if (is_valid_scene(trial, plan%positions, values(:, i))) cycle
+            invalid = invalid + 1_int64
+            if (scene%campaign%allow_invalid .or. invalid > int(most_named, int64)) cycle
+            call faults%add(file, 0, 'campaign', '', 'scene '//integer_text(start + int(i - 1, int64))// &
+                            ' is no valid scene; allow_invalid = .true. records it as such')
+         end do
+      end do
+      if (invalid > int(most_named, int64) .and. .not. scene%campaign%allow_invalid) &
+         call faults%add(file, 0, 'campaign', '', integer_text(invalid)//' scenes are no valid scenes')
+   end subroutine count_invalid
+
+end module campaign_plan

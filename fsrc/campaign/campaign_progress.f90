@@ -1,0 +1,130 @@
+!> Progress of a campaign: one line on a terminal, a line a minute elsewhere, and NAME.progress.nml for watchers.
+module campaign_progress
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use clock, only: wall_seconds
+   use errors, only: error_t
+   use file_system, only: is_terminal
+   use kinds, only: dp, int64
+   use log_file, only: log_t
+   use summary_file, only: summary_t
+   use text, only: integer_text, short_text
+   implicit none (type, external)
+   private
+
+   real(dp), parameter :: terminal_interval = 0.5_dp, line_interval = 60.0_dp, file_interval = 5.0_dp
+
+   !> Progress so far. Threads add to the counts; the first of them tells.
+   type, public :: campaign_progress_t
+      integer(int64) :: scenes = 0_int64, done_before = 0_int64, done = 0_int64, failed = 0_int64
+      logical :: quiet = .false.
+      character(:), allocatable :: path
+      logical, private :: on_terminal = .false.
+      real(dp), private :: started = 0.0_dp, told = 0.0_dp, written = 0.0_dp
+   contains
+      procedure :: start
+      procedure :: add
+      procedure :: tell
+      procedure :: finish
+   end type campaign_progress_t
+
+contains
+
+   !> Begin.
+   subroutine start(self, path, scenes, done_before, quiet)
+      class(campaign_progress_t), intent(inout) :: self
+      !> File for watchers
+      character(*), intent(in) :: path
+      !> Scenes of the campaign, and those an earlier run has solved
+      integer(int64), intent(in) :: scenes
+      integer(int64), intent(in) :: done_before
+      !> Nothing to the terminal
+      logical, intent(in) :: quiet
+
+      self%path = path
+      self%scenes = scenes
+      self%done_before = done_before
+      self%quiet = quiet
+      self%on_terminal = is_terminal()
+      self%started = wall_seconds()
+      self%told = self%started
+      self%written = self%started
+   end subroutine start
+
+   !> Count solved scenes.
+   subroutine add(self, done, failed)
+      class(campaign_progress_t), intent(inout) :: self
+      !> Scenes solved, and those of them that failed
+      integer(int64), intent(in) :: done
+      integer(int64), intent(in) :: failed
+
+      !$omp atomic
+      self%done = self%done + done
+      !$omp atomic
+      self%failed = self%failed + failed
+   end subroutine add
+
+   !> Tell, if it is time to.
+   subroutine tell(self, log)
+      class(campaign_progress_t), intent(inout) :: self
+      !> Log of the campaign
+      type(log_t), intent(in) :: log
+      real(dp) :: now
+      integer :: ignored
+
+      now = wall_seconds()
+      if (now - self%written > file_interval) call write_progress(self, now)
+      if (now - self%told < merge(terminal_interval, line_interval, self%on_terminal)) return
+      self%told = now
+      if (.not. self%on_terminal) then
+         call log%line('  '//words(self, now))
+      else if (.not. self%quiet) then
+         write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//'  '//words(self, now)//'   '
+         flush (output_unit, iostat=ignored)
+      end if
+   end subroutine tell
+
+   !> The last word.
+   subroutine finish(self, log)
+      class(campaign_progress_t), intent(inout) :: self
+      !> Log of the campaign
+      type(log_t), intent(in) :: log
+      integer :: ignored
+
+      if (self%on_terminal .and. .not. self%quiet) &
+         write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//repeat(' ', 100)//achar(13)
+      call write_progress(self, wall_seconds())
+      call log%line('  '//words(self, wall_seconds()))
+   end subroutine finish
+
+   !> How far, how fast, how long still, how many failures.
+   function words(self, now) result(line)
+      class(campaign_progress_t), intent(in) :: self
+      real(dp), intent(in) :: now
+      character(:), allocatable :: line
+      real(dp) :: rate
+
+      rate = real(self%done, dp)/max(now - self%started, 1.0e-9_dp)
+      line = integer_text(self%done_before + self%done)//' of '//integer_text(self%scenes)//' scenes, '// &
+             short_text(rate, 3)//' a second'
+      if (self%done > 0 .and. self%done_before + self%done < self%scenes) line = line//', '// &
+         short_text(real(self%scenes - self%done_before - self%done, dp)/rate, 2)//' s left'
+      line = line//', '//integer_text(self%failed)//' failed'
+   end function words
+
+   !> File for watchers; trouble with it is no trouble of the campaign.
+   subroutine write_progress(self, now)
+      class(campaign_progress_t), intent(inout) :: self
+      real(dp), intent(in) :: now
+      type(summary_t) :: summary
+      type(error_t), allocatable :: ignored
+
+      self%written = now
+      call summary%add('scenes', self%scenes)
+      call summary%add('scenes_done', self%done_before + self%done)
+      call summary%add('scenes_failed', self%failed)
+      call summary%add('seconds', now - self%started)
+      call summary%add('scenes_per_second', real(self%done, dp)/max(now - self%started, 1.0e-9_dp))
+      call summary%write(self%path, ignored)
+   end subroutine write_progress
+
+end module campaign_progress

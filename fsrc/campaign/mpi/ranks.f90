@@ -1,0 +1,102 @@
+!> Ranks of an MPI job. Work is handed out by a counter on rank 0 that every rank can reach by itself.
+module ranks
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
+   use kinds, only: int64
+   use mpi_f08
+   implicit none (type, external)
+   private
+
+   public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &
+             close_tickets, sum_over_ranks
+
+   type(MPI_Win) :: window
+   logical :: window_open = .false.
+   integer(int64), pointer :: counter(:)
+
+contains
+
+   !> Start MPI and put the counter of tickets on rank 0. Only one thread at a time calls MPI.
+   subroutine start_ranks()
+      integer :: provided
+      integer(MPI_ADDRESS_KIND) :: bytes
+      type(c_ptr) :: place
+
+      call MPI_Init_thread(MPI_THREAD_SERIALIZED, provided)
+      bytes = merge(8_MPI_ADDRESS_KIND, 0_MPI_ADDRESS_KIND, this_rank() == 0)
+      call MPI_Win_allocate(bytes, 8, MPI_INFO_NULL, MPI_COMM_WORLD, place, window)
+      if (this_rank() == 0) then
+         call c_f_pointer(place, counter, [1])
+         counter(1) = 0_int64
+      end if
+      call MPI_Barrier(MPI_COMM_WORLD)
+      call MPI_Win_lock_all(0, window)
+      window_open = .true.
+   end subroutine start_ranks
+
+   !> End MPI in order.
+   subroutine end_ranks()
+      call close_tickets()
+      call MPI_Finalize()
+   end subroutine end_ranks
+
+   !> End all ranks at once: one of them cannot go on.
+   subroutine abort_ranks(exit_code)
+      !> Exit code of the program
+      integer, intent(in) :: exit_code
+
+      call MPI_Abort(MPI_COMM_WORLD, exit_code)
+   end subroutine abort_ranks
+
+   !> Number of this rank, from 0.
+   integer function this_rank()
+      call MPI_Comm_rank(MPI_COMM_WORLD, this_rank)
+   end function this_rank
+
+   !> How many ranks there are.
+   integer function rank_count()
+      call MPI_Comm_size(MPI_COMM_WORLD, rank_count)
+   end function rank_count
+
+   !> Wait until all ranks are here.
+   subroutine wait_for_ranks()
+      call MPI_Barrier(MPI_COMM_WORLD)
+   end subroutine wait_for_ranks
+
+   !> Give a number of rank 0 to all.
+   subroutine share_number(number)
+      !> In on rank 0, out on all
+      integer, intent(inout) :: number
+
+      call MPI_Bcast(number, 1, MPI_INTEGER, 0, MPI_COMM_WORLD)
+   end subroutine share_number
+
+   !> A number that no rank and no thread gets twice, from 1.
+   integer(int64) function next_ticket()
+      integer(int64), asynchronous :: one, before
+
+      one = 1_int64
+      before = 0_int64
+      !$omp critical (rank_tickets)
+      call MPI_Fetch_and_op(one, before, MPI_INTEGER8, 0, 0_MPI_ADDRESS_KIND, MPI_SUM, window)
+      call MPI_Win_flush(0, window)
+      !$omp end critical (rank_tickets)
+      next_ticket = before + 1_int64
+   end function next_ticket
+
+   !> No more tickets are asked for.
+   subroutine close_tickets()
+      if (.not. window_open) return
+      call MPI_Win_unlock_all(window)
+      call MPI_Win_free(window)
+      window_open = .false.
+   end subroutine close_tickets
+
+   !> Sum of a number over all ranks, known to all.
+   integer(int64) function sum_over_ranks(number)
+      !> Number of this rank
+      integer(int64), intent(in) :: number
+
+      call MPI_Allreduce(number, sum_over_ranks, 1, MPI_INTEGER8, MPI_SUM, MPI_COMM_WORLD)
+   end function sum_over_ranks
+
+end module ranks

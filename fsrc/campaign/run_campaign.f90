@@ -1,0 +1,268 @@
+!> A campaign from input to file: plan, chunks to threads and ranks, rows in the order of the scenes.
+module run_campaign
+   use campaign_file, only: campaign_file_t, campaign_layout_t
+   use campaign_plan, only: count_invalid, plan_campaign
+   use campaign_progress, only: campaign_progress_t
+   use campaign_record, only: record_columns
+   use clock, only: wall_seconds
+   use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
+   use file_system, only: path_exists
+   use kinds, only: dp, int64
+   use log_file, only: log_magic, log_t
+   use output_place, only: check_folder, log_path, progress_path, result_path, summary_path
+   use ranks, only: abort_ranks, next_ticket, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
+   use sampling, only: sample_plan_t
+   use scene_report, only: law_sentence
+   use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
+   use scene_types, only: scene_t
+   use schedule, only: chunk_rows_for
+   use signals, only: caught_signal
+   use solve_chunk, only: solve_scenes
+   use summary_file, only: summary_t
+   use text, only: integer_text, short_text
+   use version, only: program_version
+   use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
+   implicit none (type, external)
+   private
+
+   public :: run_one_campaign, check_campaign
+
+contains
+
+   !> --check of a campaign: how many scenes, how large the result, how long it may take.
+   subroutine check_campaign(scene, file, lines, faults)
+      !> Checked base scene
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> What to tell
+      character(:), allocatable, intent(out) :: lines
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(sample_plan_t) :: plan
+      type(campaign_layout_t) :: layout
+      real(dp), allocatable :: rows(:, :)
+      real(dp) :: started
+      integer(int64) :: invalid, first, last
+      integer :: trial
+
+      lines = ''
+      call plan_campaign(scene, file, plan, faults)
+      if (faults%count() > 0) return
+      call share_of_part(scene, plan%size, first, last)
+      call count_invalid(scene, file, plan, first, last, invalid, faults)
+      if (faults%count() > 0) return
+      call form_layout(scene, plan, last - first + 1_int64, layout)
+      trial = int(min(256_int64, last - first + 1_int64))
+      allocate (rows(size(layout%names), trial))
+      started = wall_seconds()
+      call solve_scenes(scene, plan, first + (last - first + 1_int64 - int(trial, int64))/2_int64, rows)
+      lines = '! scenes              '//integer_text(last - first + 1_int64)//' ('//integer_text(invalid)//' invalid)'// &
+              new_line('a')// &
+              '! result size         '//short_text(8.0e-6_dp*real(size(layout%names), dp)*real(last - first + 1_int64, dp), 3)// &
+              ' MB'//new_line('a')//'! core time, estimated '// &
+              short_text((wall_seconds() - started)/real(trial, dp)*real(last - first + 1_int64, dp), 2)//' s'
+   end subroutine check_campaign
+
+   !> Run a campaign and write its files. All ranks call this.
+   subroutine run_one_campaign(scene, file, carry_on, quiet, faults, exit_code, error)
+      !> Checked base scene
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> Go on with the file of an earlier run, if there is one
+      logical, intent(in) :: carry_on
+      !> Nothing to the terminal
+      logical, intent(in) :: quiet
+      !> Faults of the input are appended; nothing has run then
+      type(fault_list_t), intent(inout) :: faults
+      !> Exit code of the program
+      integer, intent(out) :: exit_code
+      !> Set if files could not be written
+      type(error_t), allocatable, intent(out) :: error
+      type(sample_plan_t) :: plan
+      type(campaign_layout_t) :: layout
+      type(campaign_file_t) :: results
+      type(campaign_progress_t) :: progress
+      type(log_t) :: log
+      integer(int64) :: first, last, spoilt, invalid
+      real(dp) :: started
+      logical :: stands
+
+      exit_code = exit_bad_input
+      started = wall_seconds()
+      call plan_campaign(scene, file, plan, faults)
+      if (faults%count() > 0) return
+      call share_of_part(scene, plan%size, first, last)
+      call count_invalid(scene, file, plan, first, last, invalid, faults)
+      if (faults%count() > 0) return
+      call form_layout(scene, plan, last - first + 1_int64, layout)
+      spoilt = 0_int64
+      if (this_rank() == 0) then
+         call check_folder(scene, file, faults)
+         if (faults%count() == 0) then
+            stands = path_exists(result_path(scene))
+            if (carry_on .and. stands) then
+               call results%resume(result_path(scene), layout, spoilt, error)
+            else
+               call results%create(result_path(scene), layout, scene%output%overwrite .and. .not. carry_on, error)
+            end if
+            if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)
+            if (allocated(error)) exit_code = error%exit_code
+         end if
+         exit_code = merge(exit_code, exit_complete, faults%count() > 0 .or. allocated(error))
+      end if
+      call share_number(exit_code)
+      if (exit_code /= exit_complete) return
+      if (this_rank() > 0) call results%join(result_path(scene), layout, error)
+      if (allocated(error)) then
+         call abort_ranks(error%exit_code)
+         return
+      end if
+      call wait_for_ranks()
+
+      if (this_rank() == 0) then
+         call log%line(log_magic//program_version//', campaign '//trim(scene%name)//': '//integer_text(layout%scene_count)// &
+                       ' scenes, '//law_sentence(scene)//'; '//integer_text(rank_count())//' ranks of '// &
+                       integer_text(omp_get_max_threads())//' threads')
+         if (spoilt > 0) call log%line('  '//integer_text(spoilt)//' chunks of the earlier run were damaged; they are solved again')
+         if (.not. results%is_locked()) call log%line('  warning: this file system knows no locks; see that no other run '// &
+                                                      'writes here')
+      end if
+      call progress%start(progress_path(scene), layout%scene_count, done_scenes(results), quiet)
+      call solve_chunks(scene, plan, layout, first, results, progress, log, error)
+      if (allocated(error)) call abort_ranks(error%exit_code)
+      call wait_for_ranks()
+      progress%done = sum_over_ranks(progress%done)
+      progress%failed = sum_over_ranks(progress%failed)
+      if (this_rank() == 0) call close_campaign(scene, layout, invalid, started, results, progress, log, exit_code, error)
+      call share_number(exit_code)
+   end subroutine run_one_campaign
+
+   !> Chunks until none is left, or a signal asks to stop.
+   subroutine solve_chunks(scene, plan, layout, first, results, progress, log, error)
+      type(scene_t), intent(in) :: scene
+      type(sample_plan_t), intent(in) :: plan
+      type(campaign_layout_t), intent(in) :: layout
+      !> First scene of this part of the campaign
+      integer(int64), intent(in) :: first
+      type(campaign_file_t), intent(inout) :: results
+      type(campaign_progress_t), intent(inout) :: progress
+      type(log_t), intent(in) :: log
+      type(error_t), allocatable, intent(out) :: error
+      type(error_t), allocatable :: own_error
+      integer(int64), allocatable :: pending(:)
+      real(dp), allocatable :: rows(:, :)
+      integer(int64) :: ticket, first_row, last_row, chunk
+      logical :: failed
+      integer :: status_column
+
+      failed = .false.
+      status_column = 2 + size(plan%positions)
+      pending = pack([(chunk, chunk=1_int64, results%chunk_count())], .not. results%done_flags())
+      !$omp parallel default(shared) private(ticket, chunk, first_row, last_row, rows, own_error)
+      do
+         if (caught_signal() /= 0 .or. failed) exit
+         ticket = next_ticket()
+         if (ticket > size(pending, kind=int64)) exit
+         chunk = pending(ticket)
+         call results%chunk_bounds(chunk, first_row, last_row)
+         allocate (rows(size(layout%names), last_row - first_row + 1_int64))
+         call solve_scenes(scene, plan, first + first_row - 1_int64, rows)
+         call results%write_chunk(chunk, rows, own_error)
+         call progress%add(last_row - first_row + 1_int64, &
+                           count(.not. is_success(nint(rows(status_column, :))), kind=int64))
+         deallocate (rows)
+         if (allocated(own_error)) then
+            !$omp critical (campaign_error)
+            failed = .true.
+            if (.not. allocated(error)) call move_alloc(own_error, error)
+            !$omp end critical (campaign_error)
+         end if
+         if (omp_get_thread_num() == 0 .and. this_rank() == 0) call progress%tell(log)
+      end do
+      !$omp end parallel
+   end subroutine solve_chunks
+
+   !> Close the file and say what became of the campaign.
+   subroutine close_campaign(scene, layout, invalid, started, results, progress, log, exit_code, error)
+      type(scene_t), intent(in) :: scene
+      type(campaign_layout_t), intent(in) :: layout
+      integer(int64), intent(in) :: invalid
+      real(dp), intent(in) :: started
+      type(campaign_file_t), intent(inout) :: results
+      type(campaign_progress_t), intent(inout) :: progress
+      type(log_t), intent(inout) :: log
+      integer, intent(out) :: exit_code
+      type(error_t), allocatable, intent(out) :: error
+      type(summary_t) :: summary
+      type(error_t), allocatable :: summary_error
+      integer :: status
+      logical :: finished
+
+      call results%close(finished, error)
+      status = merge(status_complete, status_interrupted, finished)
+      if (allocated(error)) status = status_not_written
+      call progress%finish(log)
+      call summary%add('name', trim(scene%name))
+      call summary%add('program_version', program_version)
+      call summary%add('status', status_name(status))
+      call summary%add('scenes', layout%scene_count)
+      call summary%add('scenes_done', progress%done_before + progress%done)
+      call summary%add('scenes_invalid', invalid)
+      call summary%add('scenes_failed_in_this_run', progress%failed)
+      call summary%add('wall_seconds', wall_seconds() - started)
+      call summary%write(summary_path(scene), summary_error)
+      if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+      call log%line('  '//result_path(scene))
+      call log%line('  '//summary_path(scene))
+      call log%close()
+      exit_code = exit_complete
+      if (progress%failed > 0) exit_code = exit_scene_failed
+      if (.not. finished) exit_code = 128 + caught_signal()
+      if (allocated(error)) exit_code = error%exit_code
+   end subroutine close_campaign
+
+   !> Scenes of the whole campaign that this part solves, cut at the borders of chunks.
+   pure subroutine share_of_part(scene, scenes, first, last)
+      type(scene_t), intent(in) :: scene
+      integer(int64), intent(in) :: scenes
+      integer(int64), intent(out) :: first
+      integer(int64), intent(out) :: last
+      integer(int64) :: chunk, chunks, parts, part
+
+      chunk = int(chunk_rows_for(scenes), int64)
+      chunks = (scenes - 1_int64)/chunk + 1_int64
+      parts = int(scene%campaign%parts, int64)
+      part = int(scene%campaign%part, int64)
+      first = chunk*(chunks*(part - 1_int64)/parts) + 1_int64
+      last = min(scenes, chunk*(chunks*part/parts))
+   end subroutine share_of_part
+
+   !> Columns, and how the scenes are cut: by the size of the whole campaign, whatever part of it this is.
+   pure subroutine form_layout(scene, plan, scenes, layout)
+      type(scene_t), intent(in) :: scene
+      type(sample_plan_t), intent(in) :: plan
+      integer(int64), intent(in) :: scenes
+      type(campaign_layout_t), intent(out) :: layout
+
+      layout%input_text = scene%resolved_input
+      layout%scene_count = scenes
+      layout%chunk_rows = int(chunk_rows_for(plan%size), int64)
+      call record_columns(scene, plan%positions, layout%names, layout%units)
+   end subroutine form_layout
+
+   !> Scenes in chunks that are done.
+   integer(int64) function done_scenes(results)
+      type(campaign_file_t), intent(in) :: results
+      integer(int64) :: chunk, first, last
+
+      done_scenes = 0_int64
+      do chunk = 1_int64, results%chunk_count()
+         if (.not. results%is_done(chunk)) cycle
+         call results%chunk_bounds(chunk, first, last)
+         done_scenes = done_scenes + last - first + 1_int64
+      end do
+   end function done_scenes
+
+end module run_campaign

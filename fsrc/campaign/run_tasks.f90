@@ -1,0 +1,79 @@
+!> What a call asks for: a campaign, or scenes one after the other.
+module run_tasks
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use batch, only: input_name, print_faults, run_batch
+   use command_line, only: command_t
+   use errors, only: error_t, exit_bad_input, exit_complete, fault_list_t
+   use ranks, only: end_ranks, start_ranks, this_rank
+   use run_campaign, only: check_campaign, run_one_campaign
+   use scene_reader, only: read_scene
+   use scene_types, only: scene_t, task_campaign
+   use, intrinsic :: omp_lib, only: omp_set_num_threads
+   implicit none (type, external)
+   private
+
+   public :: run_all_tasks
+
+contains
+
+   !> Read the inputs and hand them to who solves them. A campaign stands alone in its call.
+   subroutine run_all_tasks(command, exit_code)
+      !> What the arguments ask for
+      type(command_t), intent(in) :: command
+      !> Exit code of the program
+      integer, intent(out) :: exit_code
+      type(scene_t), allocatable :: scenes(:)
+      type(fault_list_t) :: faults
+      integer :: i
+
+      if (command%threads > 0) call omp_set_num_threads(command%threads)
+      allocate (scenes(size(command%files)))
+      do i = 1, size(scenes)
+         call read_scene(command%files(i)%text, command%overrides, scenes(i), faults)
+      end do
+      exit_code = exit_bad_input
+      if (faults%count() == 0 .and. size(scenes) > 1) then
+         do i = 1, size(scenes)
+            if (scenes(i)%task == task_campaign) call faults%add(input_name(command%files(i)%text), 0, 'scene', 'task', &
+                                                                 'a campaign must be the only input of a call')
+         end do
+      end if
+      if (faults%count() > 0) then
+         call print_faults(faults)
+      else if (scenes(1)%task == task_campaign) then
+         call run_campaign_task(command, scenes(1), exit_code)
+      else
+         call run_batch(command, scenes, exit_code)
+      end if
+   end subroutine run_all_tasks
+
+   !> Check or run the campaign; rank 0 does the talking.
+   subroutine run_campaign_task(command, scene, exit_code)
+      type(command_t), intent(in) :: command
+      type(scene_t), intent(inout) :: scene
+      integer, intent(out) :: exit_code
+      type(fault_list_t) :: faults
+      type(error_t), allocatable :: error
+      character(:), allocatable :: lines, file
+      integer :: ignored
+
+      file = input_name(command%files(1)%text)
+      exit_code = exit_complete
+      call start_ranks()
+      if (command%check) then
+         call check_campaign(scene, file, lines, faults)
+         if (this_rank() == 0 .and. faults%count() == 0) then
+            write (output_unit, '(a)', iostat=ignored) '! '//file//': valid'
+            write (output_unit, '(a)', iostat=ignored) lines
+            write (output_unit, '(a)', advance='no', iostat=ignored) scene%resolved_input
+         end if
+         if (faults%count() > 0) exit_code = exit_bad_input
+      else
+         call run_one_campaign(scene, file, command%resume, command%quiet, faults, exit_code, error)
+         if (allocated(error) .and. this_rank() == 0) write (error_unit, '(a)') error%message
+      end if
+      if (faults%count() > 0 .and. this_rank() == 0) call print_faults(faults)
+      call end_ranks()
+   end subroutine run_campaign_task
+
+end module run_tasks

@@ -1,0 +1,74 @@
+!> Stand-in for ranks: one process does it all. With MPI=1 the module of the same name in campaign/mpi is built.
+module ranks
+   use kinds, only: int64
+   implicit none (type, external)
+   private
+
+   public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &
+             close_tickets, sum_over_ranks
+
+   integer(int64) :: tickets = 0_int64
+
+contains
+
+   !> Nothing to start.
+   subroutine start_ranks()
+      tickets = 0_int64
+   end subroutine start_ranks
+
+   !> Nothing to end.
+   subroutine end_ranks()
+   end subroutine end_ranks
+
+   !> Nothing to abort.
+   subroutine abort_ranks(exit_code)
+      !> Exit code of the program
+      integer, intent(in) :: exit_code
+
+      if (exit_code < 0) tickets = 0_int64
+   end subroutine abort_ranks
+
+   !> Number of this rank, from 0.
+   integer function this_rank()
+      this_rank = 0
+   end function this_rank
+
+   !> How many ranks there are.
+   integer function rank_count()
+      rank_count = 1
+   end function rank_count
+
+   !> Wait until all ranks are here.
+   subroutine wait_for_ranks()
+   end subroutine wait_for_ranks
+
+   !> Give a number of rank 0 to all.
+   subroutine share_number(number)
+      !> In on rank 0, out on all
+      integer, intent(inout) :: number
+
+      if (number < 0) tickets = 0_int64
+   end subroutine share_number
+
+   !> A number that no rank and no thread gets twice, from 1.
+   integer(int64) function next_ticket()
+      !$omp atomic capture
+      tickets = tickets + 1_int64
+      next_ticket = tickets
+      !$omp end atomic
+   end function next_ticket
+
+   !> No more tickets are asked for.
+   subroutine close_tickets()
+      tickets = 0_int64
+   end subroutine close_tickets
+
+   !> Sum of a number over all ranks, known to all.
+   integer(int64) function sum_over_ranks(number)
+      !> Number of this rank
+      integer(int64), intent(in) :: number
+
+      sum_over_ranks = number
+   end function sum_over_ranks
+
+end module ranks

@@ -1,0 +1,190 @@
+!> Newton's method for the equations of collocation (collocation_step), for a block of lanes: states at the
+!> nodes, load and slopes there, linear equations, corrections.
+module collocation_newton
+   use film_law, only: film_load, film_t, overflow_load
+   use kinds, only: dp
+   use lane_functions, only: lanes
+   use lane_scenes, only: lane_block_t
+   use radau_nodes, only: node, once, stages, twice
+   use taylor_step_control, only: film_weight, momentum_weight
+   implicit none(type, external)
+   private
+
+   !> Share of the accuracy at which the passes end.
+   real(dp), parameter :: pass_share = 1.0e-2_dp
+   !> Error that is rounding alone.
+   real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
+
+   public :: stage_states, scaled_load, residual_and_matrix, solve_lanes, correct, allowed
+
+contains
+
+   !> Film and momentum at the nodes.
+   pure subroutine stage_states(block, k, film, momentum)
+      type(lane_block_t), intent(in) :: block
+      real(dp), intent(in) :: k(lanes, stages)
+      !> H and V at the nodes [-]
+      real(dp), intent(out) :: film(lanes, stages)
+      real(dp), intent(out) :: momentum(lanes, stages)
+      real(dp) :: first, second
+      integer :: i, j, l
+
+      do i = 1, stages
+         !$omp simd private(first, second, j)
+         do l = 1, lanes
+            first = 0.0_dp
+            second = 0.0_dp
+            do j = 1, stages
+               first = first + once(i, j)*k(l, j)
+               second = second + twice(i, j)*k(l, j)
+            end do
+            momentum(l, i) = block%momentum(l, 0) + block%step(l)*first
+            film(l, i) = block%film(l, 0) + block%step(l)*(node(i)*block%momentum(l, 0) &
+               + block%step(l)*second)
+         end do
+      end do
+   end subroutine stage_states
+
+   !> Load of the film law and its slopes in scaled units.
+   pure subroutine scaled_load(film_law, block, lane, film, momentum, load, by_film, by_momentum)
+      type(film_t), intent(in) :: film_law
+      type(lane_block_t), intent(in) :: block
+      integer, intent(in) :: lane
+      !> H [-]
+      real(dp), intent(in) :: film
+      !> V = H' [-]
+      real(dp), intent(in) :: momentum
+      !> Load [-], its slope in H, its slope in V
+      real(dp), intent(out) :: load
+      real(dp), intent(out) :: by_film
+      real(dp), intent(out) :: by_momentum
+
+      call film_load(film_law, film*block%film_scale(lane), momentum*block%velocity_scale(lane), load, &
+                     by_film, by_momentum)
+      if (abs(load) < overflow_load) then
+         load = load/block%force_scale(lane)
+         by_film = by_film*(block%film_scale(lane)/block%force_scale(lane))
+         by_momentum = by_momentum*(block%velocity_scale(lane)/block%force_scale(lane))
+      end if
+   end subroutine scaled_load
+
+   !> Newton's equations of all busy lanes; a lane whose film law has no value is given up, and gets equations
+   !> that change nothing, as do the lanes that are done.
+   pure subroutine residual_and_matrix(films, force, k, film, momentum, block, busy, residual, matrix)
+      type(film_t), intent(in) :: films(lanes)
+      real(dp), intent(in) :: force(lanes, stages)
+      real(dp), intent(in) :: k(lanes, stages)
+      real(dp), intent(in) :: film(lanes, stages)
+      real(dp), intent(in) :: momentum(lanes, stages)
+      type(lane_block_t), intent(inout) :: block
+      logical, intent(inout) :: busy(lanes)
+      !> Right-hand side [-]
+      real(dp), intent(out) :: residual(lanes, stages)
+      !> Matrix [-]
+      real(dp), intent(out) :: matrix(lanes, stages, stages)
+      real(dp) :: load, by_film(lanes, stages), by_momentum(lanes, stages)
+      integer :: l, i, j
+
+      residual = 0.0_dp
+      by_film = 0.0_dp
+      by_momentum = 0.0_dp
+      do l = 1, lanes
+         do i = 1, stages
+            if (.not. busy(l)) exit
+            if (film(l, i) > 0.0_dp) then
+               call scaled_load(films(l), block, l, film(l, i), momentum(l, i), load, by_film(l, i), &
+                  by_momentum(l, i))
+               block%no_load(l) = .not. abs(load) < overflow_load
+            end if
+            busy(l) = film(l, i) > 0.0_dp .and. .not. block%no_load(l)
+            if (busy(l)) residual(l, i) = load - force(l, i) - k(l, i)
+         end do
+         if (busy(l)) then
+            block%damping_rate(l) = max(0.0_dp, -maxval(by_momentum(l, :)))
+         else
+            residual(l, :) = 0.0_dp
+            by_film(l, :) = 0.0_dp
+            by_momentum(l, :) = 0.0_dp
+         end if
+      end do
+      do j = 1, stages
+         do i = 1, stages
+            !$omp simd
+            do l = 1, lanes
+               matrix(l, i, j) = merge(1.0_dp, 0.0_dp, i == j) &
+                  - block%step(l)*(block%step(l)*by_film(l, i)*twice(i, j) + by_momentum(l, i)*once(i, j))
+            end do
+         end do
+      end do
+   end subroutine residual_and_matrix
+
+   !> Solve the linear equations of all lanes; the solution replaces the right-hand side.
+   pure subroutine solve_lanes(matrix, right)
+      real(dp), intent(inout) :: matrix(lanes, stages, stages)
+      real(dp), intent(inout) :: right(lanes, stages)
+      real(dp) :: factor(lanes)
+      integer :: i, j, n, l
+
+      do n = 1, stages
+         do l = 1, lanes
+            matrix(l, n, n) = 1.0_dp/matrix(l, n, n)
+         end do
+         do i = n + 1, stages
+            factor = matrix(:, i, n)*matrix(:, n, n)
+            do j = n + 1, stages
+               !$omp simd
+               do l = 1, lanes
+                  matrix(l, i, j) = matrix(l, i, j) - factor(l)*matrix(l, n, j)
+               end do
+            end do
+            right(:, i) = right(:, i) - factor*right(:, n)
+         end do
+      end do
+      do n = stages, 1, -1
+         do j = n + 1, stages
+            right(:, n) = right(:, n) - matrix(:, n, j)*right(:, j)
+         end do
+         right(:, n) = right(:, n)*matrix(:, n, n)
+      end do
+   end subroutine solve_lanes
+
+   !> Apply Newton's correction; lanes whose correction is small enough are done, those that diverge given up.
+   pure subroutine correct(busy, pass, correction, block, k, change, last_change)
+      logical, intent(inout) :: busy(lanes)
+      !> Number of this pass
+      integer, intent(in) :: pass
+      real(dp), intent(in) :: correction(lanes, stages)
+      type(lane_block_t), intent(inout) :: block
+      real(dp), intent(inout) :: k(lanes, stages)
+      !> Size of the correction in the film [-], now and in the pass before
+      real(dp), intent(inout) :: change(lanes)
+      real(dp), intent(inout) :: last_change(lanes)
+      integer :: l
+
+      do l = 1, lanes
+         if (.not. busy(l)) then
+            if (block%trust(l) > 0.0_dp .and. block%no_load(l)) block%trust(l) = 0.0_dp
+            cycle
+         end if
+         k(l, :) = k(l, :) + correction(l, :)
+         change(l) = maxval(abs(correction(l, :)))*block%step(l)/allowed(l, block) &
+            *min(block%step(l), momentum_weight(block%film(l, 0), block%damping_rate(l), block%force(l)))
+         ! From the second pass on: the next correction will be smaller by the same factor at least.
+         busy(l) = change(l)*merge(1.0_dp, min(1.0_dp, change(l)/last_change(l)), pass == 1) > pass_share
+         if (busy(l) .and. pass > 3 .and. change(l) > 2.0_dp*last_change(l)) then
+            busy(l) = .false.
+            block%trust(l) = 0.0_dp
+         end if
+         last_change(l) = change(l)
+      end do
+   end subroutine correct
+
+   !> Error of the film that the accuracy allows [-].
+   pure real(dp) function allowed(lane, block)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      allowed = max(block%accuracy(lane)*film_weight(block%film(lane, 0)), rounding*block%film(lane, 0))
+   end function allowed
+
+end module collocation_newton

@@ -1,0 +1,102 @@
+!> One step of all lanes of a block by Taylor series, and the bookkeeping of a step by any method.
+module lane_advance
+   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso
+   use kinds, only: dp
+   use lane_functions, only: lane_cosine_sine, lanes
+   use lane_scenes, only: lane_block_t
+   use taylor_iso_viscous, only: iso_viscous_series
+   use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
+   use taylor_reynolds_iso, only: reynolds_iso_series, reynolds_order
+   use taylor_step_control, only: evaluate_series, lane_steps, order, reynolds_share_rate, share_rate
+   implicit none(type, external)
+   private
+
+   !> A step in which the film changes by more than these factors is not trusted.
+   real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp, largest_film_ratio = 1.0e3_dp
+   !> Damping rate that no Taylor step follows [1/periods].
+   real(dp), parameter, public :: largest_series_rate = 1.0e7_dp
+   !> Scaled film that is none any more, and step too short to go on with [periods].
+   real(dp), parameter, public :: lost_film = 1.0e-9_dp, shortest_step = 1.0e-14_dp
+
+   public :: take_series_step, advance
+
+contains
+
+   !> Series and steps of all lanes, and the states they lead to. A film that changes by some powers of ten in
+   !> one step is not trusted, nor is a series about a point of extreme damping. Conditions are numbers, 0 or
+   !> 1, and their products: without branch and integer the loop runs in full registers.
+   pure subroutine take_series_step(kernel, block)
+      !> Whose series
+      integer, intent(in) :: kernel
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: cosine(lanes), sine(lanes)
+      logical :: exact
+      integer :: l
+
+      call lane_cosine_sine(block%phase, cosine, sine)
+      !$omp simd
+      do l = 1, lanes
+         cosine(l) = block%amplitude(l)*cosine(l)
+         sine(l) = block%amplitude(l)*sine(l)
+         block%remaining(l) = 1.0_dp - block%phase(l)
+      end do
+      select case (kernel)
+      case (kernel_piezo)
+         call piezo_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+                                   block%momentum, block%damping_rate)
+      case (kernel_half_pi)
+         call iso_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+                                 block%momentum, block%damping_rate)
+      case default
+         call reynolds_iso_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+                                  block%momentum, block%damping_rate)
+      end select
+      exact = kernel == kernel_reynolds_iso
+      call lane_steps(merge(reynolds_order, order, exact), merge(reynolds_share_rate, share_rate, exact), &
+                      block%accuracy, block%force, block%film, block%momentum, block%damping_rate, &
+                      block%remaining, block%limit, block%step)
+      call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
+      !$omp simd
+      do l = 1, lanes
+         block%trust(l) = merge(1.0_dp, 0.0_dp, block%next_film(l) > smallest_film_ratio*block%film(l, 0)) &
+            *merge(1.0_dp, 0.0_dp, block%next_film(l) < largest_film_ratio*block%film(l, 0)) &
+            *merge(1.0_dp, 0.0_dp, abs(block%next_momentum(l)) < huge(1.0_dp)) &
+            *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_series_rate)
+      end do
+      if (kernel == kernel_piezo) call distrust_load_from_nothing( &
+         block%strength, block%damping, block%force, block%accuracy, block%film, block%momentum, &
+         block%next_film, block%next_momentum, block%trust)
+   end subroutine take_series_step
+
+   !> Advance all lanes whose step is to be trusted; the others try again with a shorter one.
+   pure subroutine advance(most_steps, largest_rate, block, events)
+      !> Most steps in a period
+      real(dp), intent(in) :: most_steps
+      !> Largest damping rate [1/periods]
+      real(dp), intent(in) :: largest_rate
+      type(lane_block_t), intent(inout) :: block
+      !> Lanes that need attention: period ended, or trouble
+      integer, intent(out) :: events
+      real(dp) :: calm, quiet
+      integer :: l
+
+      quiet = 0.0_dp
+      !$omp simd private(calm) reduction(+: quiet)
+      do l = 1, lanes
+         block%film(l, 0) = merge(block%next_film(l), block%film(l, 0), block%trust(l) > 0.0_dp)
+         block%momentum(l, 0) = merge(block%next_momentum(l), block%momentum(l, 0), block%trust(l) > 0.0_dp)
+         block%limit(l) = merge(1.0_dp, 0.25_dp*block%step(l), block%trust(l) > 0.0_dp)
+         block%remaining(l) = merge(block%remaining(l) - block%step(l), 1.0_dp, block%trust(l) > 0.0_dp)
+         block%phase(l) = block%phase(l) + block%trust(l)*block%step(l)
+         block%period_steps(l) = block%period_steps(l) + 1.0_dp
+         calm = merge(1.0_dp, 0.0_dp, block%remaining(l) > 0.0_dp) &
+            *merge(1.0_dp, 0.0_dp, block%limit(l) > shortest_step) &
+            *merge(1.0_dp, 0.0_dp, block%period_steps(l) <= most_steps) &
+            *merge(1.0_dp, 0.0_dp, block%film(l, 0) > lost_film) &
+            *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_rate)
+         quiet = quiet + calm
+      end do
+      events = lanes - nint(quiet)
+   end subroutine advance
+
+end module lane_advance

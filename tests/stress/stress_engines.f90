@@ -1,0 +1,142 @@
+!> Every engine on a group of scenes, with the outcomes.
+module stress_engines
+   use kinds, only: dp, int64
+   use lane_motions, only: solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, solve_newmark_lanes
+   use random_scenes, only: drawn_scene_t, group_t
+   use scene_types, only: iteration_newton, iteration_successive, method_newmark, method_taylor, predictor_extrapolated, &
+                          predictor_previous, scene_t, until_periods, until_steady
+   use stress_outcomes, only: judge_controlled, judge_newmark, outcome_t
+   use stress_references, only: compared_periods, compared_samples, comparisons, reference_t, window_periods, window_samples
+   implicit none(type, external)
+   private
+
+   integer, parameter, public :: engines = 7
+   !> The first three are error-controlled.
+   integer, parameter, public :: controlled_engines = 3
+   character(*), parameter, public :: engine_names(engines) = [character(30) :: 'taylor', 'collocation', 'taylor until steady', &
+      'newmark, newton', 'newmark, newton, previous', 'newmark, successive', 'newmark, successive, previous']
+
+   public :: run_engine, set_solver
+
+contains
+
+   !> Solve a group by one engine.
+   subroutine run_engine(engine, group, drawn, references, results)
+      !> Place in `engine_names`
+      integer, intent(in) :: engine
+      !> The group
+      type(group_t), intent(in) :: group
+      !> Its scenes
+      type(drawn_scene_t), intent(in) :: drawn(:)
+      !> What they are held against
+      type(reference_t), intent(in) :: references(:)
+      !> How they came out
+      type(outcome_t), intent(out) :: results(:)
+
+      if (engine <= controlled_engines) then
+         call run_controlled(engine, group, drawn, references, results)
+      else
+         call run_newmark(engine, group, drawn, references, results)
+      end if
+   end subroutine run_engine
+
+   !> The error-controlled engines.
+   subroutine run_controlled(engine, group, drawn, references, results)
+      integer, intent(in) :: engine
+      type(group_t), intent(in) :: group
+      type(drawn_scene_t), intent(in) :: drawn(:)
+      type(reference_t), intent(in) :: references(:)
+      type(outcome_t), intent(out) :: results(:)
+      type(lane_request_t) :: request
+      type(lane_ending_t) :: endings(size(drawn))
+      type(lane_scene_t) :: scenes(size(drawn))
+      real(dp), dimension(comparisons, size(drawn)) :: films, velocities
+      integer :: i
+
+      scenes = drawn%lane
+      scenes%implicit = engine == 2
+      request%accuracy = group%accuracy
+      request%periods = group%periods
+      request%sampled_periods = compared_periods
+      request%samples_per_period = compared_samples
+      request%until_steady = engine == 3
+      films = -1.0_dp
+      velocities = 0.0_dp
+      call solve_motions(scenes, request, films, velocities, endings)
+      do i = 1, size(drawn)
+         results(i) = judge_controlled(references(i), group%periods, group%accuracy, films(:, i), endings(i))
+      end do
+   end subroutine run_controlled
+
+   !> The Newmark engines: Newton's iteration of the published films in lanes, all others scene by scene.
+   subroutine run_newmark(engine, group, drawn, references, results)
+      integer, intent(in) :: engine
+      type(group_t), intent(in) :: group
+      type(drawn_scene_t), intent(in) :: drawn(:)
+      type(reference_t), intent(in) :: references(:)
+      type(outcome_t), intent(out) :: results(:)
+      integer, parameter :: stride = window_samples/compared_samples, window = window_periods*window_samples, &
+                            all_samples = compared_periods*window_samples
+      type(newmark_lane_request_t) :: request
+      type(newmark_lane_scene_t) :: scenes(size(drawn))
+      type(newmark_lane_ending_t) :: endings(size(drawn))
+      real(dp), allocatable, dimension(:, :) :: films, velocities, accelerations
+      integer :: i
+
+      allocate (films(all_samples, size(drawn)), velocities(all_samples, size(drawn)), &
+                accelerations(all_samples, size(drawn)), source=-1.0_dp)
+      do i = 1, size(drawn)
+         scenes(i) = newmark_scene(engine, drawn(i))
+      end do
+      request%steps_per_period = window_samples
+      request%periods = group%periods
+      request%sampled_periods = compared_periods
+      request%samples_per_period = window_samples
+      call solve_newmark_lanes(scenes, request, films, velocities, accelerations, endings)
+      do i = 1, size(drawn)
+         call judge_newmark(drawn(i), references(i), endings(i)%status, films(stride::stride, i), &
+                            films(all_samples - window + 1:, i), accelerations(all_samples - window + 1:, i), results(i))
+      end do
+   end subroutine run_newmark
+
+   !> A scene for Newmark's method.
+   pure function newmark_scene(engine, drawn) result(scene)
+      integer, intent(in) :: engine
+      type(drawn_scene_t), intent(in) :: drawn
+      type(newmark_lane_scene_t) :: scene
+      type(scene_t) :: with_solver
+
+      with_solver = drawn%scene
+      call set_solver(engine, with_solver)
+      scene%film = drawn%resolved%film
+      scene%thickness = drawn%lane%initial_film
+      scene%velocity = drawn%lane%initial_velocity
+      scene%method%mass = drawn%lane%mass
+      scene%method%weight = drawn%lane%weight
+      scene%method%steady_force = drawn%lane%steady_force
+      scene%method%force_amplitude = drawn%lane%force_amplitude
+      scene%method%frequency = drawn%lane%frequency
+      scene%method%tolerance = with_solver%solver%tolerance
+      scene%method%iteration_limit = with_solver%solver%iteration_limit
+      scene%method%by_newton = with_solver%solver%iteration == iteration_newton
+      scene%method%extrapolate = with_solver%solver%predictor == predictor_extrapolated
+   end function newmark_scene
+
+   !> The solver of an engine.
+   pure subroutine set_solver(engine, scene)
+      !> Place in `engine_names`
+      integer, intent(in) :: engine
+      !> Gets it
+      type(scene_t), intent(inout) :: scene
+
+      associate (solver => scene%solver)
+         solver%method = merge(method_taylor, method_newmark, engine <= controlled_engines)
+         solver%until = merge(until_steady, until_periods, engine == 3)
+         solver%iteration = merge(iteration_successive, iteration_newton, engine >= 6)
+         solver%predictor = merge(predictor_previous, predictor_extrapolated, engine == 5 .or. engine == 7)
+      end associate
+   end subroutine set_solver
+
+end module stress_engines

@@ -1,0 +1,208 @@
+!> What the engines are held against: every scene of a group solved by collocation far tighter than any engine, its
+!> sensitivity, and the tighter solution that a certificate would take.
+!>
+!> Sensitivity. An error e made somewhere has grown to g e where it is looked at, and no method that is only accurate
+!> to e can do better. g is found by two tight solutions with the film off by 1e-9: from the start on, and from the
+!> start of the last periods on. The larger one is taken, and never less than one.
+module stress_references
+   use kinds, only: dp
+   use lane_motions, only: accelerations, solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use random_scenes, only: drawn_scene_t, group_t
+   use rattle_class, only: classify, rattle_verdict_t
+   use scene_status, only: is_success
+   implicit none(type, external)
+   private
+
+   !> The last periods and their samples: what all engines are compared by.
+   integer, parameter, public :: compared_periods = 8, compared_samples = 8
+   integer, parameter, public :: comparisons = compared_periods*compared_samples
+   !> Window of the class: periods and samples of each.
+   integer, parameter, public :: window_periods = 4, window_samples = 512
+   !> Accuracy of the tight solution; where it cannot be had, this share of the accuracy of the group.
+   real(dp), parameter :: tight_accuracy = 1.0e-11_dp, second_share = 1.0e-2_dp
+   !> Accuracy of the solution that a certificate takes.
+   real(dp), parameter :: certificate_accuracy = 1.0e-10_dp
+   !> What the film is put off by to see the sensitivity [-].
+   real(dp), parameter :: offset = 1.0e-9_dp
+
+   !> References of one scene.
+   type, public :: reference_t
+      !> Whether there is a tight solution, how the attempt ended, and its accuracy
+      logical :: exists = .false.
+      integer :: status = 0
+      real(dp) :: accuracy = 0.0_dp
+      !> Its film [m]
+      real(dp) :: films(comparisons) = 0.0_dp
+      !> Growth g of errors [-]
+      real(dp) :: growth = 1.0_dp
+      !> Whether there is a certificate, its window and its verdict
+      logical :: certificate = .false.
+      real(dp), allocatable :: window_films(:), window_accelerations(:)
+      type(rattle_verdict_t) :: verdict
+   end type reference_t
+
+   public :: solve_references
+
+contains
+
+   !> References of all scenes of a group.
+   subroutine solve_references(group, drawn, with_certificate, references)
+      !> The group
+      type(group_t), intent(in) :: group
+      !> Its scenes
+      type(drawn_scene_t), intent(in) :: drawn(:)
+      !> Whether certificates are wanted
+      logical, intent(in) :: with_certificate
+      !> The references
+      type(reference_t), intent(out) :: references(:)
+      integer :: i
+
+      call solve_tight(group, drawn, tight_accuracy, references)
+      if (.not. all(references%exists)) call solve_tight(group, drawn, second_share*group%accuracy, references)
+      if (with_certificate) call solve_windows(group, drawn, references)
+      do i = 1, size(references)
+         if (.not. references(i)%growth >= 1.0_dp) references(i)%growth = 1.0_dp
+      end do
+   end subroutine solve_references
+
+   !> Tight solutions of the scenes that have none yet, and their sensitivity.
+   subroutine solve_tight(group, drawn, accuracy, references)
+      type(group_t), intent(in) :: group
+      type(drawn_scene_t), intent(in) :: drawn(:)
+      !> Of the solution [-]
+      real(dp), intent(in) :: accuracy
+      type(reference_t), intent(inout) :: references(:)
+      type(lane_scene_t), allocatable :: start(:), rest(:)
+      type(lane_ending_t), allocatable :: middle(:), unused(:), endings(:)
+      integer, allocatable :: number(:), solved(:)
+      real(dp), allocatable :: films(:, :), off(:, :)
+      integer :: i
+
+      number = pack([(i, i=1, size(drawn))], .not. references%exists)
+      start = drawn(number)%lane
+      start%implicit = .true.
+      allocate (films(comparisons, size(number)), off(comparisons, size(number)), source=0.0_dp)
+
+      allocate (middle(size(number)), endings(size(number)))
+      call last_periods(start, films, group%periods, accuracy, middle, endings)
+      do i = 1, size(number)
+         associate (reference => references(number(i)))
+            reference%status = endings(i)%status
+            reference%exists = is_success(endings(i)%status)
+            reference%accuracy = accuracy
+            reference%films = films(:, i)
+         end associate
+      end do
+
+      ! What has no tight solution needs no sensitivity.
+      solved = [(i, i=1, size(number))]
+      solved = pack(solved, references(number)%exists)
+      start = start(solved)
+      middle = middle(solved)
+      endings = endings(solved)
+      number = number(solved)
+      films = films(:, solved)
+      off = off(:, solved)
+      unused = middle
+      rest = start
+      rest%initial_film = start%initial_film*(1.0_dp + offset)
+      call last_periods(rest, off, group%periods, accuracy, unused, endings)
+      call note_growth()
+      rest%initial_film = middle%film*(1.0_dp + offset)
+      rest%initial_momentum = middle%momentum
+      rest%periods_done = middle%periods
+      rest%carried_on = .true.
+      call last_periods(rest, off, group%periods, accuracy, unused, endings)
+      call note_growth()
+
+   contains
+
+      !> Take the growth from solutions that are off.
+      subroutine note_growth()
+         integer :: place
+
+         do place = 1, size(number)
+            associate (reference => references(number(place)))
+               if (is_success(endings(place)%status)) then
+                  reference%growth = max(reference%growth, maxval(abs(off(:, place) - films(:, place))/films(:, place))/offset)
+               else
+                  ! A motion that ends, once it starts a little off, is as sensitive as can be.
+                  reference%growth = 1.0_dp/offset
+               end if
+            end associate
+         end do
+      end subroutine note_growth
+
+   end subroutine solve_tight
+
+   !> Solve up to the compared periods, and then these.
+   subroutine last_periods(start, films, periods, accuracy, middle, endings)
+      !> Scenes at their start
+      type(lane_scene_t), intent(in) :: start(:)
+      !> Films of the last periods: sample, scene [m]
+      real(dp), contiguous, intent(inout) :: films(:, :)
+      !> Periods to solve
+      integer, intent(in) :: periods
+      !> Relative accuracy [-]
+      real(dp), intent(in) :: accuracy
+      !> States before the last periods
+      type(lane_ending_t), intent(inout) :: middle(:)
+      !> How the scenes ended
+      type(lane_ending_t), intent(inout) :: endings(:)
+      type(lane_request_t) :: request
+      type(lane_scene_t) :: rest(size(start))
+      real(dp), allocatable :: velocities(:, :)
+      integer :: i
+
+      allocate (velocities, mold=films)
+      rest = start
+      request%accuracy = accuracy
+      request%samples_per_period = compared_samples
+      if (.not. all(start%carried_on)) then
+         request%periods = periods - compared_periods
+         call solve_motions(start, request, films, velocities, middle)
+         rest%initial_film = middle%film
+         rest%initial_momentum = middle%momentum
+         rest%periods_done = middle%periods
+         rest%carried_on = .true.
+      end if
+      request%periods = periods
+      request%sampled_periods = compared_periods
+      call solve_motions(rest, request, films, velocities, endings)
+      do i = 1, size(start)
+         if (.not. is_success(middle(i)%status)) endings(i)%status = middle(i)%status
+      end do
+   end subroutine last_periods
+
+   !> The windows that certificates compare with.
+   subroutine solve_windows(group, drawn, references)
+      type(group_t), intent(in) :: group
+      type(drawn_scene_t), intent(in) :: drawn(:)
+      type(reference_t), intent(inout) :: references(:)
+      type(lane_request_t) :: request
+      type(lane_ending_t) :: endings(size(drawn))
+      real(dp), allocatable :: films(:, :), velocities(:, :)
+      integer :: i
+
+      request%accuracy = certificate_accuracy
+      request%periods = group%periods
+      request%sampled_periods = window_periods
+      request%samples_per_period = window_samples
+      allocate (films(window_periods*window_samples, size(drawn)), velocities(window_periods*window_samples, size(drawn)), &
+                source=0.0_dp)
+      call solve_motions(drawn%lane, request, films, velocities, endings)
+      do i = 1, size(drawn)
+         associate (reference => references(i))
+            reference%certificate = is_success(endings(i)%status)
+            if (.not. reference%certificate) cycle
+            reference%window_films = films(:, i)
+            allocate (reference%window_accelerations(size(films, 1)))
+            call accelerations(drawn(i)%lane, window_samples, films(:, i), velocities(:, i), reference%window_accelerations)
+            call classify(reference%window_accelerations, drawn(i)%scene%spectrum, drawn(i)%resolved%noise_floor, &
+                          reference%verdict)
+         end associate
+      end do
+   end subroutine solve_windows
+
+end module stress_references
