@@ -9,7 +9,7 @@ module campaign_plan
    use text, only: integer_text
    use varied_keys, only: find_varied_key, is_whole, varied_key_name
    use varied_scene, only: can_be_varied, is_valid_scene, set_varied_key
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer, parameter :: sample_grid = 1, sample_sobol = 2

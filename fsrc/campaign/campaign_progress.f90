@@ -8,7 +8,7 @@ module campaign_progress
    use log_file, only: log_t
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    real(dp), parameter :: terminal_interval = 0.5_dp, line_interval = 60.0_dp, file_interval = 5.0_dp

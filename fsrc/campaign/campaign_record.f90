@@ -11,7 +11,7 @@ module campaign_record
    use scene_types, only: scene_t
    use text, only: integer_text
    use varied_keys, only: varied_key_name
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Harmonics that are recorded.

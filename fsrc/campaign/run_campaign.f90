@@ -22,7 +22,7 @@ module run_campaign
    use text, only: integer_text, short_text
    use version, only: program_version
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: run_one_campaign, check_campaign
@@ -159,7 +159,7 @@ contains
 
       failed = .false.
       status_column = 2 + size(plan%positions)
-      pending = pack([(chunk, chunk=1_int64, results%chunk_count())], .not. results%done_flags())
+      pending = pack([(chunk, chunk=1_int64, results%chunk_count())],.not. results%done_flags())
       !$omp parallel default(shared) private(ticket, chunk, first_row, last_row, rows, own_error)
       do
          if (caught_signal() /= 0 .or. failed) exit

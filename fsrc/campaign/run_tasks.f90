@@ -9,7 +9,7 @@ module run_tasks
    use scene_reader, only: read_scene
    use scene_types, only: scene_t, task_campaign
    use, intrinsic :: omp_lib, only: omp_set_num_threads
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: run_all_tasks

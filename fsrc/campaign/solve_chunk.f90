@@ -13,7 +13,7 @@ module solve_chunk
    use scene_types, only: scene_t, spectrum_choice_t, until_steady
    use schedule, only: cost_order
    use varied_scene, only: is_valid_scene, set_varied_key
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Scenes solved together: their samples stay in the cache of a core as far as they can.

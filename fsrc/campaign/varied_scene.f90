@@ -3,7 +3,7 @@ module varied_scene
    use key_table, only: in_range, keys
    use kinds, only: dp
    use scene_types, only: scene_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: set_varied_key, is_valid_scene, can_be_varied

@@ -4,7 +4,7 @@ module result_reader
    use kinds, only: dp, int32, int64
    use result_format, only: byte_order_mark, fixed_header_bytes, column_name_bytes, column_unit_bytes, result_format_version, &
                             result_magic
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> An open result file.

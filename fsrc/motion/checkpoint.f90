@@ -2,7 +2,7 @@
 !> as if it had never stopped.
 module checkpoint
    use kinds, only: dp, int64
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> State at the end of a whole period.

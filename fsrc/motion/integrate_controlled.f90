@@ -18,7 +18,7 @@ module integrate_controlled
    use scene_status, only: is_success, status_complete, status_interrupted, status_steady, status_time_limit
    use scene_types, only: scene_t, until_steady
    use signals, only: caught_signal
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Samples of a block: a signal waits no longer than these take.

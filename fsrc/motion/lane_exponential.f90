@@ -1,7 +1,6 @@
 !> Powers of two and the exponential function for many scenes at once, as arithmetic and bit operations alone.
-!> A call of a vector
-!> library would treat the last lanes of a short block by scalar code, which differs in the last digit; here a
-!> scene gets the same bits in any lane, among any neighbours.
+!> A call of a vector library would treat the last lanes of a short block by scalar code, which differs in the
+!> last digit; here a scene gets the same bits in any lane, among any neighbours.
 module lane_exponential
    use kinds, only: dp, int64
    implicit none(type, external)
@@ -20,42 +19,30 @@ module lane_exponential
                             1.525273382986708e-05_dp, 1.3215442552522291e-06_dp, 1.0178062426976924e-07_dp, &
                             7.072593027878997e-09_dp, 4.4549643712692967e-10_dp]
 
-   public :: raise_lanes, near_exponential
+   public :: power_of_two, near_exponential
 
 contains
 
-   !> 2^(-rate (velocity + 4 quarter)) of many lanes, to 2 epsilon of the power of the rounded exponent.
-   !> The exponent is formed here because a loop of its own costs a third of the power.
-   pure subroutine raise_lanes(rate, velocity, quarter, growth)
-      !> Factor of the velocity; any units whose product with it has none
-      real(dp), contiguous, intent(in) :: rate(:)
-      !> Velocity at the start of a step
-      real(dp), contiguous, intent(in) :: velocity(:)
-      !> A quarter of its change in the step
-      real(dp), contiguous, intent(in) :: quarter(:)
-      !> Powers [-]
-      real(dp), contiguous, intent(inout) :: growth(:)
+   !> 2^x, to 2 epsilon; beyond about 2^-870 and 2^790 those are given.
+   elemental real(dp) function power_of_two(x)
+      !> Exponent [-]
+      real(dp), intent(in) :: x
       real(dp) :: held, shifted, t, t2, mantissa
       integer(int64) :: octaves, bits
-      integer :: l
 
-      !$omp simd private(held, shifted, t, t2, mantissa, octaves, bits)
-      do l = 1, size(growth)
-         held = max(lowest_exponent, min(highest_exponent, -rate(l)*(velocity(l) + 4.0_dp*quarter(l))))
-         shifted = held + rounder
-         t = held - (shifted - rounder)
-         t2 = t*t
-         mantissa = 1.0_dp + t*(((c(1) + c(2)*t) + t2*(c(3) + c(4)*t)) + &
-            (t2*t2)*(((c(5) + c(6)*t) + t2*(c(7) + c(8)*t)) + (t2*t2)*((c(9) + c(10)*t) + t2*c(11))))
-         ! The integer at the end of the sum goes to the exponent. (One transfer a statement: else no
-         ! vectors.)
-         octaves = transfer(shifted, octaves)
-         bits = transfer(mantissa, bits)
-         bits = bits + shiftl(octaves, 52)
-         mantissa = transfer(bits, mantissa)
-         growth(l) = mantissa
-      end do
-   end subroutine raise_lanes
+      held = max(lowest_exponent, min(highest_exponent, x))
+      shifted = held + rounder
+      t = held - (shifted - rounder)
+      t2 = t*t
+      mantissa = 1.0_dp + t*(((c(1) + c(2)*t) + t2*(c(3) + c(4)*t)) + &
+         (t2*t2)*(((c(5) + c(6)*t) + t2*(c(7) + c(8)*t)) + (t2*t2)*((c(9) + c(10)*t) + t2*c(11))))
+      ! The integer at the end of the sum goes to the exponent. (One transfer a statement: else no vectors.)
+      octaves = transfer(shifted, octaves)
+      bits = transfer(mantissa, bits)
+      bits = bits + shiftl(octaves, 52)
+      mantissa = transfer(bits, mantissa)
+      power_of_two = mantissa
+   end function power_of_two
 
    !> exp(x) for |x| <= nearness.
    elemental real(dp) function near_exponential(x)

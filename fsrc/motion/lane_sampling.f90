@@ -4,7 +4,7 @@ module lane_sampling
    use kinds, only: dp
    use lane_functions, only: lanes
    use lane_scenes, only: lane_block_t
-   use taylor_step_control, only: evaluate_series
+   use taylor_step_control, only: order
    implicit none(type, external)
    private
 
@@ -23,6 +23,9 @@ module lane_sampling
       !> Column of the scene in the arrays of samples
       integer :: column(lanes) = 1
    end type lane_samples_t
+
+   !> Samples of a lane that are evaluated together.
+   integer, parameter :: together = 32
 
    public :: begin_samples, end_samples, take_samples
 
@@ -49,7 +52,8 @@ contains
       samples%sampled(lane) = .false.
    end subroutine end_samples
 
-   !> Take the samples that lie within the present step of any lane, one of every lane at a time.
+   !> Take the samples that lie within the present step of any lane, lane by lane: most of the time few lanes are
+   !> being sampled, while all samples of one step share its series.
    pure subroutine take_samples(block, samples, films, velocities)
       !> The block, with series and steps
       type(lane_block_t), intent(in) :: block
@@ -57,37 +61,59 @@ contains
       !> h [m] and z' [m/s] of all scenes: sample, scene
       real(dp), contiguous, intent(inout) :: films(:, :)
       real(dp), contiguous, intent(inout) :: velocities(:, :)
-      real(dp) :: x(lanes), film(lanes), momentum(lanes), velocity(lanes), inside(lanes), &
-         due_until(lanes), number
-      integer :: l, due
+      real(dp) :: x(together), film(together), velocity(together), due_until, number
+      integer :: l, due, first
 
       number = real(samples%per_period, dp)
       do l = 1, lanes
-         due_until(l) = merge(1.0_dp, block%phase(l) + block%step(l), block%step(l) >= block%remaining(l))
-         if (.not. (samples%sampled(l) .and. block%trust(l) > 0.0_dp)) due_until(l) = -1.0_dp
-      end do
-      do
-         due = 0
-         do l = 1, lanes
-            x(l) = real(samples%next(l), dp)/number
-            inside(l) = merge(1.0_dp, 0.0_dp, x(l) <= due_until(l))
-            if (inside(l) > 0.0_dp) due = due + 1
-            x(l) = inside(l)*(x(l) - block%phase(l))
-         end do
-         if (due == 0) return
-         call evaluate_series(block%film, block%momentum, x, film, momentum)
-         !$omp simd
-         do l = 1, lanes
-            velocity(l) = momentum(l) + block%slip(l)/sqrt(film(l))
-         end do
-         do l = 1, lanes
-            if (.not. inside(l) > 0.0_dp) cycle
-            samples%written(l) = samples%written(l) + 1
-            samples%next(l) = samples%next(l) + 1
-            films(samples%written(l), samples%column(l)) = film(l)*block%film_scale(l)
-            velocities(samples%written(l), samples%column(l)) = velocity(l)*block%velocity_scale(l)
+         if (.not. (samples%sampled(l) .and. block%trust(l) > 0.0_dp)) cycle
+         due_until = merge(1.0_dp, block%phase(l) + block%step(l), block%step(l) >= block%remaining(l))
+         do
+            due = 0
+            do while (due < together .and. real(samples%next(l) + due, dp)/number <= due_until)
+               due = due + 1
+               x(due) = real(samples%next(l) + due - 1, dp)/number - block%phase(l)
+            end do
+            if (due == 0) exit
+            ! Full vectors, so that a sample has the same bits however many stand beside it.
+            x(due + 1:) = x(due)
+            call evaluate_lane(block%film(l, :), block%momentum(l, :), block%slip(l), x, film, velocity)
+            first = samples%written(l) + 1
+            films(first:first + due - 1, samples%column(l)) = film(:due)*block%film_scale(l)
+            velocities(first:first + due - 1, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
+            samples%written(l) = samples%written(l) + due
+            samples%next(l) = samples%next(l) + due
          end do
       end do
    end subroutine take_samples
+
+   !> H and H' of one lane at several distances from its point of expansion.
+   pure subroutine evaluate_lane(film_series, momentum_series, slip, x, film, velocity)
+      !> Series of H and V [-]
+      real(dp), intent(in) :: film_series(0:order)
+      real(dp), intent(in) :: momentum_series(0:order)
+      !> H' = V + slip/sqrt(H)
+      real(dp), intent(in) :: slip
+      !> Distances [periods]
+      real(dp), intent(in) :: x(together)
+      !> H and H' there
+      real(dp), intent(out) :: film(together)
+      real(dp), intent(out) :: velocity(together)
+      integer :: i, k
+
+      film = film_series(order)
+      velocity = momentum_series(order)
+      do k = order - 1, 0, -1
+         !$omp simd
+         do i = 1, together
+            film(i) = film(i)*x(i) + film_series(k)
+            velocity(i) = velocity(i)*x(i) + momentum_series(k)
+         end do
+      end do
+      !$omp simd
+      do i = 1, together
+         velocity(i) = velocity(i) + slip/sqrt(film(i))
+      end do
+   end subroutine evaluate_lane
 
 end module lane_sampling

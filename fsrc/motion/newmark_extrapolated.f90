@@ -1,15 +1,15 @@
 !> Newmark's average acceleration with Richardson extrapolation and error control, for any film.
 !>
 !> With the iteration of every step carried to rounding the method is the trapezoidal rule, whose error runs
-!> in even
-!> powers of the step. A period is cut into intervals. Each is solved with more and more steps from the same
-!> state,
-!> and film and velocity at the points that all rows have in common are extrapolated, until the last two
-!> columns agree;
-!> then the extrapolated state is where the next interval starts. So the steps are fine only where the motion
-!> needs it.
+!> in
+!> even powers of the step. A period is cut into intervals. Each is solved with more and more steps from the
+!> same state, and film and velocity at the points that all rows have in common are extrapolated, until the
+!> last
+!> two columns agree; then the extrapolated state is where the next interval starts. So the steps are fine
+!> only
+!> where the motion needs it.
 module newmark_extrapolated
-   use film_law, only: film_kernel, film_t, overflow_load
+   use film_law, only: film_kernel, film_t
    use forcing, only: applied_force
    use kinds, only: dp
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t
@@ -25,13 +25,12 @@ module newmark_extrapolated
    integer, parameter :: few_rows = 3, many_rows = 7, largest_base = 2**16, first_base = 4
    !> A step has converged when an iterate moves the film by less than this share; the next one would by its
    !> square.
-   real(dp), parameter :: iteration_share = 1.0e-9_dp
+   real(dp), parameter :: iteration_share = 1.0e-11_dp
    !> Passes in a step. More are a sign of too long a step.
    integer, parameter :: pass_limit = 20
-
-   !> Share of the accuracy that an interval may spend, by the error of the last column but one: errors of earlier
-   !> intervals add until the film has damped them.
-   real(dp), parameter :: interval_share = 0.03_dp
+   !> Share of the accuracy that an interval may spend, by the error of the last column but one: errors of
+   !> earlier intervals add until the film has damped them.
+   real(dp), parameter :: interval_share = 0.1_dp
 
    !> Intervals of a period, and what they needed last time.
    type, public :: extrapolation_t

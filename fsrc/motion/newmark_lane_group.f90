@@ -18,8 +18,10 @@ module newmark_lane_group
 
    !> Scenes of a group. So many hide the latency of divisions and roots, and their data stay in the nearest
    !> cache.
-   !> A multiple of a cache line of numbers, so that every array of a group starts with one if the first does.
-   integer, parameter, public :: lanes = 128
+   !> An odd number of cache lines: every array of a group starts with a line if the first one does, and no
+   !> two at
+   !> the same place in a page, where a store to one would hold up the loads of the other.
+   integer, parameter, public :: lanes = 136
    !> Lanes are used in blocks of this many, a register at most, so that none is left to other instructions.
    integer, parameter, public :: block_lanes = 8
 
@@ -36,7 +38,11 @@ module newmark_lane_group
       !> Film that fails, least film of all iterates; 0 also if the law had no value [m]
       real(dp) :: smallest(lanes) = 0.0_dp
       real(dp) :: least(lanes) = 1.0_dp
-      !> Exponential of (37) [-], or its argument
+      !> L [m] and its slopes dL/dh [-] and dL/dV [-] at the iterate
+      real(dp) :: load(lanes) = 0.0_dp
+      real(dp) :: load_by_film(lanes) = 0.0_dp
+      real(dp) :: load_by_velocity(lanes) = 0.0_dp
+      !> Exponential of (37) at the extrapolated iterate [-]
       real(dp) :: growth(lanes) = 1.0_dp
       !> Positive where the step has met the criterion of (36) and kept its film
       real(dp) :: margin(lanes) = 1.0_dp

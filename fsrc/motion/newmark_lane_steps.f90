@@ -9,8 +9,8 @@
 module newmark_lane_steps
    use film_law, only: kernel_half_pi
    use kinds, only: dp, int64
-   use lane_exponential, only: near_exponential, nearness, raise_lanes
-   use newmark_lane_group, only: lanes, newmark_lane_group_t, rest_lane
+   use lane_exponential, only: near_exponential, nearness, power_of_two
+   use newmark_lane_group, only: newmark_lane_group_t, rest_lane
    use piezo_viscous_terms, only: piezo_viscous_terms_load
    use published_iso_viscous, only: half_pi_rupture_load
    implicit none(type, external)
@@ -33,121 +33,142 @@ contains
 
       do i = 1, size(cosine)
          if (group%kernel == kernel_half_pi) then
-            call first_half_pi_pass(group, cosine(i))
-            call second_half_pi_pass(group)
+            call begin_half_pi_steps(group)
+            call correct_first(group, cosine(i))
+            call load_half_pi_again(group)
          else
-            call first_piezo_pass(group, cosine(i))
-            call second_piezo_pass(group)
+            call begin_piezo_steps(group)
+            call correct_first(group, cosine(i))
+            call load_piezo_again(group)
          end if
+         call correct_second(group)
          if (unsettled_lanes(group) > 0) call settle_lanes(group)
       end do
    end subroutine advance_lanes
 
-   !> Start of a step and its first pass, film (35).
-   pure subroutine first_half_pi_pass(group, cosine)
+   !> Known part of Newmark's formulas, the extrapolated iterate, and the load (35) of it.
+   pure subroutine begin_half_pi_steps(group)
+      type(newmark_lane_group_t), intent(inout) :: group
+      real(dp) :: a
+      integer :: l
+
+      associate (step => group%step)
+         !$omp simd private(a)
+         do l = 1, group%used
+            a = group%acceleration(l)
+            step%known_film(l) = group%film(l) + group%velocity(l) + a
+            step%known_velocity(l) = group%velocity(l) + 2.0_dp*a
+            step%smallest(l) = smallest_film_ratio*group%film(l)
+            step%least(l) = step%known_film(l) + a
+            call half_pi_rupture_load(group%strength(l), group%squeeze(l), &
+                                      max(step%least(l), step%smallest(l)), step%known_velocity(l) + &
+                                      2.0_dp*a, &
+                                      step%load(l), step%load_by_film(l), step%load_by_velocity(l))
+         end do
+      end associate
+   end subroutine begin_half_pi_steps
+
+   !> Known part of Newmark's formulas, the extrapolated iterate, and the load (37) of it.
+   pure subroutine begin_piezo_steps(group)
+      type(newmark_lane_group_t), intent(inout) :: group
+      real(dp) :: a
+      integer :: l
+
+      associate (step => group%step)
+         !$omp simd private(a)
+         do l = 1, group%used
+            a = group%acceleration(l)
+            step%known_film(l) = group%film(l) + group%velocity(l) + a
+            step%known_velocity(l) = group%velocity(l) + 2.0_dp*a
+            step%smallest(l) = smallest_film_ratio*group%film(l)
+            step%least(l) = step%known_film(l) + a
+            step%growth(l) = power_of_two(-group%doubling_rate(l)*(step%known_velocity(l) + 2.0_dp*a))
+            call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), &
+                                          max(step%least(l), step%smallest(l)), step%growth(l), &
+                                          step%load(l), &
+                                          step%load_by_film(l), step%load_by_velocity(l))
+         end do
+      end associate
+   end subroutine begin_piezo_steps
+
+   !> First Newton pass.
+   pure subroutine correct_first(group, cosine)
       type(newmark_lane_group_t), intent(inout) :: group
       !> cos(2 pi f_exc t) at the end of the step [-]
       real(dp), intent(in) :: cosine
-      real(dp) :: a, film, load, load_by_film, load_by_velocity
+      real(dp) :: a, film
       integer :: l
 
       associate (step => group%step)
-         !$omp simd private(a, film, load, load_by_film, load_by_velocity)
+         !$omp simd private(a, film)
          do l = 1, group%used
-            a = group%acceleration(l)
             step%force(l) = group%mean_force(l) + group%force_amplitude(l)*cosine
-            step%smallest(l) = smallest_film_ratio*group%film(l)
-            step%known_film(l) = group%film(l) + group%velocity(l) + a
-            step%known_velocity(l) = group%velocity(l) + 2.0_dp*a
+            a = corrected(group%acceleration(l), step%load(l), step%load_by_film(l), &
+               step%load_by_velocity(l), &
+                          step%force(l))
             film = step%known_film(l) + a
-            call half_pi_rupture_load(group%strength(l), group%squeeze(l), max(film, step%smallest(l)), &
-                                      step%known_velocity(l) + 2.0_dp*a, load, load_by_film, load_by_velocity)
-            a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
             step%acceleration(l) = a
-            step%least(l) = min(film, step%known_film(l) + a)
-            step%film(l) = max(step%known_film(l) + a, step%smallest(l))
+            step%least(l) = min(film, step%least(l))
+            step%film(l) = max(film, step%smallest(l))
          end do
       end associate
-   end subroutine first_half_pi_pass
+   end subroutine correct_first
 
-   !> Second pass, film (35): its iterate becomes the state of the group.
-   pure subroutine second_half_pi_pass(group)
+   !> Load (35) after the first pass.
+   pure subroutine load_half_pi_again(group)
       type(newmark_lane_group_t), intent(inout) :: group
-      real(dp) :: a, film, load, load_by_film, load_by_velocity
       integer :: l
 
       associate (step => group%step)
-         !$omp simd private(a, film, load, load_by_film, load_by_velocity)
+         !$omp simd
          do l = 1, group%used
-            a = step%acceleration(l)
+            step%margin(l) = 1.0_dp
             call half_pi_rupture_load(group%strength(l), group%squeeze(l), step%film(l), &
-                                      step%known_velocity(l) + 2.0_dp*a, load, load_by_film, load_by_velocity)
-            a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
-            film = step%known_film(l) + a
-            step%margin(l) = min(group%tolerance(l) - abs(film - step%film(l)), &
-               group%largest_load(l) - load, min(film, step%least(l)) - step%smallest(l))
-            group%film(l) = film
-            group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
-            group%acceleration(l) = a
+                                      step%known_velocity(l) + 2.0_dp*step%acceleration(l), step%load(l), &
+                                      step%load_by_film(l), step%load_by_velocity(l))
          end do
       end associate
-   end subroutine second_half_pi_pass
+   end subroutine load_half_pi_again
 
-   !> Start of a step and its first pass, film (37).
-   pure subroutine first_piezo_pass(group, cosine)
+   !> Load (37) after the first pass. The exponent has hardly changed; where it has, the step is not settled.
+   pure subroutine load_piezo_again(group)
       type(newmark_lane_group_t), intent(inout) :: group
-      !> cos(2 pi f_exc t) at the end of the step [-]
-      real(dp), intent(in) :: cosine
-      real(dp) :: a, film, load, load_by_film, load_by_velocity
+      real(dp) :: change
       integer :: l
 
       associate (step => group%step)
-         call raise_lanes(group%doubling_rate(:group%used), group%velocity(:group%used), &
-                          group%acceleration(:group%used), step%growth(:group%used))
-         !$omp simd private(a, film, load, load_by_film, load_by_velocity)
+         !$omp simd private(change)
          do l = 1, group%used
-            a = group%acceleration(l)
-            step%force(l) = group%mean_force(l) + group%force_amplitude(l)*cosine
-            step%smallest(l) = smallest_film_ratio*group%film(l)
-            step%known_film(l) = group%film(l) + group%velocity(l) + a
-            step%known_velocity(l) = group%velocity(l) + 2.0_dp*a
-            film = step%known_film(l) + a
-            call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), max(film, step%smallest(l)), &
-                                          step%growth(l), load, load_by_film, load_by_velocity)
-            a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
-            step%acceleration(l) = a
-            step%least(l) = min(film, step%known_film(l) + a)
-            step%film(l) = max(step%known_film(l) + a, step%smallest(l))
-         end do
-      end associate
-   end subroutine first_piezo_pass
-
-   !> Second pass, film (37). The exponent has hardly changed since the first one; where it has, the step is
-   !> not settled.
-   pure subroutine second_piezo_pass(group)
-      type(newmark_lane_group_t), intent(inout) :: group
-      real(dp) :: a, film, load, load_by_film, load_by_velocity, change
-      integer :: l
-
-      associate (step => group%step)
-         !$omp simd private(a, film, load, load_by_film, load_by_velocity, change)
-         do l = 1, group%used
-            a = step%acceleration(l)
-            change = 2.0_dp*group%squeeze(l)*(group%acceleration(l) - a)
+            change = 2.0_dp*group%squeeze(l)*(group%acceleration(l) - step%acceleration(l))
+            step%margin(l) = nearness - abs(change)
             call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), step%film(l), &
-                                          step%growth(l)*near_exponential(change), load, load_by_film, &
-                                          load_by_velocity)
-            a = corrected(a, load, load_by_film, load_by_velocity, step%force(l))
+                                          step%growth(l)*near_exponential(change), step%load(l), &
+                                          step%load_by_film(l), step%load_by_velocity(l))
+         end do
+      end associate
+   end subroutine load_piezo_again
+
+   !> Second Newton pass: its iterate becomes the state of the group.
+   pure subroutine correct_second(group)
+      type(newmark_lane_group_t), intent(inout) :: group
+      real(dp) :: a, film
+      integer :: l
+
+      associate (step => group%step)
+         !$omp simd private(a, film)
+         do l = 1, group%used
+            a = corrected(step%acceleration(l), step%load(l), step%load_by_film(l), &
+               step%load_by_velocity(l), &
+                          step%force(l))
             film = step%known_film(l) + a
-            step%margin(l) = min(group%tolerance(l) - abs(film - step%film(l)), &
-               group%largest_load(l) - load, min(film, step%least(l)) - step%smallest(l), &
-               nearness - abs(change))
+            step%margin(l) = min(step%margin(l), group%tolerance(l) - abs(film - step%film(l)), &
+               group%largest_load(l) - step%load(l), min(film, step%least(l)) - step%smallest(l))
             group%film(l) = film
             group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
             group%acceleration(l) = a
          end do
       end associate
-   end subroutine second_piezo_pass
+   end subroutine correct_second
 
    !> Number of lanes that do not meet the criterion.
    pure integer(int64) function unsettled_lanes(group)
@@ -163,7 +184,6 @@ contains
    !> Further passes for the lanes that need them.
    pure subroutine settle_lanes(group)
       type(newmark_lane_group_t), intent(inout) :: group
-      real(dp), dimension(lanes) :: load, load_by_film, load_by_velocity
       real(dp) :: a, film
       integer :: l, pass
 
@@ -180,15 +200,14 @@ contains
             end do
             if (unsettled_lanes(group) == 0) return
             pass = pass + 1
-            call load_lanes(group, step%growth, load, load_by_film, load_by_velocity)
+            call load_states(group)
             do l = 1, group%used
                if (step%margin(l) > 0.0_dp) cycle
-               a = corrected(group%acceleration(l), load(l), load_by_film(l), load_by_velocity(l), &
-                  step%force(l))
+               a = corrected(group%acceleration(l), step%load(l), step%load_by_film(l), &
+                             step%load_by_velocity(l), step%force(l))
                film = step%known_film(l) + a
-               step%least(l) = merge(min(film, step%least(l)), 0.0_dp, load(l) < group%largest_load(l))
                step%margin(l) = min(group%tolerance(l) - abs(film - group%film(l)), &
-                  step%least(l) - step%smallest(l))
+                  group%largest_load(l) - step%load(l), min(film, step%least(l)) - step%smallest(l))
                group%film(l) = film
                group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
                group%acceleration(l) = a
@@ -198,37 +217,29 @@ contains
       end associate
    end subroutine settle_lanes
 
-   !> Load and slopes at the states of all lanes, of which none has failed.
-   pure subroutine load_lanes(group, growth, load, load_by_film, load_by_velocity)
-      type(newmark_lane_group_t), intent(in) :: group
-      !> Room for the exponentials [-]
-      real(dp), intent(inout) :: growth(lanes)
-      !> L [m]
-      real(dp), intent(out) :: load(lanes)
-      !> dL/dh [-]
-      real(dp), intent(out) :: load_by_film(lanes)
-      !> dL/dV [-]
-      real(dp), intent(out) :: load_by_velocity(lanes)
-      real(dp) :: still(lanes)
+   !> Loads and slopes at the states of all lanes, of which none has failed.
+   pure subroutine load_states(group)
+      type(newmark_lane_group_t), intent(inout) :: group
       integer :: l
 
-      if (group%kernel == kernel_half_pi) then
-         !$omp simd
-         do l = 1, group%used
-            call half_pi_rupture_load(group%strength(l), group%squeeze(l), group%film(l), group%velocity(l), &
-                                      load(l), load_by_film(l), load_by_velocity(l))
-         end do
-      else
-         still = 0.0_dp
-         call raise_lanes(group%doubling_rate(:group%used), group%velocity(:group%used), still(:group%used), &
-                          growth(:group%used))
-         !$omp simd
-         do l = 1, group%used
-            call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), group%film(l), growth(l), &
-                                          load(l), load_by_film(l), load_by_velocity(l))
-         end do
-      end if
-   end subroutine load_lanes
+      associate (step => group%step)
+         if (group%kernel == kernel_half_pi) then
+            !$omp simd
+            do l = 1, group%used
+               call half_pi_rupture_load(group%strength(l), group%squeeze(l), group%film(l), &
+                  group%velocity(l), &
+                                         step%load(l), step%load_by_film(l), step%load_by_velocity(l))
+            end do
+         else
+            !$omp simd
+            do l = 1, group%used
+               call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), group%film(l), &
+                                             power_of_two(-group%doubling_rate(l)*group%velocity(l)), &
+                                             step%load(l), step%load_by_film(l), step%load_by_velocity(l))
+            end do
+         end if
+      end associate
+   end subroutine load_states
 
    !> A after a Newton pass: L + dL/dh dA + 2 dL/dV dA - F = A + dA, solved for A + dA.
    elemental real(dp) function corrected(acceleration, load, load_by_film, load_by_velocity, force)

@@ -4,7 +4,7 @@ module scene_lane
    use kinds, only: dp
    use lane_scenes, only: lane_scene_t
    use scene_types, only: scene_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: lane_of_scene

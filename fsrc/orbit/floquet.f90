@@ -1,7 +1,7 @@
 !> Floquet multipliers of a periodic motion, and what they say of its stability.
 module floquet
    use kinds, only: dp
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer, parameter, public :: orbit_stable = 1, orbit_doubling_near = 2, orbit_fold_near = 3, orbit_torus_near = 4, &

@@ -5,7 +5,7 @@ module period_map
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use scene_status, only: status_complete
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: map_states

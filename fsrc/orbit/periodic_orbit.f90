@@ -5,7 +5,7 @@ module periodic_orbit
    use kinds, only: dp
    use lane_scenes, only: lane_scene_t
    use period_map, only: map_states
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    integer, parameter, public :: longest_period = 8

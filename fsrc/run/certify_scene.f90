@@ -11,7 +11,7 @@ module certify_scene
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
    use scene_types, only: method_newmark, scene_t, spectrum_choice_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Accuracy of the tighter solution: this, or a hundredth of the scene's own.

@@ -104,14 +104,14 @@ contains
 
       !> A positive number of threads.
       subroutine read_threads()
+         character(:), allocatable :: text
          integer :: stat
 
-         associate (text => argument_text(i))
-            stat = merge(0, 1, verify(text, '0123456789') == 0 .and. len(text) > 0 .and. len(text) < 6)
-            if (stat == 0) read (text, *, iostat=stat) command%threads
-            if (stat /= 0 .or. command%threads < 1) call faults%add(argument//' '//text, 0, '', '', &
-                                                                    'a positive number of threads is needed')
-         end associate
+         text = argument_text(i)
+         stat = merge(0, 1, verify(text, '0123456789') == 0 .and. len(text) > 0 .and. len(text) < 6)
+         if (stat == 0) read (text, *, iostat=stat) command%threads
+         if (stat /= 0 .or. command%threads < 1) &
+            call faults%add(argument//' '//text, 0, '', '', 'a positive number of threads is needed')
       end subroutine read_threads
 
       !> Turn group.key=value into namelist text.

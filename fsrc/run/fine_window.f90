@@ -6,7 +6,7 @@ module fine_window
    use rattle_class, only: classify, rattle_verdict_t
    use scene_status, only: is_success
    use scene_types, only: scene_t, spectrum_choice_t
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> Samples of a period and of a window that no spectrum needs.

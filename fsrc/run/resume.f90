@@ -12,7 +12,7 @@ module resume
    use result_writer, only: result_writer_t
    use scene_types, only: scene_t
    use text, only: integer_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    character(*), parameter :: state_names(9) = [character(12) :: 'periods', 'film', 'velocity', 'acceleration', 'momentum', &

@@ -23,7 +23,7 @@ module run_sweep
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
    use version, only: program_version
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    character(*), parameter :: names(17) = [character(24) :: 'value', 'direction', 'film_minimum', 'film_maximum', &

@@ -133,8 +133,11 @@ contains
       type(entry_t), intent(inout) :: entry
       character(*), intent(in) :: file
       type(fault_list_t), intent(inout) :: faults
-      integer :: i
+      integer :: i, length
 
+      ! The default of a list is no beginning of it.
+      length = 0
+      if (entry%given) length = list_length(key, entry)
       entry%given = .true.
       entry%file = file
       entry%line = assignment%line
@@ -153,9 +156,8 @@ contains
             call refuse('takes one value, '//integer_text(size(assignment%values))//' are given')
             return
          end if
-      else if (assignment%first_element > 1 .and. assignment%first_element /= list_length(key, entry) + 1) then
-         call refuse('elements must be given one after the other; element '//integer_text(list_length(key, entry) + 1)// &
-                     ' comes next')
+      else if (assignment%first_element > 1 .and. assignment%first_element /= length + 1) then
+         call refuse('elements must be given one after the other; element '//integer_text(length + 1)//' comes next')
          return
       end if
       if (assignment%first_element <= 1) then

@@ -294,8 +294,8 @@ contains
       type(word_t), allocatable :: scales(:)
       integer :: i
 
-      campaign%vary = words_of(input%words('campaign', 'vary'))
-      scales = words_of(input%words('campaign', 'scale'))
+      allocate (campaign%vary, source=words_of(input%words('campaign', 'vary')))
+      allocate (scales, source=words_of(input%words('campaign', 'scale')))
       allocate (campaign%scale(size(campaign%vary)), source=1)
       do i = 1, min(size(scales), size(campaign%vary))
          campaign%scale(i) = merge(2, 1, scales(i)%text == 'logarithmic')
@@ -312,7 +312,7 @@ contains
       campaign%size = input%count('campaign', 'size')
       campaign%seed = input%count('campaign', 'seed')
       campaign%csv = input%word('campaign', 'csv')
-      campaign%record = words_of(input%words('campaign', 'record'))
+      allocate (campaign%record, source=words_of(input%words('campaign', 'record')))
       campaign%samples_per_period = input%count('campaign', 'samples_per_period')
       campaign%allow_invalid = input%flag('campaign', 'allow_invalid')
       campaign%confirm_size = input%flag('campaign', 'confirm_size')

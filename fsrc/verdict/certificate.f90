@@ -4,7 +4,7 @@ module certificate
    use rattle_class, only: class_irregular, class_name, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    use text, only: integer_text, short_text
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    !> What the comparison says.

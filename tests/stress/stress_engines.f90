@@ -1,26 +1,41 @@
 !> Every engine on a group of scenes, with the outcomes.
 module stress_engines
-   use kinds, only: dp, int64
+   use film_law, only: film_load
+   use kinds, only: dp
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use newmark, only: motion_count_t, motion_state_t, start_motion
+   use newmark_extrapolated, only: advance_extrapolated, extrapolation_t, new_extrapolation
    use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, solve_newmark_lanes
+   use newmark_lanes_extrapolated, only: extrapolated_ending_t, solve_lanes_extrapolated
    use random_scenes, only: drawn_scene_t, group_t
-   use scene_types, only: iteration_newton, iteration_successive, method_newmark, method_taylor, predictor_extrapolated, &
-                          predictor_previous, scene_t, until_periods, until_steady
+   use scene_status, only: status_complete
+   use scene_types, only: iteration_newton, iteration_successive, method_newmark, method_newmark_extrapolated, &
+                          method_taylor, predictor_extrapolated, predictor_previous, scene_t, until_periods, until_steady
    use stress_outcomes, only: judge_controlled, judge_newmark, outcome_t
    use stress_references, only: compared_periods, compared_samples, comparisons, reference_t, window_periods, window_samples
    implicit none(type, external)
    private
 
-   integer, parameter, public :: engines = 7
-   !> The first three are error-controlled.
-   integer, parameter, public :: controlled_engines = 3
+   !> The first three are solved in long runs too, the first five are error-controlled.
+   integer, parameter, public :: engines = 9, long_engines = 3, controlled_engines = 5
    character(*), parameter, public :: engine_names(engines) = [character(30) :: 'taylor', 'collocation', 'taylor until steady', &
-      'newmark, newton', 'newmark, newton, previous', 'newmark, successive', 'newmark, successive, previous']
+      'newmark-extrapolated', 'newmark-extrapolated, lanes', 'newmark, newton', &
+      'newmark, newton, previous', 'newmark, successive', 'newmark, successive, previous']
 
-   public :: run_engine, set_solver
+   public :: run_engine, set_solver, takes_part
 
 contains
+
+   !> Whether an engine solves a group: the extrapolated ones cost so much that they solve some.
+   pure logical function takes_part(engine, group)
+      !> Place in `engine_names`
+      integer, intent(in) :: engine
+      !> The group
+      type(group_t), intent(in) :: group
+
+      takes_part = group%extrapolated .or. (engine /= 4 .and. engine /= 5)
+   end function takes_part
 
    !> Solve a group by one engine.
    subroutine run_engine(engine, group, drawn, references, results)
@@ -35,8 +50,12 @@ contains
       !> How they came out
       type(outcome_t), intent(out) :: results(:)
 
-      if (engine <= controlled_engines) then
+      if (engine <= long_engines) then
          call run_controlled(engine, group, drawn, references, results)
+      else if (engine == 4) then
+         call run_extrapolated(group, drawn, references, results)
+      else if (engine == 5) then
+         call run_lanes_extrapolated(group, drawn, references, results)
       else
          call run_newmark(engine, group, drawn, references, results)
       end if
@@ -69,6 +88,70 @@ contains
          results(i) = judge_controlled(references(i), group%periods, group%accuracy, films(:, i), endings(i))
       end do
    end subroutine run_controlled
+
+   !> Newmark's method extrapolated interval by interval, scene by scene.
+   subroutine run_extrapolated(group, drawn, references, results)
+      type(group_t), intent(in) :: group
+      type(drawn_scene_t), intent(in) :: drawn(:)
+      type(reference_t), intent(in) :: references(:)
+      type(outcome_t), intent(out) :: results(:)
+      type(newmark_lane_scene_t) :: scene
+      type(extrapolation_t) :: extrapolation
+      type(motion_state_t) :: state
+      type(motion_count_t) :: count
+      type(lane_ending_t) :: ending
+      real(dp) :: films(comparisons)
+      real(dp), dimension(compared_samples) :: velocities, accelerations
+      integer :: i, period, first, done
+
+      do i = 1, size(drawn)
+         scene = newmark_scene(4, drawn(i))
+         extrapolation = new_extrapolation(group%accuracy, compared_samples)
+         count = motion_count_t()
+         ending = lane_ending_t()
+         call start_motion(film_load, scene%film, scene%method, scene%thickness, scene%velocity, state, count, ending%status)
+         films = -1.0_dp
+         do period = 1, group%periods
+            if (ending%status /= status_complete) exit
+            first = max(0, period - 1 - group%periods + compared_periods)*compared_samples + 1
+            call advance_extrapolated(film_load, scene%film, scene%method, extrapolation, state, count, &
+                                      films(first:first + compared_samples - 1), velocities, accelerations, done, &
+                                      ending%status)
+         end do
+         ending%film = state%film
+         ending%velocity = state%velocity
+         ending%steps = count%steps
+         ending%samples = comparisons
+         results(i) = judge_controlled(references(i), group%periods, group%accuracy, films, ending)
+      end do
+   end subroutine run_extrapolated
+
+   !> Newmark's method extrapolated over whole motions, in lanes.
+   subroutine run_lanes_extrapolated(group, drawn, references, results)
+      type(group_t), intent(in) :: group
+      type(drawn_scene_t), intent(in) :: drawn(:)
+      type(reference_t), intent(in) :: references(:)
+      type(outcome_t), intent(out) :: results(:)
+      type(newmark_lane_scene_t) :: scenes(size(drawn))
+      type(extrapolated_ending_t) :: endings(size(drawn))
+      type(lane_ending_t) :: ending
+      real(dp), dimension(comparisons, size(drawn)) :: films, velocities, accelerations
+      integer :: i
+
+      do i = 1, size(drawn)
+         scenes(i) = newmark_scene(5, drawn(i))
+      end do
+      films = -1.0_dp
+      velocities = 0.0_dp
+      accelerations = 0.0_dp
+      call solve_lanes_extrapolated(scenes, group%accuracy, group%periods, compared_periods, compared_samples, films, &
+                                    velocities, accelerations, endings)
+      do i = 1, size(drawn)
+         ending = lane_ending_t(status=endings(i)%status, film=films(comparisons, i), velocity=velocities(comparisons, i), &
+                                samples=comparisons, steps=endings(i)%steps)
+         results(i) = judge_controlled(references(i), group%periods, group%accuracy, films(:, i), ending)
+      end do
+   end subroutine run_lanes_extrapolated
 
    !> The Newmark engines: Newton's iteration of the published films in lanes, all others scene by scene.
    subroutine run_newmark(engine, group, drawn, references, results)
@@ -132,10 +215,11 @@ contains
       type(scene_t), intent(inout) :: scene
 
       associate (solver => scene%solver)
-         solver%method = merge(method_taylor, method_newmark, engine <= controlled_engines)
+         solver%method = merge(method_taylor, method_newmark, engine <= long_engines)
+         if (engine == 4 .or. engine == 5) solver%method = method_newmark_extrapolated
          solver%until = merge(until_steady, until_periods, engine == 3)
-         solver%iteration = merge(iteration_successive, iteration_newton, engine >= 6)
-         solver%predictor = merge(predictor_previous, predictor_extrapolated, engine == 5 .or. engine == 7)
+         solver%iteration = merge(iteration_successive, iteration_newton, engine >= 8)
+         solver%predictor = merge(predictor_previous, predictor_extrapolated, engine == 7 .or. engine == 9)
       end associate
    end subroutine set_solver
 

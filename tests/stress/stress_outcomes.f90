@@ -30,8 +30,8 @@ module stress_outcomes
    real(dp), parameter :: allowed_ratio = 30.0_dp
    !> Error up to which Newmark's motion is right, and up to which it is certified [-].
    real(dp), parameter :: right_error = 0.0101_dp, certificate_tolerance = 0.01_dp
-   !> More steps for one scene are a hang.
-   integer(int64), parameter :: most_steps = 2000000_int64
+   !> More steps for a scene are a hang.
+   integer(int64), parameter :: most_steps = 1000000000_int64
 
    !> What came out.
    type, public :: outcome_t

@@ -2,8 +2,9 @@
 !> sensitivity, and the tighter solution that a certificate would take.
 !>
 !> Sensitivity. An error e made somewhere has grown to g e where it is looked at, and no method that is only accurate
-!> to e can do better. g is found by two tight solutions with the film off by 1e-9: from the start on, and from the
-!> start of the last periods on. The larger one is taken, and never less than one.
+!> to e can do better. g is found by two more tight solutions: one with the film at the start and the force all along
+!> off by 1e-9, which stands for errors made at any time, and one with the film off by as much at the start of the last
+!> periods. The larger growth is taken, and never less than one.
 module stress_references
    use kinds, only: dp
    use lane_motions, only: accelerations, solve_motions
@@ -23,7 +24,7 @@ module stress_references
    real(dp), parameter :: tight_accuracy = 1.0e-11_dp, second_share = 1.0e-2_dp
    !> Accuracy of the solution that a certificate takes.
    real(dp), parameter :: certificate_accuracy = 1.0e-10_dp
-   !> What the film is put off by to see the sensitivity [-].
+   !> What film and force are put off by to see the sensitivity [-].
    real(dp), parameter :: offset = 1.0e-9_dp
 
    !> References of one scene.
@@ -107,8 +108,10 @@ contains
       unused = middle
       rest = start
       rest%initial_film = start%initial_film*(1.0_dp + offset)
+      rest%steady_force = start%steady_force + offset*(start%steady_force + start%weight + start%force_amplitude)
       call last_periods(rest, off, group%periods, accuracy, unused, endings)
       call note_growth()
+      rest = start
       rest%initial_film = middle%film*(1.0_dp + offset)
       rest%initial_momentum = middle%momentum
       rest%periods_done = middle%periods

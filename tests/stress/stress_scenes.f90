@@ -1,6 +1,6 @@
 !> Random scenes by every engine, each held against an independent tighter solution.
 !>
-!>    stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE] [--failures FILE] [--list OUTCOME] [--no-newmark]
+!>    stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE] [--failures FILE] [--list OUTCOME] [--accuracy A] [--no-newmark]
 !>
 !> Prints the table of outcomes and, of every silent failure and all that is listed, a namelist that shows it again. The exit code is 1 if
 !> there is one. The result does not depend on the number of threads (OMP_NUM_THREADS).
@@ -11,7 +11,7 @@ program stress_scenes
    use random_scenes, only: draw_group, draw_scene, drawn_scene_t, group_of, group_size, group_t, law_names
    use scene_namelist, only: print_namelist
    use scene_status, only: status_name
-   use stress_engines, only: controlled_engines, engine_names, engines, run_engine, set_solver
+   use stress_engines, only: engine_names, engines, long_engines, run_engine, set_solver, takes_part
    use stress_outcomes, only: outcome_names, outcome_silent, outcome_t, outcomes
    use stress_references, only: reference_t, solve_references
    use stress_table, only: print_markdown, print_ratios, tally_t, write_csv
@@ -19,6 +19,7 @@ program stress_scenes
    implicit none(type, external)
 
    integer(int64) :: scenes = 100000_int64, seed = 1_int64, first = 0_int64
+   real(dp) :: accuracy = 0.0_dp
    character(512) :: csv = '', failures = ''
    logical :: listed(outcomes) = .false., no_newmark = .false., written
    type(tally_t) :: tally
@@ -64,19 +65,22 @@ contains
       integer(int64) :: from, to
 
       shared = draw_group(seed, number)
+      if (accuracy > 0.0_dp) shared%accuracy = accuracy
       from = max(first, number*group_size)
       to = min(first + scenes, (number + 1_int64)*group_size) - 1_int64
       allocate (drawn(to - from + 1_int64), references(to - from + 1_int64), results(to - from + 1_int64, engines))
       do i = 1, size(drawn)
          drawn(i) = draw_scene(seed, from + int(i - 1, int64))
+         drawn(i)%scene%solver%accuracy = shared%accuracy
       end do
       group_started = wall_seconds()
       spent = 0.0_dp
       ! Newmark's method has nothing to show in long runs.
-      last_engine = merge(controlled_engines, engines, shared%long .or. no_newmark)
-      call solve_references(shared, drawn, last_engine > controlled_engines, references)
+      last_engine = merge(long_engines, engines, shared%long .or. no_newmark)
+      call solve_references(shared, drawn, last_engine > long_engines, references)
       spent(0) = wall_seconds() - group_started
       do engine = 1, last_engine
+         if (.not. takes_part(engine, shared)) cycle
          spent(engine) = wall_seconds()
          call run_engine(engine, shared, drawn, references, results(:, engine))
          spent(engine) = wall_seconds() - spent(engine)
@@ -88,6 +92,7 @@ contains
          slowest_group = number
       end if
       do engine = 1, last_engine
+         if (.not. takes_part(engine, shared)) cycle
          do i = 1, size(drawn)
             call tally%add(shared%law, engine, results(i, engine))
             if (results(i, engine)%code == outcome_silent .or. listed(results(i, engine)%code)) &
@@ -144,6 +149,8 @@ contains
          case ('--list')
             listed = listed .or. outcome_names == value
             if (.not. any(outcome_names == value)) failure = 1
+         case ('--accuracy')
+            read (value, *, iostat=failure) accuracy
          case ('--no-newmark')
             no_newmark = .true.
             i = i - 1
@@ -153,7 +160,7 @@ contains
       end do
       if (failure == 0 .and. scenes > 0_int64 .and. first >= 0_int64) return
       write (error_unit, '(a)') 'usage: stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE] [--failures FILE] '// &
-         '[--list OUTCOME] [--no-newmark]'
+         '[--list OUTCOME] [--accuracy A] [--no-newmark]'
       stop 2
    end subroutine read_arguments
 

@@ -27,6 +27,13 @@ program unit_tests
    use test_regime, only: run_regime_tests
    use test_reynolds_film, only: run_reynolds_film_tests
    use test_reynolds_load, only: run_reynolds_load_tests
+   use test_taylor_lanes, only: run_taylor_lanes_tests
+   use test_checksum, only: run_checksum_tests
+   use test_random_numbers, only: run_random_numbers_tests
+   use test_sampling, only: run_sampling_tests
+   use test_csv_samples, only: run_csv_samples_tests
+   use test_campaign_file, only: run_campaign_file_tests
+   use test_schedule, only: run_schedule_tests
    implicit none(type, external)
 
    type(check_list_t) :: checks
@@ -57,6 +64,13 @@ program unit_tests
    call run_regime_check_tests(checks)
    call run_numerical_artefacts_tests(checks)
    call run_result_writer_tests(checks)
+   call run_taylor_lanes_tests(checks)
+   call run_checksum_tests(checks)
+   call run_random_numbers_tests(checks)
+   call run_sampling_tests(checks)
+   call run_csv_samples_tests(checks)
+   call run_campaign_file_tests(checks)
+   call run_schedule_tests(checks)
 
    print '(i0, a, i0, a)', checks%passed, ' passed, ', checks%failed, ' failed'
    if (checks%failed > 0) stop 1, quiet = .true.

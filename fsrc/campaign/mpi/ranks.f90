@@ -3,7 +3,7 @@ module ranks
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
    use kinds, only: int64
    use mpi_f08
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &

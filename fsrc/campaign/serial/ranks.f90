@@ -1,7 +1,7 @@
 !> Stand-in for ranks: one process does it all. With MPI=1 the module of the same name in campaign/mpi is built.
 module ranks
    use kinds, only: int64
-   implicit none (type, external)
+   implicit none(type, external)
    private
 
    public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &

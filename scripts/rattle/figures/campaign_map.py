@@ -24,11 +24,13 @@ from rattle.figures import campaign_look as look
 from rattle.figures import style
 
 RATIO_LEVELS = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0)
+# Dashes, words, form of the labels, and where these stand along a line.
 CONTOUR_LOOKS = {
-    "frequency": ("-", r"natural frequency $f_n/f_\mathrm{exc}$", "%g"),
-    "damping": ("--", r"damping ratio $\zeta$", r"$\zeta$ %g"),
+    "frequency": ("-", r"natural frequency $f_n/f_\mathrm{exc}$", "%g", 0.85),
+    "damping": ("--", r"damping ratio $\zeta$", r"$\zeta$ %g", 0.15),
 }
 CONTOURS = tuple(CONTOUR_LOOKS)
+SHORTEST_LABELLED = 60.0  # pixels
 
 
 @dataclass(frozen=True)
@@ -142,11 +144,11 @@ def draw_contours(axes: Axes, section: Section, names: Sequence[str]) -> list[Li
         values = np.ma.masked_invalid(section.cut(grid).T)
         levels = _levels(values.compressed(), name)
         if levels:
-            dashes, words, form = CONTOUR_LOOKS[name]
+            dashes, words, _, _ = CONTOUR_LOOKS[name]
             lines = axes.contour(
                 x.values, y.values, values, levels=levels, colors="black", linewidths=0.9, linestyles=dashes
             )
-            _label(axes, lines, form)
+            _label(axes, lines, name)
             handles.append(Line2D([], [], color="black", linewidth=0.9, linestyle=dashes, label=words))
     return handles
 
@@ -165,7 +167,7 @@ def _point_contours(axes: Axes, campaign: Campaign, x: str, y: str, names: Seque
         known = campaign.done & np.isfinite(column)
         levels = _levels(column[known], name)
         if levels and known.sum() >= 10:
-            dashes, words, form = CONTOUR_LOOKS[name]
+            dashes, words, _, _ = CONTOUR_LOOKS[name]
             triangles = _triangles(campaign, x, y, known)
             lines = axes.tricontour(
                 triangles,
@@ -176,7 +178,7 @@ def _point_contours(axes: Axes, campaign: Campaign, x: str, y: str, names: Seque
                 linestyles=dashes,
                 zorder=3,
             )
-            _label(axes, lines, form)
+            _label(axes, lines, name)
             handles.append(Line2D([], [], color="black", linewidth=0.9, linestyle=dashes, label=words))
     return handles
 
@@ -217,10 +219,32 @@ def _levels(values: np.ndarray, name: str) -> list[float]:
     return within
 
 
-def _label(axes: Axes, lines: ContourSet, form: str) -> None:
+def _label(axes: Axes, lines: ContourSet, name: str) -> None:
+    """A label on the longest line of each level, well inside the picture."""
+    _, _, form, place = CONTOUR_LOOKS[name]
+    points = []
+    for level in lines.allsegs:
+        segments = [segment for segment in level if len(segment) > 1]
+        if not segments:
+            continue
+        longest = max(segments, key=lambda segment: _length(axes, segment)[-1])
+        seen = axes.transData.transform(longest)
+        rises = seen[-1] - seen[0]
+        if rises[np.argmax(np.abs(rises))] < 0.0:  # to the right, or upwards
+            longest = longest[::-1]
+        along = _length(axes, longest)
+        if along[-1] > SHORTEST_LABELLED:
+            points.append(tuple(np.interp(place * along[-1], along, part) for part in longest.T))
     lines.set_path_effects(look.HALO)
-    for label in axes.clabel(lines, fontsize=7, fmt=form, inline_spacing=3):
-        label.set_path_effects(look.HALO)
+    if points:  # an empty list would mean places of matplotlib's own choice
+        for label in axes.clabel(lines, fontsize=7, fmt=form, inline_spacing=3, manual=points):
+            label.set_path_effects(look.HALO)
+
+
+def _length(axes: Axes, segment: np.ndarray) -> np.ndarray:
+    """Length of a line up to each of its points, in pixels."""
+    seen = axes.transData.transform(segment)
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(seen, axis=0).T))])
 
 
 def _code_colours(palette: Mapping[int, str]) -> tuple[ListedColormap, Normalize]:
