@@ -85,6 +85,7 @@ contains
       type(campaign_file_t) :: results
       type(campaign_progress_t) :: progress
       type(log_t) :: log
+      type(error_t), allocatable :: close_error
       integer(int64) :: first, last, spoilt, invalid
       real(dp) :: started
       logical :: stands
@@ -135,7 +136,11 @@ contains
       call wait_for_ranks()
       progress%done = sum_over_ranks(progress%done)
       progress%failed = sum_over_ranks(progress%failed)
-      if (this_rank() == 0) call close_campaign(scene, layout, invalid, started, results, progress, log, exit_code, error)
+      if (this_rank() == 0) then
+         call close_campaign(scene, layout, invalid, started, results, progress, log, allocated(error), exit_code, close_error)
+         if (allocated(error)) exit_code = error%exit_code
+         if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
+      end if
       call share_number(exit_code)
    end subroutine run_one_campaign
 
@@ -185,7 +190,7 @@ contains
    end subroutine solve_chunks
 
    !> Close the file and say what became of the campaign.
-   subroutine close_campaign(scene, layout, invalid, started, results, progress, log, exit_code, error)
+   subroutine close_campaign(scene, layout, invalid, started, results, progress, log, not_written, exit_code, error)
       type(scene_t), intent(in) :: scene
       type(campaign_layout_t), intent(in) :: layout
       integer(int64), intent(in) :: invalid
@@ -193,6 +198,8 @@ contains
       type(campaign_file_t), intent(inout) :: results
       type(campaign_progress_t), intent(inout) :: progress
       type(log_t), intent(inout) :: log
+      !> Whether chunks could not be written
+      logical, intent(in) :: not_written
       integer, intent(out) :: exit_code
       type(error_t), allocatable, intent(out) :: error
       type(summary_t) :: summary
@@ -202,7 +209,7 @@ contains
 
       call results%close(finished, error)
       status = merge(status_complete, status_interrupted, finished)
-      if (allocated(error)) status = status_not_written
+      if (allocated(error) .or. not_written) status = status_not_written
       call progress%finish(log)
       call summary%add('name', trim(scene%name))
       call summary%add('program_version', program_version)

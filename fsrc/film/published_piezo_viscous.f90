@@ -2,15 +2,12 @@
 !> (printed: the acceleration) in the exponent; it is the film-thickness regression (32) turned round.
 module published_piezo_viscous
    use kinds, only: dp
+   use piezo_viscous_terms, only: largest_exponent, piezo_viscous_terms_load
    implicit none(type, external)
    private
 
    !> Factors as printed in (37); (32) gives 12*0.787^2.5 = 6.5935 and 2.5*281.2 = 703.
    real(dp), parameter :: load_factor = 6.6_dp, squeeze_factor = 703.0_dp
-
-   !> Exponents beyond this would overflow. The load is held there, far above `overflow_load`,
-   !> by which the motion knows that the law has no value.
-   real(dp), parameter :: largest_exponent = 550.0_dp
 
    public :: piezo_coefficient, squeeze_exponent_rate, piezo_viscous_load
 
@@ -56,14 +53,9 @@ contains
       real(dp), intent(out) :: load_by_film
       !> dW/dw [N s/m]
       real(dp), intent(out) :: load_by_velocity
-      real(dp) :: inverse, inverse_2
 
-      ! h^(-7/2) as h^(-4) sqrt(h): root and division run side by side.
-      inverse = 1.0_dp/film
-      inverse_2 = inverse*inverse
-      load = (inverse_2*inverse_2)*(coefficient*sqrt(film))*exp(min(-rate*velocity, largest_exponent))
-      load_by_film = -3.5_dp*load*inverse
-      load_by_velocity = -rate*load
+      call piezo_viscous_terms_load(coefficient, rate, film, exp(min(-rate*velocity, largest_exponent)), load, &
+                                    load_by_film, load_by_velocity)
    end subroutine piezo_viscous_load
 
 end module published_piezo_viscous

@@ -9,11 +9,12 @@ module integrate_motion
                        load_reynolds_piezo, load_solved_fast, load_solved_successive
    use forcing, only: applied_force, force_of_period
    use kinds, only: dp, int64
+   use newmark_extrapolated, only: advance_extrapolated, extrapolation_t, new_extrapolation
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
    use period_repetition, only: note_state, orbit_watch_t
    use sample_sink, only: sample_sink_t
    use scene_status, only: status_complete, status_interrupted, status_steady, status_time_limit
-   use scene_types, only: iteration_newton, predictor_extrapolated, scene_t, until_steady
+   use scene_types, only: iteration_newton, method_newmark_extrapolated, predictor_extrapolated, scene_t, until_steady
    use signals, only: caught_signal
    implicit none(type, external)
    private
@@ -111,13 +112,17 @@ contains
       type(motion_state_t) :: state
       real(dp), allocatable :: force(:), films(:), velocities(:), accelerations(:)
       type(orbit_watch_t) :: states
+      type(extrapolation_t) :: extrapolation
+      logical :: extrapolated
       integer(int64) :: first_step
       integer :: period, last_period, window, steps, done, orbit
       real(dp) :: distance, started
 
       started = wall_seconds()
       method = newmark_of(scene)
-      steps = scene%solver%steps_per_period
+      steps = scene%solver%samples_per_period()
+      extrapolated = scene%solver%method == method_newmark_extrapolated
+      extrapolation = new_extrapolation(scene%solver%accuracy, steps)
       allocate (force(steps), films(steps), velocities(steps), accelerations(steps))
       call force_of_period(method%steady_force, method%force_amplitude, force)
 
@@ -145,8 +150,13 @@ contains
       do while (period < last_period)
          period = period + 1
          first_step = int(period - 1, int64)*int(steps, int64) + 1_int64
-         call advance_period(kernel, film, method, force, state, ending%count, films, velocities, accelerations, done, &
-                             ending%status)
+         if (extrapolated) then
+            call advance_extrapolated(kernel, film, method, extrapolation, state, ending%count, films, velocities, &
+                                      accelerations, done, ending%status)
+         else
+            call advance_period(kernel, film, method, force, state, ending%count, films, velocities, accelerations, done, &
+                                ending%status)
+         end if
          call sink%take(first_step, force(:done), films(:done), velocities(:done), accelerations(:done), error)
          ending%film = state%film
          ending%velocity = state%velocity

@@ -1,13 +1,10 @@
 !> Newmark's average acceleration with Richardson extrapolation and error control, for any film.
 !>
 !> With the iteration of every step carried to rounding the method is the trapezoidal rule, whose error runs
-!> in
-!> even powers of the step. A period is cut into intervals. Each is solved with more and more steps from the
-!> same state, and film and velocity at the points that all rows have in common are extrapolated, until the
-!> last
-!> two columns agree; then the extrapolated state is where the next interval starts. So the steps are fine
-!> only
-!> where the motion needs it.
+!> in even powers of the step. A period is cut into intervals. Each is solved with more and more steps from
+!> the same state, and film and velocity at the points that all rows have in common are extrapolated, until
+!> the last two columns agree; then the extrapolated state is where the next interval starts. So the steps are
+!> fine only where the motion needs it.
 module newmark_extrapolated
    use film_law, only: film_kernel, film_t
    use forcing, only: applied_force
@@ -170,8 +167,7 @@ contains
    end subroutine solve_interval
 
    !> Rows of one interval, until the last two columns agree within the tolerance. A row in which steps had to
-   !> be cut
-   !> is none: its error has no expansion.
+   !> be cut is none: its error has no expansion.
    subroutine extrapolate_interval(kernel, film, stretch, phase, width, state, base, tolerance, row_limit, &
                                    rows, count, films, velocities, estimate, status)
       !> Kernel of the film

@@ -2,8 +2,7 @@
 !> scene.
 !>
 !> Time is counted in steps and force in the film that it moves in a step, so that the formulas of Newmark's
-!> method
-!> have no factors: with V = dt z', A = dt^2/4 z'' and the load L = dt^2/(4 m) W,
+!> method have no factors: with V = dt z', A = dt^2/4 z'' and the load L = dt^2/(4 m) W,
 !>
 !>    h_i = h_(i-1) + V_(i-1) + A_(i-1) + A_i ,   V_i = V_(i-1) + 2 (A_(i-1) + A_i) .
 !>
@@ -17,10 +16,8 @@ module newmark_lane_group
    private
 
    !> Scenes of a group. So many hide the latency of divisions and roots, and their data stay in the nearest
-   !> cache.
-   !> An odd number of cache lines: every array of a group starts with a line if the first one does, and no
-   !> two at
-   !> the same place in a page, where a store to one would hold up the loads of the other.
+   !> cache. An odd number of cache lines: every array of a group starts with a line if the first one does,
+   !> and no two at the same place in a page, where a store to one would hold up the loads of the other.
    integer, parameter, public :: lanes = 136
    !> Lanes are used in blocks of this many, a register at most, so that none is left to other instructions.
    integer, parameter, public :: block_lanes = 8
@@ -35,7 +32,7 @@ module newmark_lane_group
       !> Iterate before the present one: h, never below `smallest`, and A [m]
       real(dp) :: film(lanes) = 1.0_dp
       real(dp) :: acceleration(lanes) = 0.0_dp
-      !> Film that fails, least film of all iterates; 0 also if the law had no value [m]
+      !> Film that fails, and least film of all iterates [m]
       real(dp) :: smallest(lanes) = 0.0_dp
       real(dp) :: least(lanes) = 1.0_dp
       !> L [m] and its slopes dL/dh [-] and dL/dV [-] at the iterate
@@ -86,8 +83,7 @@ module newmark_lane_group
 contains
 
    !> A group of resting lanes that starts with a cache line: registers as wide as a line are loaded at half
-   !> the speed
-   !> from anywhere else.
+   !> the speed from anywhere else.
    subroutine place_group(room, group)
       !> Memory of the group
       real(dp), allocatable, target, intent(out) :: room(:)
@@ -105,8 +101,7 @@ contains
    end subroutine place_group
 
    !> Whether a scene can be solved in a lane: published film with a load in closed form, Newton's iteration
-   !> from the
-   !> extrapolated state.
+   !> from the extrapolated state.
    elemental logical function has_lanes(film, method)
       !> Its film
       type(film_t), intent(in) :: film

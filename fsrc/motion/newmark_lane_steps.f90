@@ -1,10 +1,9 @@
 !> Steps of Newmark's method for all lanes of a group at once: extrapolated first iterate, two Newton passes,
-!> then
-!> the criterion of (36) lane by lane. Lanes that need more passes get them while the others wait, unchanged.
+!> then the criterion of (36) lane by lane. Lanes that need more passes get them while the others wait,
+!> unchanged.
 !>
 !> A step is cut into loops over the lanes, short enough that the processor works on many lanes at once and
-!> never
-!> waits for a division. Every lane goes through the same instructions, and no number of one lane enters
+!> never waits for a division. Every lane goes through the same instructions, and no number of one lane enters
 !> another.
 module newmark_lane_steps
    use film_law, only: kernel_half_pi

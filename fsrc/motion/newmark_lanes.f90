@@ -1,13 +1,10 @@
 !> Motions of many scenes by Newmark's method, a scene a lane. All scenes of a call have the same number of
-!> steps a
-!> period; film law, forces, frequency and tolerance are each scene's own.
+!> steps a period; film law, forces, frequency and tolerance are each scene's own.
 !>
 !> A period in which a step of a lane fails is solved again alone, by module newmark, which can cut steps; so
-!> is every
-!> period of a scene that has no lane. No number of one scene enters another: a scene has the same bits alone,
-!> in any
-!> lane, among any neighbours. Against the scalar steps the last digits differ: here every step has at least
-!> two passes.
+!> is every period of a scene that has no lane. No number of one scene enters another: a scene has the same
+!> bits alone, in any lane, among any neighbours. Against the scalar steps the last digits differ: here every
+!> step has at least two passes.
 module newmark_lanes
    use constants, only: two_pi
    use film_law, only: film_load, film_t

@@ -1,10 +1,7 @@
 !> Newmark's method with Richardson extrapolation for many scenes at once, a scene a lane: whole motions are
-!> solved
-!> again with more and more steps a period, and the samples at their end are extrapolated, until the last two
-!> columns
-!> agree. A scene that agrees takes no part in the next row; no other scene has a say in that, so it has the
-!> same bits
-!> in any company.
+!> solved again with more and more steps a period, and the samples at their end are extrapolated, until the
+!> last two columns agree. A scene that agrees takes no part in the next row; no other scene has a say in
+!> that, so it has the same bits in any company.
 module newmark_lanes_extrapolated
    use film_law, only: film_load
    use forcing, only: applied_force
@@ -113,8 +110,7 @@ contains
    end subroutine solve_lanes_extrapolated
 
    !> Estimate of the relative error of the film from the last two columns. A velocity counts by the film that
-   !> it moves
-   !> between two samples.
+   !> it moves between two samples.
    pure subroutine judge(film_table, velocity_table, scene, samples_per_period, estimate)
       real(dp), intent(in) :: film_table(:, :)
       real(dp), intent(in) :: velocity_table(:, :)

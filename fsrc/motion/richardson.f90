@@ -1,6 +1,5 @@
 !> Richardson extrapolation of a method whose error runs in even powers of the step, by the scheme of Neville
-!> and
-!> Aitken. Column j of a row is the solution with the row's steps, freed of the first j - 1 powers.
+!> and Aitken. Column j of a row is the solution with the row's steps, freed of the first j - 1 powers.
 module richardson
    use kinds, only: dp
    implicit none(type, external)

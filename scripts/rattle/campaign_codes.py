@@ -20,6 +20,7 @@ STATUSES = MappingProxyType(
         6: "interrupted",
         7: "time_limit",
         8: "not_written",
+        9: "invalid",
     }
 )
 NO_OR_YES = MappingProxyType({0: "no", 1: "yes"})
@@ -29,7 +30,7 @@ SUCCESSES = (0, 1)
 CODES: Mapping[str, Mapping[int, str]] = MappingProxyType(
     {"rattle_class": CLASSES, "film_regime": REGIMES, "status": STATUSES}
 )
-FLAGS = ("law_contradicted", "certified")
+FLAGS = ("law_contradicted", "certified", "sampling_sufficient")
 
 
 def words_of(column: str) -> Mapping[int, str] | None:

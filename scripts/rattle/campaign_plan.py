@@ -47,7 +47,7 @@ def read_plan(input_text: str) -> Plan:
         return Plan(TABLE, (), None, part, parts)
     starts = group.start_index
     keys = _indexed(group, starts, "vary")
-    if _said(group, "sample"):
+    if str(group.get("sample") or GRID).strip() != GRID:
         size = group.get("size")
         axes = tuple(PlannedAxis(key, _scale(group, starts, i), None) for i, key in sorted(keys.items()))
         return Plan(SAMPLE, axes, size if isinstance(size, int) else None, part, parts)

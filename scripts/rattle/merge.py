@@ -19,7 +19,7 @@ from rattle.chunk_table import ChunkTable, aligned
 from rattle.command import CommandError
 from rattle.result_header import BYTE_ORDER_MARK, COLUMN_PART, FIXED_PART, FORMAT_VERSION, MAGIC
 
-PART_KEY = re.compile(r"^\s*(part|parts)\s*=")
+PART_KEY = re.compile(r"^(\s*parts?\s*=\s*)\d+")
 GROUP = re.compile(r"^\s*&(\w+)")
 COPY_BYTES = 1 << 22
 
@@ -42,14 +42,13 @@ def merge(paths: Sequence[Path], output: Path) -> int:
 
 
 def whole_input(text: str) -> str:
-    """The resolved input of the undivided run: that of a part without campaign.part and campaign.parts."""
+    """The resolved input of the undivided run: that of a part, made part 1 of 1."""
     lines, group = [], ""
     for line in text.splitlines(keepends=True):
         begun = GROUP.match(line)
         if begun:
             group = begun[1].lower()
-        if not (group == "campaign" and PART_KEY.match(line)):
-            lines.append(line)
+        lines.append(PART_KEY.sub(r"\g<1>1", line) if group == "campaign" else line)
     return "".join(lines)
 
 
@@ -194,7 +193,7 @@ def _head(parts: Sequence[Campaign]) -> bytes:
 
 
 def _text_as_stored(part: Campaign) -> bytes:
-    """The resolved input with the blanks that may end it, without what makes it a part."""
+    """The resolved input with the blanks that may end it, as that of the whole."""
     with part.path.open("rb") as stream:
         size = FIXED_PART.unpack(stream.read(FIXED_PART.size))[6]
         stream.seek(FIXED_PART.size + COLUMN_PART.size * len(part.names))

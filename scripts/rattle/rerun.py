@@ -59,7 +59,9 @@ def input_text(campaign: Campaign, row: int, results: str) -> str:
         group, key = name.split(".", 1)
         groups.setdefault(group, f90nml.Namelist())
         groups[group][key] = _number(value, groups[group].get(key), name)
-    groups.setdefault("scene", f90nml.Namelist())["name"] = scene_label(campaign, row)
+    scene = groups.setdefault("scene", f90nml.Namelist())
+    scene["name"] = scene_label(campaign, row)
+    scene["task"] = "motion"
     output = groups.setdefault("output", f90nml.Namelist())
     output["series"] = True
     output["directory"] = results

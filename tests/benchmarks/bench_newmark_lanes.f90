@@ -1,9 +1,7 @@
 !> Newmark's method on many scenes at once: scene-steps per second of processor time, 512 steps a period, 20
-!> periods, iso-viscous
-!> and piezo-viscous published film. The scenes differ in the amplitude of the force: up to the steady force
-!> (calm), up
-!> to three times it (violent). One line a set: median and best of the rounds, evaluations a step, scenes
-!> solved alone.
+!> periods, iso-viscous and piezo-viscous published film. The scenes differ in the amplitude of the force: up
+!> to the steady force (calm), up to three times it (violent). One line a set: median and best of the rounds,
+!> evaluations a step, scenes solved alone.
 program bench_newmark_lanes
    use constants, only: standard_gravity
    use film_law, only: film_t, kernel_half_pi, kernel_piezo

@@ -23,7 +23,7 @@ module stress_engines
       'newmark-extrapolated', 'newmark-extrapolated, lanes', 'newmark, newton', &
       'newmark, newton, previous', 'newmark, successive', 'newmark, successive, previous']
 
-   public :: run_engine, set_solver, takes_part
+   public :: newmark_scene, run_engine, set_solver, takes_part
 
 contains
 
@@ -186,7 +186,9 @@ contains
 
    !> A scene for Newmark's method.
    pure function newmark_scene(engine, drawn) result(scene)
+      !> Place in `engine_names`
       integer, intent(in) :: engine
+      !> The scene
       type(drawn_scene_t), intent(in) :: drawn
       type(newmark_lane_scene_t) :: scene
       type(scene_t) :: with_solver

@@ -1,6 +1,5 @@
 !> Tests of Newmark's method with Richardson extrapolation: order, accuracy on the scenes of the bench, ends;
-!> alone and
-!> in lanes.
+!> alone and in lanes.
 module test_newmark_extrapolated
    use checks, only: check_list_t
    use constants, only: standard_gravity

@@ -34,6 +34,8 @@ program unit_tests
    use test_csv_samples, only: run_csv_samples_tests
    use test_campaign_file, only: run_campaign_file_tests
    use test_schedule, only: run_schedule_tests
+   use test_newmark_lanes, only: run_newmark_lanes_tests
+   use test_newmark_extrapolated, only: run_newmark_extrapolated_tests
    implicit none(type, external)
 
    type(check_list_t) :: checks
@@ -71,6 +73,8 @@ program unit_tests
    call run_csv_samples_tests(checks)
    call run_campaign_file_tests(checks)
    call run_schedule_tests(checks)
+   call run_newmark_lanes_tests(checks)
+   call run_newmark_extrapolated_tests(checks)
 
    print '(i0, a, i0, a)', checks%passed, ' passed, ', checks%failed, ' failed'
    if (checks%failed > 0) stop 1, quiet = .true.

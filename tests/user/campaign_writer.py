@@ -37,7 +37,7 @@ RECORDED = (
 
 BASE = """&scene
    name = '{name}'
-   task = 'motion'
+   task = 'campaign'
 /
 &contact
    radius = 0.0127
@@ -109,7 +109,7 @@ class Made:
     base: str = field(default=BASE)
 
     def input_text(self, part: int = 1, parts: int = 1) -> str:
-        share = f"   part = {part}\n   parts = {parts}\n" if parts > 1 else ""
+        share = f"   part = {part}\n   parts = {parts}\n"
         return self.base.format(name=self.name) + f"&campaign\n{self.group}{share}/\n"
 
     def column(self, name: str) -> np.ndarray:
@@ -161,7 +161,7 @@ def grid(
         points = np.array(list(product(*(key.values for key in keys))))
     else:
         points = np.array(list(product(*(key.values for key in reversed(keys)))))[:, ::-1]
-    lines = ""
+    lines = "   sample = 'grid'\n"
     for i, key in enumerate(keys, 1):
         lines += f"   vary({i}) = '{key.key}'\n"
         if key.listed:

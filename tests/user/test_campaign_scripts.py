@@ -279,6 +279,7 @@ def test_worst_scenes_become_inputs(made, whole):
     groups = parse((whole.parent / done.stdout.split()[0]).read_text())
     assert "campaign" not in groups
     assert groups["scene"]["name"] == f"map_{scenes[0]:03d}"
+    assert groups["scene"]["task"] == "motion"
     assert groups["output"]["series"] is True
     assert groups["load"]["force_amplitude"] == made.column(FORCE)[scenes[0] - 1]
     assert groups["kinematics"]["entrainment_speed"] == made.column(SPEED)[scenes[0] - 1]

@@ -33,6 +33,7 @@ OTHER_COLOURS = (
 )
 FLAG_COLOURS = {
     "certified": {0: "#D55E00", 1: "#DCE6EC"},
+    "sampling_sufficient": {0: "#D55E00", 1: "#DCE6EC"},
     "law_contradicted": {0: "#DCE6EC", 1: "#D55E00"},
 }
 COLOUR_MAP = "cividis"

@@ -1,0 +1,274 @@
+"""Campaigns as a user runs them: the same bytes however they are cut up, nothing lost however they stop."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import f90nml
+import numpy as np
+import pytest
+
+import rattle as package
+
+BASE = {
+    "scene": {"task": "'campaign'"},
+    "solver": {
+        "steps_per_period": None,
+        "method": None,
+        "periods": "60",
+        "accuracy": "1e-6",
+        "until": "'steady'",
+    },
+    "spectrum": {"periods": "8"},
+}
+
+
+def grid(scene_text, first: int, second: int, **changes: dict) -> str:
+    """A campaign over two keys."""
+    campaign = {
+        "vary": "'load.force_amplitude', 'kinematics.entrainment_speed'",
+        "scale": "'linear', 'logarithmic'",
+        "first": "5.0, 0.5",
+        "last": "400.0, 20.0",
+        "count": f"{first}, {second}",
+        "samples_per_period": "64",
+    }
+    campaign.update(changes.pop("campaign", {}))
+    return scene_text(**{**BASE, **changes}, campaign=campaign)
+
+
+def digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@pytest.fixture
+def folder(tmp_path: Path, scene_text) -> Path:
+    """A folder with a campaign of 900 scenes, and its undisturbed result in `whole`."""
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 30, 30))
+    return tmp_path
+
+
+def solve(run, folder: Path, *options: object, name: str = "whole", code: int = 0) -> Path:
+    ended = run("--output", name, *options, "scene.nml", cwd=folder, timeout=120.0)
+    assert ended.returncode == code, ended.stderr
+    return folder / name / "scene.rattle"
+
+
+def test_grid_is_in_the_order_of_its_axes(run, folder: Path) -> None:
+    result = package.read(solve(run, folder))
+    assert result.closed and result.row_count == 900
+    assert (result["scene"] == np.arange(1, 901)).all()
+    force = result["load.force_amplitude"].reshape(30, 30)
+    speed = result["kinematics.entrainment_speed"].reshape(30, 30)
+    assert (force == force[:, :1]).all() and (speed == speed[:1]).all()
+    assert (force[0, 0], force[-1, 0], speed[0, 0], speed[0, -1]) == (5.0, 400.0, 0.5, 20.0)
+    assert np.isin(result["status"], [0.0, 1.0]).all()
+
+
+def test_threads_and_parts_give_the_same_bytes(run, folder: Path) -> None:
+    """One thread, two threads, and the rows of three parts."""
+    whole = solve(run, folder, "--threads", 2)
+    assert digest(solve(run, folder, "--threads", 1, name="one")) == digest(whole)
+    rows = []
+    for part in (1, 2, 3):
+        options = [
+            "--set",
+            "campaign.parts=3",
+            "--set",
+            f"campaign.part={part}",
+            "--set",
+            f"scene.name=p{part}",
+        ]
+        ended = run("--output", "parts", *options, "scene.nml", cwd=folder, timeout=120.0)
+        assert ended.returncode == 0, ended.stderr
+        result = package.read(folder / "parts" / f"p{part}.rattle")
+        rows.append(np.column_stack([result[name] for name in result.columns]))
+    result = package.read(whole)
+    expected = np.column_stack([result[name] for name in result.columns])
+    assert np.array_equal(np.vstack(rows), expected, equal_nan=True)
+
+
+def test_a_scene_of_a_campaign_is_the_single_scene(run, folder: Path, scene_text) -> None:
+    """The same kernels: film range and harmonics of one row come out of a single run."""
+    result = package.read(solve(run, folder))
+    row = 15 * 30 + 14
+    changes = {
+        "load": {"force_amplitude": repr(float(result["load.force_amplitude"][row]))},
+        "kinematics": {"entrainment_speed": repr(float(result["kinematics.entrainment_speed"][row]))},
+        "solver": {**BASE["solver"], "samples_per_period": "64"},
+        "spectrum": {"periods": "8", "certify": ".false."},
+    }
+    (folder / "single.nml").write_text(scene_text(**changes))
+    assert run("--set", "output.series=.false.", "single.nml", cwd=folder).returncode == 0
+    single = f90nml.read(folder / "results" / "single.summary.nml")["summary"]
+    if single["samples_per_period"] == 64:
+        assert single["film_minimum"] == result["film_minimum"][row]
+        assert single["harmonics"][:8] == [result[f"harmonic_{n}"][row] for n in range(1, 9)]
+    assert single["natural_frequency"] == result["natural_frequency"][row]
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGUSR1, signal.SIGKILL])
+def test_stopped_campaign_resumes_to_the_same_bytes(
+    number: int, rattle: Path, run, scene_text, tmp_path: Path
+) -> None:
+    """Stopped at several moments, the finished file is that of the undisturbed run."""
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 60, 60))
+    whole = digest(solve(run, tmp_path))
+    command = [rattle, "--quiet", "--resume", "--output", "cut", "scene.nml"]
+    codes = []
+    for wait in (0.02, 0.05, 0.08, 0.12):
+        process = subprocess.Popen(command, cwd=tmp_path)
+        time.sleep(wait)
+        process.send_signal(number)
+        codes.append(process.wait(60))
+    assert codes[0] in (-number, 128 + number)
+    cut = tmp_path / "cut" / "scene.rattle"
+    if codes[-1] != 0:
+        assert not package.read(cut).closed
+    assert digest(solve(run, tmp_path, "--resume", name="cut")) == whole
+
+
+def test_finished_scenes_are_not_solved_again(run, folder: Path) -> None:
+    solve(run, folder)
+    ended = run("--resume", "--output", "whole", "scene.nml", cwd=folder)
+    assert ended.returncode == 0
+    assert "900 of 900 scenes, 0 a second" in ended.stdout
+
+
+def test_damaged_chunk_is_solved_again(run, folder: Path) -> None:
+    path = solve(run, folder)
+    before = digest(path)
+    with path.open("r+b") as stream:
+        stream.seek(-1000, os.SEEK_END)
+        stream.write(b"damage")
+    ended = run("--resume", "--output", "whole", "scene.nml", cwd=folder)
+    assert ended.returncode == 0 and "damaged" in ended.stdout
+    assert digest(path) == before
+
+
+def test_resume_names_the_changed_key(run, folder: Path) -> None:
+    before = digest(solve(run, folder))
+    ended = run("--resume", "--output", "whole", "--set", "load.mass=4", "scene.nml", cwd=folder)
+    assert ended.returncode == 2 and "load.mass" in ended.stderr
+    assert digest(folder / "whole" / "scene.rattle") == before
+
+
+def test_second_run_refuses(rattle: Path, run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 300, 300))
+    first = subprocess.Popen([rattle, "--quiet", "--output", "whole", "scene.nml"], cwd=tmp_path)
+    try:
+        while not (tmp_path / "whole" / "scene.rattle").exists():
+            time.sleep(0.01)
+        ended = run("--resume", "--output", "whole", "scene.nml", cwd=tmp_path)
+        assert ended.returncode == 2
+        assert "another run" in ended.stderr or "in use" in ended.stderr
+    finally:
+        first.terminate()
+        first.wait(60)
+
+
+def test_samples_and_csv(run, scene_text, tmp_path: Path) -> None:
+    """A sample has its size and its ranges; a table gives its own rows."""
+    for sample in ("sobol", "latin-hypercube"):
+        changes = {"sample": f"'{sample}'", "size": "100", "count": None}
+        (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, campaign=changes))
+        result = package.read(solve(run, tmp_path, name=sample))
+        assert result.row_count == 100
+        assert 5.0 <= result["load.force_amplitude"].min() <= result["load.force_amplitude"].max() <= 400.0
+    (tmp_path / "table.csv").write_text("load.force_amplitude,load.mass\n10,3\n20,2.5\n30,4\n")
+    changes = {key: None for key in ("vary", "scale", "first", "last", "count")}
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, campaign={**changes, "csv": "'table.csv'"}))
+    result = package.read(solve(run, tmp_path, name="csv"))
+    assert (result["load.mass"] == [3.0, 2.5, 4.0]).all()
+
+
+def test_bad_scene_among_good_ones(run, scene_text, tmp_path: Path) -> None:
+    """Invalid scenes stop the campaign before it begins, unless they are allowed; the others are solved then."""
+    changes = {
+        "vary": "'load.steady_force'",
+        "scale": None,
+        "first": "-100.0",
+        "last": "200.0",
+        "count": "31",
+    }
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, campaign=changes))
+    ended = run("scene.nml", cwd=tmp_path)
+    assert ended.returncode == 2 and "scene 1 " in ended.stderr
+    assert not (tmp_path / "results").exists()
+    result = package.read(solve(run, tmp_path, "--set", "campaign.allow_invalid=.true.", code=1))
+    invalid = result["load.steady_force"] + 3.0 * 9.80665 <= 0.0
+    assert (result["status"][invalid] == 9).all() and (result["status"][~invalid] <= 1).all()
+    assert (
+        np.isnan(result["film_minimum"][invalid]).all()
+        and np.isfinite(result["film_minimum"][~invalid]).all()
+    )
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"vary": "'load.force_amplitude', 'load.weight'"}, "load.weight"),
+        ({"vary": "'load.force_amplitude', 'film.law'"}, "film.law"),
+        ({"vary": "'load.force_amplitude', 'load.force_amplitude'"}, "twice"),
+        ({"vary": "'load.force_amplitude', 'kinematics.rolling_speed'"}, "does not use"),
+        ({"vary": "'load.force_amplitude', 'campaign.size'"}, "campaign.size"),
+        ({"count": "10"}, "count(2)"),
+        ({"count": "0, 10"}, "count"),
+        ({"first": "400.0, 0.5"}, "force_amplitude"),
+        ({"first": "5.0, 0.0"}, "entrainment_speed"),
+        ({"csv": "'table.csv'"}, "either vary or csv"),
+        ({"vary": None}, "either vary or csv"),
+        ({"sample": "'sobol'", "count": None}, "size"),
+        ({"record": "'everything'"}, "everything"),
+        ({"part": "3", "parts": "2"}, "parts"),
+        ({"count": "20000, 20000"}, "confirm_size"),
+    ],
+)
+def test_bad_campaign(changes: dict, words: str, run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "bad.nml").write_text(grid(scene_text, 10, 10, campaign=changes))
+    ended = run("bad.nml", cwd=tmp_path)
+    assert ended.returncode == 2
+    assert words in ended.stderr and ended.stdout == ""
+    assert not (tmp_path / "results").exists()
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("load.weight\n1\n", "load.weight"),
+        ("load.mass,load.mass\n1,1\n", "mass"),
+        ("load.mass,load.frequency\n1,2\n3\n", ":3"),
+        ("load.mass\n1\nheavy\n", ":3"),
+        ("load.mass\n1\nnan\n", ":3"),
+        ("", "table.csv"),
+        ("load.mass\n", "table.csv"),
+    ],
+)
+def test_bad_table(table: str, words: str, run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text(table)
+    changes = {key: None for key in ("vary", "scale", "first", "last", "count")}
+    (tmp_path / "bad.nml").write_text(grid(scene_text, 1, 1, campaign={**changes, "csv": "'table.csv'"}))
+    ended = run("bad.nml", cwd=tmp_path)
+    assert ended.returncode == 2 and words in ended.stderr
+
+
+def test_check_tells_the_size(run, folder: Path) -> None:
+    ended = run("--check", "scene.nml", cwd=folder)
+    assert ended.returncode == 0
+    assert "scenes              900 (0 invalid)" in ended.stdout and "core time" in ended.stdout
+    assert not (folder / "results").exists()
+
+
+def test_full_disk_keeps_what_was_written(run, rattle: Path, scene_text, tmp_path: Path) -> None:
+    """A limit on the size of files stands in for a full disk; resumed without it the bytes are the same."""
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 60, 60))
+    whole = digest(solve(run, tmp_path))
+    limited = f"ulimit -f 200; exec {rattle} --quiet --output cut scene.nml"
+    ended = subprocess.run(["bash", "-c", limited], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ended.returncode == 3 and ended.stderr
+    assert digest(solve(run, tmp_path, "--resume", name="cut")) == whole
