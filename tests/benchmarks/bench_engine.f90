@@ -1,0 +1,141 @@
+!> This program's engines as a contender of the comparison with other solvers.
+!>
+!>    bench_engine ENGINE SCENE_FILE ACCURACY
+!>
+!> ENGINE: taylor (full run), taylor-steady (until the motion repeats) or newmark-extrapolated. Prints the CPU seconds of one scene, then h/h0 at 64 points of each of the last ten periods.
+program bench_engine
+   use film_law, only: film_t, new_film
+   use kinds, only: dp, int64
+   use lane_motions, only: solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use newmark, only: newmark_t
+   use newmark_lanes, only: newmark_lane_scene_t
+   use newmark_lanes_extrapolated, only: extrapolated_ending_t, solve_lanes_extrapolated
+   use scene_lane, only: lane_of_scene
+   use scene_status, only: is_success
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
+   use version, only: program_version
+   implicit none(type, external)
+   !> Copies that fill the lanes; the time is that of one.
+   integer, parameter :: copies = 64, periods = 200, sampled = 10, points = 64
+   real(dp), parameter :: least_seconds = 0.05_dp
+   type(scene_t) :: scene
+   type(lane_scene_t) :: lanes(copies)
+   type(lane_ending_t) :: endings(copies)
+   type(newmark_lane_scene_t) :: newmark_scenes(copies)
+   type(extrapolated_ending_t) :: newmark_endings(copies)
+   type(lane_request_t) :: request
+   real(dp), allocatable :: films(:, :), velocities(:, :), accelerations(:, :)
+   character(512) :: engine, path, word
+   real(dp) :: accuracy, started, finished, best
+   integer :: i, repetition, repetitions, rows
+
+   call get_command_argument(1, engine)
+   if (engine == '--version' .or. command_argument_count() < 3) then
+      print '(a)', program_version
+      stop
+   end if
+   call get_command_argument(2, path)
+   call get_command_argument(3, word)
+   read (word, *) accuracy
+   call read_scene_file(trim(path), scene)
+   lanes = lane_of_scene(scene, new_film(scene), scene%film%initial_film, 0.0_dp)
+   newmark_scenes%film = lanes%film
+   newmark_scenes%thickness = lanes%initial_film
+   newmark_scenes%velocity = 0.0_dp
+   newmark_scenes%method = newmark_t(mass=scene%load%mass, weight=scene%load%mass*scene%load%gravity, &
+                                    steady_force=scene%load%steady_force, force_amplitude=scene%load%force_amplitude, &
+                                    frequency=scene%load%frequency)
+   request%accuracy = accuracy
+   request%periods = periods
+   request%samples_per_period = points
+   request%sampled_periods = sampled
+   request%until_steady = engine == 'taylor-steady'
+   allocate (films(sampled*points, copies), velocities(sampled*points, copies), source=0.0_dp)
+   allocate (accelerations(merge(sampled*points, 0, engine == 'newmark-extrapolated'), copies))
+
+   call solve()
+   if (.not. all(is_success(endings%status))) error stop 1, quiet=.true.
+   call cpu_time(started)
+   call solve()
+   call cpu_time(finished)
+   repetitions = max(1, min(200, int(least_seconds/max(finished - started, 1.0e-6_dp))))
+   best = huge(1.0_dp)
+   do i = 1, 3
+      call cpu_time(started)
+      do repetition = 1, repetitions
+         call solve()
+      end do
+      call cpu_time(finished)
+      best = min(best, (finished - started)/real(repetitions*copies, dp))
+   end do
+   print '(es24.16)', best
+   ! A motion that stopped once it repeated goes on as its orbit does.
+   rows = endings(1)%samples
+   do i = 1, sampled*points
+      print '(es24.16)', films(1 + modulo(i - 1 - sampled*points + rows*sampled*points, rows), 1)/scene%film%initial_film
+   end do
+
+contains
+
+   subroutine solve()
+      if (engine == 'newmark-extrapolated') then
+         call solve_lanes_extrapolated(newmark_scenes, accuracy, periods, sampled, points, films, velocities, &
+                                       accelerations, newmark_endings)
+         endings%status = newmark_endings%status
+         endings%samples = sampled*points
+      else
+         call solve_motions(lanes, request, films, velocities, endings)
+      end if
+   end subroutine solve
+
+   !> Scene in SI units from lines of `key value`.
+   subroutine read_scene_file(file, scene)
+      character(*), intent(in) :: file
+      type(scene_t), intent(out) :: scene
+      character(64) :: key
+      character(128) :: line, value
+      integer :: unit, stat
+
+      open (newunit=unit, file=file, status='old', action='read')
+      do
+         read (unit, '(a)', iostat=stat) line
+         if (stat /= 0) exit
+         key = line(:index(line, ' '))
+         value = adjustl(line(index(line, ' '):))
+         select case (key)
+         case ('law')
+            scene%film%law = merge(law_iso_viscous, law_piezo_viscous, index(value, 'iso') > 0)
+         case ('model')
+            scene%film%model = merge(model_reynolds, model_published, index(value, 'reynolds') > 0)
+         case ('radius')
+            read (value, *) scene%contact%radius
+         case ('length')
+            read (value, *) scene%contact%length
+         case ('viscosity')
+            read (value, *) scene%lubricant%viscosity
+         case ('pressure_viscosity')
+            read (value, *) scene%lubricant%pressure_viscosity
+         case ('entrainment_speed')
+            read (value, *) scene%kinematics%entrainment_speed
+         case ('mass')
+            read (value, *) scene%load%mass
+         case ('gravity')
+            read (value, *) scene%load%gravity
+         case ('static_force')
+            read (value, *) scene%load%steady_force
+         case ('force_amplitude')
+            read (value, *) scene%load%force_amplitude
+         case ('frequency')
+            read (value, *) scene%load%frequency
+         case ('initial_film')
+            read (value, *) scene%film%initial_film
+         case default
+            continue
+         end select
+      end do
+      close (unit)
+      scene%contact%young_modulus = 2.0e11_dp
+   end subroutine read_scene_file
+
+end program bench_engine

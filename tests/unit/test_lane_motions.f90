@@ -1,0 +1,252 @@
+!> Tests of the error-controlled engine on whole motions, all six film kernels: the canonical scenes against
+!> converged values of other integrators; runs carried on; steady motions; scenes in company.
+module test_lane_motions
+   use canonical_scenes, only: canonical_scene
+   use checks, only: check_list_t
+   use constants, only: standard_gravity
+   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
+                       kernel_solved_fast, kernel_solved_successive, new_film, steady_film
+   use kinds, only: dp
+   use lane_motions, only: accelerations, solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use scene_lane, only: lane_of_scene
+   use scene_status, only: status_complete, status_steady
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, rupture_solver_fast, &
+                          rupture_solver_successive, scene_t
+   use spectral_lines, only: find_lines, spectral_lines_t
+   implicit none(type, external)
+   private
+
+   integer, parameter :: kernels(6) = [kernel_half_pi, kernel_solved_fast, kernel_solved_successive, &
+                                       kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo]
+   character(*), parameter :: names(6) = [character(20) :: 'half-pi', 'solved', 'solved, successive', &
+                                          'piezo', 'reynolds iso', 'reynolds piezo']
+   integer, parameter :: samples = 4096
+
+   !> Some motions.
+   type :: motions_t
+      type(lane_ending_t), allocatable :: endings(:)
+      real(dp), allocatable :: films(:, :), velocities(:, :)
+   end type motions_t
+
+   public :: run_lane_motions_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_lane_motions_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('lane_motions')
+      call test_canonical(checks)
+      call test_carrying_on(checks)
+      call test_steady(checks)
+      call test_company(checks)
+   end subroutine run_lane_motions_tests
+
+   !> Canonical scene of a kernel, started from its steady film. The exact films have u_r = 1.905 m/s. For the
+   !> piezo-viscous one alpha is so small that it is the iso-viscous film: the canonical alpha would be beyond it.
+   function lane_of(kernel) result(lane)
+      integer, intent(in) :: kernel  !> Film kernel
+      type(lane_scene_t) :: lane
+      type(scene_t) :: scene
+      type(film_t) :: film
+
+      scene = canonical_scene(merge(law_piezo_viscous, law_iso_viscous, &
+                                    kernel == kernel_piezo .or. kernel == kernel_reynolds_piezo), samples)
+      if (kernel == kernel_solved_fast .or. kernel == kernel_solved_successive) &
+         scene%film%rupture = rupture_solved
+      scene%film%rupture_solver = merge(rupture_solver_successive, rupture_solver_fast, &
+                                        kernel == kernel_solved_successive)
+      if (kernel == kernel_reynolds_iso .or. kernel == kernel_reynolds_piezo) then
+         scene%film%model = model_reynolds
+         scene%kinematics%entrainment_speed = 0.5_dp*1.905_dp
+         scene%lubricant%pressure_viscosity = 1.0e-15_dp
+      end if
+      film = new_film(scene)
+      lane = lane_of_scene(scene, film, steady_film(film, scene%load%steady_force + 3.0_dp*standard_gravity), 0.0_dp)
+   end function lane_of
+
+   !> The six scenes.
+   function all_lanes() result(lanes)
+      type(lane_scene_t) :: lanes(size(kernels))
+      integer :: i
+
+      do i = 1, size(kernels)
+         lanes(i) = lane_of(kernels(i))
+      end do
+   end function all_lanes
+
+   !> Solve scenes.
+   function motions_of(lanes, request) result(motions)
+      type(lane_scene_t), intent(in) :: lanes(:)   !> The scenes
+      type(lane_request_t), intent(in) :: request  !> What is asked for
+      type(motions_t) :: motions
+
+      allocate (motions%films(request%sampled_periods*request%samples_per_period, size(lanes)), source=0.0_dp)
+      allocate (motions%velocities, source=motions%films)
+      allocate (motions%endings(size(lanes)))
+      call solve_motions(lanes, request, motions%films, motions%velocities, motions%endings)
+   end function motions_of
+
+   !> Lines and extreme films of the last of 60 periods, by Taylor series where there are some, and by collocation.
+   subroutine test_canonical(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: idle(6) = [21.2023751_dp, 30.5365166_dp, 25.8178690_dp, 22.4385275_dp, 19.3319685_dp, &
+                                        16.5060500_dp]
+      real(dp), parameter :: solved(6) = [28.9175793_dp, 40.2342318_dp, 35.9704977_dp, 34.0112309_dp, 30.7059169_dp, &
+                                          27.0072316_dp]
+      real(dp), parameter :: creep(6) = [6.3805133_dp, 8.5944899_dp, 6.5732897_dp, 4.1034383_dp, 2.4808443_dp, &
+                                         1.5245533_dp]
+      real(dp), parameter :: exact(6) = [20.8160154_dp, 28.7555678_dp, 21.6951357_dp, 17.0416711_dp, 13.3297691_dp, &
+                                         10.3671095_dp]
+      real(dp), parameter :: harmonics(6, 6) = reshape([idle, solved, solved, creep, exact, exact], [6, 6])
+      !> h_min, h_max [m]; six or seven digits are known
+      real(dp), parameter :: extremes(2, 6) = 1.0e-6_dp*reshape( &
+                             [0.341405_dp, 3.570926_dp, 0.245194_dp, 4.676586_dp, 0.245194_dp, 4.676586_dp, &
+                              0.837089_dp, 1.827841_dp, 0.400824_dp, 3.478332_dp, 0.400824_dp, 3.478332_dp], [2, 6])
+      integer, parameter :: line_counts(6) = [30, 47, 47, 12, 21, 21]
+      type(lane_scene_t) :: lanes(2*size(kernels))
+      type(motions_t) :: motions
+      type(spectral_lines_t) :: lines
+      real(dp) :: values(samples)
+      integer :: i, law
+
+      lanes(:size(kernels)) = all_lanes()
+      lanes(size(kernels) + 1:) = lanes(:size(kernels))
+      lanes(size(kernels) + 1:)%implicit = .true.
+      motions = motions_of(lanes, lane_request_t(accuracy=1.0e-8_dp, periods=60, samples_per_period=samples, &
+                                                 sampled_periods=1))
+      do i = 1, size(lanes)
+         law = 1 + modulo(i - 1, size(kernels))
+         call checks%check(motions%endings(i)%status == status_complete .and. &
+                           motions%endings(i)%samples == samples, trim(names(law))//': ended well')
+         call accelerations(lanes(i), samples, motions%films(:, i), motions%velocities(:, i), values)
+         call find_lines(values, 1, 0.01_dp, 1.0e-10_dp, lines)
+         call checks%check_close(maxval(abs(lines%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, 1.0e-6_dp, &
+                                 trim(names(law))//': harmonics')
+         call checks%check(lines%line_count == line_counts(law), trim(names(law))//': number of lines')
+         call checks%check_close(least(motions%films(:, i))/extremes(1, law), 1.0_dp, 3.0e-6_dp, &
+                                 trim(names(law))//': thinnest film')
+         call checks%check_close(-least(-motions%films(:, i))/extremes(2, law), 1.0_dp, 3.0e-6_dp, &
+                                 trim(names(law))//': thickest film')
+      end do
+   end subroutine test_canonical
+
+   !> Least value of the parabola through the least sample and its neighbours.
+   pure real(dp) function least(values)
+      real(dp), intent(in) :: values(:)  !> Samples of a period
+      real(dp) :: before, here, after
+      integer :: place
+
+      place = minloc(values, dim=1)
+      before = values(1 + modulo(place - 2, size(values)))
+      here = values(place)
+      after = values(1 + modulo(place, size(values)))
+      least = here - (after - before)**2/(8.0_dp*(after - 2.0_dp*here + before))
+   end function least
+
+   !> Five periods and seven more are twelve periods, to the last bit.
+   subroutine test_carrying_on(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(lane_scene_t) :: lanes(2*size(kernels)), rest(2*size(kernels))
+      type(lane_request_t) :: request
+      type(motions_t) :: whole, part
+      integer :: i
+
+      lanes(:size(kernels)) = all_lanes()
+      lanes(size(kernels) + 1:) = lanes(:size(kernels))
+      lanes(size(kernels) + 1:)%implicit = .true.
+      request = lane_request_t(accuracy=1.0e-7_dp, periods=12, samples_per_period=8, sampled_periods=7)
+      whole = motions_of(lanes, request)
+      request%periods = 5
+      request%sampled_periods = 0
+      part = motions_of(lanes, request)
+      rest = lanes
+      rest%carried_on = .true.
+      rest%periods_done = part%endings%periods
+      rest%implicit = part%endings%implicit
+      rest%initial_film = part%endings%film
+      rest%initial_velocity = part%endings%velocity
+      rest%initial_momentum = part%endings%momentum
+      request%periods = 12
+      request%sampled_periods = 7
+      part = motions_of(rest, request)
+      do i = 1, size(lanes)
+         call checks%check(same(whole, i, part, i), trim(names(1 + modulo(i - 1, size(kernels))))//': carried on')
+         call checks%check(part%endings(i)%periods == 12, 'carried on: periods')
+      end do
+   end subroutine test_carrying_on
+
+   !> A run that stops when the motion repeats ends on the same motion as the full one.
+   subroutine test_steady(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(lane_request_t) :: request
+      type(motions_t) :: whole, steady
+      real(dp) :: error
+      integer :: i
+
+      request = lane_request_t(accuracy=1.0e-8_dp, periods=100, samples_per_period=64, sampled_periods=1)
+      whole = motions_of(all_lanes(), request)
+      request%until_steady = .true.
+      steady = motions_of(all_lanes(), request)
+      do i = 1, size(kernels)
+         associate (ending => steady%endings(i))
+            call checks%check(ending%status == status_steady .and. ending%orbit == 1 .and. ending%periods < 40, &
+                              trim(names(i))//': found steady')
+            call checks%check(ending%distance <= 1.0e-8_dp .and. ending%samples == 64, trim(names(i))//': distance')
+         end associate
+         error = maxval(abs(steady%films(:, i)/whole%films(:, i) - 1.0_dp))
+         call checks%check_close(error, 0.0_dp, 3.0e-8_dp, trim(names(i))//': steady motion')
+      end do
+   end subroutine test_steady
+
+   !> A dozen scenes, one of which cannot start, have the same bits together, in other lanes, and alone.
+   subroutine test_company(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(lane_scene_t) :: lanes(2*size(kernels))
+      type(lane_request_t) :: request
+      type(motions_t) :: together, reversed, alone
+      integer :: i, differing
+
+      lanes(:size(kernels)) = all_lanes()
+      lanes(size(kernels) + 1:) = lanes(:size(kernels))
+      lanes%force_amplitude = [(20.0_dp*real(modulo(5*i, 12), dp), i=1, size(lanes))]
+      lanes(9)%initial_velocity = -0.02_dp
+      lanes(3)%initial_film = -1.0_dp
+      lanes(8)%implicit = .true.
+      request = lane_request_t(accuracy=1.0e-6_dp, periods=30, samples_per_period=8, sampled_periods=2, &
+                               until_steady=.true.)
+      together = motions_of(lanes, request)
+      reversed = motions_of(lanes(size(lanes):1:-1), request)
+      differing = 0
+      do i = 1, size(lanes)
+         alone = motions_of(lanes(i:i), request)
+         if (.not. same(together, i, alone, 1)) differing = differing + 1
+         if (.not. same(together, i, reversed, size(lanes) + 1 - i)) differing = differing + 1
+      end do
+      call checks%check(differing == 0, 'company: the same bits')
+      call checks%check(count(together%endings%status == status_steady) == 11, 'company: steady motions')
+      call checks%check(together%endings(3)%periods == 0, 'company: one that cannot start')
+   end subroutine test_company
+
+   !> Whether two motions agree to the last bit.
+   pure logical function same(some, i, others, j)
+      type(motions_t), intent(in) :: some    !> Motions
+      integer, intent(in) :: i               !> The one of them
+      type(motions_t), intent(in) :: others  !> Other motions
+      integer, intent(in) :: j               !> The one of them
+
+      same = all(abs(some%films(:, i) - others%films(:, j)) <= 0.0_dp) .and. &
+             all(abs(some%velocities(:, i) - others%velocities(:, j)) <= 0.0_dp) .and. &
+             abs(some%endings(i)%film - others%endings(j)%film) <= 0.0_dp .and. &
+             abs(some%endings(i)%momentum - others%endings(j)%momentum) <= 0.0_dp .and. &
+             some%endings(i)%status == others%endings(j)%status .and. &
+             some%endings(i)%periods == others%endings(j)%periods
+   end function same
+
+end module test_lane_motions
