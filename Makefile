@@ -189,6 +189,17 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	  --false-reversals $(PICTURE_RUNS)/idle_loose.rattle $(PICTURE_RUNS)/idle_tight.rattle
 	@cp $(PICTURE_RUNS)/figure_08_09_overlay.png $(PICTURES)/idle_and_creep.png
 	@cp $(PICTURE_RUNS)/tolerance.png $(PICTURES)/tolerance.png
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=map_idle input/map.nml
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=map_creep --set film.law=piezo-viscous \
+	  input/map.nml
+	@for map in map_idle map_creep; do \
+	  $(PYTHON) scripts/campaign_map.py $(PICTURE_RUNS)/$$map.rattle --output $(PICTURE_RUNS) && \
+	  cp $(PICTURE_RUNS)/$${map}_map_rattle_class.png $(PICTURES)/$$map.png; done
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/sweep.nml
+	@$(PYTHON) scripts/plot_sweep.py $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
+	@cp $(PICTURE_RUNS)/sweep_sweep.png $(PICTURES)/sweep.png
+	@$(PYTHON) scripts/plot_film_fit.py --output $(PICTURE_RUNS) > $(PICTURE_RUNS)/film_fit.txt
+	@cp $(PICTURE_RUNS)/film_fit.png $(PICTURES)/film_fit.png
 
 pages: $(BUILD)/rattle
 	@$(BUILD)/rattle --keys > input/README.md

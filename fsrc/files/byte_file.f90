@@ -1,7 +1,7 @@
 !> Files that are written byte by byte, with every failure seen. The runtime's own unformatted and stream
 !> output forgets that the disk was full when it empties its buffer; hence these thin calls of the C library.
 module byte_file
-   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_int64_t, c_loc, c_long, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, c_ptr, c_size_t
    use errors, only: error_t, exit_system, raise
    use kinds, only: dp, int64
    implicit none(type, external)
@@ -49,10 +49,10 @@ module byte_file
          integer(c_size_t) :: written
       end function c_write
 
-      function c_pwrite(descriptor, number, count, offset) bind(c, name='pwrite') result(written)
-         import :: c_int, c_int64_t, c_long, c_size_t
+      function c_pwrite(descriptor, bytes, count, offset) bind(c, name='pwrite') result(written)
+         import :: c_char, c_int, c_long, c_size_t
          integer(c_int), value :: descriptor
-         integer(c_int64_t), intent(in) :: number
+         character(kind=c_char), intent(in) :: bytes(*)
          integer(c_size_t), value :: count
          integer(c_long), value :: offset
          integer(c_size_t) :: written
@@ -157,10 +157,12 @@ contains
       integer(int64), intent(in) :: number
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error
+      character(8) :: bytes
 
       call self%flush(error)
       if (allocated(error)) return
-      if (c_pwrite(self%descriptor, number, 8_c_size_t, int(offset, c_long)) /= 8_c_size_t) call self%fail(error)
+      bytes = transfer(number, bytes)
+      if (c_pwrite(self%descriptor, bytes, 8_c_size_t, int(offset, c_long)) /= 8_c_size_t) call self%fail(error)
    end subroutine put_at
 
    !> Hand everything to the operating system.

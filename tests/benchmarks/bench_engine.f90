@@ -55,7 +55,7 @@ program bench_engine
    allocate (accelerations(merge(sampled*points, 0, engine == 'newmark-extrapolated'), copies))
 
    call solve()
-   if (.not. all(is_success(endings%status))) error stop 1, quiet=.true.
+   if (.not. all(is_success(endings%status))) error stop 1, quiet = .true.
    call cpu_time(started)
    call solve()
    call cpu_time(finished)

@@ -2,15 +2,16 @@
 !>
 !>    lane_independence [--scenes N] [--seed S]
 !>
-!> Random scenes of all laws, failing ones among them, are solved by every engine that works in lanes: all in one
-!> call, in random order, in random portions that threads share (OMP_NUM_THREADS), and one by one. Samples, states and
-!> endings must agree to the last bit. The exit code is 1 if any does not.
+!> Random scenes of all laws, failing ones among them, are solved by every engine that works in lanes: all in
+!> one call, in random order, in random portions that threads share (OMP_NUM_THREADS), and one by one.
+!> Samples, states and endings must agree to the last bit. The exit code is 1 if any does not.
 program lane_independence
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: dp, int64
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, solve_newmark_lanes
+   use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, &
+      solve_newmark_lanes
    use random_numbers, only: next_uniform, random_permutation, random_state_t
    use random_scenes, only: draw_scene, drawn_scene_t, group_size
    use stress_engines, only: engine_names, newmark_scene
@@ -38,14 +39,16 @@ program lane_independence
       drawn(i) = draw_scene(seed, int(i - 1, int64)*int(group_size + 1, int64))
    end do
    all_differing = 0
-   print '(a)', '| engine | scenes | other order | in portions, threads | alone |', '|---|---:|---:|---:|---:|'
+   print '(a)', '| engine | scenes | other order | in portions, threads | alone |', &
+      '|---|---:|---:|---:|---:|'
    do n = 1, size(compared)
       engine = compared(n)
       together = bits_of(engine, [(i, i=1, scenes)])
       call random_permutation(state, order)
       other = bits_of(engine, order)
       differing = count(any(other /= together(:, order), dim=1))
-      write (*, '(a, i0, a, i0, a)', advance='no') '| '//trim(engine_names(engine))//' | ', scenes, ' | ', differing, ' | '
+      write (*, '(a, i0, a, i0, a)', advance='no') '| '//trim(engine_names(engine))//' | ', scenes, ' | ', &
+         differing, ' | '
       all_differing = all_differing + differing
       differing = differing_in_portions(engine, order, together)
       write (*, '(i0, a)', advance='no') differing, ' | '
@@ -118,7 +121,8 @@ contains
       real(dp), allocatable :: films(:, :), velocities(:, :)
       integer :: place
 
-      allocate (films(sampled*samples, size(members)), velocities(sampled*samples, size(members)), source=0.0_dp)
+      allocate (films(sampled*samples, size(members)), velocities(sampled*samples, size(members)), &
+                source=0.0_dp)
       allocate (endings(size(members)))
       lane_scenes_here = drawn(members)%lane
       lane_scenes_here%implicit = engine == 2
@@ -130,7 +134,8 @@ contains
       call solve_motions(lane_scenes_here, request, films, velocities, endings)
       do place = 1, size(members)
          associate (ending => endings(place))
-            bits(:, place) = [transfer(films(:, place), [1_int64]), transfer(velocities(:, place), [1_int64]), &
+            bits(:, place) = [transfer(films(:, place), [1_int64]), transfer(velocities(:, place), &
+               [1_int64]), &
                               transfer([ending%film, ending%velocity, ending%momentum], [1_int64]), &
                               int([ending%status, ending%periods], int64), ending%steps]
          end associate
@@ -152,12 +157,15 @@ contains
       do place = 1, size(members)
          newmark_scenes(place) = newmark_scene(6, drawn(members(place)))
       end do
-      call solve_newmark_lanes(newmark_scenes, newmark_lane_request_t(128, periods, sampled, samples), films, velocities, &
+      call solve_newmark_lanes(newmark_scenes, newmark_lane_request_t(128, periods, sampled, samples), &
+                               films, velocities, &
                                accelerations, endings)
       do place = 1, size(members)
          associate (ending => endings(place))
-            bits(:, place) = [transfer(films(:, place), [1_int64]), transfer(accelerations(:, place), [1_int64]), &
-                              transfer([ending%state%film, ending%state%velocity, ending%state%acceleration], [1_int64]), &
+            bits(:, place) = [transfer(films(:, place), [1_int64]), transfer(accelerations(:, place), &
+               [1_int64]), &
+                              transfer([ending%state%film, ending%state%velocity, &
+                                        ending%state%acceleration], [1_int64]), &
                               int([ending%status, ending%periods], int64), ending%count%evaluations]
          end associate
       end do

@@ -1,10 +1,10 @@
-!> Newmark's method on given scenes with every iteration and predictor, over steps a period and eps: what comes out,
-!> held against the error-controlled engine.
+!> Newmark's method on given scenes with every iteration and predictor, over steps a period and eps: what
+!> comes out, held against the error-controlled engine.
 !>
 !>    newmark_outcomes INPUT ... > FILE.csv
 !>
-!> Outcomes: diverged (a status other than complete), wrong number of reversals, false lines (another class, or another
-!> number of lines), wrong amplitudes (a line off by more than 5 % of the largest), right.
+!> Outcomes: diverged (a status other than complete), wrong number of reversals, false lines (another class,
+!> or another number of lines), wrong amplitudes (a line off by more than 5 % of the largest), right.
 program newmark_outcomes
    use errors, only: fault_list_t
    use film_law, only: film_load
@@ -59,7 +59,8 @@ program newmark_outcomes
             ! The longest runs first, so that no thread is left with one at the end.
             !$omp parallel do schedule(dynamic)
             do run = size(outcome), 1, -1
-               outcome(run) = outcome_of(steps(1 + (run - 1)/size(eps)), eps(1 + modulo(run - 1, size(eps))), &
+               outcome(run) = outcome_of(steps(1 + (run - 1)/size(eps)), &
+                                         eps(1 + modulo(run - 1, size(eps))), &
                                          iteration == 1, predictor == 1)
             end do
             !$omp end parallel do
@@ -85,7 +86,8 @@ contains
 
       fine%periods = window
       fine%samples_per_period = 512
-      call solve_fine_window(drawn%scene, drawn%lane, 1.0e-11_dp, periods, drawn%resolved%noise_floor, fine, verdict, ending)
+      call solve_fine_window(drawn%scene, drawn%lane, 1.0e-11_dp, periods, drawn%resolved%noise_floor, fine, &
+                             verdict, ending)
       if (.not. is_success(ending%status)) error stop 'newmark_outcomes: a scene cannot be solved'
    end subroutine solve_reference
 
@@ -104,20 +106,24 @@ contains
       type(motion_state_t) :: state
       type(motion_count_t) :: count
       type(rattle_verdict_t) :: verdict
-      real(dp) :: force(steps), films(steps), velocities(steps), accelerations(window*steps), unused(steps), worst
+      real(dp) :: force(steps), films(steps), velocities(steps), accelerations(window*steps), unused(steps), &
+         worst
       integer :: period, first, done, status, compared
 
       associate (lane => drawn%lane)
          method = newmark_t(mass=lane%mass, weight=lane%weight, steady_force=lane%steady_force, &
                             force_amplitude=lane%force_amplitude, frequency=lane%frequency, tolerance=eps, &
-                            iteration_limit=drawn%scene%solver%iteration_limit, by_newton=by_newton, extrapolate=extrapolate)
+                            iteration_limit=drawn%scene%solver%iteration_limit, by_newton=by_newton, &
+                            extrapolate=extrapolate)
          call force_of_period(method%steady_force, method%force_amplitude, force)
-         call start_motion(film_load, lane%film, method, lane%initial_film, lane%initial_velocity, state, count, status)
+         call start_motion(film_load, lane%film, method, lane%initial_film, lane%initial_velocity, state, &
+                           count, status)
          do period = 1, periods
             if (status /= status_complete) exit
             first = (period - 1 - periods + window)*steps
             if (first < 0) then
-               call advance_period(film_load, lane%film, method, force, state, count, films, velocities, unused, done, status)
+               call advance_period(film_load, lane%film, method, force, state, count, films, velocities, &
+                                   unused, done, status)
             else
                call advance_period(film_load, lane%film, method, force, state, count, films, velocities, &
                                    accelerations(first + 1:first + steps), done, status)

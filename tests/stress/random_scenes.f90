@@ -1,6 +1,6 @@
-!> Random scenes over decades of every quantity. A scene depends on its number and the seed alone, so that any one
-!> of them can be had again without the others. Scenes come in groups that share law, periods and accuracy, as the
-!> engines that solve many scenes at once want it.
+!> Random scenes over decades of every quantity. A scene depends on its number and the seed alone, so that any
+!> one of them can be had again without the others. Scenes come in groups that share law, periods and
+!> accuracy, as the engines that solve many scenes at once want it.
 module random_scenes
    use constants, only: standard_gravity
    use film_law, only: film_load, film_t, new_film, overflow_load
@@ -9,7 +9,8 @@ module random_scenes
    use random_numbers, only: next_uniform, random_state_t
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_lane, only: lane_of_scene
-   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, &
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, &
+      rupture_half_pi, &
                           rupture_solved, rupture_solver_fast, rupture_solver_successive, scene_t
    implicit none(type, external)
    private
@@ -20,15 +21,18 @@ module random_scenes
    !> Film laws, as the table of outcomes names them.
    integer, parameter, public :: laws = 6
    character(*), parameter, public :: law_names(laws) = [character(30) :: 'published iso, half-pi', &
-      'published iso, solved', 'published iso, successive (18)', 'published piezo', 'reynolds iso', 'reynolds piezo']
+      'published iso, solved', 'published iso, successive (18)', 'published piezo', 'reynolds iso', &
+      'reynolds piezo']
    !> Law of a group, by turns. Successive substitution costs ten times the others and comes least.
    integer, parameter :: law_turns(16) = [1, 2, 4, 5, 6, 1, 4, 5, 2, 1, 4, 5, 2, 6, 4, 3]
 
    !> Ranges, each drawn evenly in the logarithm: R [m], U [m/s], film under the static load [m], eta0 [Pa s],
    !> alpha [1/Pa], static load [N], mass [kg], f_exc [Hz].
-   real(dp), parameter :: radii(2) = [2.0e-3_dp, 0.1_dp], speeds(2) = [0.02_dp, 40.0_dp], films(2) = [20.0e-9_dp, 50.0e-6_dp], &
+   real(dp), parameter :: radii(2) = [2.0e-3_dp, 0.1_dp], speeds(2) = [0.02_dp, 40.0_dp], films(2) = &
+      [20.0e-9_dp, 50.0e-6_dp], &
                           viscosities(2) = [1.0e-3_dp, 3.0_dp], coefficients(2) = [1.0e-9_dp, 5.0e-8_dp], &
-                          loads(2) = [1.0_dp, 1.0e4_dp], masses(2) = [0.01_dp, 30.0_dp], frequencies(2) = [10.0_dp, 5.0e3_dp]
+                          loads(2) = [1.0_dp, 1.0e4_dp], masses(2) = [0.01_dp, 30.0_dp], frequencies(2) = &
+                          [10.0_dp, 5.0e3_dp]
    !> Accuracies of the error-controlled engines, by chance [-].
    real(dp), parameter :: accuracies(3) = [1.0e-4_dp, 1.0e-6_dp, 1.0e-8_dp]
    !> Largest amplitude of the force over the static load.
@@ -93,8 +97,8 @@ contains
       group%extrapolated = number_drawn < 1.0_dp/8.0_dp
    end function draw_group
 
-   !> A scene. The length of the contact is what lets the film come out that was drawn; it may come out absurd, but
-   !> length, load and mass enter the motion by their ratios alone.
+   !> A scene. The length of the contact is what lets the film come out that was drawn; it may come out
+   !> absurd, but length, load and mass enter the motion by their ratios alone.
    pure function draw_scene(seed, number) result(drawn)
       !> Any number
       integer(int64), intent(in) :: seed
@@ -104,7 +108,7 @@ contains
       type(group_t) :: group
       type(random_state_t) :: state
       type(film_t) :: law
-      real(dp) :: film, load, by_film, by_velocity, static_load, share
+      real(dp) :: film, load, by_film, by_velocity, static_load, share, unit_group
 
       group = draw_group(seed, group_of(number))
       state = random_state_t(seed=seed, stream=2_int64*number + 1_int64)
@@ -122,9 +126,9 @@ contains
          if (scene%film%law == law_piezo_viscous .and. scene%film%model == model_reynolds) then
             ! Nearly all B would be far above the critical one: here it is drawn, and alpha follows.
             call draw(state, [0.005_dp, 1.05_dp], share)
-            scene%lubricant%pressure_viscosity = share*critical_group*film*sqrt(film)/ &
-                                                 (6.0_dp*sqrt(2.0_dp*scene%contact%radius)*scene%lubricant%viscosity* &
-                                                  2.0_dp*scene%kinematics%entrainment_speed)
+            unit_group = 6.0_dp*sqrt(2.0_dp*scene%contact%radius)*scene%lubricant%viscosity* &
+                         2.0_dp*scene%kinematics%entrainment_speed/(film*sqrt(film))
+            scene%lubricant%pressure_viscosity = share*critical_group/unit_group
          end if
          call draw(state, loads, static_load)
          call draw(state, [masses(1), min(masses(2), 0.999_dp*static_load/standard_gravity)], scene%load%mass)
@@ -143,7 +147,8 @@ contains
          scene%solver%steps_per_period = 512
          scene%spectrum%periods = 4
          drawn%resolved = resolve(scene)
-         drawn%lane = lane_of_scene(scene, drawn%resolved%film, drawn%resolved%initial_film, scene%film%initial_velocity)
+         drawn%lane = lane_of_scene(scene, drawn%resolved%film, drawn%resolved%initial_film, &
+                                    scene%film%initial_velocity)
       end associate
    end function draw_scene
 

@@ -2,8 +2,10 @@
 module scene_namelist
    use kinds, only: dp
    use random_scenes, only: drawn_scene_t
-   use scene_types, only: iteration_successive, law_iso_viscous, method_newmark, method_newmark_extrapolated, &
-                          model_published, model_reynolds, predictor_previous, rupture_half_pi, rupture_solver_fast, &
+   use scene_types, only: iteration_successive, law_iso_viscous, method_newmark, &
+      method_newmark_extrapolated, &
+                          model_published, model_reynolds, predictor_previous, rupture_half_pi, &
+                          rupture_solver_fast, &
                           scene_t, until_steady
    use text, only: integer_text, real_text
    implicit none(type, external)
@@ -27,11 +29,14 @@ contains
          write (unit, '(a)') "&scene task = 'motion' /"
          write (unit, '(a)') '&contact radius = '//real_text(scene%contact%radius)//', length = '// &
             real_text(scene%contact%length)//' /'
-         write (unit, '(a)') '&lubricant viscosity = '//real_text(scene%lubricant%viscosity)//', pressure_viscosity = '// &
+         write (unit, '(a)') '&lubricant viscosity = '//real_text(scene%lubricant%viscosity)// &
+            ', pressure_viscosity = '// &
             real_text(scene%lubricant%pressure_viscosity)//' /'
-         write (unit, '(a)') '&kinematics entrainment_speed = '//real_text(scene%kinematics%entrainment_speed)//' /'
+         write (unit, '(a)') '&kinematics entrainment_speed = '// &
+            real_text(scene%kinematics%entrainment_speed)//' /'
          write (unit, '(a)') '&load mass = '//real_text(scene%load%mass)//', steady_force = '// &
-            real_text(scene%load%steady_force)//', force_amplitude = '//real_text(scene%load%force_amplitude)// &
+            real_text(scene%load%steady_force)//', force_amplitude = '// &
+            real_text(scene%load%force_amplitude)// &
             ', frequency = '//real_text(scene%load%frequency)//' /'
          write (unit, '(a)') film_group(scene)
          write (unit, '(a)') solver_group(scene)
@@ -62,7 +67,8 @@ contains
             line = line//", rupture = 'solved', rupture_solver = 'successive'"
          end if
       end if
-      if (scene%film%initial_film > 0.0_dp) line = line//', initial_film = '//real_text(scene%film%initial_film)
+      if (scene%film%initial_film > 0.0_dp) line = line//', initial_film = '// &
+         real_text(scene%film%initial_film)
       line = line//', initial_velocity = '//real_text(scene%film%initial_velocity)//' /'
    end function film_group
 

@@ -6,22 +6,26 @@ module stress_engines
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use newmark, only: motion_count_t, motion_state_t, start_motion
    use newmark_extrapolated, only: advance_extrapolated, extrapolation_t, new_extrapolation
-   use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, solve_newmark_lanes
+   use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, &
+      solve_newmark_lanes
    use newmark_lanes_extrapolated, only: extrapolated_ending_t, solve_lanes_extrapolated
    use random_scenes, only: drawn_scene_t, group_t
    use scene_status, only: status_complete
-   use scene_types, only: iteration_newton, iteration_successive, method_newmark, method_newmark_extrapolated, &
-                          method_taylor, predictor_extrapolated, predictor_previous, scene_t, until_periods, until_steady
+   use scene_types, only: iteration_newton, iteration_successive, method_newmark, &
+                          method_newmark_extrapolated, method_taylor, predictor_extrapolated, &
+                          predictor_previous, scene_t, until_periods, until_steady
    use stress_outcomes, only: judge_controlled, judge_newmark, outcome_t
-   use stress_references, only: compared_periods, compared_samples, comparisons, reference_t, window_periods, window_samples
+   use stress_references, only: compared_periods, compared_samples, comparisons, reference_t, &
+      window_periods, window_samples
    implicit none(type, external)
    private
 
    !> The first three are solved in long runs too, the first five are error-controlled.
    integer, parameter, public :: engines = 9, long_engines = 3, controlled_engines = 5
-   character(*), parameter, public :: engine_names(engines) = [character(30) :: 'taylor', 'collocation', 'taylor until steady', &
-      'newmark-extrapolated', 'newmark-extrapolated, lanes', 'newmark, newton', &
-      'newmark, newton, previous', 'newmark, successive', 'newmark, successive, previous']
+   character(*), parameter, public :: engine_names(engines) = [character(30) :: &
+      'taylor', 'collocation', 'taylor until steady', 'newmark-extrapolated', 'newmark-extrapolated, lanes', &
+      'newmark, newton', 'newmark, newton, previous', 'newmark, successive', 'newmark, successive, previous']
+   integer, parameter :: extrapolated = 4, lanes_extrapolated = 5
 
    public :: newmark_scene, run_engine, set_solver, takes_part
 
@@ -34,7 +38,7 @@ contains
       !> The group
       type(group_t), intent(in) :: group
 
-      takes_part = group%extrapolated .or. (engine /= 4 .and. engine /= 5)
+      takes_part = group%extrapolated .or. (engine /= extrapolated .and. engine /= lanes_extrapolated)
    end function takes_part
 
    !> Solve a group by one engine.
@@ -52,9 +56,9 @@ contains
 
       if (engine <= long_engines) then
          call run_controlled(engine, group, drawn, references, results)
-      else if (engine == 4) then
+      else if (engine == extrapolated) then
          call run_extrapolated(group, drawn, references, results)
-      else if (engine == 5) then
+      else if (engine == lanes_extrapolated) then
          call run_lanes_extrapolated(group, drawn, references, results)
       else
          call run_newmark(engine, group, drawn, references, results)
@@ -105,17 +109,19 @@ contains
       integer :: i, period, first, done
 
       do i = 1, size(drawn)
-         scene = newmark_scene(4, drawn(i))
+         scene = newmark_scene(extrapolated, drawn(i))
          extrapolation = new_extrapolation(group%accuracy, compared_samples)
          count = motion_count_t()
          ending = lane_ending_t()
-         call start_motion(film_load, scene%film, scene%method, scene%thickness, scene%velocity, state, count, ending%status)
+         call start_motion(film_load, scene%film, scene%method, scene%thickness, scene%velocity, state, &
+                           count, ending%status)
          films = -1.0_dp
          do period = 1, group%periods
             if (ending%status /= status_complete) exit
             first = max(0, period - 1 - group%periods + compared_periods)*compared_samples + 1
             call advance_extrapolated(film_load, scene%film, scene%method, extrapolation, state, count, &
-                                      films(first:first + compared_samples - 1), velocities, accelerations, done, &
+                                      films(first:first + compared_samples - 1), velocities, accelerations, &
+                                      done, &
                                       ending%status)
          end do
          ending%film = state%film
@@ -139,15 +145,17 @@ contains
       integer :: i
 
       do i = 1, size(drawn)
-         scenes(i) = newmark_scene(5, drawn(i))
+         scenes(i) = newmark_scene(lanes_extrapolated, drawn(i))
       end do
       films = -1.0_dp
       velocities = 0.0_dp
       accelerations = 0.0_dp
-      call solve_lanes_extrapolated(scenes, group%accuracy, group%periods, compared_periods, compared_samples, films, &
+      call solve_lanes_extrapolated(scenes, group%accuracy, group%periods, compared_periods, &
+                                    compared_samples, films, &
                                     velocities, accelerations, endings)
       do i = 1, size(drawn)
-         ending = lane_ending_t(status=endings(i)%status, film=films(comparisons, i), velocity=velocities(comparisons, i), &
+         ending = lane_ending_t(status=endings(i)%status, film=films(comparisons, i), &
+                                velocity=velocities(comparisons, i), &
                                 samples=comparisons, steps=endings(i)%steps)
          results(i) = judge_controlled(references(i), group%periods, group%accuracy, films(:, i), ending)
       end do
@@ -160,7 +168,8 @@ contains
       type(drawn_scene_t), intent(in) :: drawn(:)
       type(reference_t), intent(in) :: references(:)
       type(outcome_t), intent(out) :: results(:)
-      integer, parameter :: stride = window_samples/compared_samples, window = window_periods*window_samples, &
+      integer, parameter :: stride = window_samples/compared_samples, &
+         window = window_periods*window_samples, &
                             all_samples = compared_periods*window_samples
       type(newmark_lane_request_t) :: request
       type(newmark_lane_scene_t) :: scenes(size(drawn))
@@ -180,7 +189,8 @@ contains
       call solve_newmark_lanes(scenes, request, films, velocities, accelerations, endings)
       do i = 1, size(drawn)
          call judge_newmark(drawn(i), references(i), endings(i)%status, films(stride::stride, i), &
-                            films(all_samples - window + 1:, i), accelerations(all_samples - window + 1:, i), results(i))
+                            films(all_samples - window + 1:, i), accelerations(all_samples - window + 1:, &
+                            i), results(i))
       end do
    end subroutine run_newmark
 
@@ -218,7 +228,7 @@ contains
 
       associate (solver => scene%solver)
          solver%method = merge(method_taylor, method_newmark, engine <= long_engines)
-         if (engine == 4 .or. engine == 5) solver%method = method_newmark_extrapolated
+         if (engine == extrapolated .or. engine == lanes_extrapolated) solver%method = method_newmark_extrapolated
          solver%until = merge(until_steady, until_periods, engine == 3)
          solver%iteration = merge(iteration_successive, iteration_newton, engine >= 8)
          solver%predictor = merge(predictor_previous, predictor_extrapolated, engine == 7 .or. engine == 9)

@@ -1,11 +1,14 @@
 !> How a scene came out, engine by engine: right, failed with a status, or a silent failure.
 !>
-!> An error-controlled solution is right if its film is within K times its accuracy of the tight one. K = 30: a
-!> period's worth of local errors may add up to 4 to 12 times the accuracy (the share of it that a step may use
-!> up, module taylor_step_control), and a motion remembers some periods. Where errors grow by g (module
+!> An error-controlled solution is right if its film is within K times its accuracy of the tight one. K = 30:
+!> a period's worth of local errors may add up to 4 to 12 times the accuracy (the share of it that a step may
+!> use up, module taylor_step_control), and a motion remembers some periods. Where errors grow by g (module
 !> stress_references) K g times the accuracy is what can be asked for, counted apart as `sensitive`.
 !>
-!> Newmark's method promises no accuracy. It is right within 1 %; beyond that it must not get a certificate.
+!> Newmark's method promises no accuracy. It is right within 1 %; beyond that it must not get a certificate, unless
+!> all that is certified is that the window is irregular (`irregular`).
+!>
+!> `unjudged`: solved, but the tight solution failed.
 module stress_outcomes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use certificate, only: certificate_t, compare_windows
@@ -13,18 +16,20 @@ module stress_outcomes
    use lane_scenes, only: lane_ending_t
    use random_scenes, only: drawn_scene_t
    use rattle_class, only: class_irregular, classify, rattle_verdict_t
-   use scene_status, only: is_success, status_film_lost, status_no_rigid_film, status_not_converged, status_overflow, &
-                           status_steady
+   use scene_status, only: is_success, status_film_lost, status_no_rigid_film, status_not_converged, &
+                           status_overflow, status_steady
    use stress_references, only: compared_samples, comparisons, reference_t, window_periods
    implicit none(type, external)
    private
 
-   integer, parameter, public :: outcome_right = 1, outcome_sensitive = 2, outcome_uncertain = 3, outcome_not_converged = 4, &
-                                 outcome_film_lost = 5, outcome_no_rigid_film = 6, outcome_overflow = 7, &
-                                 outcome_unjudged = 8, outcome_silent = 9
-   integer, parameter, public :: outcomes = 9
-   character(*), parameter, public :: outcome_names(outcomes) = [character(14) :: 'right', 'sensitive', 'uncertain', &
-      'not_converged', 'film_lost', 'no_rigid_film', 'overflow', 'unjudged', 'SILENT FAILURE']
+   integer, parameter, public :: outcome_right = 1, outcome_sensitive = 2, outcome_irregular = 3, &
+                                 outcome_uncertain = 4, outcome_not_converged = 5, outcome_film_lost = 6, &
+                                 outcome_no_rigid_film = 7, outcome_overflow = 8, outcome_unjudged = 9, &
+                                 outcome_silent = 10
+   integer, parameter, public :: outcomes = 10
+   character(*), parameter, public :: outcome_names(outcomes) = [character(14) :: 'right', 'sensitive', &
+      'irregular', 'uncertain', 'not_converged', 'film_lost', 'no_rigid_film', 'overflow', 'unjudged', &
+      'SILENT FAILURE']
 
    !> K of the header.
    real(dp), parameter :: allowed_ratio = 30.0_dp
@@ -68,7 +73,8 @@ contains
       outcome = outcome_of_status(ending%status, reference)
       if (ending%steps > most_steps) outcome = silent('too many steps')
       if (outcome%code /= 0) return
-      if (.not. is_motion(films(:ending%samples)) .or. .not. is_motion([ending%film]) .or. ending%samples == 0 .or. &
+      if (.not. is_motion(films(:ending%samples)) .or. .not. is_motion([ending%film]) .or. &
+          ending%samples == 0 .or. &
           .not. ieee_is_finite(ending%velocity)) then
          outcome = silent('no film')
          return
@@ -90,8 +96,8 @@ contains
       outcome%fault = merge('wrong steady motion', 'beyond its accuracy', ending%status == status_steady)
    end function judge_controlled
 
-   !> Sample of the reference at the phase of a sample: the same one, or that of the latest period in which an orbit
-   !> is where it was then.
+   !> Sample of the reference at the phase of a sample: the same one, or that of the latest period in which an
+   !> orbit is where it was then.
    pure integer function matching_sample(sample, periods, ending) result(match)
       !> Sample of the solution
       integer, intent(in) :: sample
@@ -128,7 +134,8 @@ contains
 
       outcome = outcome_of_status(status, reference)
       if (outcome%code /= 0) return
-      if (.not. is_motion(films) .or. .not. is_motion(window_films) .or. .not. all(ieee_is_finite(window_accelerations))) then
+      if (.not. is_motion(films) .or. .not. is_motion(window_films) .or. &
+          .not. all(ieee_is_finite(window_accelerations))) then
          outcome = silent('no film')
          return
       end if
@@ -142,13 +149,15 @@ contains
       outcome%code = outcome_uncertain
       if (.not. reference%certificate) return
       call classify(window_accelerations, drawn%scene%spectrum, drawn%resolved%noise_floor, verdict)
-      call compare_windows(window_films, reference%window_films, window_accelerations, reference%window_accelerations, &
-                           verdict, reference%verdict, drawn%scene%spectrum, certificate_tolerance, certificate)
+      call compare_windows(window_films, reference%window_films, window_accelerations, &
+                           reference%window_accelerations, &
+                           verdict, reference%verdict, drawn%scene%spectrum, certificate_tolerance, &
+                           certificate)
       if (.not. certificate%certified) return
       outcome%code = outcome_unjudged
       if (.not. reference%exists) return
-      ! Irregular motions part from each other; that they are irregular is what is certified.
-      outcome%code = outcome_sensitive
+      ! Of an irregular window only that it is irregular is certified, and the error of its film is stated.
+      outcome%code = outcome_irregular
       if (verdict%class == class_irregular) return
       outcome = silent('certified though wrong')
    end subroutine judge_newmark

@@ -1,10 +1,10 @@
-!> What the engines are held against: every scene of a group solved by collocation far tighter than any engine, its
-!> sensitivity, and the tighter solution that a certificate would take.
+!> What the engines are held against: every scene of a group solved by collocation far tighter than any
+!> engine, its sensitivity, and the tighter solution that a certificate would take.
 !>
-!> Sensitivity. An error e made somewhere has grown to g e where it is looked at, and no method that is only accurate
-!> to e can do better. g is found by two more tight solutions: one with the film at the start and the force all along
-!> off by 1e-9, which stands for errors made at any time, and one with the film off by as much at the start of the last
-!> periods. The larger growth is taken, and never less than one.
+!> Sensitivity. An error e made somewhere has grown to g e where it is looked at, and no method that is only
+!> accurate to e can do better. g is found by two more tight solutions: one with the film at the start and the
+!> force all along off by 1e-9, which stands for errors made at any time, and one with the film off by as much
+!> at the start of the last periods. The larger growth is taken, and never less than one.
 module stress_references
    use kinds, only: dp
    use lane_motions, only: accelerations, solve_motions
@@ -60,7 +60,8 @@ contains
       integer :: i
 
       call solve_tight(group, drawn, tight_accuracy, references)
-      if (.not. all(references%exists)) call solve_tight(group, drawn, second_share*group%accuracy, references)
+      if (.not. all(references%exists)) call solve_tight(group, drawn, second_share*group%accuracy, &
+                                                         references)
       if (with_certificate) call solve_windows(group, drawn, references)
       do i = 1, size(references)
          if (.not. references(i)%growth >= 1.0_dp) references(i)%growth = 1.0_dp
@@ -80,7 +81,7 @@ contains
       real(dp), allocatable :: films(:, :), off(:, :)
       integer :: i
 
-      number = pack([(i, i=1, size(drawn))], .not. references%exists)
+      number = pack([(i, i=1, size(drawn))],.not. references%exists)
       start = drawn(number)%lane
       start%implicit = .true.
       allocate (films(comparisons, size(number)), off(comparisons, size(number)), source=0.0_dp)
@@ -108,7 +109,8 @@ contains
       unused = middle
       rest = start
       rest%initial_film = start%initial_film*(1.0_dp + offset)
-      rest%steady_force = start%steady_force + offset*(start%steady_force + start%weight + start%force_amplitude)
+      rest%steady_force = start%steady_force + offset*(start%steady_force + start%weight + &
+                                                       start%force_amplitude)
       call last_periods(rest, off, group%periods, accuracy, unused, endings)
       call note_growth()
       rest = start
@@ -128,7 +130,8 @@ contains
          do place = 1, size(number)
             associate (reference => references(number(place)))
                if (is_success(endings(place)%status)) then
-                  reference%growth = max(reference%growth, maxval(abs(off(:, place) - films(:, place))/films(:, place))/offset)
+                  reference%growth = max(reference%growth, maxval(abs(off(:, place) - &
+                     films(:, place))/films(:, place))/offset)
                else
                   ! A motion that ends, once it starts a little off, is as sensitive as can be.
                   reference%growth = 1.0_dp/offset
@@ -192,7 +195,8 @@ contains
       request%periods = group%periods
       request%sampled_periods = window_periods
       request%samples_per_period = window_samples
-      allocate (films(window_periods*window_samples, size(drawn)), velocities(window_periods*window_samples, size(drawn)), &
+      allocate (films(window_periods*window_samples, size(drawn)), velocities(window_periods*window_samples, &
+         size(drawn)), &
                 source=0.0_dp)
       call solve_motions(drawn%lane, request, films, velocities, endings)
       do i = 1, size(drawn)
@@ -201,8 +205,10 @@ contains
             if (.not. reference%certificate) cycle
             reference%window_films = films(:, i)
             allocate (reference%window_accelerations(size(films, 1)))
-            call accelerations(drawn(i)%lane, window_samples, films(:, i), velocities(:, i), reference%window_accelerations)
-            call classify(reference%window_accelerations, drawn(i)%scene%spectrum, drawn(i)%resolved%noise_floor, &
+            call accelerations(drawn(i)%lane, window_samples, films(:, i), velocities(:, i), &
+                               reference%window_accelerations)
+            call classify(reference%window_accelerations, drawn(i)%scene%spectrum, &
+                          drawn(i)%resolved%noise_floor, &
                           reference%verdict)
          end associate
       end do

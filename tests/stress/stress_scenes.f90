@@ -1,9 +1,11 @@
 !> Random scenes by every engine, each held against an independent tighter solution.
 !>
-!>    stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE] [--failures FILE] [--list OUTCOME] [--accuracy A] [--no-newmark]
+!>    stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE] [--failures FILE] [--list OUTCOME]
+!>                  [--accuracy A] [--no-newmark]
 !>
-!> Prints the table of outcomes and, of every silent failure and all that is listed, a namelist that shows it again. The exit code is 1 if
-!> there is one. The result does not depend on the number of threads (OMP_NUM_THREADS).
+!> Prints the table of outcomes and, of every silent failure and all that is listed, a namelist that shows it
+!> again. The exit code is 1 if there is a silent failure. The result does not depend on the number of threads
+!> (OMP_NUM_THREADS).
 program stress_scenes
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use clock, only: wall_seconds
@@ -40,9 +42,10 @@ program stress_scenes
    print '(a)', ''
    call print_ratios(tally)
    print '(a)', ''
-   print '(a, i0, a, i0, a, i0, a, f0.1, a)', 'scenes ', first, ' to ', first + scenes - 1_int64, ', seed ', seed, ', ', &
-      wall_seconds() - started, ' s'
-   print '(a, f0.1, 20(a, f0.1))', 'seconds by engine, references first: ', seconds(0), (', ', seconds(group), group=1, engines)
+   print '(a, i0, a, i0, a, i0, a, f0.1, a)', 'scenes ', first, ' to ', first + scenes - 1_int64, ', seed ', &
+      seed, ', ', wall_seconds() - started, ' s'
+   print '(a, f0.1, 20(a, f0.1))', 'seconds by engine, references first: ', seconds(0), &
+      (', ', seconds(group), group=1, engines)
    print '(a, i0, a, f0.2, a)', 'slowest group: ', slowest_group, ', ', slowest, ' s'
    print '(a, i0)', 'silent failures: ', tally%failures()
    if (csv /= '') then
@@ -68,7 +71,8 @@ contains
       if (accuracy > 0.0_dp) shared%accuracy = accuracy
       from = max(first, number*group_size)
       to = min(first + scenes, (number + 1_int64)*group_size) - 1_int64
-      allocate (drawn(to - from + 1_int64), references(to - from + 1_int64), results(to - from + 1_int64, engines))
+      allocate (drawn(to - from + 1_int64), references(to - from + 1_int64), results(to - from + 1_int64, &
+         engines))
       do i = 1, size(drawn)
          drawn(i) = draw_scene(seed, from + int(i - 1, int64))
          drawn(i)%scene%solver%accuracy = shared%accuracy
@@ -114,9 +118,11 @@ contains
 
       again = drawn
       call set_solver(engine, again%scene)
-      remark = 'scene '//integer_text(drawn%number)//', '//trim(law_names(shared%law))//', '//trim(engine_names(engine))// &
+      remark = 'scene '//integer_text(drawn%number)//', '//trim(law_names(shared%law))//', '// &
+         trim(engine_names(engine))// &
                ': '//trim(outcome_names(outcome%code))//' '//trim(outcome%fault)
-      if (outcome%error >= 0.0_dp) remark = remark//', error '//short_text(outcome%error, 3)//', accuracy '// &
+      if (outcome%error >= 0.0_dp) remark = remark//', error '//short_text(outcome%error, 3)// &
+         ', accuracy '// &
                                             short_text(shared%accuracy, 3)
       remark = remark//', growth '//short_text(reference%growth, 3)
       if (.not. reference%exists) remark = remark//', tight solution: '//status_name(reference%status)
@@ -159,8 +165,8 @@ contains
          end select
       end do
       if (failure == 0 .and. scenes > 0_int64 .and. first >= 0_int64) return
-      write (error_unit, '(a)') 'usage: stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE] [--failures FILE] '// &
-         '[--list OUTCOME] [--accuracy A] [--no-newmark]'
+      write (error_unit, '(a)') 'usage: stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE]', &
+         '   [--failures FILE] [--list OUTCOME] [--accuracy A] [--no-newmark]'
       stop 2
    end subroutine read_arguments
 

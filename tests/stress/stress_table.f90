@@ -17,7 +17,8 @@ module stress_table
       integer(int64) :: count(outcomes, laws, engines) = 0_int64
       !> Scenes given up that the tight solution can solve
       integer(int64) :: needless(laws, engines) = 0_int64
-      !> Ratios of error to accuracy of the error-controlled engines by class, and the largest of scenes that are right
+      !> Ratios of error to accuracy of the error-controlled engines by class, and the largest of scenes that
+      !> are right
       integer(int64) :: ratios(classes, controlled_engines) = 0_int64
    contains
       procedure :: add
@@ -60,7 +61,8 @@ contains
       type(tally_t), intent(in) :: tally
       integer :: law, engine, i
 
-      print '(100a)', '| film | engine |', (' '//trim(outcome_names(i))//' |', i=1, outcomes), ' given up, yet solvable |'
+      print '(100a)', '| film | engine |', (' '//trim(outcome_names(i))//' |', i=1, outcomes), &
+         ' given up, yet solvable |'
       print '(100a)', '|---|---|', ('---:|', i=1, outcomes + 1)
       do engine = 1, engines
          do law = 1, laws
@@ -68,6 +70,7 @@ contains
             call print_row(trim(law_names(law)), trim(engine_names(engine)), tally%count(:, law, engine), &
                            tally%needless(law, engine))
          end do
+         if (sum(tally%count(:, :, engine)) == 0_int64) cycle
          call print_row('**all**', trim(engine_names(engine)), sum(tally%count(:, :, engine), dim=2), &
                         sum(tally%needless(:, engine)))
       end do
@@ -94,13 +97,22 @@ contains
       print '(a)', '|---:|'//repeat('---:|', controlled_engines)
       do i = 1, classes
          if (sum(tally%ratios(i, :)) == 0_int64) cycle
-         print '(a, es8.1, 20(a, f8.3))', '|', 10.0_dp**(0.5_dp*real(i + lowest_class, dp)), &
-            (' | ', 100.0_dp*real(sum(tally%ratios(:i, engine)), dp)/real(max(1_int64, sum(tally%ratios(:, engine))), dp), &
-             engine=1, controlled_engines)
+         print '(a, es8.1, 20(a, f8.3))', '| ', 10.0_dp**(0.5_dp*real(i + lowest_class, dp)), &
+            (' | ', share(i, engine), engine=1, controlled_engines), ' |'
       end do
 
    contains
 
+      !> Scenes up to a class [%].
+      pure real(dp) function share(class, engine)
+         integer, intent(in) :: class
+         integer, intent(in) :: engine
+
+         share = 100.0_dp*real(sum(tally%ratios(:class, engine)), dp)/ &
+                 real(max(1_int64, sum(tally%ratios(:, engine))), dp)
+      end function share
+
+      !> Heads of the columns.
       function repeat_names() result(line)
          character(:), allocatable :: line
          integer :: place
@@ -125,11 +137,13 @@ contains
       open (newunit=unit, file=path, status='replace', action='write', iostat=failure)
       written = failure == 0
       if (.not. written) return
-      write (unit, '(100a)') 'film,engine', (','//trim(outcome_names(i)), i=1, outcomes), ',given up yet solvable'
+      write (unit, '(100a)') 'film,engine', (','//trim(outcome_names(i)), i=1, outcomes), &
+         ',given up yet solvable'
       do engine = 1, engines
          do law = 1, laws
             write (unit, '(100a)') '"'//trim(law_names(law))//'","'//trim(engine_names(engine))//'"', &
-               (','//integer_text(tally%count(i, law, engine)), i=1, outcomes), ','//integer_text(tally%needless(law, engine))
+               (','//integer_text(tally%count(i, law, engine)), i=1, outcomes), ','// &
+               integer_text(tally%needless(law, engine))
          end do
       end do
       close (unit)

@@ -11,7 +11,8 @@ module test_lane_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: status_complete, status_steady
-   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, rupture_solver_fast, &
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, &
+      rupture_solver_fast, &
                           rupture_solver_successive, scene_t
    use spectral_lines, only: find_lines, spectral_lines_t
    implicit none(type, external)
@@ -45,7 +46,8 @@ contains
    end subroutine run_lane_motions_tests
 
    !> Canonical scene of a kernel, started from its steady film. The exact films have u_r = 1.905 m/s. For the
-   !> piezo-viscous one alpha is so small that it is the iso-viscous film: the canonical alpha would be beyond it.
+   !> piezo-viscous one alpha is so small that it is the iso-viscous film: the canonical alpha would be beyond
+   !> it.
    function lane_of(kernel) result(lane)
       integer, intent(in) :: kernel  !> Film kernel
       type(lane_scene_t) :: lane
@@ -64,7 +66,8 @@ contains
          scene%lubricant%pressure_viscosity = 1.0e-15_dp
       end if
       film = new_film(scene)
-      lane = lane_of_scene(scene, film, steady_film(film, scene%load%steady_force + 3.0_dp*standard_gravity), 0.0_dp)
+      lane = lane_of_scene(scene, film, steady_film(film, scene%load%steady_force + &
+                                                    3.0_dp*standard_gravity), 0.0_dp)
    end function lane_of
 
    !> The six scenes.
@@ -89,23 +92,29 @@ contains
       call solve_motions(lanes, request, motions%films, motions%velocities, motions%endings)
    end function motions_of
 
-   !> Lines and extreme films of the last of 60 periods, by Taylor series where there are some, and by collocation.
+   !> Lines and extreme films of the last of 60 periods, by Taylor series where there are some, and by
+   !> collocation.
    subroutine test_canonical(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      real(dp), parameter :: idle(6) = [21.2023751_dp, 30.5365166_dp, 25.8178690_dp, 22.4385275_dp, 19.3319685_dp, &
+      real(dp), parameter :: idle(6) = [21.2023751_dp, 30.5365166_dp, 25.8178690_dp, 22.4385275_dp, &
+                                        19.3319685_dp, &
                                         16.5060500_dp]
-      real(dp), parameter :: solved(6) = [28.9175793_dp, 40.2342318_dp, 35.9704977_dp, 34.0112309_dp, 30.7059169_dp, &
+      real(dp), parameter :: solved(6) = [28.9175793_dp, 40.2342318_dp, 35.9704977_dp, 34.0112309_dp, &
+                                          30.7059169_dp, &
                                           27.0072316_dp]
-      real(dp), parameter :: creep(6) = [6.3805133_dp, 8.5944899_dp, 6.5732897_dp, 4.1034383_dp, 2.4808443_dp, &
+      real(dp), parameter :: creep(6) = [6.3805133_dp, 8.5944899_dp, 6.5732897_dp, 4.1034383_dp, &
+                                         2.4808443_dp, &
                                          1.5245533_dp]
-      real(dp), parameter :: exact(6) = [20.8160154_dp, 28.7555678_dp, 21.6951357_dp, 17.0416711_dp, 13.3297691_dp, &
+      real(dp), parameter :: exact(6) = [20.8160154_dp, 28.7555678_dp, 21.6951357_dp, 17.0416711_dp, &
+                                         13.3297691_dp, &
                                          10.3671095_dp]
       real(dp), parameter :: harmonics(6, 6) = reshape([idle, solved, solved, creep, exact, exact], [6, 6])
       !> h_min, h_max [m]; six or seven digits are known
       real(dp), parameter :: extremes(2, 6) = 1.0e-6_dp*reshape( &
                              [0.341405_dp, 3.570926_dp, 0.245194_dp, 4.676586_dp, 0.245194_dp, 4.676586_dp, &
-                              0.837089_dp, 1.827841_dp, 0.400824_dp, 3.478332_dp, 0.400824_dp, 3.478332_dp], [2, 6])
+                              0.837089_dp, 1.827841_dp, 0.400824_dp, 3.478332_dp, 0.400824_dp, 3.478332_dp], &
+                              [2, 6])
       integer, parameter :: line_counts(6) = [30, 47, 47, 12, 21, 21]
       type(lane_scene_t) :: lanes(2*size(kernels))
       type(motions_t) :: motions
@@ -124,7 +133,8 @@ contains
                            motions%endings(i)%samples == samples, trim(names(law))//': ended well')
          call accelerations(lanes(i), samples, motions%films(:, i), motions%velocities(:, i), values)
          call find_lines(values, 1, 0.01_dp, 1.0e-10_dp, lines)
-         call checks%check_close(maxval(abs(lines%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, 1.0e-6_dp, &
+         call checks%check_close(maxval(abs(lines%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, &
+                                 1.0e-6_dp, &
                                  trim(names(law))//': harmonics')
          call checks%check(lines%line_count == line_counts(law), trim(names(law))//': number of lines')
          call checks%check_close(least(motions%films(:, i))/extremes(1, law), 1.0_dp, 3.0e-6_dp, &
@@ -175,7 +185,8 @@ contains
       request%sampled_periods = 7
       part = motions_of(rest, request)
       do i = 1, size(lanes)
-         call checks%check(same(whole, i, part, i), trim(names(1 + modulo(i - 1, size(kernels))))//': carried on')
+         call checks%check(same(whole, i, part, i), trim(names(1 + modulo(i - 1, size(kernels))))// &
+                           ': carried on')
          call checks%check(part%endings(i)%periods == 12, 'carried on: periods')
       end do
    end subroutine test_carrying_on
@@ -195,9 +206,11 @@ contains
       steady = motions_of(all_lanes(), request)
       do i = 1, size(kernels)
          associate (ending => steady%endings(i))
-            call checks%check(ending%status == status_steady .and. ending%orbit == 1 .and. ending%periods < 40, &
+            call checks%check(ending%status == status_steady .and. ending%orbit == 1 .and. &
+                              ending%periods < 40, &
                               trim(names(i))//': found steady')
-            call checks%check(ending%distance <= 1.0e-8_dp .and. ending%samples == 64, trim(names(i))//': distance')
+            call checks%check(ending%distance <= 1.0e-8_dp .and. ending%samples == 64, trim(names(i))// &
+                              ': distance')
          end associate
          error = maxval(abs(steady%films(:, i)/whole%films(:, i) - 1.0_dp))
          call checks%check_close(error, 0.0_dp, 3.0e-8_dp, trim(names(i))//': steady motion')

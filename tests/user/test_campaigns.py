@@ -188,7 +188,7 @@ def test_samples_and_csv(run, scene_text, tmp_path: Path) -> None:
 
 
 def test_bad_scene_among_good_ones(run, scene_text, tmp_path: Path) -> None:
-    """Invalid scenes stop the campaign before it begins, unless they are allowed; the others are solved then."""
+    """Invalid scenes stop the campaign before it begins, unless they are allowed; then the rest is solved."""
     changes = {
         "vary": "'load.steady_force'",
         "scale": None,
