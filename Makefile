@@ -46,7 +46,7 @@ BENCH_PROGRAMS := $(patsubst %.f90,$(BUILD)/%,$(notdir $(BENCH_SOURCES)))
 VPATH := $(addprefix fsrc/,$(ROOMS)) fsrc tests/unit tests/benchmarks
 
 .DEFAULT_GOAL := all
-.PHONY: all run test unit user lint debug python bench clean install help format pages pictures FORCE
+.PHONY: all run test unit user lint debug python bench stress test-cluster clean install help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -58,6 +58,7 @@ help:
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
 	@echo 'make python       Python environment and the module of the Fortran kernels'
 	@echo 'make bench        speed of the program, as a table'
+	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
 	@echo 'make pages        write input/README.md anew from the key table'
 	@echo 'make pictures     draw the pictures of the README anew'
 	@echo 'make format       bring Fortran and Python into the one format'
@@ -167,6 +168,10 @@ bench: $(PYTHON_ENV)/installed
 	@$(PEER_ENV)/bin/python $(PEERS)/plot_work_precision.py $(BUILD)/work_precision.csv --base rattle \
 	  --figure $(BUILD)/work_precision.png --table $(BUILD)/work_precision.md
 	@cat $(BUILD)/work_precision.md
+
+# Open MPI and Slurm on this machine: array jobs, MPI jobs, time limits, resume. Some minutes; installs with apt.
+test-cluster: $(PYTHON_ENV)/installed
+	@PYTHON=$(abspath $(PYTHON)) tests/cluster/run_cluster_tests.sh $(BUILD)/mpi
 
 # --- pages and pictures that are kept in the repository ------------------------------------------------
 

@@ -4,8 +4,9 @@ module output_place
    use file_system, only: first_bytes, is_directory, is_writable, make_directory, path_exists
    use log_file, only: log_magic
    use result_format, only: result_magic
-   use scene_types, only: compute_profile, scene_t, task_film, task_motion
+   use scene_types, only: compute_profile, scene_t, task_campaign, task_film, task_motion
    use summary_file, only: summary_magic
+   use text, only: integer_text
    implicit none(type, external)
    private
 
@@ -20,7 +21,7 @@ contains
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
-      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.rattle'
+      path = stem(scene)//'.rattle'
    end function result_path
 
    !> Path of the pressure profiles of a film task.
@@ -29,7 +30,7 @@ contains
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
-      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.profiles.rattle'
+      path = stem(scene)//'.profiles.rattle'
    end function profiles_path
 
    !> Path of the progress of a campaign.
@@ -38,7 +39,7 @@ contains
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
-      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.progress.nml'
+      path = stem(scene)//'.progress.nml'
    end function progress_path
 
    !> Path of the state from which a run can be carried on.
@@ -47,7 +48,7 @@ contains
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
-      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.state'
+      path = stem(scene)//'.state'
    end function state_path
 
    !> Path of the summary.
@@ -56,7 +57,7 @@ contains
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
-      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.summary.nml'
+      path = stem(scene)//'.summary.nml'
    end function summary_path
 
    !> Path of the log.
@@ -65,8 +66,18 @@ contains
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
-      path = trim(scene%output%directory)//'/'//trim(scene%name)//'.log'
+      path = stem(scene)//'.log'
    end function log_path
+
+   !> Folder and name of the files of a scene; a part of a campaign says which it is.
+   pure function stem(scene)
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: stem
+
+      stem = trim(scene%output%directory)//'/'//trim(scene%name)
+      if (scene%task == task_campaign .and. scene%campaign%parts > 1) stem = stem//'.part-'// &
+         integer_text(scene%campaign%part)//'-of-'//integer_text(scene%campaign%parts)
+   end function stem
 
    !> Make the folder of a campaign; what may stand there already is for its file to say.
    subroutine check_folder(scene, file, faults)

@@ -430,7 +430,7 @@ contains
          if (keys(i)%group == 'output') is_told = is_told .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
          ! In a film task the absent model means more than its default.
          if (keys(i)%name == 'model') &
-            is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') == 'motion')
+            is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') /= 'film')
       end function is_told
 
       pure logical function starts_group(i)

@@ -17,8 +17,7 @@ module stress_table
       integer(int64) :: count(outcomes, laws, engines) = 0_int64
       !> Scenes given up that the tight solution can solve
       integer(int64) :: needless(laws, engines) = 0_int64
-      !> Ratios of error to accuracy of the error-controlled engines by class, and the largest of scenes that
-      !> are right
+      !> Ratios of error to accuracy of the error-controlled engines, by class
       integer(int64) :: ratios(classes, controlled_engines) = 0_int64
    contains
       procedure :: add
