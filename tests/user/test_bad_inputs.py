@@ -425,7 +425,7 @@ def test_result_that_exists(refused, run, scene_text, tmp_path: Path) -> None:
     faults = refused("scene.nml")
     assert faults == [
         f"scene.nml: &output overwrite: results/scene.{kind} exists; --overwrite replaces it"
-        for kind in ("rattle", "summary.nml", "log")
+        for kind in ("rattle", "state", "summary.nml", "log")
     ]
 
 
@@ -533,6 +533,7 @@ def test_standard_input(run, scene_text, tmp_path: Path) -> None:
     assert sorted(path.name for path in (tmp_path / "results").iterdir()) == [
         "standard-input.log",
         "standard-input.rattle",
+        "standard-input.state",
         "standard-input.summary.nml",
     ]
 

@@ -30,6 +30,7 @@ GROUPS = (
     "spectrum",
     "points",
     "sweep",
+    "campaign",
     "output",
 )
 CRASH = ("acktrace", "Program received", "Fortran runtime error")
@@ -206,6 +207,7 @@ def test_output_makes_the_folder(run, scene_text, tmp_path: Path) -> None:
     assert sorted(path.name for path in (tmp_path / "new" / "it's" / "here").iterdir()) == [
         "a.log",
         "a.rattle",
+        "a.state",
         "a.summary.nml",
     ]
     assert not (tmp_path / "results").exists()
@@ -306,7 +308,7 @@ def test_stride_takes_every_nth_row(stride: int, solved) -> None:
 
 def test_scene_without_a_series(solved) -> None:
     folder = solved(output={"series": ".false."})
-    assert sorted(path.name for path in folder.iterdir()) == ["scene.log", "scene.summary.nml"]
+    assert sorted(path.name for path in folder.iterdir()) == ["scene.log", "scene.state", "scene.summary.nml"]
     assert summary_of(folder / "scene.summary.nml")["rattle_class"] in ("idle", "creep", "quiet", "irregular")
 
 
