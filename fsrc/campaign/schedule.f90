@@ -4,9 +4,9 @@ module schedule
    implicit none(type, external)
    private
 
-   integer, parameter :: smallest_chunk = 64, largest_chunk = 8192
+   integer, parameter :: smallest_chunk = 256, largest_chunk = 8192
    !> Chunks that a large campaign is cut into, at least
-   integer(int64), parameter :: wanted_chunks = 2048_int64
+   integer(int64), parameter :: wanted_chunks = 512_int64
 
    !> Chunks that are still to be computed. One list is shared by all threads.
    type, public :: chunk_schedule_t

@@ -16,8 +16,9 @@ module solve_chunk
    implicit none(type, external)
    private
 
-   !> Scenes solved together: their samples stay in the cache of a core as far as they can.
-   integer, parameter :: batch = 128
+   !> Scenes solved together. A motion that never repeats takes many times the periods of the others; among this many
+   !> there are enough of them to fill the lanes that the others have left.
+   integer, parameter :: batch = 1024
 
    public :: solve_scenes
 
@@ -33,13 +34,14 @@ contains
       integer(int64), intent(in) :: first
       !> One column of this array is the row of a scene
       real(dp), contiguous, intent(out) :: rows(:, :)
-      real(dp) :: values(size(plan%positions), batch)
-      real(dp), allocatable :: films(:, :), velocities(:, :)
+      real(dp), allocatable :: films(:, :), velocities(:, :), values(:, :)
       type(scene_t) :: scene
-      integer :: start, count, window
+      integer :: start, count, window, together
 
       window = max(base%spectrum%periods, 8)
-      allocate (films(window*base%campaign%samples_per_period, batch), velocities(window*base%campaign%samples_per_period, batch))
+      together = min(batch, size(rows, 2))
+      allocate (films(window*base%campaign%samples_per_period, together), &
+                velocities(window*base%campaign%samples_per_period, together), values(size(plan%positions), together))
       scene = base
       scene%resolved_input = ''
       do start = 1, size(rows, 2), batch

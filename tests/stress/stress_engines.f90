@@ -228,7 +228,8 @@ contains
 
       associate (solver => scene%solver)
          solver%method = merge(method_taylor, method_newmark, engine <= long_engines)
-         if (engine == extrapolated .or. engine == lanes_extrapolated) solver%method = method_newmark_extrapolated
+         if (engine == extrapolated .or. engine == lanes_extrapolated) &
+            solver%method = method_newmark_extrapolated
          solver%until = merge(until_steady, until_periods, engine == 3)
          solver%iteration = merge(iteration_successive, iteration_newton, engine >= 8)
          solver%predictor = merge(predictor_previous, predictor_extrapolated, engine == 7 .or. engine == 9)

@@ -3,10 +3,12 @@
 !> An error-controlled solution is right if its film is within K times its accuracy of the tight one. K = 30:
 !> a period's worth of local errors may add up to 4 to 12 times the accuracy (the share of it that a step may
 !> use up, module taylor_step_control), and a motion remembers some periods. Where errors grow by g (module
-!> stress_references) K g times the accuracy is what can be asked for, counted apart as `sensitive`.
+!> stress_references) K g times the accuracy is what can be asked for, counted apart as `sensitive`. Where
+!> that is above 10 % the growth says no more how far apart motions come, and nothing can be asked for:
+!> chaotic motions, and motions that fall to one side or the other.
 !>
-!> Newmark's method promises no accuracy. It is right within 1 %; beyond that it must not get a certificate, unless
-!> all that is certified is that the window is irregular (`irregular`).
+!> Newmark's method promises no accuracy. It is right within 1 %; beyond that it must not get a certificate,
+!> unless all that is certified is that the window is irregular (`irregular`).
 !>
 !> `unjudged`: solved, but the tight solution failed.
 module stress_outcomes
@@ -33,6 +35,8 @@ module stress_outcomes
 
    !> K of the header.
    real(dp), parameter :: allowed_ratio = 30.0_dp
+   !> Error of the film that growth can foresee [-].
+   real(dp), parameter :: unforeseeable = 0.1_dp
    !> Error up to which Newmark's motion is right, and up to which it is certified [-].
    real(dp), parameter :: right_error = 0.0101_dp, certificate_tolerance = 0.01_dp
    !> More steps for a scene are a hang.
@@ -68,6 +72,7 @@ contains
       !> How it ended
       type(lane_ending_t), intent(in) :: ending
       type(outcome_t) :: outcome
+      real(dp) :: allowed
       integer :: i
 
       outcome = outcome_of_status(ending%status, reference)
@@ -91,7 +96,8 @@ contains
       outcome%code = outcome_right
       if (outcome%error <= allowed_ratio*(accuracy + reference%accuracy)) return
       outcome%code = outcome_sensitive
-      if (outcome%error <= allowed_ratio*(accuracy + reference%accuracy)*reference%growth) return
+      allowed = allowed_ratio*(accuracy + reference%accuracy)*reference%growth
+      if (outcome%error <= allowed .or. allowed > unforeseeable) return
       outcome%code = outcome_silent
       outcome%fault = merge('wrong steady motion', 'beyond its accuracy', ending%status == status_steady)
    end function judge_controlled
