@@ -1,9 +1,10 @@
 !> Files that are written byte by byte, with every failure seen. The runtime's own unformatted and stream
 !> output forgets that the disk was full when it empties its buffer; hence these thin calls of the C library.
 module byte_file
-   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, c_size_t
    use errors, only: error_t, exit_system, raise
    use kinds, only: dp, int64
+   use system_error, only: error_words, last_error
    implicit none(type, external)
    private
 
@@ -63,23 +64,6 @@ module byte_file
          integer(c_int), value :: descriptor
          integer(c_int) :: stat
       end function c_close
-
-      function c_errno_location() bind(c, name='__errno_location') result(location)
-         import :: c_ptr
-         type(c_ptr) :: location
-      end function c_errno_location
-
-      function c_strerror(number) bind(c, name='strerror') result(words)
-         import :: c_int, c_ptr
-         integer(c_int), value :: number
-         type(c_ptr) :: words
-      end function c_strerror
-
-      function c_strlen(words) bind(c, name='strlen') result(length)
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: words
-         integer(c_size_t) :: length
-      end function c_strlen
    end interface
 
 contains
@@ -222,29 +206,5 @@ contains
       self%broken = .true.
       call raise(error, exit_system, self%path//' cannot be written: '//error_words(last_error()))
    end subroutine fail
-
-   !> Number of the failure of the last call.
-   integer(c_int) function last_error()
-      integer(c_int), pointer :: number
-
-      call c_f_pointer(c_errno_location(), number)
-      last_error = number
-   end function last_error
-
-   !> What the operating system calls a failure.
-   function error_words(number) result(words)
-      integer(c_int), intent(in) :: number
-      character(:), allocatable :: words
-      character(kind=c_char), pointer :: letters(:)
-      type(c_ptr) :: place
-      integer :: i
-
-      place = c_strerror(number)
-      call c_f_pointer(place, letters, [c_strlen(place)])
-      allocate (character(size(letters)) :: words)
-      do i = 1, size(letters)
-         words(i:i) = letters(i)
-      end do
-   end function error_words
 
 end module byte_file

@@ -4,10 +4,9 @@ module result_writer
    use byte_file, only: byte_file_t
    use clock, only: wall_seconds
    use errors, only: error_t
-   use kinds, only: dp, int32, int64
-   use result_format, only: alignment, byte_order_mark, column_name_bytes, column_unit_bytes, fixed_header_bytes, &
-                            result_format_version, result_magic, row_count_offset, rows_unknown
-   use version, only: program_version
+   use kinds, only: dp, int64
+   use result_format, only: row_count_offset
+   use result_header, only: aligned_text_end, header_text, result_header_t
    implicit none(type, external)
    private
 
@@ -57,38 +56,19 @@ contains
       character(*), intent(in) :: names(:)
       character(*), intent(in) :: units(:)
       character(:), allocatable :: bytes
-      character(column_name_bytes) :: name
-      character(column_unit_bytes) :: unit_name
-      character(24) :: version_text
-      integer :: i, text_end, length
+      type(result_header_t) :: header
+      integer :: i
 
-      text_end = fixed_header_bytes + size(names)*(column_name_bytes + column_unit_bytes) + len(input_text)
-      length = ((text_end + alignment - 1)/alignment)*alignment
-      version_text = program_version
-      bytes = result_magic//int32_bytes(result_format_version)//int32_bytes(byte_order_mark)// &
-              int64_bytes(int(length, int64))//int64_bytes(rows_unknown)// &
-              int32_bytes(int(size(names), int32))//int32_bytes(int(len(input_text), int32))//version_text
+      allocate (header%names(size(names)), header%units(size(names)))
       do i = 1, size(names)
-         name = names(i)
-         unit_name = units(i)
-         bytes = bytes//name//unit_name
+         header%names(i) = names(i)
+         header%units(i) = units(i)
       end do
-      bytes = bytes//input_text//repeat(achar(0), length - text_end)
+      header%input_text = input_text
+      header%header_bytes = aligned_text_end(header)
+      bytes = header_text(header)
+      bytes = bytes//repeat(achar(0), int(header%header_bytes) - len(bytes))
    end function header_bytes
-
-   pure function int32_bytes(number) result(bytes)
-      integer(int32), intent(in) :: number
-      character(4) :: bytes
-
-      bytes = transfer(number, bytes)
-   end function int32_bytes
-
-   pure function int64_bytes(number) result(bytes)
-      integer(int64), intent(in) :: number
-      character(8) :: bytes
-
-      bytes = transfer(number, bytes)
-   end function int64_bytes
 
    !> Append rows.
    subroutine write_rows(self, rows, error)

@@ -6,6 +6,7 @@ module scene_input
                         text_kind
    use kinds, only: dp
    use namelist_text, only: assignment_t, value_t
+   use number_text, only: read_strict_integer, read_strict_real
    use text, only: integer_text, logical_text, lower, quoted, quoted_words, real_text
    implicit none(type, external)
    private
@@ -230,14 +231,14 @@ contains
       sound = .false.
       select case (key%kind)
       case (real_kind)
-         if (.not. value%quoted) call read_real(value%text, entry%number, sound)
+         if (.not. value%quoted) call read_strict_real(value%text, entry%number, sound)
          if (sound) sound = in_range(key, entry%number)
       case (reals_kind, table_kind)
-         if (.not. value%quoted) call read_real(value%text, entry%number, sound)
+         if (.not. value%quoted) call read_strict_real(value%text, entry%number, sound)
          if (sound) sound = in_range(key, entry%number)
          if (sound) entry%numbers = [entry%numbers, entry%number]
       case (integer_kind)
-         if (.not. value%quoted) call read_integer(value%text, entry%count, sound)
+         if (.not. value%quoted) call read_strict_integer(value%text, entry%count, sound)
          if (sound) sound = in_range(key, real(entry%count, dp))
       case (logical_kind)
          if (.not. value%quoted) call read_logical(value%text, entry%flag, sound)
@@ -268,67 +269,6 @@ contains
       if (value%quoted) words = quoted(words)
    end function shown
 
-   !> Strict decimal number: digits, one point, one exponent; finite.
-   pure subroutine read_real(text, number, sound)
-      character(*), intent(in) :: text
-      real(dp), intent(out) :: number
-      logical, intent(out) :: sound
-      character(:), allocatable :: word
-      integer :: mark, stat
-
-      number = 0.0_dp
-      word = lower(text)
-      mark = scan(word, 'ed')
-      if (mark > 0) then
-         sound = is_mantissa(word(:mark - 1)) .and. is_integer(word(mark + 1:))
-      else
-         sound = is_mantissa(word)
-      end if
-      if (sound) sound = decimal_exponent(word, mark) < range(number)
-      if (.not. sound) return
-      read (word, *, iostat=stat) number
-      sound = stat == 0
-   end subroutine read_real
-
-   !> Power of ten of the first digit that counts. A number beyond the range is refused by it: the runtime
-   !> would overflow while it reads, which stops a program that traps overflow.
-   pure integer function decimal_exponent(word, mark)
-      character(*), intent(in) :: word
-      integer, intent(in) :: mark
-      integer, parameter :: far = 1000000000
-      character(:), allocatable :: mantissa
-      integer :: point, leading, stat
-
-      mantissa = word
-      if (mark > 0) mantissa = word(:mark - 1)
-      if (scan(mantissa(1:1), '+-') > 0) mantissa = mantissa(2:)
-      decimal_exponent = 0
-      leading = scan(mantissa, '123456789')
-      if (leading == 0) return
-      if (mark > 0) then
-         ! More digits than a default integer holds are beyond the range, or zero.
-         read (word(mark + 1:), *, iostat=stat) decimal_exponent
-         if (stat /= 0) decimal_exponent = merge(-far, far, word(mark + 1:mark + 1) == '-')
-      end if
-      point = index(mantissa, '.')
-      if (point == 0) point = len(mantissa) + 1
-      decimal_exponent = max(-far, min(far, decimal_exponent)) + point - leading - merge(1, 0, leading < point)
-   end function decimal_exponent
-
-   !> Strict decimal integer.
-   pure subroutine read_integer(text, number, sound)
-      character(*), intent(in) :: text
-      integer, intent(out) :: number
-      logical, intent(out) :: sound
-      integer :: stat
-
-      number = 0
-      sound = is_integer(text)
-      if (.not. sound) return
-      read (text, *, iostat=stat) number
-      sound = stat == 0
-   end subroutine read_integer
-
    !> The namelist spellings of true and false.
    pure subroutine read_logical(text, flag, sound)
       character(*), intent(in) :: text
@@ -345,32 +285,6 @@ contains
          sound = .false.
       end select
    end subroutine read_logical
-
-   !> Optional sign and digits.
-   pure logical function is_integer(word)
-      character(*), intent(in) :: word
-      integer :: start
-
-      start = 1
-      if (len(word) > 0) then
-         if (scan(word(1:1), '+-') > 0) start = 2
-      end if
-      is_integer = len(word) >= start .and. verify(word(start:), '0123456789') == 0
-   end function is_integer
-
-   !> Optional sign and digits with at most one point.
-   pure logical function is_mantissa(word)
-      character(*), intent(in) :: word
-      integer :: point
-
-      point = index(word, '.')
-      if (point == 0) then
-         is_mantissa = is_integer(word)
-      else
-         is_mantissa = is_integer(word(:point - 1)//'0'//word(point + 1:)) .and. scan(word(point + 1:), '+-') == 0 .and. &
-                       scan(word, '0123456789') > 0
-      end if
-   end function is_mantissa
 
    !> Whether the user set a key.
    pure logical function is_given(self, group, name)

@@ -94,8 +94,8 @@ contains
    subroutine test_chunk_rows(checks)
       type(check_list_t), intent(inout) :: checks
 
-      call checks%check(chunk_rows_for(1_int64) == 64, 'one scene')
-      call checks%check(chunk_rows_for(1000000_int64) == 512, 'a million scenes')
+      call checks%check(chunk_rows_for(1_int64) == 256, 'one scene')
+      call checks%check(chunk_rows_for(1000000_int64) == 2048, 'a million scenes')
       call checks%check(chunk_rows_for(huge(1_int64)) == 8192, 'beyond any size')
    end subroutine test_chunk_rows
 

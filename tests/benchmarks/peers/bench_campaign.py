@@ -114,7 +114,7 @@ def main() -> None:
         f"| film range alone, no spectrum, no pressure scan | {1e6 * lean:.1f} | {lean / sorted_cost:.2f} |"
     )
     print(
-        f"| scenes in random order, over those of the grid | {1e6 * scrambled:.1f} | {scrambled / sorted_cost:.2f} |"
+        f"| scenes in random order, over the grid | {1e6 * scrambled:.1f} | {scrambled / sorted_cost:.2f} |"
     )
     for name, measure, part in (
         ("heyoka, 8 lanes, 200 periods", heyoka_seconds, sample),
