@@ -43,10 +43,14 @@ UNIT_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(UNIT_SOURCES)))
 BENCH_SOURCES := $(sort $(wildcard tests/benchmarks/*.f90))
 BENCH_PROGRAMS := $(patsubst %.f90,$(BUILD)/%,$(notdir $(BENCH_SOURCES)))
 
-VPATH := $(addprefix fsrc/,$(ROOMS)) fsrc tests/unit tests/benchmarks
+STRESS_PROGRAMS := $(addprefix $(BUILD)/,stress_scenes lane_independence newmark_outcomes)
+STRESS_SOURCES := $(sort $(filter-out $(STRESS_PROGRAMS:$(BUILD)/%=tests/stress/%.f90),$(wildcard tests/stress/*.f90)))
+STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
+
+VPATH := $(addprefix fsrc/,$(ROOMS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test unit user lint debug python bench stress test-cluster clean install help format pages pictures FORCE
+.PHONY: all run test unit user lint debug python bench stress stress-sample test-cluster clean install help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -58,6 +62,7 @@ help:
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
 	@echo 'make python       Python environment and the module of the Fortran kernels'
 	@echo 'make bench        speed of the program, as a table'
+	@echo 'make stress       100000 random scenes by every engine (SCENES=N)'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
 	@echo 'make pages        write input/README.md anew from the key table'
 	@echo 'make pictures     draw the pictures of the README anew'
@@ -79,13 +84,13 @@ $(BUILD)/flags: FORCE
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 # Which object needs which module, read off the use statements.
-$(BUILD)/depends.mk: $(SOURCES) $(UNIT_SOURCES) fsrc/main.f90 Makefile
+$(BUILD)/depends.mk: $(SOURCES) $(UNIT_SOURCES) $(STRESS_SOURCES) fsrc/main.f90 Makefile
 	@mkdir -p $(BUILD)
 	@awk -v build=$(BUILD) 'FNR == 1 { name = FILENAME; sub(/.*\//, "", name); sub(/\.f90$$/, "", name); known[name] = 1 } \
 	  tolower($$1) == "use" && $$2 !~ /^,/ { module = tolower($$2); sub(/,.*/, "", module); needs[name] = needs[name] " " module } \
 	  END { for (name in needs) { count = split(needs[name], list, " "); \
 	    for (i = 1; i <= count; i++) if ((list[i] in known) && list[i] != name) print build "/" name ".o: " build "/" list[i] ".o" } }' \
-	  $(SOURCES) $(UNIT_SOURCES) fsrc/main.f90 > $@
+	  $(SOURCES) $(UNIT_SOURCES) $(STRESS_SOURCES) fsrc/main.f90 > $@
 
 ifeq ($(filter clean help lint format,$(MAKECMDGOALS)),)
 -include $(BUILD)/depends.mk
@@ -132,7 +137,7 @@ run: $(BUILD)/rattle $(BUILD)/kernels/built
 
 # --- tests: the unit tests in both builds, then what a user does -------------------------------------
 
-test: unit user
+test: unit user stress-sample
 
 unit: $(BUILD)/unit_tests
 	@echo 'unit tests, release build'
@@ -169,6 +174,12 @@ bench: $(PYTHON_ENV)/installed
 	  --figure $(BUILD)/work_precision.png --table $(BUILD)/work_precision.md
 	@cat $(BUILD)/work_precision.md
 
+# Random scenes by every engine against a tighter solution: right, or a status that says why not. About an hour.
+SCENES := 100000
+stress: $(BUILD)/stress_scenes $(BUILD)/lane_independence
+	@$(BUILD)/stress_scenes --scenes $(SCENES) --csv $(BUILD)/stress.csv
+	@$(BUILD)/lane_independence --scenes 3000
+
 # Open MPI and Slurm on this machine: array jobs, MPI jobs, time limits, resume. Some minutes; installs with apt.
 test-cluster: $(PYTHON_ENV)/installed
 	@PYTHON=$(abspath $(PYTHON)) tests/cluster/run_cluster_tests.sh $(BUILD)/mpi
@@ -203,11 +214,19 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/sweep.nml
 	@$(PYTHON) scripts/plot_sweep.py $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
 	@cp $(PICTURE_RUNS)/sweep_sweep.png $(PICTURES)/sweep.png
+	@$(MAKE) --no-print-directory $(BUILD)/newmark_outcomes
+	@$(BUILD)/newmark_outcomes input/idle.nml input/creep.nml input/creep_forged_line.nml > $(PICTURE_RUNS)/newmark_outcomes.csv
+	@$(PYTHON) tests/stress/newmark_outcome_map.py $(PICTURE_RUNS)/newmark_outcomes.csv $(PICTURES)/newmark_outcomes.png
 	@$(PYTHON) scripts/plot_film_fit.py --output $(PICTURE_RUNS) > $(PICTURE_RUNS)/film_fit.txt
 	@cp $(PICTURE_RUNS)/film_fit.png $(PICTURES)/film_fit.png
 
 pages: $(BUILD)/rattle
 	@$(BUILD)/rattle --keys > input/README.md
+
+# A sample of the stress study: a silent failure fails it.
+stress-sample: $(BUILD)/stress_scenes
+	@echo 'stress, a sample'
+	@$(BUILD)/stress_scenes --scenes 500 --csv $(BUILD)/stress_sample.csv
 
 # --- style -------------------------------------------------------------------------------------------
 
@@ -217,6 +236,10 @@ lint: $(PYTHON_ENV)/installed
 format: $(PYTHON_ENV)/installed
 	@scripts/format.sh $(abspath $(PYTHON_ENV))/bin .
 	@$(PYTHON_ENV)/bin/ruff check --quiet --fix scripts tests
+
+$(STRESS_PROGRAMS): $(BUILD)/%: %.f90 $(OBJECTS) $(STRESS_OBJECTS)
+	@echo 'link $@'
+	@$(FC) $(FFLAGS) -J$(BUILD) $< $(OBJECTS) $(STRESS_OBJECTS) $(LIBRARIES) -o $@
 
 debug:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/debug DEBUG=1 all

@@ -18,6 +18,8 @@ module newmark
    real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp
    !> Cuts within a cut: a step of 2^-30 of the grid's that still fails will not succeed.
    integer, parameter :: deepest_cut = 30
+   !> Cuts of one step of the grid: a motion that needs more needs another method.
+   integer(int64), parameter :: most_cuts = 256_int64
 
    !> What stays the same from step to step.
    type, public :: newmark_t
@@ -130,7 +132,7 @@ contains
          count%evaluations = count%evaluations + int(passes, int64)
          if (status /= status_complete) then
             call cut_step(kernel, film, method, time_step, real(i - 1, dp)/real(size(force), dp), &
-                          1.0_dp/real(size(force), dp), 1, state, next, count, status)
+                          1.0_dp/real(size(force), dp), 1, count%cuts + most_cuts, state, next, count, status)
             if (status /= status_complete) exit
          end if
          state = next
@@ -144,7 +146,7 @@ contains
 
    !> A step in which the film law had no value at some iterate, as two halves that end on the grid.
    !> A step that merely did not converge is not helped: it ends the scene.
-   recursive subroutine cut_step(kernel, film, method, time_step, phase, phase_step, depth, state, next, count, status)
+   recursive subroutine cut_step(kernel, film, method, time_step, phase, phase_step, depth, last_cut, state, next, count, status)
       procedure(film_kernel) :: kernel
       type(film_t), intent(in) :: film
       type(newmark_t), intent(in) :: method
@@ -155,6 +157,8 @@ contains
       real(dp), intent(in) :: phase_step
       !> How often this stretch of the grid has been cut
       integer, intent(in) :: depth
+      !> Count of cuts at which this step of the grid is given up
+      integer(int64), intent(in) :: last_cut
       type(motion_state_t), intent(in) :: state
       type(motion_state_t), intent(out) :: next
       type(motion_count_t), intent(inout) :: count
@@ -165,7 +169,7 @@ contains
       integer :: part, passes
 
       next = state
-      if (status == status_not_converged .or. depth > deepest_cut) return
+      if (status == status_not_converged .or. depth > deepest_cut .or. count%cuts >= last_cut) return
       count%cuts = count%cuts + 1
       half = 0.5_dp*time_step
       from = state
@@ -179,7 +183,7 @@ contains
          end if
          count%evaluations = count%evaluations + int(passes, int64)
          if (status /= status_complete) call cut_step(kernel, film, method, half, end_phase - 0.5_dp*phase_step, &
-                                                      0.5_dp*phase_step, depth + 1, from, next, count, status)
+                                                      0.5_dp*phase_step, depth + 1, last_cut, from, next, count, status)
          if (status /= status_complete) return
          from = next
       end do

@@ -36,6 +36,7 @@ program unit_tests
    use test_schedule, only: run_schedule_tests
    use test_newmark_lanes, only: run_newmark_lanes_tests
    use test_newmark_extrapolated, only: run_newmark_extrapolated_tests
+   use test_lane_motions, only: run_lane_motions_tests
    implicit none(type, external)
 
    type(check_list_t) :: checks
@@ -75,6 +76,7 @@ program unit_tests
    call run_schedule_tests(checks)
    call run_newmark_lanes_tests(checks)
    call run_newmark_extrapolated_tests(checks)
+   call run_lane_motions_tests(checks)
 
    print '(i0, a, i0, a)', checks%passed, ' passed, ', checks%failed, ' failed'
    if (checks%failed > 0) stop 1, quiet = .true.
