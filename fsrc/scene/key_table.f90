@@ -224,7 +224,7 @@ module key_table
             'Table of scenes instead of vary: a CSV file whose header names group.key, one scene per row.'), &
       key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
             'natural_frequency damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period '// &
-            'rattle_class film_regime alpha_p_maximum harmonics', any_number, &
+            'rattle_class sampling_sufficient film_regime alpha_p_maximum harmonics', any_number, &
             'film_minimum film_maximum acceleration_minimum acceleration_maximum steady_film natural_frequency '// &
             'damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period rattle_class '// &
             'film_regime law_contradicted alpha_p_maximum pressure_maximum deflection harmonics orbit_period '// &

@@ -3,14 +3,14 @@
 module scene_reader
    use errors, only: fault_list_t
    use file_system, only: read_whole_file
-   use key_table, only: choice_word, find_key, keys, name_limit, table_kind
+   use key_table, only: find_key, keys, name_limit, table_kind
    use kinds, only: dp
    use namelist_text, only: assignment_t, scan_namelists
    use scene_checker, only: check_together, in_use
-   use scene_input, only: column_t, new_scene_input, numbers_text, scene_input_t, value_text, word_position
-   use scene_types, only: campaign_choice_t, column_names, contact_t, film_choice_t, film_points_t, kinematics_t, load_t, &
-                          lubricant_t, model_numerical, model_published, output_t, scene_t, solver_t, spectrum_choice_t, &
-                          sweep_t, task_campaign, task_sweep, word_t
+   use scene_input, only: new_scene_input, numbers_text, scene_input_t, value_text
+   use scene_types, only: column_names, contact_t, film_choice_t, kinematics_t, load_t, lubricant_t, output_t, scene_t, &
+                          solver_t, spectrum_choice_t, task_campaign, task_sweep
+   use task_reader, only: read_campaign, read_points, read_sweep
    use text, only: integer_text, quoted
    implicit none(type, external)
    private
@@ -82,7 +82,7 @@ contains
       scene%film = read_film(input)
       scene%solver = read_solver(input)
       scene%spectrum = read_spectrum(input)
-      scene%points = read_points(input, scene)
+      scene%points = read_points(input, scene%film%model)
       if (scene%task == task_sweep) scene%sweep = read_sweep(input)
       if (scene%task == task_campaign) scene%campaign = read_campaign(input)
       scene%output = read_output(input)
@@ -223,144 +223,6 @@ contains
       spectrum%certify = input%flag('spectrum', 'certify')
       spectrum%certificate_tolerance = input%number('spectrum', 'certificate_tolerance')
    end function read_spectrum
-
-   !> &points
-   function read_points(input, scene) result(points)
-      type(scene_input_t), intent(in) :: input
-      type(scene_t), intent(in) :: scene
-      type(film_points_t) :: points
-      character(:), allocatable :: words
-      integer :: i
-
-      call take_list('film_ratios', 'film_ratio_range', .true., points%film_ratios)
-      call take_list('squeeze_ratios', 'squeeze_ratio_range', .false., points%squeeze_ratios)
-      call take_list('speed_groups', 'speed_group_range', .true., points%speed_groups)
-      points%from_speeds = size(points%speed_groups) == 0
-      points%speed_reading = input%choice('points', 'speed_reading')
-      words = input%words('points', 'compute')
-      do i = 1, size(points%compute)
-         points%compute(i) = word_position(words, choice_word('points', 'compute', i)) > 0
-      end do
-      if (input%is_given('film', 'model')) then
-         points%published = scene%film%model == model_published
-         points%exact = .not. points%published
-         points%numerical = scene%film%model == model_numerical
-      end if
-      points%profile_nodes = input%count('points', 'profile_nodes')
-      points%cells = input%count('points', 'cells')
-
-   contains
-
-      !> A list as given, or spread over its range.
-      subroutine take_list(list, range, logarithmic, numbers)
-         character(*), intent(in) :: list
-         character(*), intent(in) :: range
-         logical, intent(in) :: logarithmic
-         real(dp), allocatable, intent(out) :: numbers(:)
-         real(dp), allocatable :: bounds(:)
-
-         if (.not. input%is_given('points', range)) then
-            allocate (numbers, source=input%numbers('points', list))
-            return
-         end if
-         allocate (bounds, source=input%numbers('points', range))
-         allocate (numbers, source=spread_between(bounds(1), bounds(2), nint(bounds(3)), logarithmic))
-      end subroutine take_list
-
-   end function read_points
-
-   !> &sweep
-   function read_sweep(input) result(sweep)
-      type(scene_input_t), intent(in) :: input
-      type(sweep_t) :: sweep
-      real(dp), allocatable :: values(:)
-
-      sweep%key = input%choice('sweep', 'key')
-      sweep%outward = input%count('sweep', 'count')
-      allocate (values, source=spread_between(input%number('sweep', 'first'), input%number('sweep', 'last'), sweep%outward, &
-                                              input%word('sweep', 'spacing') == 'logarithmic'))
-      if (input%flag('sweep', 'turn')) then
-         allocate (sweep%values, source=[values, values(sweep%outward - 1:1:-1)])
-      else
-         allocate (sweep%values, source=values)
-      end if
-   end function read_sweep
-
-   !> &campaign
-   function read_campaign(input) result(campaign)
-      type(scene_input_t), intent(in) :: input
-      type(campaign_choice_t) :: campaign
-      type(column_t), allocatable :: columns(:)
-      type(word_t), allocatable :: scales(:)
-      integer :: i
-
-      allocate (campaign%vary, source=words_of(input%words('campaign', 'vary')))
-      allocate (scales, source=words_of(input%words('campaign', 'scale')))
-      allocate (campaign%scale(size(campaign%vary)), source=1)
-      do i = 1, min(size(scales), size(campaign%vary))
-         campaign%scale(i) = merge(2, 1, scales(i)%text == 'logarithmic')
-      end do
-      allocate (campaign%first, source=input%numbers('campaign', 'first'))
-      allocate (campaign%last, source=input%numbers('campaign', 'last'))
-      allocate (campaign%count, source=input%numbers('campaign', 'count'))
-      allocate (columns, source=input%columns('campaign', 'values'))
-      allocate (campaign%values(size(columns)))
-      do i = 1, size(columns)
-         campaign%values(i)%numbers = columns(i)%numbers
-      end do
-      campaign%sample = input%choice('campaign', 'sample')
-      campaign%size = input%count('campaign', 'size')
-      campaign%seed = input%count('campaign', 'seed')
-      campaign%csv = input%word('campaign', 'csv')
-      allocate (campaign%record, source=words_of(input%words('campaign', 'record')))
-      campaign%samples_per_period = input%count('campaign', 'samples_per_period')
-      campaign%allow_invalid = input%flag('campaign', 'allow_invalid')
-      campaign%confirm_size = input%flag('campaign', 'confirm_size')
-      campaign%part = input%count('campaign', 'part')
-      campaign%parts = input%count('campaign', 'parts')
-      allocate (campaign%in_base(size(keys)))
-      do i = 1, size(keys)
-         campaign%in_base(i) = input%entries(i)%present .and. in_use(input, i)
-      end do
-   end function read_campaign
-
-   !> Words of a blank-separated list.
-   function words_of(list) result(words)
-      character(*), intent(in) :: list
-      type(word_t), allocatable :: words(:)
-      integer :: i, start
-
-      allocate (words(0))
-      start = 1
-      do i = 1, len(list) + 1
-         if (i <= len(list)) then
-            if (list(i:i) /= ' ') cycle
-         end if
-         if (i > start) words = [words, word_t(list(start:i - 1))]
-         start = i + 1
-      end do
-   end function words_of
-
-   !> Numbers from first to last, both hit exactly.
-   pure function spread_between(first, last, count, logarithmic) result(numbers)
-      real(dp), intent(in) :: first
-      real(dp), intent(in) :: last
-      integer, intent(in) :: count
-      logical, intent(in) :: logarithmic
-      real(dp) :: numbers(count)
-      real(dp) :: share
-      integer :: n
-
-      do n = 1, count - 1
-         share = real(n - 1, dp)/real(count - 1, dp)
-         if (logarithmic) then
-            numbers(n) = first*(last/first)**share
-         else
-            numbers(n) = first + (last - first)*share
-         end if
-      end do
-      numbers(count) = last
-   end function spread_between
 
    !> &output
    function read_output(input) result(output)
