@@ -5,7 +5,7 @@
 !> plus sign(A) times column 2. The script derives the scaling, y = (1 - xi)/(1 + xi).
 module iso_viscous_coefficients
    use kinds, only: dp
-   implicit none(type, external)
+   implicit none (type, external)
    private
 
    !> Scale c of the coordinate xi [-].

@@ -7,7 +7,7 @@
 !> A coefficient is that of mean_table plus sign(A) times that of difference_table.
 module piezo_viscous_coefficients
    use kinds, only: dp
-   implicit none(type, external)
+   implicit none (type, external)
    private
 
    !> Highest power of w.
