@@ -9,14 +9,16 @@ module reynolds_load
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: dp
    use reynolds_iso_viscous, only: iso_viscous_group => iso_viscous_load
-   use reynolds_piezo_viscous, only: piezo_viscous_group => piezo_viscous_load
+   use reynolds_piezo_viscous, only: piezo_viscous_group => piezo_viscous_load, &
+      piezo_viscous_groups => piezo_viscous_load_array
    implicit none(type, external)
    private
 
    !> Stands for the load where no rigid piezo-viscous film exists; above every load that is one [N].
    real(dp), parameter :: load_without_film = 1.0e200_dp
 
-   public :: load_scale, squeeze_rate, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load
+   public :: load_scale, squeeze_rate, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, &
+      reynolds_piezo_viscous_load_array
 
 contains
 
@@ -103,22 +105,110 @@ contains
       real(dp), intent(out) :: load_by_film
       !> dW/dw [N s/m]
       real(dp), intent(out) :: load_by_velocity
-      real(dp) :: inverse, root_inverse, a, b, psi, psi_by_a, psi_by_b
+      real(dp) :: a, b, psi, psi_by_a, psi_by_b
+
+      call groups_of_film(rate, b_rate, film, velocity, a, b)
+      call piezo_viscous_group(a, b, psi, psi_by_a, psi_by_b)
+      call load_of_groups(scale, rate, film, a, b, psi, psi_by_a, psi_by_b, load, load_by_film, &
+                          load_by_velocity)
+   end subroutine reynolds_piezo_viscous_load
+
+   !> Exact piezo-viscous loads of many films, each with coefficients of its own: the same as those of
+   !> `reynolds_piezo_viscous_load`, at a fraction of the time.
+   pure subroutine reynolds_piezo_viscous_load_array(n, scale, rate, b_rate, film, velocity, load, &
+      load_by_film, load_by_velocity)
+      !> Number of films
+      integer, intent(in) :: n
+      !> 12 l u eta0 R [N m]
+      real(dp), intent(in) :: scale(n)
+      !> A sqrt(h)/w [s m^(-1/2)]
+      real(dp), intent(in) :: rate(n)
+      !> B h^(3/2) [m^(3/2)]
+      real(dp), intent(in) :: b_rate(n)
+      !> Film thickness h > 0 [m]
+      real(dp), intent(in) :: film(n)
+      !> Film velocity w = dh/dt [m/s]
+      real(dp), intent(in) :: velocity(n)
+      !> Load W [N]
+      real(dp), intent(out) :: load(n)
+      !> dW/dh [N/m]
+      real(dp), intent(out) :: load_by_film(n)
+      !> dW/dw [N s/m]
+      real(dp), intent(out) :: load_by_velocity(n)
+      real(dp), dimension(n) :: a, b, psi, psi_by_a, psi_by_b
+      integer :: i
+
+      !$omp simd
+      do i = 1, n
+         call groups_of_film(rate(i), b_rate(i), film(i), velocity(i), a(i), b(i))
+      end do
+      call piezo_viscous_groups(n, a, b, psi, psi_by_a, psi_by_b)
+      !$omp simd
+      do i = 1, n
+         call load_of_groups(scale(i), rate(i), film(i), a(i), b(i), psi(i), psi_by_a(i), psi_by_b(i), &
+                             load(i), load_by_film(i), load_by_velocity(i))
+      end do
+   end subroutine reynolds_piezo_viscous_load_array
+
+   !> A and B of a film.
+   elemental subroutine groups_of_film(rate, b_rate, film, velocity, a, b)
+      !> A sqrt(h)/w [s m^(-1/2)]
+      real(dp), intent(in) :: rate
+      !> B h^(3/2) [m^(3/2)]
+      real(dp), intent(in) :: b_rate
+      !> Film thickness h > 0 [m]
+      real(dp), intent(in) :: film
+      !> Film velocity w = dh/dt [m/s]
+      real(dp), intent(in) :: velocity
+      !> A [-]
+      real(dp), intent(out) :: a
+      !> B [-]
+      real(dp), intent(out) :: b
+      real(dp) :: inverse, root_inverse
 
       inverse = 1.0_dp/film
       root_inverse = inverse*sqrt(film)
       a = rate*root_inverse*velocity
       b = b_rate*inverse*root_inverse
-      call piezo_viscous_group(a, b, psi, psi_by_a, psi_by_b)
+   end subroutine groups_of_film
+
+   !> Load and slopes from Psi and its slopes.
+   elemental subroutine load_of_groups(scale, rate, film, a, b, psi, psi_by_a, psi_by_b, load, load_by_film, &
+      load_by_velocity)
+      !> 12 l u eta0 R [N m]
+      real(dp), intent(in) :: scale
+      !> A sqrt(h)/w [s m^(-1/2)]
+      real(dp), intent(in) :: rate
+      !> Film thickness h > 0 [m]
+      real(dp), intent(in) :: film
+      !> A [-]
+      real(dp), intent(in) :: a
+      !> B [-]
+      real(dp), intent(in) :: b
+      !> Psi, NaN where no rigid film exists [-]
+      real(dp), intent(in) :: psi
+      !> dPsi/dA [-]
+      real(dp), intent(in) :: psi_by_a
+      !> dPsi/dB [-]
+      real(dp), intent(in) :: psi_by_b
+      !> Load W [N]
+      real(dp), intent(out) :: load
+      !> dW/dh [N/m]
+      real(dp), intent(out) :: load_by_film
+      !> dW/dw [N s/m]
+      real(dp), intent(out) :: load_by_velocity
+      real(dp) :: inverse
+
       if (ieee_is_nan(psi)) then
          load = load_without_film
          load_by_film = 0.0_dp
          load_by_velocity = 0.0_dp
       else
+         inverse = 1.0_dp/film
          load = scale*inverse*psi
          load_by_film = -scale*inverse*inverse*(psi + 0.5_dp*a*psi_by_a + 1.5_dp*b*psi_by_b)
-         load_by_velocity = scale*inverse*psi_by_a*rate*root_inverse
+         load_by_velocity = scale*inverse*psi_by_a*rate*(inverse*sqrt(film))
       end if
-   end subroutine reynolds_piezo_viscous_load
+   end subroutine load_of_groups
 
 end module reynolds_load

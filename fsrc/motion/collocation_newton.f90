@@ -1,17 +1,20 @@
 !> Newton's method for the equations of collocation (collocation_step), for a block of lanes: states at the
 !> nodes, load and slopes there, linear equations, corrections.
 module collocation_newton
-   use film_law, only: film_load, film_t, overflow_load
+   use film_law, only: film_load, film_t, kernel_reynolds_piezo, overflow_load
    use kinds, only: dp
    use lane_functions, only: lanes
    use lane_scenes, only: lane_block_t
    use radau_nodes, only: node, once, stages, twice
+   use reynolds_load, only: reynolds_piezo_viscous_load_array
    use taylor_step_control, only: film_weight, momentum_weight
    implicit none(type, external)
    private
 
    !> Share of the accuracy at which the passes end.
    real(dp), parameter :: pass_share = 1.0e-2_dp
+   !> Ratio of two corrections below which Newton's method is sure to converge quadratically.
+   real(dp), parameter :: fast = 0.03_dp
    !> Error that is rounding alone.
    real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
 
@@ -61,12 +64,77 @@ contains
 
       call film_load(film_law, film*block%film_scale(lane), momentum*block%velocity_scale(lane), load, &
                      by_film, by_momentum)
+      call scale_load(block, lane, load, by_film, by_momentum)
+   end subroutine scaled_load
+
+   !> Load and slopes from physical units to scaled ones; a load that is none stays as it is.
+   pure subroutine scale_load(block, lane, load, by_film, by_momentum)
+      type(lane_block_t), intent(in) :: block
+      integer, intent(in) :: lane
+      !> Load [N], then [-], its slopes in the film and in the velocity
+      real(dp), intent(inout) :: load
+      real(dp), intent(inout) :: by_film
+      real(dp), intent(inout) :: by_momentum
+
       if (abs(load) < overflow_load) then
          load = load/block%force_scale(lane)
          by_film = by_film*(block%film_scale(lane)/block%force_scale(lane))
          by_momentum = by_momentum*(block%velocity_scale(lane)/block%force_scale(lane))
       end if
-   end subroutine scaled_load
+   end subroutine scale_load
+
+   !> Loads at the nodes of all busy lanes, as far as the film is one. The exact piezo-viscous films go
+   !> together: their kernel is dear, and much faster for many films than for one at a time.
+   pure subroutine loads_of_stages(films, film, momentum, block, busy, load, by_film, by_momentum)
+      type(film_t), intent(in) :: films(lanes)
+      real(dp), intent(in) :: film(lanes, stages)
+      real(dp), intent(in) :: momentum(lanes, stages)
+      type(lane_block_t), intent(in) :: block
+      logical, intent(in) :: busy(lanes)
+      !> Loads [-] and their slopes in H and V
+      real(dp), intent(out) :: load(lanes, stages)
+      real(dp), intent(out) :: by_film(lanes, stages)
+      real(dp), intent(out) :: by_momentum(lanes, stages)
+      real(dp), dimension(lanes*stages) :: scale, rate, b_rate, thickness, velocity
+      real(dp), dimension(lanes*stages) :: loads, by_thickness, by_velocity
+      integer :: lane_of(lanes*stages), stage_of(lanes*stages)
+      integer :: l, i, n
+
+      load = 0.0_dp
+      by_film = 0.0_dp
+      by_momentum = 0.0_dp
+      n = 0
+      do l = 1, lanes
+         if (.not. busy(l)) cycle
+         do i = 1, stages
+            if (.not. film(l, i) > 0.0_dp) exit
+            if (films(l)%kernel == kernel_reynolds_piezo) then
+               n = n + 1
+               lane_of(n) = l
+               stage_of(n) = i
+               scale(n) = films(l)%scale
+               rate(n) = films(l)%squeeze_rate
+               b_rate(n) = films(l)%pressure_rate
+               thickness(n) = film(l, i)*block%film_scale(l)
+               velocity(n) = momentum(l, i)*block%velocity_scale(l)
+            else
+               call scaled_load(films(l), block, l, film(l, i), momentum(l, i), load(l, i), by_film(l, i), &
+                                by_momentum(l, i))
+               if (.not. abs(load(l, i)) < overflow_load) exit
+            end if
+         end do
+      end do
+      if (n == 0) return
+      call reynolds_piezo_viscous_load_array(n, scale(:n), rate(:n), b_rate(:n), thickness(:n), &
+                                             velocity(:n), loads(:n), by_thickness(:n), by_velocity(:n))
+      do i = 1, n
+         l = lane_of(i)
+         load(l, stage_of(i)) = loads(i)
+         by_film(l, stage_of(i)) = by_thickness(i)
+         by_momentum(l, stage_of(i)) = by_velocity(i)
+         call scale_load(block, l, load(l, stage_of(i)), by_film(l, stage_of(i)), by_momentum(l, stage_of(i)))
+      end do
+   end subroutine loads_of_stages
 
    !> Newton's equations of all busy lanes; a lane whose film law has no value is given up, and gets equations
    !> that change nothing, as do the lanes that are done.
@@ -82,22 +150,17 @@ contains
       real(dp), intent(out) :: residual(lanes, stages)
       !> Matrix [-]
       real(dp), intent(out) :: matrix(lanes, stages, stages)
-      real(dp) :: load, by_film(lanes, stages), by_momentum(lanes, stages)
+      real(dp), dimension(lanes, stages) :: load, by_film, by_momentum
       integer :: l, i, j
 
       residual = 0.0_dp
-      by_film = 0.0_dp
-      by_momentum = 0.0_dp
+      call loads_of_stages(films, film, momentum, block, busy, load, by_film, by_momentum)
       do l = 1, lanes
          do i = 1, stages
             if (.not. busy(l)) exit
-            if (film(l, i) > 0.0_dp) then
-               call scaled_load(films(l), block, l, film(l, i), momentum(l, i), load, by_film(l, i), &
-                  by_momentum(l, i))
-               block%no_load(l) = .not. abs(load) < overflow_load
-            end if
+            if (film(l, i) > 0.0_dp) block%no_load(l) = .not. abs(load(l, i)) < overflow_load
             busy(l) = film(l, i) > 0.0_dp .and. .not. block%no_load(l)
-            if (busy(l)) residual(l, i) = load - force(l, i) - k(l, i)
+            if (busy(l)) residual(l, i) = load(l, i) - force(l, i) - k(l, i)
          end do
          if (busy(l)) then
             block%damping_rate(l) = max(0.0_dp, -maxval(by_momentum(l, :)))
@@ -149,7 +212,8 @@ contains
    end subroutine solve_lanes
 
    !> Apply Newton's correction; lanes whose correction is small enough are done, those that diverge given up.
-   pure subroutine correct(busy, pass, correction, block, k, change, last_change)
+   pure subroutine correct(films, busy, pass, correction, block, k, change, last_change)
+      type(film_t), intent(in) :: films(lanes)
       logical, intent(inout) :: busy(lanes)
       !> Number of this pass
       integer, intent(in) :: pass
@@ -159,6 +223,7 @@ contains
       !> Size of the correction in the film [-], now and in the pass before
       real(dp), intent(inout) :: change(lanes)
       real(dp), intent(inout) :: last_change(lanes)
+      real(dp) :: ratio
       integer :: l
 
       do l = 1, lanes
@@ -167,10 +232,13 @@ contains
             cycle
          end if
          k(l, :) = k(l, :) + correction(l, :)
-         change(l) = maxval(abs(correction(l, :)))*block%step(l)/allowed(l, block) &
+         change(l) = maxval(abs(correction(l, :)))*block%step(l)/allowed(block%film(l, 0), l, block) &
             *min(block%step(l), momentum_weight(block%film(l, 0), block%damping_rate(l), block%force(l)))
-         ! From the second pass on: the next correction will be smaller by the same factor at least.
-         busy(l) = change(l)*merge(1.0_dp, min(1.0_dp, change(l)/last_change(l)), pass == 1) > pass_share
+         ! From the second pass on: the next correction will be smaller by the same factor at least, and where
+         ! corrections fall fast by its square, if the slopes of the film law are the total ones.
+         ratio = merge(1.0_dp, min(1.0_dp, change(l)/last_change(l)), pass == 1)
+         if (ratio < fast .and. films(l)%kernel == kernel_reynolds_piezo) ratio = ratio*ratio
+         busy(l) = change(l)*ratio > pass_share
          if (busy(l) .and. pass > 3 .and. change(l) > 2.0_dp*last_change(l)) then
             busy(l) = .false.
             block%trust(l) = 0.0_dp
@@ -180,11 +248,13 @@ contains
    end subroutine correct
 
    !> Error of the film that the accuracy allows [-].
-   pure real(dp) function allowed(lane, block)
+   pure real(dp) function allowed(film, lane, block)
+      !> H [-]
+      real(dp), intent(in) :: film
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
 
-      allowed = max(block%accuracy(lane)*film_weight(block%film(lane, 0)), rounding*block%film(lane, 0))
+      allowed = max(block%accuracy(lane)*film_weight(film), rounding*film)
    end function allowed
 
 end module collocation_newton

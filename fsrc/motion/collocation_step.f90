@@ -13,9 +13,13 @@
 !> A film law resists approach and motion, W_H <= 0 and W_V <= 0, which keeps the matrix regular, and its
 !> pivots need no search. First iterate: the polynomial of the step before, carried on.
 !>
-!> The error is taken from the highest coefficient k of the polynomial: it moves the film by about s**2
-!> k/(4*49) and the momentum by s k/14. The measure of these is that of the Taylor series
-!> (taylor_step_control), with the least damping rate of the step.
+!> The error is taken from the Legendre coefficients k of the polynomial: one of them moves the film by about
+!> s**2 k/(4*49) and the momentum by s k/14. The state at the end of a smooth step is far better than the
+!> polynomial, and the last coefficient counts little there. The film within the step, and the momentum at
+!> the end of a stiff one (a tooth that leaves its film behind), are no better than the polynomial: they are
+!> off by the first coefficient left out, which is taken to follow from the last ones as they follow from each
+!> other. The measure of these is that of the Taylor series (taylor_step_control), with the least damping rate
+!> of the step and the least film that counts as one at its nodes.
 module collocation_step
    use collocation_newton, only: allowed, correct, residual_and_matrix, scaled_load, solve_lanes, stage_states
    use constants, only: two_pi
@@ -30,9 +34,8 @@ module collocation_step
 
    !> Newton passes before the step is given up
    integer, parameter :: most_passes = 10
-   !> Share of the accuracy for a step. The estimate is one of the polynomial's error, and far above that of
-   !> the state at the end of the step.
-   real(dp), parameter :: safety = 40.0_dp
+   !> Share of the accuracy for the last coefficient of the polynomial, and for the first one left out.
+   real(dp), parameter :: last_share = 40.0_dp, next_share = 2.0_dp
    !> Longest step [periods]
    real(dp), parameter :: longest_step = 0.25_dp
    !> Step over the one before, least and most, and the most for which the polynomial is carried on.
@@ -66,7 +69,7 @@ contains
          call stage_states(block, k, film, momentum)
          call residual_and_matrix(films, force, k, film, momentum, block, busy, residual, matrix)
          call solve_lanes(matrix, residual)
-         call correct(busy, pass, residual, block, k, change, last_change)
+         call correct(films, busy, pass, residual, block, k, change, last_change)
          if (.not. any(busy)) exit
       end do
       where (busy) block%trust = 0.0_dp
@@ -139,9 +142,7 @@ contains
       real(dp), intent(in) :: film(lanes, stages)
       real(dp), intent(in) :: momentum(lanes, stages)
       type(lane_block_t), intent(inout) :: block
-      !> Leading coefficient of the Legendre polynomial P_6
-      real(dp), parameter :: leading = 14.4375_dp
-      real(dp) :: polynomial(stages), top, error, growth
+      real(dp) :: polynomial(stages), top, next, error, growth
       integer :: l
 
       block%next_film = block%film(:, 0)
@@ -151,11 +152,14 @@ contains
          growth = least_growth
          if (block%trust(l) > 0.0_dp) then
             polynomial = matmul(power, k(l, :))
-            top = abs(polynomial(stages))/leading*block%step(l)
-            error = max(top*block%step(l)/real(4*stages**2, dp), &
-                        top/real(2*stages, dp)*momentum_weight(block%film(l, 0), block%damping_rate(l), &
-                           block%force(l))) &
-               /(safety*allowed(l, block))
+            call highest_terms(polynomial, top, next)
+            top = top*block%step(l)
+            next = next*block%step(l)
+            error = max(top/last_share, next/next_share)*max(block%step(l)/real(4*stages**2, dp), &
+                        momentum_weight(block%film(l, 0), block%damping_rate(l), block%force(l)) &
+                           /real(2*stages, dp)) &
+               /min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
+                    allowed(maxval(film(l, :)), l, block))
             growth = max(least_growth, min(most_growth, 0.9_dp/sqrt(sqrt(sqrt(max(error, tiny(1.0_dp)))))))
             if (.not. error <= 1.0_dp .or. minval(film(l, :)) <= 0.0_dp) block%trust(l) = 0.0_dp
          end if
@@ -169,6 +173,27 @@ contains
          end if
       end do
    end subroutine judge
+
+   !> Size of the highest Legendre coefficient of the acceleration, and what the first one left out may be:
+   !> the coefficients are taken to fall as they did over the last ones.
+   pure subroutine highest_terms(polynomial, top, next)
+      !> Coefficients of the powers of 2c - 1
+      real(dp), intent(in) :: polynomial(stages)
+      !> Coefficient of P_6
+      real(dp), intent(out) :: top
+      !> Coefficient of P_7
+      real(dp), intent(out) :: next
+      !> Coefficients of the powers 4, 5 and 6 in P_4, P_5 and P_6, and of power 4 in P_6
+      real(dp), parameter :: lead_4 = 4.375_dp, lead_5 = 7.875_dp, lead_6 = 14.4375_dp, tail_6 = -19.6875_dp
+      real(dp) :: fifth, fourth
+
+      top = abs(polynomial(7))/lead_6
+      fifth = max(abs(polynomial(6))/lead_5, top)
+      fourth = max(abs(polynomial(5) - tail_6*polynomial(7)/lead_6)/lead_4, fifth, tiny(1.0_dp))
+      ! A coefficient may vanish by chance: it counts as no less than the two before it let expect.
+      top = max(top, fifth*(fifth/fourth))
+      next = top*sqrt(top/fourth)
+   end subroutine highest_terms
 
    !> Film and momentum of the step as power series about its start.
    pure subroutine series_of_step(lane, block)

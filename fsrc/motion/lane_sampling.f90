@@ -61,12 +61,15 @@ contains
       !> h [m] and z' [m/s] of all scenes: sample, scene
       real(dp), contiguous, intent(inout) :: films(:, :)
       real(dp), contiguous, intent(inout) :: velocities(:, :)
-      real(dp) :: x(together), film(together), velocity(together), due_until, number
+      real(dp) :: x(together), film(together), velocity(together), film_series(0:order), momentum_series(0:order)
+      real(dp) :: due_until, number
       integer :: l, due, first
 
       number = real(samples%per_period, dp)
       do l = 1, lanes
          if (.not. (samples%sampled(l) .and. block%trust(l) > 0.0_dp)) cycle
+         film_series = block%film(l, :)
+         momentum_series = block%momentum(l, :)
          due_until = merge(1.0_dp, block%phase(l) + block%step(l), block%step(l) >= block%remaining(l))
          do
             due = 0
@@ -77,7 +80,7 @@ contains
             if (due == 0) exit
             ! Full vectors, so that a sample has the same bits however many stand beside it.
             x(due + 1:) = x(due)
-            call evaluate_lane(block%film(l, :), block%momentum(l, :), block%slip(l), x, film, velocity)
+            call evaluate_lane(film_series, momentum_series, block%slip(l), x, film, velocity)
             first = samples%written(l) + 1
             films(first:first + due - 1, samples%column(l)) = film(:due)*block%film_scale(l)
             velocities(first:first + due - 1, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
