@@ -173,6 +173,8 @@ bench: $(PYTHON_ENV)/installed
 	@$(PEER_ENV)/bin/python $(PEERS)/plot_work_precision.py $(BUILD)/work_precision.csv --base rattle \
 	  --figure $(BUILD)/work_precision.png --table $(BUILD)/work_precision.md
 	@cat $(BUILD)/work_precision.md
+	@$(PYTHON) tests/benchmarks/bench_skips.py $(NATIVE_BUILD)/rattle
+	@$(PEER_ENV)/bin/python $(PEERS)/bench_campaign.py $(NATIVE_BUILD)/rattle
 
 # Random scenes by every engine against a tighter solution: right, or a status that says why not. About an hour.
 SCENES := 100000

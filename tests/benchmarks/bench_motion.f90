@@ -10,6 +10,7 @@ module silent_motion
    type, extends(sample_sink_t), public :: no_sink_t
    contains
       procedure :: take => forget
+      procedure :: begin_window => forget_window
    end type no_sink_t
 
    type, extends(motion_watcher_t), public :: no_watcher_t
@@ -30,6 +31,14 @@ contains
 
       if (.false.) print *, same_type_as(self, self), first_step, force, film, velocity, acceleration, allocated(error)
    end subroutine forget
+
+   subroutine forget_window(self, first_step, samples)
+      class(no_sink_t), intent(inout) :: self
+      integer(int64), intent(in) :: first_step
+      integer, intent(in) :: samples
+
+      if (.false.) print *, same_type_as(self, self), first_step, samples
+   end subroutine forget_window
 
    subroutine ignore(self, done, all)
       class(no_watcher_t), intent(inout) :: self
