@@ -17,7 +17,7 @@ module run_campaign
    use scene_types, only: scene_t
    use schedule, only: chunk_rows_for
    use signals, only: caught_signal
-   use solve_chunk, only: solve_scenes
+   use solve_chunk, only: chunk_space_t, solve_scenes
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
    use version, only: program_version
@@ -41,6 +41,7 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(sample_plan_t) :: plan
       type(campaign_layout_t) :: layout
+      type(chunk_space_t) :: space
       real(dp), allocatable :: rows(:, :)
       real(dp) :: started
       integer(int64) :: invalid, first, last
@@ -56,7 +57,7 @@ contains
       trial = int(min(256_int64, last - first + 1_int64))
       allocate (rows(size(layout%names), trial))
       started = wall_seconds()
-      call solve_scenes(scene, plan, first + (last - first + 1_int64 - int(trial, int64))/2_int64, rows)
+      call solve_scenes(scene, plan, first + (last - first + 1_int64 - int(trial, int64))/2_int64, space, rows)
       lines = '! scenes              '//integer_text(last - first + 1_int64)//' ('//integer_text(invalid)//' invalid)'// &
               new_line('a')// &
               '! result size         '//short_text(8.0e-6_dp*real(size(layout%names), dp)*real(last - first + 1_int64, dp), 3)// &
@@ -157,6 +158,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: own_error
       integer(int64), allocatable :: pending(:)
+      type(chunk_space_t) :: space
       real(dp), allocatable :: rows(:, :)
       integer(int64) :: ticket, first_row, last_row, chunk
       logical :: failed
@@ -165,7 +167,7 @@ contains
       failed = .false.
       status_column = 2 + size(plan%positions)
       pending = pack([(chunk, chunk=1_int64, results%chunk_count())],.not. results%done_flags())
-      !$omp parallel default(shared) private(ticket, chunk, first_row, last_row, rows, own_error)
+      !$omp parallel default(shared) private(ticket, chunk, first_row, last_row, rows, space, own_error)
       do
          if (caught_signal() /= 0 .or. failed) exit
          ticket = next_ticket()
@@ -173,7 +175,7 @@ contains
          chunk = pending(ticket)
          call results%chunk_bounds(chunk, first_row, last_row)
          allocate (rows(size(layout%names), last_row - first_row + 1_int64))
-         call solve_scenes(scene, plan, first + first_row - 1_int64, rows)
+         call solve_scenes(scene, plan, first + first_row - 1_int64, space, rows)
          call results%write_chunk(chunk, rows, own_error)
          call progress%add(last_row - first_row + 1_int64, &
                            count(.not. is_success(nint(rows(status_column, :))), kind=int64))

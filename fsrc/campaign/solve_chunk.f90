@@ -18,36 +18,48 @@ module solve_chunk
 
    !> Scenes solved together. A motion that never repeats takes many times the periods of the others; among this many
    !> there are enough of them to fill the lanes that the others have left.
-   integer, parameter :: batch = 1024
+   integer, parameter :: batch = 2048
+
+   !> Samples of a batch; kept from chunk to chunk, since the system takes its time to hand out fresh memory.
+   type, public :: chunk_space_t
+      private
+      real(dp), allocatable :: films(:, :), velocities(:, :)
+   end type chunk_space_t
 
    public :: solve_scenes
 
 contains
 
    !> Rows of consecutive scenes. They depend on the scenes alone, not on how they are cut into chunks.
-   subroutine solve_scenes(base, plan, first, rows)
+   subroutine solve_scenes(base, plan, first, space, rows)
       !> Checked base scene
       type(scene_t), intent(in) :: base
       !> The plan
       type(sample_plan_t), intent(in) :: plan
       !> First scene
       integer(int64), intent(in) :: first
+      !> Work space of this thread
+      type(chunk_space_t), intent(inout) :: space
       !> One column of this array is the row of a scene
       real(dp), contiguous, intent(out) :: rows(:, :)
-      real(dp), allocatable :: films(:, :), velocities(:, :), values(:, :)
+      real(dp), allocatable :: values(:, :)
       type(scene_t) :: scene
-      integer :: start, count, window, together
+      integer :: start, count, samples, together
 
-      window = max(base%spectrum%periods, 8)
+      samples = max(base%spectrum%periods, 8)*base%campaign%samples_per_period
       together = min(batch, size(rows, 2))
-      allocate (films(window*base%campaign%samples_per_period, together), &
-                velocities(window*base%campaign%samples_per_period, together), values(size(plan%positions), together))
+      if (allocated(space%films)) then
+         if (size(space%films, 2) < together) deallocate (space%films, space%velocities)
+      end if
+      if (.not. allocated(space%films)) allocate (space%films(samples, together), space%velocities(samples, together))
+      allocate (values(size(plan%positions), together))
       scene = base
       scene%resolved_input = ''
       do start = 1, size(rows, 2), batch
          count = min(batch, size(rows, 2) - start + 1)
          call chunk_values(plan, first + int(start - 1, int64), values(:, :count))
-         call solve_batch(scene, plan%positions, values(:, :count), first + int(start - 1, int64), films, velocities, &
+         call solve_batch(scene, plan%positions, values(:, :count), first + int(start - 1, int64), space%films, &
+                          space%velocities, &
                           rows(:, start:start + count - 1))
       end do
    end subroutine solve_scenes
