@@ -82,8 +82,10 @@ contains
       type(lane_request_t) :: request
       real(dp) :: costs(size(values, 2)), accuracy(size(values, 2))
       integer :: periods(size(values, 2)), order(size(values, 2)), place(size(values, 2)), i, solved
-      logical :: valid(size(values, 2))
+      logical :: valid(size(values, 2)), with_spectrum, with_regime
 
+      with_spectrum = is_needed(scene, needs_spectrum)
+      with_regime = is_needed(scene, needs_regime)
       solved = 0
       do i = 1, size(values, 2)
          call set_values(scene, positions, values(:, i))
@@ -116,7 +118,7 @@ contains
             call set_values(scene, positions, values(:, i))
             judged%ending = endings(place(i))
             judged%resolved = resolved(i)
-            call judge_scene(scene, lanes(i), films(:, place(i)), velocities(:, place(i)), judged)
+            call judge_scene(scene, lanes(i), with_spectrum, with_regime, films(:, place(i)), velocities(:, place(i)), judged)
          else
             judged%ending%status = status_invalid
          end if
@@ -174,9 +176,11 @@ contains
    end function likely_cost
 
    !> Judge the window of a scene as far as its columns ask for it.
-   subroutine judge_scene(scene, lane, films, velocities, judged)
+   subroutine judge_scene(scene, lane, with_spectrum, with_regime, films, velocities, judged)
       type(scene_t), intent(in) :: scene
       type(lane_scene_t), intent(in) :: lane
+      !> What the columns need
+      logical, intent(in) :: with_spectrum, with_regime
       real(dp), intent(in) :: films(:)
       real(dp), intent(in) :: velocities(:)
       type(judged_scene_t), intent(inout) :: judged
@@ -195,9 +199,9 @@ contains
       judged%film_maximum = maxval(films(:samples))
       judged%acceleration_minimum = minval(values)
       judged%acceleration_maximum = maxval(values)
-      if (is_needed(scene, needs_spectrum)) call classify(values, choice, judged%resolved%noise_floor, judged%rattle)
-      if (is_needed(scene, needs_regime)) judged%regime = check_regime(judged%resolved%film, scene%film%law, films(:samples), &
-                                                                       velocities(:samples))
+      if (with_spectrum) call classify(values, choice, judged%resolved%noise_floor, judged%rattle)
+      if (with_regime) judged%regime = check_regime(judged%resolved%film, scene%film%law, films(:samples), &
+                                                    velocities(:samples))
    end subroutine judge_scene
 
    !> Whether any recorded quantity needs this.

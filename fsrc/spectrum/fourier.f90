@@ -7,13 +7,22 @@ module fourier
 
    include 'fftw3.f03'
 
-   ! Making a plan costs more than many transforms, so each thread keeps its last, with its work space. What a
-   ! transform gives does not depend on it: estimated plans of one length are all the same.
-   integer :: kept_length = 0
-   type(c_ptr) :: kept_plan = c_null_ptr
-   real(dp), pointer :: kept_samples(:) => null()
-   complex(dp), pointer :: kept_lines(:) => null()
-   !$omp threadprivate(kept_length, kept_plan, kept_samples, kept_lines)
+   !> A plan with its work space.
+   type :: plan_t
+      !> Number of samples, none yet if 0
+      integer :: length = 0
+      type(c_ptr) :: plan = c_null_ptr
+      real(dp), pointer :: samples(:) => null()
+      complex(dp), pointer :: lines(:) => null()
+   end type plan_t
+
+   ! Making a plan costs more than many transforms, so each thread keeps its last ones: motions of one, two and
+   ! more periods, finely and coarsely sampled, follow each other in a campaign. What a transform gives does not
+   ! depend on it: estimated plans of one length are all the same.
+   integer, parameter :: kept_plans = 8
+   type(plan_t), save :: kept(kept_plans)
+   integer, save :: oldest = 1
+   !$omp threadprivate(kept, oldest)
 
    public :: amplitude_spectrum
 
@@ -25,31 +34,41 @@ contains
       real(dp), intent(in) :: samples(:)
       !> a_0 to a_(n/2), unit of the samples
       real(dp), allocatable, intent(out) :: amplitudes(:)
-      integer :: n
+      integer :: n, i
 
       n = size(samples)
-      if (kept_length /= n) call prepare(n)
+      i = findloc(kept%length, n, dim=1)
+      if (i == 0) call prepare(n, i)
       allocate (amplitudes(0:n/2))
-      kept_samples(:) = samples
-      call fftw_execute_dft_r2c(kept_plan, kept_samples, kept_lines)
-      ! Not abs: amplitudes are far from overflow, and hypot would be the dearest part.
-      amplitudes(:) = 2.0_dp*sqrt(real(kept_lines, dp)**2 + aimag(kept_lines)**2)/real(n, dp)
+      associate (transform => kept(i))
+         transform%samples(:) = samples
+         call fftw_execute_dft_r2c(transform%plan, transform%samples, transform%lines)
+         ! Not abs: amplitudes are far from overflow, and hypot would be the dearest part.
+         amplitudes(:) = 2.0_dp*sqrt(real(transform%lines, dp)**2 + aimag(transform%lines)**2)/real(n, dp)
+      end associate
       amplitudes(0) = 0.5_dp*amplitudes(0)
       if (mod(n, 2) == 0) amplitudes(n/2) = 0.5_dp*amplitudes(n/2)
    end subroutine amplitude_spectrum
 
-   !> Replace the plan of this thread. Plans are estimated, not measured: a measured plan may change the last bit from
-   !> run to run. FFTW makes plans for one thread at a time.
-   subroutine prepare(length)
+   !> Replace the oldest plan of this thread. Plans are estimated, not measured: a measured plan may change the last
+   !> bit from run to run. FFTW makes plans for one thread at a time.
+   subroutine prepare(length, place)
+      !> Number of samples
       integer, intent(in) :: length
+      !> Where the new plan is kept
+      integer, intent(out) :: place
 
-      if (associated(kept_samples)) deallocate (kept_samples, kept_lines)
-      allocate (kept_samples(length), kept_lines(0:length/2))
-      !$omp critical (fourier_plan)
-      if (c_associated(kept_plan)) call fftw_destroy_plan(kept_plan)
-      kept_plan = fftw_plan_dft_r2c_1d(length, kept_samples, kept_lines, FFTW_ESTIMATE)
-      !$omp end critical (fourier_plan)
-      kept_length = length
+      place = oldest
+      oldest = modulo(oldest, kept_plans) + 1
+      associate (transform => kept(place))
+         if (associated(transform%samples)) deallocate (transform%samples, transform%lines)
+         allocate (transform%samples(length), transform%lines(0:length/2))
+         !$omp critical (fourier_plan)
+         if (c_associated(transform%plan)) call fftw_destroy_plan(transform%plan)
+         transform%plan = fftw_plan_dft_r2c_1d(length, transform%samples, transform%lines, FFTW_ESTIMATE)
+         !$omp end critical (fourier_plan)
+         transform%length = length
+      end associate
    end subroutine prepare
 
 end module fourier
