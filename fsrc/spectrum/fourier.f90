@@ -20,8 +20,8 @@ module fourier
    ! more periods, finely and coarsely sampled, follow each other in a campaign. What a transform gives does not
    ! depend on it: estimated plans of one length are all the same.
    integer, parameter :: kept_plans = 8
-   type(plan_t), save :: kept(kept_plans)
-   integer, save :: oldest = 1
+   type(plan_t) :: kept(kept_plans)
+   integer :: oldest = 1
    !$omp threadprivate(kept, oldest)
 
    public :: amplitude_spectrum
