@@ -104,6 +104,10 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 COMPUTING := $(foreach room,film motion orbit spectrum verdict,$(wildcard fsrc/$(room)/*.f90))
 $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),-Wconversion-extra)
 
+# The loops over lanes run in full registers as they stand; made part of the loop over steps, gfortran 12 leaves some of
+# them scalar.
+$(BUILD)/lane_advance.o $(BUILD)/lane_integration.o: private FFLAGS += $(if $(DEBUG),,-fno-inline)
+
 $(BUILD)/version.o: private FFLAGS += -cpp -DPROGRAM_VERSION='"$(VERSION)"'
 $(BUILD)/version.o: fsrc/VERSION
 

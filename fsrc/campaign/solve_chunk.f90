@@ -160,6 +160,7 @@ contains
       request%sampled_periods = scene%spectrum%periods
       request%until_steady = scene%solver%until == until_steady
       if (request%until_steady) request%sampled_periods = max(scene%spectrum%periods, 8)
+      request%forecast = request%until_steady
    end subroutine request_of
 
    !> Work that a scene is likely to be: stiff ones take short steps, lightly damped ones many periods.

@@ -1,13 +1,13 @@
 !> One step of all lanes of a block by Taylor series, and the bookkeeping of a step by any method.
 module lane_advance
-   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso
+   use film_law, only: kernel_half_pi, kernel_piezo
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
    use lane_scenes, only: lane_block_t
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
-   use taylor_reynolds_iso, only: reynolds_iso_series, reynolds_order
-   use taylor_step_control, only: evaluate_series, lane_steps, order, reynolds_share_rate, share_rate
+   use taylor_reynolds_iso, only: reynolds_iso_series
+   use taylor_step_control, only: evaluate_series, lane_steps
    implicit none(type, external)
    private
 
@@ -25,12 +25,14 @@ contains
    !> Series and steps of all lanes, and the states they lead to. A film that changes by some powers of ten in
    !> one step is not trusted, nor is a series about a point of extreme damping. Conditions are numbers, 0 or
    !> 1, and their products: without branch and integer the loop runs in full registers.
-   pure subroutine take_series_step(kernel, block)
+   pure subroutine take_series_step(kernel, last_order, share, block)
       !> Whose series
       integer, intent(in) :: kernel
+      !> Its order, and the share of the accuracy that a step may use up, over its length [1/periods]
+      integer, intent(in) :: last_order
+      real(dp), intent(in) :: share
       type(lane_block_t), intent(inout) :: block
       real(dp) :: cosine(lanes), sine(lanes)
-      logical :: exact
       integer :: l
 
       call lane_cosine_sine(block%phase, cosine, sine)
@@ -51,9 +53,7 @@ contains
          call reynolds_iso_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
                                   block%momentum, block%damping_rate)
       end select
-      exact = kernel == kernel_reynolds_iso
-      call lane_steps(merge(reynolds_order, order, exact), merge(reynolds_share_rate, share_rate, exact), &
-                      block%accuracy, block%force, block%film, block%momentum, block%damping_rate, &
+      call lane_steps(last_order, share, block%accuracy, block%force, block%film, block%momentum, block%damping_rate, &
                       block%remaining, block%limit, block%step)
       call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
       !$omp simd

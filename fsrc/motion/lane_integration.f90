@@ -17,8 +17,10 @@ module lane_integration
    use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, load_scene, rest_lane, &
                           start_period, start_status, state_of_lane
    use period_repetition, only: note_state, orbit_watch_t, watch_from
+   use settling_forecast, only: forecast_rest
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
-   use taylor_step_control, only: momentum_weight
+   use taylor_reynolds_iso, only: reynolds_order
+   use taylor_step_control, only: momentum_weight, order, reynolds_share_rate, share_rate
    implicit none(type, external)
    private
 
@@ -26,6 +28,9 @@ module lane_integration
    real(dp), parameter :: most_series_steps = 3000.0_dp, most_implicit_steps = 1.0e5_dp
    !> Share of the accuracy within which a motion counts as repeating.
    real(dp), parameter :: repetition_share = 0.3_dp
+
+   !> Forecasts of where a motion settles: more of them show that it does not.
+   integer, parameter :: most_forecasts = 8
 
    !> What happened to the scene of a lane.
    type :: lane_watch_t
@@ -37,6 +42,8 @@ module lane_integration
       real(dp) :: film = 0.0_dp, momentum = 0.0_dp
       !> Looks for repetition
       type(orbit_watch_t) :: states
+      !> Forecasts made
+      integer :: forecasts = 0
       type(lane_ending_t) :: ending
    end type lane_watch_t
 
@@ -45,6 +52,9 @@ module lane_integration
       !> Taylor series, else collocation; and whose series
       logical :: by_series = .true.
       integer :: kernel = kernel_half_pi
+      !> Its order, and the share of the accuracy that a step may use up, over its length [1/periods]
+      integer :: last_order = order
+      real(dp) :: share = share_rate
       !> Most steps in a period, and largest damping rate [1/periods]
       real(dp) :: most_steps = 0.0_dp, largest_rate = 0.0_dp
       !> Film laws of the lanes
@@ -88,6 +98,10 @@ contains
 
       run%by_series = by_series
       if (size(queue) > 0) run%kernel = scenes(queue(1))%film%kernel
+      if (run%kernel == kernel_reynolds_iso) then
+         run%last_order = reynolds_order
+         run%share = reynolds_share_rate
+      end if
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
@@ -96,7 +110,7 @@ contains
       end do
       do while (run%active > 0)
          if (by_series) then
-            call take_series_step(run%kernel, run%block)
+            call take_series_step(run%kernel, run%last_order, run%share, run%block)
          else
             call take_collocation_step(run%films, run%watches%scene > 0, run%block)
          end if
@@ -153,6 +167,7 @@ contains
             watch%film = run%block%film(lane, 0)
             watch%momentum = run%block%momentum(lane, 0)
             watch%states = watch_from(watch%film, watch%momentum)
+            watch%forecasts = 0
          end associate
          run%samples%written(lane) = samples_before(run%watches(lane), run%samples)
          run%samples%column(lane) = scene
@@ -177,8 +192,9 @@ contains
       integer, intent(in) :: lane
       type(lane_request_t), intent(in) :: request
       type(lane_run_t), intent(inout) :: run
+      real(dp) :: weight, distance, film, momentum
       integer :: orbit
-      real(dp) :: distance
+      logical :: found
 
       associate (watch => run%watches(lane), block => run%block)
          watch%ending%steps = watch%ending%steps + nint(block%period_steps(lane), int64)
@@ -187,21 +203,43 @@ contains
          watch%film = block%film(lane, 0)
          watch%momentum = block%momentum(lane, 0)
          if (request%until_steady .and. watch%period < watch%sample_from) then
-            call note_state(watch%states, watch%film, watch%momentum, &
-                            momentum_weight(watch%film, block%damping_rate(lane), block%force(lane)), &
-                               repetition_share*request%accuracy, orbit, distance)
+            weight = momentum_weight(watch%film, block%damping_rate(lane), block%force(lane))
+            call note_state(watch%states, watch%film, watch%momentum, weight, repetition_share*request%accuracy, orbit, &
+                            distance)
             if (orbit > 0) then
                watch%ending%orbit = orbit
                watch%ending%distance = distance
                watch%ending%status = status_steady
                watch%sample_from = watch%period
                watch%last_period = watch%period + min(orbit, request%sampled_periods)
+            else if (request%forecast .and. watch%forecasts < most_forecasts) then
+               call forecast_rest(watch%states, weight, found, film, momentum)
+               if (found) call go_on_from(film, momentum, lane, run)
             end if
          end if
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_samples(run%samples, lane)
       end associate
    end subroutine end_period
+
+   !> Go on from another state at the start of a period.
+   pure subroutine go_on_from(film, momentum, lane, run)
+      !> Scaled film and momentum [-]
+      real(dp), intent(in) :: film
+      real(dp), intent(in) :: momentum
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(inout) :: run
+
+      run%block%film(lane, 0) = film
+      run%block%momentum(lane, 0) = momentum
+      associate (watch => run%watches(lane))
+         watch%film = film
+         watch%momentum = momentum
+         watch%states = watch_from(film, momentum)
+         watch%forecasts = watch%forecasts + 1
+      end associate
+   end subroutine go_on_from
 
    !> The scene of a lane goes no further; its state is that at the start of the period.
    pure subroutine give_up(lane, run)

@@ -63,7 +63,7 @@ contains
       real(dp), contiguous, intent(inout) :: velocities(:, :)
       real(dp) :: x(together), film(together), velocity(together), film_series(0:order), momentum_series(0:order)
       real(dp) :: due_until, number
-      integer :: l, due, first
+      integer :: l, i, due, last, first
 
       number = real(samples%per_period, dp)
       do l = 1, lanes
@@ -71,15 +71,15 @@ contains
          film_series = block%film(l, :)
          momentum_series = block%momentum(l, :)
          due_until = merge(1.0_dp, block%phase(l) + block%step(l), block%step(l) >= block%remaining(l))
+         last = last_sample(due_until, samples%per_period)
          do
-            due = 0
-            do while (due < together .and. real(samples%next(l) + due, dp)/number <= due_until)
-               due = due + 1
-               x(due) = real(samples%next(l) + due - 1, dp)/number - block%phase(l)
+            due = min(together, last - samples%next(l) + 1)
+            if (due <= 0) exit
+            ! Full vectors, filled up with the last sample, so that one has the same bits however many stand beside it.
+            !$omp simd
+            do i = 1, together
+               x(i) = real(samples%next(l) + min(i, due) - 1, dp)/number - block%phase(l)
             end do
-            if (due == 0) exit
-            ! Full vectors, so that a sample has the same bits however many stand beside it.
-            x(due + 1:) = x(due)
             call evaluate_lane(film_series, momentum_series, block%slip(l), x, film, velocity)
             first = samples%written(l) + 1
             films(first:first + due - 1, samples%column(l)) = film(:due)*block%film_scale(l)
@@ -89,6 +89,21 @@ contains
          end do
       end do
    end subroutine take_samples
+
+   !> The last sample at or before a phase.
+   pure integer function last_sample(phase, per_period)
+      !> Phase [periods]
+      real(dp), intent(in) :: phase
+      !> Samples of a period
+      integer, intent(in) :: per_period
+      real(dp) :: number
+
+      number = real(per_period, dp)
+      last_sample = int(phase*number)
+      ! The product is rounded: what counts is where the sample is taken.
+      if (real(last_sample, dp)/number > phase) last_sample = last_sample - 1
+      if (real(last_sample + 1, dp)/number <= phase) last_sample = last_sample + 1
+   end function last_sample
 
    !> H and H' of one lane at several distances from its point of expansion.
    pure subroutine evaluate_lane(film_series, momentum_series, slip, x, film, velocity)

@@ -51,6 +51,9 @@ module lane_scenes
       integer :: sampled_periods = 0
       !> Stop when the motion is known to repeat
       logical :: until_steady = .false.
+      !> Go on from where a slowly settling motion will come to rest: the periods before the samples are then no longer
+      !> those that follow from the start
+      logical :: forecast = .false.
    end type lane_request_t
 
    !> How a scene ended.

@@ -36,7 +36,7 @@ module period_repetition
       real(dp) :: momentum(0:kept - 1) = 0.0_dp
    end type orbit_watch_t
 
-   public :: watch_from, note_state
+   public :: watch_from, note_state, state_of_age
 
 contains
 
@@ -51,6 +51,19 @@ contains
       watch_from%film(watch_from%newest) = film
       watch_from%momentum(watch_from%newest) = momentum
    end function watch_from
+
+   !> Scaled film and momentum of some periods ago, at most `count` - 1 and `kept` - 1.
+   pure function state_of_age(watch, age) result(state)
+      !> Watcher of a motion
+      type(orbit_watch_t), intent(in) :: watch
+      !> Periods since then
+      integer, intent(in) :: age
+      real(dp) :: state(2)
+      integer :: place
+
+      place = modulo(watch%newest - age, kept)
+      state = [watch%film(place), watch%momentum(place)]
+   end function state_of_age
 
    !> Take the state at the end of a period.
    pure subroutine note_state(watch, film, momentum, momentum_weight, tolerance, orbit, distance)
@@ -68,7 +81,7 @@ contains
       integer, intent(out) :: orbit
       !> Bound of the distance from the motion that repeats, where there is one [-]
       real(dp), intent(out) :: distance
-      integer :: last
+      integer :: last, periods
 
       watch%newest = modulo(watch%newest + 1, kept)
       watch%film(watch%newest) = film
@@ -77,13 +90,35 @@ contains
       last = 1
       if (watch%count >= longer_from .and. modulo(watch%count, longer_every) == 0) last = longest_orbit
       distance = huge(distance)
-      do orbit = 1, last
-         if (watch%count < 4*orbit) exit
-         distance = orbit_distance(watch, orbit, momentum_weight)
-         if (distance <= tolerance) return
-      end do
       orbit = 0
+      do periods = 1, last
+         if (watch%count < 4*periods) exit
+         distance = orbit_distance(watch, periods, momentum_weight)
+         if (distance > tolerance) cycle
+         orbit = periods
+         call shorten(watch, momentum_weight, tolerance, orbit)
+         return
+      end do
    end subroutine note_state
+
+   !> A motion that repeats after p periods may do so sooner: a spiral whose turn is near 360/p degrees is back after p of
+   !> them first. States that are within the tolerance of one point are within twice it of each other, the older ones a
+   !> little more: those that are have the shorter orbit.
+   pure subroutine shorten(watch, momentum_weight, tolerance, orbit)
+      type(orbit_watch_t), intent(in) :: watch
+      real(dp), intent(in) :: momentum_weight
+      real(dp), intent(in) :: tolerance
+      !> Periods after which the motion repeats
+      integer, intent(inout) :: orbit
+      integer :: shorter
+
+      do shorter = 1, orbit - 1
+         if (modulo(orbit, shorter) /= 0) cycle
+         if (cycle_distance(watch, shorter, 0, momentum_weight) > 3.0_dp*tolerance) cycle
+         orbit = shorter
+         return
+      end do
+   end subroutine shorten
 
    !> Bound of the distance from a motion that repeats after `orbit` periods, huge where there is none.
    pure real(dp) function orbit_distance(watch, orbit, momentum_weight)

@@ -69,21 +69,24 @@ contains
       real(dp), intent(in) :: limit(lanes)
       !> Step, equal to `remaining` where the period ends with it [periods]
       real(dp), intent(out) :: step(lanes)
-      real(dp) :: weight, level, last, next_to_last, reach, root, next_root
+      real(dp) :: weight, level, last, next_to_last, reach, left, ends, root, next_root
       integer :: l
 
       root = 1.0_dp/real(last_order - 1, dp)
       next_root = 1.0_dp/real(last_order - 2, dp)
-      !$omp simd private(weight, level, last, next_to_last, reach)
+      !$omp simd private(weight, level, last, next_to_last, reach, left, ends)
       do l = 1, lanes
+         left = remaining(l)
          weight = momentum_weight(film(l, 0), damping_rate(l), force(l))
          level = coarse_log(share*max(accuracy(l)*film_weight(film(l, 0)), rounding*film(l, 0)))
          last = coarse_log(max(abs(film(l, last_order)), abs(momentum(l, last_order))*weight))
          next_to_last = coarse_log(max(abs(film(l, last_order - 1)), abs(momentum(l, last_order - 1))*weight))
          reach = min((level - last)*root, (level - next_to_last)*next_root, 0.0_dp)
          reach = min(coarse_power(reach), longest_step, limit(l))
-         step(l) = merge(0.5_dp*remaining(l), reach, remaining(l) < 2.0_dp*reach)
-         step(l) = merge(remaining(l), step(l), remaining(l) <= reach)
+         ! 1 where the step ends the period, else 0, by its sign: a comparison would be compiled as a branch, and the loop
+         ! would not run in full registers.
+         ends = 0.5_dp + sign(0.5_dp, reach - left)
+         step(l) = ends*left + (1.0_dp - ends)*min(reach, 0.5_dp*left)
       end do
    end subroutine lane_steps
 

@@ -37,6 +37,7 @@ program unit_tests
    use test_newmark_lanes, only: run_newmark_lanes_tests
    use test_newmark_extrapolated, only: run_newmark_extrapolated_tests
    use test_lane_motions, only: run_lane_motions_tests
+   use test_settling_forecast, only: run_settling_forecast_tests
    implicit none(type, external)
 
    type(check_list_t) :: checks
@@ -77,6 +78,7 @@ program unit_tests
    call run_newmark_lanes_tests(checks)
    call run_newmark_extrapolated_tests(checks)
    call run_lane_motions_tests(checks)
+   call run_settling_forecast_tests(checks)
 
    print '(i0, a, i0, a)', checks%passed, ' passed, ', checks%failed, ' failed'
    if (checks%failed > 0) stop 1, quiet = .true.

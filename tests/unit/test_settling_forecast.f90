@@ -1,0 +1,144 @@
+!> Tests of the forecast of where a motion settles: linear maps, whose fixed point is known, and real motions.
+module test_settling_forecast
+   use canonical_scenes, only: canonical_scene
+   use checks, only: check_list_t
+   use film_law, only: film_t, new_film, steady_film
+   use kinds, only: dp
+   use lane_motions, only: solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use period_repetition, only: note_state, orbit_watch_t, watch_from
+   use scene_lane, only: lane_of_scene
+   use scene_status, only: status_steady
+   use scene_types, only: law_iso_viscous, scene_t
+   use settling_forecast, only: forecast_rest
+   implicit none(type, external)
+   private
+
+   !> Fixed point of the linear maps, H and V.
+   real(dp), parameter :: rest(2) = [1.2_dp, -0.4_dp]
+   !> Film that a momentum of one counts as.
+   real(dp), parameter :: weight = 0.1_dp
+
+   public :: run_settling_forecast_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_settling_forecast_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('settling_forecast')
+      call test_linear_maps(checks)
+      call test_refusals(checks)
+      call test_motions(checks)
+   end subroutine run_settling_forecast_tests
+
+   !> Forecast from the first states of x -> rest + M (x - rest).
+   subroutine follow(map, states, start, found, film, momentum)
+      real(dp), intent(in) :: map(2, 2)   !> M
+      integer, intent(in) :: states       !> States seen
+      real(dp), intent(in) :: start(2)    !> First difference from the fixed point
+      logical, intent(out) :: found       !> Whether there is a forecast
+      real(dp), intent(out) :: film       !> Forecast
+      real(dp), intent(out) :: momentum   !> Forecast
+      type(orbit_watch_t) :: watch
+      real(dp) :: away(2), distance
+      integer :: i, orbit
+
+      away = start
+      watch = watch_from(rest(1) + away(1), rest(2) + away(2))
+      do i = 2, states
+         away = matmul(map, away)
+         call note_state(watch, rest(1) + away(1), rest(2) + away(2), weight, 0.0_dp, orbit, distance)
+      end do
+      call forecast_rest(watch, weight, found, film, momentum)
+   end subroutine follow
+
+   !> Real, alternating and complex multipliers: the fixed point is hit up to the rounding of the differences.
+   subroutine test_linear_maps(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      real(dp), parameter :: start(2) = [0.01_dp, 0.05_dp]
+      real(dp), parameter :: maps(2, 2, 4) = reshape([0.9_dp, 0.1_dp, 0.02_dp, 0.5_dp, &  ! two real ones
+                                                     -0.9_dp, 0.0_dp, 0.05_dp, 0.4_dp, &  ! one alternates
+                                                     0.6_dp, -0.7_dp, 0.7_dp, 0.6_dp, &   ! a spiral, |lambda| = 0.92
+                                                     0.95_dp, 0.0_dp, 0.0_dp, 0.0_dp], [2, 2, 4])  ! one direction is forgotten
+      real(dp) :: film, momentum
+      integer :: i
+      logical :: found
+
+      do i = 1, 4
+         call follow(maps(:, :, i), 5, start, found, film, momentum)
+         call checks%check(found, 'linear map: forecast')
+         ! Differences of 1e-4 and more, divided by 1 - 0.95: 1e-16/1e-4*20 of 0.05.
+         call checks%check_close(film, rest(1), 1.0e-12_dp, 'linear map: film')
+         call checks%check_close(momentum, rest(2), 1.0e-11_dp, 'linear map: momentum')
+         call follow(maps(:, :, i), 4, start, found, film, momentum)
+         call checks%check(.not. found, 'one estimate is none')
+      end do
+   end subroutine test_linear_maps
+
+   !> No forecast: motions that leave their fixed point, hardly move towards it, settle fast, or are far away; and of a
+   !> doubled period only over two periods.
+   subroutine test_refusals(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      real(dp) :: film, momentum
+      logical :: found
+
+      call follow(diagonal(1.02_dp, 0.5_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, momentum)
+      call checks%check(.not. found, 'unstable')
+      call follow(diagonal(-1.02_dp, 0.5_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, momentum)
+      call checks%check(.not. found, 'leaving towards a doubled period')
+      call follow(diagonal(0.999_dp, 0.5_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, momentum)
+      call checks%check(.not. found, 'too slow to tell')
+      call follow(diagonal(0.2_dp, 0.1_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, momentum)
+      call checks%check(.not. found, 'settles by itself')
+      call follow(diagonal(0.9_dp, 0.5_dp), 5, [3.0_dp, 1.0_dp], found, film, momentum)
+      call checks%check(.not. found, 'far away')
+   end subroutine test_refusals
+
+   pure function diagonal(first, second) result(map)
+      real(dp), intent(in) :: first   !> Multiplier of the film
+      real(dp), intent(in) :: second  !> Multiplier of the momentum
+      real(dp) :: map(2, 2)
+
+      map = reshape([first, 0.0_dp, 0.0_dp, second], [2, 2])
+   end function diagonal
+
+   !> Lightly damped motions end on the same orbit with and without forecast, and much sooner with it.
+   subroutine test_motions(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      real(dp), parameter :: accuracy = 1.0e-8_dp, speeds(4) = [12.0_dp, 16.0_dp, 20.0_dp, 30.0_dp]
+      integer, parameter :: samples = 64
+      type(lane_scene_t) :: lanes(4)
+      type(lane_request_t) :: request
+      type(lane_ending_t) :: plain(4), ahead(4)
+      type(scene_t) :: scene
+      type(film_t) :: film
+      real(dp) :: films(8*samples, 4), others(8*samples, 4), velocities(8*samples, 4)
+      integer :: i
+
+      do i = 1, 4
+         scene = canonical_scene(law_iso_viscous, samples)
+         scene%kinematics%entrainment_speed = speeds(i)
+         scene%load%force_amplitude = 150.0_dp
+         film = new_film(scene)
+         lanes(i) = lane_of_scene(scene, film, steady_film(film, scene%load%steady_force + &
+                                                           scene%load%mass*scene%load%gravity), 0.0_dp)
+      end do
+      request%accuracy = accuracy
+      request%periods = 400
+      request%samples_per_period = samples
+      request%sampled_periods = 8
+      request%until_steady = .true.
+      call solve_motions(lanes, request, films, velocities, plain)
+      request%forecast = .true.
+      call solve_motions(lanes, request, others, velocities, ahead)
+      call checks%check(all(plain%status == status_steady .and. ahead%status == status_steady), 'both are steady')
+      call checks%check(all(plain%orbit == 1 .and. ahead%orbit == 1), 'both have the period of the force')
+      ! Each is within 0.3 accuracies of the orbit, where its steps are accurate; two steps differ by their errors.
+      call checks%check_close(maxval(abs(films(:samples, :)/others(:samples, :) - 1.0_dp)), 0.0_dp, 4.0_dp*accuracy, &
+                              'the same motion')
+      call checks%check(sum(ahead%periods) < 0.6*sum(plain%periods), 'sooner')
+   end subroutine test_motions
+
+end module test_settling_forecast
