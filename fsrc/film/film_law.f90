@@ -48,7 +48,7 @@ module film_law
       real(dp) :: rate = 0.0_dp
       !> Exact films: 12 l u eta0 R [N m]
       real(dp) :: scale = 0.0_dp
-      !> Exact films: A sqrt(h)/w [s m^(-1/2)]
+      !> Films that rupture by (18): A sqrt(h)/w [s m^(-1/2)]
       real(dp) :: squeeze_rate = 0.0_dp
       !> Exact piezo-viscous film: B h^(3/2) [m^(3/2)]
       real(dp) :: pressure_rate = 0.0_dp
@@ -105,6 +105,7 @@ contains
          else if (scene%film%law == law_iso_viscous) then
             film%rolling = rolling_coefficient(contact%length, film%speed, film%viscosity, film%radius)
             film%squeeze = squeeze_coefficient(contact%length, film%viscosity, film%radius)
+            film%squeeze_rate = squeeze_rate(film%speed, film%radius)
             film%kernel = kernel_solved_fast
             if (scene%film%rupture_solver /= rupture_solver_fast) film%kernel = kernel_solved_successive
             if (scene%film%rupture == rupture_half_pi) film%kernel = kernel_half_pi

@@ -11,6 +11,9 @@ module published_iso_viscous
    !> Factor of the rolling term as printed in (23); exact film: 12 Phi(0) = 2.447 with u = u1 + u2.
    real(dp), parameter :: rolling_factor = 2.8_dp
 
+   !> Squeeze term of (24) over its rolling term and A (x_e + pi/2), A the squeeze group: 3/(4*2.8) [-].
+   real(dp), parameter, public :: squeeze_share = 3.0_dp/(4.0_dp*rolling_factor)
+
    public :: rolling_coefficient, squeeze_coefficient, half_pi_rupture_load, solved_rupture_load
 
 contains

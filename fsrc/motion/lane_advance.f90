@@ -1,12 +1,12 @@
 !> One step of all lanes of a block by Taylor series, and the bookkeeping of a step by any method.
 module lane_advance
-   use film_law, only: kernel_half_pi, kernel_piezo
+   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
    use lane_scenes, only: lane_block_t
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
-   use taylor_reynolds_iso, only: reynolds_iso_series
+   use taylor_rupture, only: exact_load, published_load, rupture_load_t, rupture_series
    use taylor_step_control, only: evaluate_series, lane_steps
    implicit none(type, external)
    private
@@ -33,6 +33,7 @@ contains
       real(dp), intent(in) :: share
       type(lane_block_t), intent(inout) :: block
       real(dp) :: cosine(lanes), sine(lanes)
+      type(rupture_load_t) :: form
       integer :: l
 
       call lane_cosine_sine(block%phase, cosine, sine)
@@ -50,8 +51,10 @@ contains
          call iso_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
                                  block%momentum, block%damping_rate)
       case default
-         call reynolds_iso_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
-                                  block%momentum, block%damping_rate)
+         form = published_load
+         if (kernel == kernel_reynolds_iso) form = exact_load
+         call rupture_series(form, block%strength, block%damping, block%load, cosine, sine, block%film, &
+                             block%momentum, block%damping_rate)
       end select
       call lane_steps(last_order, share, block%accuracy, block%force, block%film, block%momentum, block%damping_rate, &
                       block%remaining, block%limit, block%step)

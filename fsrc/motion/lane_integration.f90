@@ -9,7 +9,7 @@
 !> status_not_converged at the start of that period, for collocation to go on.
 module lane_integration
    use collocation_step, only: take_collocation_step
-   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso
+   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast
    use kinds, only: dp, int64
    use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
    use lane_functions, only: lanes
@@ -19,8 +19,8 @@ module lane_integration
    use period_repetition, only: note_state, orbit_watch_t, watch_from
    use settling_forecast, only: forecast_rest
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
-   use taylor_reynolds_iso, only: reynolds_order
-   use taylor_step_control, only: momentum_weight, order, reynolds_share_rate, share_rate
+   use taylor_rupture, only: rupture_order
+   use taylor_step_control, only: momentum_weight, order, rupture_share_rate, share_rate
    implicit none(type, external)
    private
 
@@ -75,7 +75,7 @@ contains
       !> The film
       type(film_t), intent(in) :: film
 
-      has_series = any(film%kernel == [kernel_half_pi, kernel_piezo, kernel_reynolds_iso])
+      has_series = any(film%kernel == [kernel_half_pi, kernel_solved_fast, kernel_piezo, kernel_reynolds_iso])
    end function has_series
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
@@ -98,9 +98,9 @@ contains
 
       run%by_series = by_series
       if (size(queue) > 0) run%kernel = scenes(queue(1))%film%kernel
-      if (run%kernel == kernel_reynolds_iso) then
-         run%last_order = reynolds_order
-         run%share = reynolds_share_rate
+      if (run%kernel == kernel_reynolds_iso .or. run%kernel == kernel_solved_fast) then
+         run%last_order = rupture_order
+         run%share = rupture_share_rate
       end if
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)

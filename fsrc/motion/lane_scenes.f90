@@ -7,7 +7,7 @@
 module lane_scenes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use constants, only: pi
-   use film_law, only: film_load, film_t, kernel_piezo, kernel_reynolds_iso, overflow_load, steady_film
+   use film_law, only: film_load, film_t, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast, overflow_load, steady_film
    use kinds, only: dp, int64
    use lane_functions, only: lanes
    use radau_nodes, only: stages
@@ -172,6 +172,9 @@ contains
          block%damping(lane) = scene%film%rate*block%velocity_scale(lane)
       else if (by_series .and. scene%film%kernel == kernel_reynolds_iso) then
          block%strength(lane) = scene%film%scale/film_scale/force_scale
+         block%damping(lane) = scene%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
+      else if (by_series .and. scene%film%kernel == kernel_solved_fast) then
+         block%strength(lane) = scene%film%rolling/film_scale/force_scale
          block%damping(lane) = scene%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
       else if (by_series) then
          block%strength(lane) = scene%film%rolling/film_scale/force_scale

@@ -4,7 +4,7 @@ module test_taylor_lanes
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use checks, only: check_list_t
    use constants, only: standard_gravity, two_pi
-   use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso
+   use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast
    use kinds, only: dp
    use lane_functions, only: coarse_log, coarse_power, lane_cosine_sine, lane_exponential, lanes, log_of_one
    use lane_motions, only: accelerations, solve_motions
@@ -71,6 +71,11 @@ contains
             pressure_viscosity)
          scene%film%piezo = piezo_coefficient(length, speed, viscosity, radius, pressure_viscosity)
          scene%film%rate = squeeze_exponent_rate(speed)
+      case (kernel_solved_fast)
+         length = load*first_film/rolling_coefficient(1.0_dp, speed, viscosity, radius)
+         scene%film%rolling = rolling_coefficient(length, speed, viscosity, radius)
+         scene%film%squeeze = squeeze_coefficient(length, viscosity, radius)
+         scene%film%squeeze_rate = squeeze_rate(speed, radius)
       case default
          scene%film%scale = load*first_film/0.203957020579723718_dp
          scene%film%squeeze_rate = squeeze_rate(speed, radius)
@@ -147,7 +152,7 @@ contains
    !> Errors follow the accuracy asked for, and two methods agree.
    subroutine test_accuracy(checks)
       type(check_list_t), intent(inout) :: checks
-      integer, parameter :: kernels(3) = [kernel_half_pi, kernel_piezo, kernel_reynolds_iso]
+      integer, parameter :: kernels(4) = [kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast]
       type(lane_scene_t) :: scene
       type(lane_ending_t) :: ending
       real(dp), allocatable :: films(:), exact(:)
@@ -240,6 +245,7 @@ contains
                               0.1_dp*real(i, dp))
          scenes(i)%implicit = modulo(i, 7) == 0
          if (modulo(i, 5) == 0) scenes(i) = scene_of(kernel_reynolds_iso, 1.0_dp, 0.1_dp*real(i, dp))
+         if (modulo(i, 7) == 0) scenes(i) = scene_of(kernel_solved_fast, 1.5_dp, 0.1_dp*real(i, dp))
       end do
       do shift = 0, lanes, 5
          mixed = cshift(scenes, shift)
