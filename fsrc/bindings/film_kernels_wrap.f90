@@ -111,7 +111,7 @@ subroutine wrap_reynolds_piezo_viscous_load( &
    n, film, velocity, radius, length, speed, viscosity, pressure_viscosity, load, load_by_film, load_by_velocity)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use reynolds_load, only: load_scale, pressure_rate, reynolds_piezo_viscous_load, squeeze_rate
+   use reynolds_load, only: load_scale, load_without_film, pressure_rate, reynolds_piezo_viscous_load, squeeze_rate
    implicit none
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: film(n)
@@ -129,7 +129,7 @@ subroutine wrap_reynolds_piezo_viscous_load( &
       load_scale(length, speed, viscosity, radius), squeeze_rate(speed, radius), &
       pressure_rate(speed, viscosity, radius, pressure_viscosity), film, velocity, &
       load, load_by_film, load_by_velocity)
-   where (.not. load < 1.0e199_c_double)
+   where (.not. load < load_without_film)
       load = ieee_value(1.0_c_double, ieee_quiet_nan)
       load_by_film = ieee_value(1.0_c_double, ieee_quiet_nan)
       load_by_velocity = ieee_value(1.0_c_double, ieee_quiet_nan)
@@ -139,7 +139,6 @@ end subroutine wrap_reynolds_piezo_viscous_load
 ! h* at which alpha p = 1.
 subroutine wrap_limiting_film_ratio(n, speed_group, squeeze_ratio, film_ratio)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use limiting_film, only: limiting_film_ratio
    implicit none
    integer(c_int), intent(in) :: n
@@ -148,8 +147,6 @@ subroutine wrap_limiting_film_ratio(n, speed_group, squeeze_ratio, film_ratio)
    real(c_double), intent(out) :: film_ratio(n)
 
    film_ratio = limiting_film_ratio(speed_group, squeeze_ratio)
-   ! Bisection would end somewhere for NaN too.
-   where (ieee_is_nan(speed_group + squeeze_ratio)) film_ratio = speed_group + squeeze_ratio
 end subroutine wrap_limiting_film_ratio
 
 ! A of a film in SI units.

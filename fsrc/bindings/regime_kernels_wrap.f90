@@ -140,11 +140,8 @@ subroutine wrap_mapped_regime(n, g_viscosity, g_elasticity, code)
    real(c_double), intent(in) :: g_viscosity(n)
    real(c_double), intent(in) :: g_elasticity(n)
    integer(c_int), intent(out) :: code(n)
-   integer :: i
 
-   do i = 1, n
-      code(i) = mapped_regime(g_viscosity(i), g_elasticity(i))
-   end do
+   code = mapped_regime(g_viscosity, g_elasticity)
 end subroutine wrap_mapped_regime
 
 ! Code of the regime of a computed film.

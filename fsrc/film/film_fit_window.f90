@@ -7,6 +7,7 @@
 module film_fit_window
    use kinds, only: dp
    use reynolds_piezo_viscous, only: critical_pressure_group, piezo_viscous_load
+   use rupture, only: squeeze_group
    implicit none(type, external)
    private
 
@@ -69,7 +70,7 @@ contains
          film = exp(between(log(window%film_ratio), i, window%film_count))
          do j = 1, window%squeeze_count
             squeeze = between(window%squeeze_ratio, j, window%squeeze_count)
-            a = 4.0_dp*squeeze/sqrt(2.0_dp*film)
+            a = squeeze_group(1.0_dp, 1.0_dp, film, squeeze)
             critical = critical_pressure_group(a)
             do k = 1, window%pressure_count
                pressure = window%pressure(1) + (window%pressure(2) - window%pressure(1)) &

@@ -10,7 +10,8 @@ module film_point
    use published_stiffness, only: published_stiffness_damping
    use regime, only: contact_deflection, film_regime
    use reynolds_iso_viscous, only: rupture_tangent_fast
-   use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate
+   use reynolds_load, only: load_scale, load_without_film, pressure_rate, reynolds_iso_viscous_load, &
+                            reynolds_piezo_viscous_load, squeeze_rate
    use rupture, only: squeeze_group
    implicit none(type, external)
    private
@@ -121,19 +122,19 @@ contains
       type(film_point_t), intent(in) :: point
       type(film_response_t) :: response
 
-      if (alpha_p(contact, point) >= 1.0_dp) then
-         response%load = ieee_value(response%load, ieee_quiet_nan)
-         response%stiffness = response%load
-         response%damping = response%load
-         return
-      end if
       call reynolds_piezo_viscous_load(load_scale(contact%length, point%speed, contact%viscosity, contact%radius), &
                                        squeeze_rate(point%speed, contact%radius), &
                                        pressure_rate(point%speed, contact%viscosity, contact%radius, &
                                                      contact%pressure_viscosity), point%film, point%velocity, &
                                        response%load, response%stiffness, response%damping)
-      response%stiffness = -response%stiffness
-      response%damping = -response%damping
+      if (response%load < load_without_film) then
+         response%stiffness = -response%stiffness
+         response%damping = -response%damping
+      else
+         response%load = ieee_value(response%load, ieee_quiet_nan)
+         response%stiffness = response%load
+         response%damping = response%load
+      end if
    end function piezo_viscous_response
 
    !> Highest pressure, deflection (4) and regime of a point.

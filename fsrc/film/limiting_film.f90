@@ -3,6 +3,7 @@ module limiting_film
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use kinds, only: dp
    use reynolds_iso_viscous, only: peak_pressure_group
+   use rupture, only: squeeze_group
    implicit none(type, external)
    private
 
@@ -14,7 +15,7 @@ module limiting_film
 contains
 
    !> h* at which B max p* = 1 for given speed group u* and squeeze-roll ratio w*, by bisection in ln h*;
-   !> NaN where the film separates so fast that alpha p stays below 1 at every thickness.
+   !> NaN where the film separates so fast that alpha p stays below 1 at every thickness, and for a group that is NaN.
    elemental real(dp) function limiting_film_ratio(speed_group, squeeze_ratio) result(limit)
       !> u* = u eta0 alpha/R [-]
       real(dp), intent(in) :: speed_group
@@ -25,7 +26,7 @@ contains
 
       thin = log(thinnest)
       thick = log(thickest)
-      if (alpha_p(thin) < 1.0_dp .or. alpha_p(thick) > 1.0_dp) then
+      if (.not. (alpha_p(thin) >= 1.0_dp .and. alpha_p(thick) <= 1.0_dp)) then
          limit = ieee_value(limit, ieee_quiet_nan)
          return
       end if
@@ -46,7 +47,7 @@ contains
          real(dp) :: film_ratio, peak, peak_by_a
 
          film_ratio = exp(log_film_ratio)
-         call peak_pressure_group(4.0_dp*squeeze_ratio/sqrt(2.0_dp*film_ratio), peak, peak_by_a)
+         call peak_pressure_group(squeeze_group(1.0_dp, 1.0_dp, film_ratio, squeeze_ratio), peak, peak_by_a)
          alpha_p = 6.0_dp*sqrt(2.0_dp)*speed_group*peak/(film_ratio*sqrt(film_ratio))
       end function alpha_p
 

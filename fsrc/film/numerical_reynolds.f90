@@ -1,16 +1,8 @@
 !> Finite-volume solution of the Reynolds equation for the parabolic film, a referee for the closed forms.
 !>
-!> With x = sqrt(2 R h0) tan(xbar), t = tan(xbar), h = h0 (1 + t^2), the equation
-!> d/dx(h^3/eta dq/dx) = 6 u dh/dx + 12 w becomes
-!>
-!>     d/dxbar( sec^4(xbar) dq*/dxbar eta0/eta ) = dG/dxbar ,    G(t) = r t^2 + s t ,    q = P q* ,
-!>     P = 6 sqrt(2 R) v eta0/h0^(3/2) ,   r = u/v ,   s = 4 (w/v)/sqrt(2 h0/R) ,   B = alpha P ,
-!>
-!> where u = u1 + u2, w = dh0/dt and v > 0 is any speed. With v = u this is r = 1, s = A, the paper's scaling;
-!> v = |u| or a multiple of |w| lets u be negative or zero. The film ruptures by complementarity
-!> (Swift-Stieber): q* >= 0 and left side <= right side, one of them an equality. No closed form of pressure,
-!> load or rupture is used. The viscosity enters the flux as it stands;
-!> the reduced pressure of eq (31) is not used.
+!> The equation, its groups r, s and B and its scales v and P stand in module numerical_reynolds_grid. No closed
+!> form of pressure, load or rupture is used, nor the groups of the other modules: a referee that shared a formula
+!> would share its fault.
 module numerical_reynolds
    use constants, only: half_pi, pi
    use kinds, only: dp

@@ -8,9 +8,8 @@
 !>
 !> where u = u1 + u2, w = dh0/dt and v > 0 is any speed. With v = u this is r = 1, s = A, the paper's scaling;
 !> v = |u| or a multiple of |w| lets u be negative or zero. The film ruptures by complementarity
-!> (Swift-Stieber): q* >= 0 and left side <= right side, one of them an equality. No closed form of pressure,
-!> load or rupture is used. The viscosity enters the flux as it stands;
-!> the reduced pressure of eq (31) is not used.
+!> (Swift-Stieber): q* >= 0 and left side <= right side, one of them an equality. The viscosity enters the flux
+!> as it stands; the reduced pressure of eq (31) is not used.
 module numerical_reynolds_grid
    use constants, only: pi
    use kinds, only: dp

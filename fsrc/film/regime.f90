@@ -140,7 +140,7 @@ contains
    end function limiting_films
 
    !> Regime of a point of the map: the limit with the largest film; of equal ones the first.
-   pure function mapped_regime(g_viscosity, g_elasticity) result(code)
+   elemental function mapped_regime(g_viscosity, g_elasticity) result(code)
       real(dp), intent(in) :: g_viscosity   !> g_v >= 0 [-]
       real(dp), intent(in) :: g_elasticity  !> g_e >= 0 [-]
       integer :: code                       !> One of map_..., 0 where a group is negative or not a number

@@ -15,7 +15,7 @@ module reynolds_load
    private
 
    !> Stands for the load where no rigid piezo-viscous film exists; above every load that is one [N].
-   real(dp), parameter :: load_without_film = 1.0e200_dp
+   real(dp), parameter, public :: load_without_film = 1.0e200_dp
 
    public :: load_scale, squeeze_rate, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, &
       reynolds_piezo_viscous_load_array
