@@ -15,7 +15,7 @@ module newmark
    private
 
    !> A step in which the film loses more than this factor, or goes to zero and below, is cut in two.
-   real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp
+   real(dp), parameter, public :: smallest_film_ratio = 1.0e-3_dp
    !> Cuts within a cut: a step of 2^-30 of the grid's that still fails will not succeed.
    integer, parameter :: deepest_cut = 30
    !> Cuts of one step of the grid: a motion that needs more needs another method.

@@ -78,7 +78,7 @@ module newmark_lane_group
       integer :: used = 0
    end type newmark_lane_group_t
 
-   public :: place_group, has_lanes, load_lane, rest_lane, set_lane_state, lane_state
+   public :: place_group, has_lanes, load_lane, rest_lane, lane_state
 
 contains
 

@@ -9,14 +9,12 @@ module newmark_lane_steps
    use film_law, only: kernel_half_pi
    use kinds, only: dp, int64
    use lane_exponential, only: near_exponential, nearness, power_of_two
+   use newmark, only: smallest_film_ratio
    use newmark_lane_group, only: newmark_lane_group_t, rest_lane
    use piezo_viscous_terms, only: piezo_viscous_terms_load
    use published_iso_viscous, only: half_pi_rupture_load
    implicit none(type, external)
    private
-
-   !> A step in which the film loses more than this factor, or goes to zero and below, fails.
-   real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp
 
    public :: advance_lanes
 

@@ -8,7 +8,7 @@ module periodic_orbit
    implicit none(type, external)
    private
 
-   integer, parameter, public :: longest_period = 8
+   integer, parameter :: longest_period = 8
    !> Accuracy of the period map, and of the fixed point.
    real(dp), parameter :: map_accuracy = 1.0e-12_dp, converged = 1.0e-10_dp
    !> Step of the differences: their error is about its square, and map_accuracy over it.

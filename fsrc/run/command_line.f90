@@ -47,9 +47,7 @@ contains
          argument = argument_text(i)
          if (len(argument) == 0) then
             call faults%add("''", 0, '', '', 'the name of an input file is empty')
-         else if (options_over .or. argument == '-') then
-            command%files = [command%files, argument_t(argument)]
-         else if (argument(1:1) /= '-') then
+         else if (options_over .or. argument == '-' .or. argument(1:1) /= '-') then
             command%files = [command%files, argument_t(argument)]
          else
             select case (argument)

@@ -56,12 +56,9 @@ contains
       type(film_point_t), intent(in) :: point
       type(film_row_t), intent(inout) :: row
       type(film_response_t) :: published, iso_viscous, piezo_viscous
-      logical :: response_wanted
 
       associate (wanted => scene%points)
-         response_wanted = wanted%compute(compute_load) .or. wanted%compute(compute_stiffness) .or. &
-                           wanted%compute(compute_damping)
-         if (.not. response_wanted) return
+         if (.not. any(wanted%compute([compute_load, compute_stiffness, compute_damping]))) return
          if (wanted%published) published = published_response(contact, point)
          if (wanted%exact) iso_viscous = iso_viscous_response(contact, point)
          if (wanted%exact) piezo_viscous = piezo_viscous_response(contact, point)
