@@ -10,7 +10,7 @@ module certify_scene
    use rattle_class, only: rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
-   use scene_types, only: method_newmark, scene_t, spectrum_choice_t
+   use scene_types, only: method_newmark, scene_t
    implicit none(type, external)
    private
 
@@ -44,7 +44,6 @@ contains
       type(lane_ending_t) :: ending
       type(rattle_verdict_t) :: tight_verdict
       type(window_t) :: tight
-      type(spectrum_choice_t) :: choice
       real(dp) :: accuracy
 
       accuracy = tight_accuracy
@@ -56,11 +55,9 @@ contains
          certificate = no_certificate('The tighter solution ended as '//status_name(ending%status)//'.')
          return
       end if
-      choice = scene%spectrum
-      choice%periods = window%periods
       associate (stride => tight%samples_per_period/window%samples_per_period)
          call compare_windows(window%films, tight%films(stride::stride), window%accelerations, &
-                              tight%accelerations(stride::stride), verdict, tight_verdict, choice, &
+                              tight%accelerations(stride::stride), verdict, tight_verdict, scene%spectrum, &
                               scene%spectrum%certificate_tolerance, certificate)
       end associate
       orbit = find_periodic_orbit(lane, ending%film, ending%velocity, orbit_nearness)

@@ -21,7 +21,7 @@ module fine_window
       real(dp), allocatable :: films(:), velocities(:), accelerations(:)
    end type window_t
 
-   public :: solve_fine_window
+   public :: solve_fine_window, classify_window
 
 contains
 
@@ -43,19 +43,33 @@ contains
       type(rattle_verdict_t), intent(out) :: verdict
       !> How the run ended; without success there is no window
       type(lane_ending_t), intent(out) :: ending
-      type(spectrum_choice_t) :: choice
 
-      choice = scene%spectrum
-      choice%periods = window%periods
       do
          call solve_window(scene, lane, accuracy, window%samples_per_period, periods, window%periods, window%films, &
                            window%velocities, window%accelerations, ending)
          if (.not. is_success(ending%status)) return
-         call classify(window%accelerations, choice, noise_floor, verdict)
+         call classify_window(scene, window, noise_floor, verdict)
          if (verdict%lines%sampling_sufficient .or. 2*window%samples_per_period > most_samples_per_period .or. &
              2*size(window%films) > most_samples) return
          window%samples_per_period = 2*window%samples_per_period
       end do
    end subroutine solve_fine_window
+
+   !> Class of a window, whose periods may be others than the scene asks for.
+   subroutine classify_window(scene, window, noise_floor, verdict)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> The window
+      type(window_t), intent(in) :: window
+      !> Amplitude that rounding alone explains [m/s2]
+      real(dp), intent(in) :: noise_floor
+      !> Verdict on it
+      type(rattle_verdict_t), intent(out) :: verdict
+      type(spectrum_choice_t) :: choice
+
+      choice = scene%spectrum
+      choice%periods = window%periods
+      call classify(window%accelerations, choice, noise_floor, verdict)
+   end subroutine classify_window
 
 end module fine_window

@@ -2,18 +2,18 @@
 module scene_result
    use certificate, only: certificate_t
    use certify_scene, only: certify
-   use fine_window, only: solve_fine_window, window_t
+   use fine_window, only: classify_window, solve_fine_window, window_t
    use integrate_motion, only: motion_end_t
    use kinds, only: dp
    use lane_scenes, only: lane_ending_t, lane_scene_t
    use periodic_orbit, only: periodic_orbit_t
-   use rattle_class, only: classify, rattle_verdict_t
+   use rattle_class, only: rattle_verdict_t
    use regime_check, only: check_regime, regime_verdict_t
    use resolved_scene, only: resolved_scene_t
    use sample_recorder, only: sample_recorder_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: is_success
-   use scene_types, only: method_newmark, scene_t, spectrum_choice_t
+   use scene_types, only: method_newmark, scene_t
    implicit none(type, external)
    private
 
@@ -48,7 +48,6 @@ contains
       type(sample_recorder_t), intent(in) :: recorder
       !> Result with its ending, completed
       type(scene_result_t), intent(inout) :: result
-      type(spectrum_choice_t) :: choice
       type(lane_scene_t) :: lane
       type(lane_ending_t) :: ending
       type(window_t) :: window
@@ -61,9 +60,7 @@ contains
       allocate (window%velocities, source=recorder%velocities)
       allocate (window%accelerations, source=recorder%accelerations)
       lane = lane_of_scene(scene, resolved%film, resolved%initial_film, scene%film%initial_velocity)
-      choice = scene%spectrum
-      choice%periods = window%periods
-      call classify(window%accelerations, choice, resolved%noise_floor, result%rattle)
+      call classify_window(scene, window, resolved%noise_floor, result%rattle)
       ! The samples of an error-controlled motion that repeats are free to be as many as its lines need.
       if (result%ending%orbit > 0 .and. scene%solver%method /= method_newmark .and. &
           .not. result%rattle%lines%sampling_sufficient) &
