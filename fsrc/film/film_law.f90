@@ -12,7 +12,7 @@ module film_law
    use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate
    use rupture, only: rupture_tangent_successive, squeeze_group
    use scene_status, only: status_no_rigid_film, status_overflow
-   use scene_types, only: law_iso_viscous, model_reynolds, rupture_half_pi, rupture_solver_fast, scene_t
+   use scene_types, only: contact_t, law_iso_viscous, model_reynolds, rupture_half_pi, rupture_solver_fast, scene_t
    use steady_reynolds_film, only: steady_iso_viscous_film, steady_piezo_viscous_film
    implicit none(type, external)
    private
@@ -75,7 +75,7 @@ module film_law
       end subroutine film_kernel
    end interface
 
-   public :: new_film, film_load, steady_film, film_kernel
+   public :: new_film, contact_radius, film_load, steady_film, film_kernel
    public :: load_half_pi, load_solved_fast, load_solved_successive, load_piezo, load_reynolds_iso, load_reynolds_piezo
 
 contains
@@ -87,8 +87,7 @@ contains
       type(film_t) :: film
 
       associate (contact => scene%contact, lubricant => scene%lubricant)
-         film%radius = contact%radius
-         if (.not. contact%radius > 0.0_dp) film%radius = equivalent_radius(contact%radius_1, contact%radius_2)
+         film%radius = contact_radius(contact)
          film%modulus = plane_strain_modulus(contact%young_modulus, contact%poisson_ratio)
          film%viscosity = lubricant%viscosity
          film%pressure_viscosity = lubricant%pressure_viscosity
@@ -116,6 +115,15 @@ contains
          end if
       end associate
    end function new_film
+
+   !> Equivalent radius of a contact [m]: the one given, else (2) of the two radii given.
+   pure real(dp) function contact_radius(contact)
+      !> Checked contact
+      type(contact_t), intent(in) :: contact
+
+      contact_radius = contact%radius
+      if (.not. contact%radius > 0.0_dp) contact_radius = equivalent_radius(contact%radius_1, contact%radius_2)
+   end function contact_radius
 
    !> Load and slopes of any film, for use outside the loops over time.
    pure subroutine film_load(film, thickness, velocity, load, load_by_film, load_by_velocity)

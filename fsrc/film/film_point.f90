@@ -53,8 +53,8 @@ module film_point
       integer :: regime = 0
    end type film_peak_t
 
-   public :: new_film_point, published_response, iso_viscous_response, piezo_viscous_response, film_peak, limit_of_point, &
-             solve_numerically
+   public :: new_film_point, speed_group_of, published_response, iso_viscous_response, piezo_viscous_response, film_peak, &
+             limit_of_point, solve_numerically
 
 contains
 
@@ -81,6 +81,16 @@ contains
                              pressure_scale(contact%radius, point%speed, contact%viscosity, point%film)
       point%rupture_tangent = rupture_tangent_fast(point%squeeze_group)
    end function new_film_point
+
+   !> u* = u eta0 alpha/R [-].
+   elemental real(dp) function speed_group_of(contact, speed)
+      !> Contact and oil
+      type(film_contact_t), intent(in) :: contact
+      !> u [m/s]
+      real(dp), intent(in) :: speed
+
+      speed_group_of = speed*contact%viscosity*contact%pressure_viscosity/contact%radius
+   end function speed_group_of
 
    !> Published film: (24) with x_e of (18), (26) to (28).
    elemental function published_response(contact, point) result(response)

@@ -2,21 +2,22 @@
 module run_film
    use clock, only: wall_seconds
    use errors, only: error_t
-   use film_point, only: film_contact_t, film_point_t, new_film_point
+   use film_law, only: contact_radius
+   use film_point, only: film_contact_t, film_point_t, new_film_point, speed_group_of
    use film_profiles, only: profile_names, profile_rows, profile_units
    use film_table, only: film_row, film_row_t
    use kinds, only: dp
-   use log_file, only: log_magic, log_t
+   use log_file, only: log_t
    use output_place, only: log_path, profiles_path, result_path, summary_path
-   use regime, only: equivalent_radius, plane_strain_modulus
+   use regime, only: plane_strain_modulus
    use result_writer, only: result_writer_t
-   use scene_report, only: law_sentence
-   use scene_status, only: status_complete, status_interrupted, status_name, status_not_written, status_sentence
+   use scene_report, only: law_sentence, report_head, speed_meaning
+   use scene_status, only: status_complete, status_interrupted, status_not_written, status_sentence
+   use scene_summary, only: add_head
    use scene_types, only: compute_profile, scene_t, speed_sum
    use signals, only: caught_signal
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
-   use version, only: program_version
    implicit none(type, external)
    private
 
@@ -39,7 +40,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(film_contact_t) :: contact
       type(log_t) :: log
-      type(error_t), allocatable :: ignored
+      type(error_t), allocatable :: summary_error
       real(dp) :: started
       integer :: points
 
@@ -48,14 +49,14 @@ contains
       call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
       contact = contact_of(scene)
-      call log%line(log_magic//program_version//', scene '//trim(scene%name)//': '//law_sentence(scene))
+      call report_head(log, scene, law_sentence(scene))
       call write_points(scene, contact, points, status, error)
       if (allocated(error)) status = status_not_written
+      call write_film_summary(scene, points, wall_seconds() - started, status, summary_error)
+      if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
       if (allocated(error)) then
          call log%line('  '//error%message)
-         call write_film_summary(scene, points, wall_seconds() - started, status, ignored)
       else
-         call write_film_summary(scene, points, wall_seconds() - started, status, error)
          call log%line('  '//integer_text(points)//' points in '//short_text(wall_seconds() - started, 3)//' s: '// &
                        status_sentence(status))
          call log%line('  '//result_path(scene))
@@ -119,7 +120,7 @@ contains
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
    end subroutine write_points
 
-   !> u* as given, or of the speeds: u* = u eta0 alpha/R.
+   !> u* as given, or of the speeds.
    pure subroutine form_speed_groups(scene, contact, groups)
       type(scene_t), intent(in) :: scene
       type(film_contact_t), intent(in) :: contact
@@ -127,12 +128,12 @@ contains
       real(dp) :: speed
 
       if (.not. scene%points%from_speeds) then
-         allocate (groups, source=scene%points%speed_groups)
+         groups = scene%points%speed_groups
          return
       end if
       speed = scene%kinematics%entrainment_speed
       if (scene%points%speed_reading == speed_sum) speed = 2.0_dp*speed
-      allocate (groups(1), source=speed*contact%viscosity*contact%pressure_viscosity/contact%radius)
+      groups = [speed_group_of(contact, speed)]
    end subroutine form_speed_groups
 
    !> Contact and oil of a scene.
@@ -140,8 +141,7 @@ contains
       type(scene_t), intent(in) :: scene
       type(film_contact_t) :: contact
 
-      contact%radius = scene%contact%radius
-      if (.not. contact%radius > 0.0_dp) contact%radius = equivalent_radius(scene%contact%radius_1, scene%contact%radius_2)
+      contact%radius = contact_radius(scene%contact)
       contact%length = scene%contact%length
       contact%modulus = plane_strain_modulus(scene%contact%young_modulus, scene%contact%poisson_ratio)
       contact%viscosity = scene%lubricant%viscosity
@@ -157,20 +157,9 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(summary_t) :: summary
 
-      call summary%add('name', trim(scene%name))
-      call summary%add('program_version', program_version)
-      call summary%add('status', status_name(status))
-      call summary%add('status_text', status_sentence(status))
+      call add_head(summary, scene, status)
       call summary%add('points', points)
-      if (scene%points%from_speeds) then
-         if (scene%points%speed_reading == speed_sum) then
-            call summary%add('speed_meaning', 'rolling speed u_r = u1 + u2')
-         else
-            call summary%add('speed_meaning', 'entrainment speed U = (u1 + u2)/2')
-         end if
-      else
-         call summary%add('speed_meaning', 'the u of the given groups')
-      end if
+      call summary%add('speed_meaning', speed_meaning(scene))
       call summary%add('sign_convention', 'stiffness -dW/dh0, damping -dW/dw: positive where the film resists')
       call summary%add('wall_seconds', seconds)
       call summary%write(summary_path(scene), error)

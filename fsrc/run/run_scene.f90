@@ -44,7 +44,7 @@ contains
       type(checkpoint_t) :: start
       type(progress_t) :: watcher
       type(log_t), target :: log
-      type(error_t), allocatable :: write_error, ignored
+      type(error_t), allocatable :: write_error, summary_error
       real(dp) :: started
 
       status = status_complete
@@ -78,13 +78,11 @@ contains
       if (allocated(error)) result%ending%status = status_not_written
       status = result%ending%status
 
-      if (allocated(error)) then
-         call log%line('  '//error%message)
-         call write_scene_summary(summary_path(scene), scene, resolved, result, ignored)
-      else
-         call write_scene_summary(summary_path(scene), scene, resolved, result, error)
-         call report_ending(log, scene, result)
-      end if
+      call write_scene_summary(summary_path(scene), scene, resolved, result, summary_error)
+      ! A summary that cannot be written takes nothing from the log.
+      if (.not. allocated(error)) call report_ending(log, scene, result)
+      if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+      if (allocated(error)) call log%line('  '//error%message)
       call log%close()
    end subroutine run_one_scene
 

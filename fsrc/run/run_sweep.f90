@@ -6,8 +6,8 @@ module run_sweep
    use floquet, only: orbit_stability
    use integrate_controlled, only: find_steady_motion
    use kinds, only: dp
-   use lane_scenes, only: lane_ending_t
-   use log_file, only: log_magic, log_t
+   use lane_scenes, only: lane_ending_t, lane_scene_t
+   use log_file, only: log_t
    use output_place, only: log_path, result_path, summary_path
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
    use fine_window, only: solve_fine_window, window_t
@@ -16,13 +16,13 @@ module run_sweep
    use resolved_scene, only: resolve, resolved_scene_t
    use result_writer, only: result_writer_t
    use scene_lane, only: lane_of_scene
-   use scene_report, only: law_sentence
-   use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written, status_sentence
+   use scene_report, only: law_sentence, report_head
+   use scene_status, only: is_success, status_complete, status_interrupted, status_not_written, status_sentence
+   use scene_summary, only: add_head
    use scene_types, only: scene_t, sweep_force_amplitude, sweep_frequency, sweep_steady_force
    use signals, only: caught_signal
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
-   use version, only: program_version
    implicit none(type, external)
    private
 
@@ -51,7 +51,7 @@ contains
       type(log_t), target :: log
       type(progress_t) :: watcher
       type(result_writer_t) :: writer
-      type(error_t), allocatable :: write_error
+      type(error_t), allocatable :: summary_error
       real(dp) :: started, film, velocity, row(size(names), 1)
       integer :: i, failed
 
@@ -59,8 +59,7 @@ contains
       started = wall_seconds()
       call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
-      call log%line(log_magic//program_version//', scene '//trim(scene%name)//': sweep of '// &
-                    integer_text(size(scene%sweep%values))//' motions, '//law_sentence(scene))
+      call report_head(log, scene, 'sweep of '//integer_text(size(scene%sweep%values))//' motions, '//law_sentence(scene))
       call writer%open(result_path(scene), scene%resolved_input, names, units, error)
       call watcher%start(log, quiet)
       film = 0.0_dp
@@ -81,8 +80,8 @@ contains
       call watcher%clear()
       if (.not. allocated(error)) call writer%close(error)
       if (allocated(error)) status = status_not_written
-      call write_sweep_summary(scene, failed, wall_seconds() - started, status, write_error)
-      if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
+      call write_sweep_summary(scene, failed, wall_seconds() - started, status, summary_error)
+      if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
       if (allocated(error)) then
          call log%line('  '//error%message)
       else
@@ -122,6 +121,7 @@ contains
       !> Row of the table but its first two values; NaN-free: what is unknown is 0
       real(dp), intent(out) :: row(:)
       type(resolved_scene_t) :: resolved
+      type(lane_scene_t) :: lane
       type(lane_ending_t) :: ending, window_ending
       type(periodic_orbit_t) :: orbit
       type(rattle_verdict_t) :: verdict
@@ -148,16 +148,17 @@ contains
       end if
       film = ending%film
       velocity = ending%velocity
+      lane = lane_of_scene(scene, resolved%film, film, velocity)
       window%periods = scene%spectrum%periods
       if (ending%orbit > 0) window%periods = ending%orbit
       window%samples_per_period = scene%solver%samples_per_period()
-      call solve_fine_window(scene, lane_of_scene(scene, resolved%film, film, velocity), scene%solver%accuracy, window%periods, &
-                             resolved%noise_floor, window, verdict, window_ending)
+      call solve_fine_window(scene, lane, scene%solver%accuracy, window%periods, resolved%noise_floor, window, verdict, &
+                             window_ending)
       if (.not. is_success(window_ending%status)) then
          row(16) = real(window_ending%status, dp)
          return
       end if
-      orbit = find_periodic_orbit(lane_of_scene(scene, resolved%film, film, velocity), film, velocity, orbit_nearness)
+      orbit = find_periodic_orbit(lane, film, velocity, orbit_nearness)
       row(3:6) = [minval(window%films), maxval(window%films), minval(window%accelerations), maxval(window%accelerations)]
       row(7) = real(orbit%period, dp)
       if (orbit%period > 0) row(8:9) = [abs(orbit%multipliers(1)), real(orbit_stability(orbit%multipliers), dp)]
@@ -176,10 +177,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(summary_t) :: summary
 
-      call summary%add('name', trim(scene%name))
-      call summary%add('program_version', program_version)
-      call summary%add('status', status_name(status))
-      call summary%add('status_text', status_sentence(status))
+      call add_head(summary, scene, status)
       call summary%add('motions', size(scene%sweep%values))
       call summary%add('motions_failed', failed)
       call summary%add('wall_seconds', seconds)

@@ -1,6 +1,8 @@
 !> What the terminal and the log tell of a scene.
 module scene_report
+   use certificate, only: certificate_word
    use floquet, only: orbit_stability, stability_name
+   use key_table, only: choice_word
    use kinds, only: dp
    use log_file, only: log_magic, log_t
    use output_place, only: result_path, summary_path
@@ -9,17 +11,29 @@ module scene_report
    use resolved_scene, only: resolved_scene_t
    use scene_result, only: scene_result_t
    use scene_status, only: is_success, status_name, status_sentence
-   use scene_types, only: law_iso_viscous, model_reynolds, rupture_solved, scene_t, task_film
+   use scene_types, only: law_iso_viscous, model_reynolds, rupture_solved, scene_t, speed_mean, task_film
    use text, only: integer_text, short_text
    use version, only: program_version
    implicit none(type, external)
    private
 
-   public :: report_start, report_ending, law_sentence, resolved_lines, speed_meaning
+   public :: report_head, report_start, report_ending, law_sentence, resolved_lines, speed_meaning
 
 contains
 
-   !> Head of a scene: what will be solved, and what is known beforehand.
+   !> First line of a log.
+   subroutine report_head(log, scene, words)
+      !> Log of the scene
+      type(log_t), intent(in) :: log
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> What will be solved
+      character(*), intent(in) :: words
+
+      call log%line(log_magic//program_version//', scene '//trim(scene%name)//': '//words)
+   end subroutine report_head
+
+   !> Head of a motion: what will be solved, and what is known beforehand.
    subroutine report_start(log, scene, resolved)
       !> Log of the scene
       type(log_t), intent(in) :: log
@@ -28,7 +42,7 @@ contains
       !> What follows from it
       type(resolved_scene_t), intent(in) :: resolved
 
-      call log%line(log_magic//program_version//', scene '//trim(scene%name)//': '//law_sentence(scene))
+      call report_head(log, scene, law_sentence(scene))
       if (.not. resolved%steady_film > 0.0_dp) then
          call log%line('  no rigid piezo-viscous film carries the static load')
          return
@@ -46,8 +60,7 @@ contains
       if (scene%task == task_film) then
          sentence = 'film task'
       else if (scene%film%model == model_reynolds) then
-         sentence = 'exact '//trim(merge('iso-viscous  ', 'piezo-viscous', scene%film%law == law_iso_viscous))// &
-                    ' film of the Reynolds equation'
+         sentence = 'exact '//choice_word('film', 'law', scene%film%law)//' film of the Reynolds equation'
       else if (scene%film%law /= law_iso_viscous) then
          sentence = 'published piezo-viscous film (37)'
       else if (scene%film%rupture == rupture_solved) then
@@ -63,8 +76,17 @@ contains
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: words
 
-      words = 'entrainment speed U = (u1 + u2)/2'
-      if (scene%film%model == model_reynolds) words = 'rolling speed u_r = u1 + u2'
+      logical :: mean
+
+      mean = scene%film%model /= model_reynolds
+      if (scene%task == task_film) mean = scene%points%speed_reading == speed_mean
+      if (scene%task == task_film .and. .not. scene%points%from_speeds) then
+         words = 'the u of the given groups'
+      else if (mean) then
+         words = 'entrainment speed U = (u1 + u2)/2'
+      else
+         words = 'rolling speed u_r = u1 + u2'
+      end if
    end function speed_meaning
 
    !> What follows from a scene, for --check.
@@ -138,7 +160,7 @@ contains
             call log%line('  '//integer_text(lines%line_count)//' lines, harmonic distortion '// &
                           short_text(lines%harmonic_distortion, 3)//', '// &
                           short_text(rattle%reversals_per_period, 3)//' reversals a period: '//class_name(rattle%class)// &
-                          certificate_word(result))
+                          certified_in_brackets())
          else
             call log%line('  no motion but rounding: '//class_name(rattle%class))
          end if
@@ -149,16 +171,18 @@ contains
       call log%line('  '//regime_sentence(result%regime))
       if (result%regime%law_contradicted) &
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted)')
+
+   contains
+
+      !> Whether the class stands, behind it.
+      pure function certified_in_brackets() result(words)
+         character(:), allocatable :: words
+
+         words = ''
+         if (result%certificate%exists) words = ' ('//certificate_word(result%certificate)//')'
+      end function certified_in_brackets
+
    end subroutine report_window
-
-   !> Whether the class stands, as one word behind it.
-   pure function certificate_word(outcome) result(word)
-      type(scene_result_t), intent(in) :: outcome
-      character(:), allocatable :: word
-
-      word = ''
-      if (outcome%certificate%exists) word = trim(merge(' (certified)', ' (uncertain)', outcome%certificate%certified))
-   end function certificate_word
 
    !> Errors by the tighter solution, and the periodic motion.
    subroutine report_certificate(log, result)

@@ -1,7 +1,9 @@
 !> Result of a scene as the &summary group.
 module scene_summary
+   use certificate, only: certificate_word
    use errors, only: error_t
    use floquet, only: orbit_stability, stability_name
+   use key_table, only: choice_word
    use kinds, only: dp
    use rattle_class, only: class_name
    use regime, only: film_elastohydrodynamic
@@ -10,7 +12,7 @@ module scene_summary
    use scene_report, only: speed_meaning
    use scene_result, only: scene_result_t
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_sentence
-   use scene_types, only: law_iso_viscous, model_reynolds, scene_t
+   use scene_types, only: scene_t
    use summary_file, only: summary_t
    use version, only: program_version
    implicit none(type, external)
@@ -19,7 +21,7 @@ module scene_summary
    !> Harmonics that the summary lists.
    integer, parameter :: most_harmonics = 40
 
-   public :: write_scene_summary
+   public :: write_scene_summary, add_head
 
 contains
 
@@ -37,13 +39,9 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(summary_t) :: summary
 
-      call summary%add('name', trim(scene%name))
-      call summary%add('program_version', program_version)
-      call summary%add('status', status_name(result%ending%status))
-      call summary%add('status_time', result%ending%time)
-      call summary%add('status_text', status_sentence(result%ending%status))
-      call summary%add('law', trim(merge('iso-viscous  ', 'piezo-viscous', scene%film%law == law_iso_viscous)))
-      call summary%add('model', trim(merge('reynolds ', 'published', scene%film%model == model_reynolds)))
+      call add_head(summary, scene, result%ending%status, result%ending%time)
+      call summary%add('law', choice_word('film', 'law', scene%film%law))
+      call summary%add('model', choice_word('film', 'model', scene%film%model))
       call summary%add('speed_used', resolved%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))
       if (resolved%steady_film > 0.0_dp) then
@@ -68,6 +66,24 @@ contains
       call summary%add('wall_seconds', result%solve_seconds + result%judge_seconds)
       call summary%write(path, error)
    end subroutine write_scene_summary
+
+   !> What every summary of a scene begins with.
+   subroutine add_head(summary, scene, status, time)
+      !> An empty summary
+      type(summary_t), intent(inout) :: summary
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Status of scene_status
+      integer, intent(in) :: status
+      !> When a motion got it [s]
+      real(dp), intent(in), optional :: time
+
+      call summary%add('name', trim(scene%name))
+      call summary%add('program_version', program_version)
+      call summary%add('status', status_name(status))
+      if (present(time)) call summary%add('status_time', time)
+      call summary%add('status_text', status_sentence(status))
+   end subroutine add_head
 
    !> What was judged from the window.
    subroutine add_window(summary, result)
@@ -107,7 +123,7 @@ contains
       type(scene_result_t), intent(in) :: result
 
       associate (certificate => result%certificate, orbit => result%orbit)
-         call summary%add('certificate', trim(merge('certified', 'uncertain', certificate%certified)))
+         call summary%add('certificate', certificate_word(certificate))
          call summary%add('certificate_text', certificate%reason)
          if (size(certificate%harmonic_errors) > 0) then
             call summary%add('film_error', certificate%film_error)

@@ -23,7 +23,7 @@ module certificate
       character(:), allocatable :: reason
    end type certificate_t
 
-   public :: compare_windows, no_certificate
+   public :: compare_windows, no_certificate, certificate_word
 
 contains
 
@@ -110,6 +110,16 @@ contains
             reason = 'Within their errors there are '//integer_text(fewest)//' to '//integer_text(most)//' lines.'
       end associate
    end function doubt_of_limits
+
+   !> Whether the class stands, in a word.
+   pure function certificate_word(certificate) result(word)
+      !> A certificate that exists
+      type(certificate_t), intent(in) :: certificate
+      character(:), allocatable :: word
+
+      word = 'uncertain'
+      if (certificate%certified) word = 'certified'
+   end function certificate_word
 
    !> Certificate of a class that could not be put to the test.
    pure function no_certificate(reason) result(certificate)
