@@ -43,50 +43,63 @@ contains
       end do
    end subroutine advance_lanes
 
-   !> Known part of Newmark's formulas, the extrapolated iterate, and the load (35) of it.
+   !> Extrapolated iterate and the load (35) of it.
    pure subroutine begin_half_pi_steps(group)
       type(newmark_lane_group_t), intent(inout) :: group
-      real(dp) :: a
+      real(dp) :: velocity
       integer :: l
 
       associate (step => group%step)
-         !$omp simd private(a)
+         !$omp simd private(velocity)
          do l = 1, group%used
-            a = group%acceleration(l)
-            step%known_film(l) = group%film(l) + group%velocity(l) + a
-            step%known_velocity(l) = group%velocity(l) + 2.0_dp*a
-            step%smallest(l) = smallest_film_ratio*group%film(l)
-            step%least(l) = step%known_film(l) + a
-            call half_pi_rupture_load(group%strength(l), group%squeeze(l), &
-                                      max(step%least(l), step%smallest(l)), step%known_velocity(l) + &
-                                      2.0_dp*a, &
+            call begin_step(group%film(l), group%velocity(l), group%acceleration(l), step%known_film(l), &
+                            step%known_velocity(l), step%smallest(l), step%least(l), velocity)
+            call half_pi_rupture_load(group%strength(l), group%squeeze(l), max(step%least(l), step%smallest(l)), velocity, &
                                       step%load(l), step%load_by_film(l), step%load_by_velocity(l))
          end do
       end associate
    end subroutine begin_half_pi_steps
 
-   !> Known part of Newmark's formulas, the extrapolated iterate, and the load (37) of it.
+   !> Extrapolated iterate and the load (37) of it.
    pure subroutine begin_piezo_steps(group)
       type(newmark_lane_group_t), intent(inout) :: group
-      real(dp) :: a
+      real(dp) :: velocity
       integer :: l
 
       associate (step => group%step)
-         !$omp simd private(a)
+         !$omp simd private(velocity)
          do l = 1, group%used
-            a = group%acceleration(l)
-            step%known_film(l) = group%film(l) + group%velocity(l) + a
-            step%known_velocity(l) = group%velocity(l) + 2.0_dp*a
-            step%smallest(l) = smallest_film_ratio*group%film(l)
-            step%least(l) = step%known_film(l) + a
-            step%growth(l) = power_of_two(-group%doubling_rate(l)*(step%known_velocity(l) + 2.0_dp*a))
-            call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), &
-                                          max(step%least(l), step%smallest(l)), step%growth(l), &
-                                          step%load(l), &
-                                          step%load_by_film(l), step%load_by_velocity(l))
+            call begin_step(group%film(l), group%velocity(l), group%acceleration(l), step%known_film(l), &
+                            step%known_velocity(l), step%smallest(l), step%least(l), velocity)
+            step%growth(l) = power_of_two(-group%doubling_rate(l)*velocity)
+            call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), max(step%least(l), step%smallest(l)), &
+                                          step%growth(l), step%load(l), step%load_by_film(l), step%load_by_velocity(l))
          end do
       end associate
    end subroutine begin_piezo_steps
+
+   !> Known part of Newmark's formulas, and the extrapolated iterate.
+   elemental subroutine begin_step(film, velocity, acceleration, known_film, known_velocity, smallest, next_film, &
+                                   next_velocity)
+      !> State h, V, A [m]
+      real(dp), intent(in) :: film
+      real(dp), intent(in) :: velocity
+      real(dp), intent(in) :: acceleration
+      !> h and V at the end of the step were A zero there [m]
+      real(dp), intent(out) :: known_film
+      real(dp), intent(out) :: known_velocity
+      !> Film that fails [m]
+      real(dp), intent(out) :: smallest
+      !> h and V at its end with A as before [m]
+      real(dp), intent(out) :: next_film
+      real(dp), intent(out) :: next_velocity
+
+      known_film = film + velocity + acceleration
+      known_velocity = velocity + 2.0_dp*acceleration
+      smallest = smallest_film_ratio*film
+      next_film = known_film + acceleration
+      next_velocity = known_velocity + 2.0_dp*acceleration
+   end subroutine begin_step
 
    !> First Newton pass.
    pure subroutine correct_first(group, cosine)
