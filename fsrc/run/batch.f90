@@ -116,6 +116,7 @@ contains
       end do
    end subroutine check_states
 
+   !> Every scene has a place for its files.
    subroutine check_places(command, scenes, may_make, faults)
       type(command_t), intent(in) :: command
       type(scene_t), intent(in) :: scenes(:)

@@ -38,6 +38,7 @@ contains
          angle = -half_pi + inlet_margin + (rupture_angle + half_pi - inlet_margin)*real(node - 1, dp)/real(nodes - 1, dp)
          tangent = tan(angle)
          if (node == nodes) tangent = point%rupture_tangent
+         ! At both ends the pressure is zero, and rounding may leave it below.
          group = max(0.0_dp, pressure_group(tangent, point%rupture_tangent, point%squeeze_group))
          alpha_p = point%pressure_group*group
          rows(:7, node) = [point%film_ratio, point%squeeze_ratio, point%speed_group, angle, &

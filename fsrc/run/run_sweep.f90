@@ -53,7 +53,7 @@ contains
       type(result_writer_t) :: writer
       type(error_t), allocatable :: summary_error
       real(dp) :: started, film, velocity, row(size(names), 1)
-      integer :: i, failed
+      integer :: i, failed, ended
 
       status = status_complete
       started = wall_seconds()
@@ -71,9 +71,10 @@ contains
             status = status_interrupted
             exit
          end if
-         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, row(:, 1))
+         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, row(:, 1), ended)
          row(1:2, 1) = [scene%sweep%values(i), merge(1.0_dp, -1.0_dp, i <= scene%sweep%outward)]
-         if (.not. is_success(nint(row(16, 1)))) failed = failed + 1
+         row(16, 1) = real(ended, dp)
+         if (.not. is_success(ended)) failed = failed + 1
          call writer%write_rows(row, error)
          call watcher%period_done(i, size(scene%sweep%values))
       end do
@@ -113,13 +114,15 @@ contains
    end function swept_scene
 
    !> Steady motion of one value, from the state given; that state becomes the one for the next value.
-   subroutine solve_value(scene, film, velocity, row)
+   subroutine solve_value(scene, film, velocity, row, status)
       type(scene_t), intent(in) :: scene
       !> State to start from; no film: the steady film at rest [m], [m/s]
       real(dp), intent(inout) :: film
       real(dp), intent(inout) :: velocity
-      !> Row of the table but its first two values; NaN-free: what is unknown is 0
+      !> Row of the table but its first two values and the status; NaN-free: what is unknown is 0
       real(dp), intent(out) :: row(:)
+      !> Status of scene_status
+      integer, intent(out) :: status
       type(resolved_scene_t) :: resolved
       type(lane_scene_t) :: lane
       type(lane_ending_t) :: ending, window_ending
@@ -134,15 +137,13 @@ contains
          film = resolved%initial_film
          velocity = scene%film%initial_velocity
       end if
-      if (.not. film > 0.0_dp) then
-         row(16) = real(resolved%film%status_without_load, dp)
-         return
-      end if
+      status = resolved%film%status_without_load
+      if (.not. film > 0.0_dp) return
       call find_steady_motion(lane_of_scene(scene, resolved%film, film, velocity), scene%solver%accuracy, &
                               scene%solver%periods, scene%spectrum%periods, ending)
       row(15) = real(ending%periods, dp)
-      row(16) = real(ending%status, dp)
-      if (.not. is_success(ending%status)) then
+      status = ending%status
+      if (.not. is_success(status)) then
          film = 0.0_dp
          return
       end if
@@ -155,7 +156,7 @@ contains
       call solve_fine_window(scene, lane, scene%solver%accuracy, window%periods, resolved%noise_floor, window, verdict, &
                              window_ending)
       if (.not. is_success(window_ending%status)) then
-         row(16) = real(window_ending%status, dp)
+         status = window_ending%status
          return
       end if
       orbit = find_periodic_orbit(lane, film, velocity, orbit_nearness)

@@ -9,7 +9,7 @@ module scene_report
    use rattle_class, only: class_name
    use regime_words, only: regime_sentence
    use resolved_scene, only: resolved_scene_t
-   use scene_result, only: scene_result_t
+   use scene_result, only: passes_per_step, scene_result_t
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: law_iso_viscous, model_reynolds, rupture_solved, scene_t, speed_mean, task_film
    use text, only: integer_text, short_text
@@ -125,7 +125,8 @@ contains
 
       associate (count => result%ending%count)
          call log%line('  '//integer_text(count%steps)//' steps in '//short_text(result%solve_seconds, 3)//' s, '// &
-                       passes_text()//' passes a step, '//integer_text(count%cuts)//' steps cut where the film law had no value')
+                       short_text(passes_per_step(count), 3)//' passes a step, '//integer_text(count%cuts)// &
+                       ' steps cut where the film law had no value')
       end associate
       if (.not. is_success(result%ending%status)) call log%line('  '//status_name(result%ending%status)//' at t = '// &
                            short_text(result%ending%time, 6)//' s, film '//micrometres(result%ending%film)//' um: '// &
@@ -133,18 +134,6 @@ contains
       if (result%judged) call report_window(log, result)
       if (scene%output%series) call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
-
-   contains
-
-      pure function passes_text() result(words)
-         character(:), allocatable :: words
-
-         words = '0'
-         associate (count => result%ending%count)
-            if (count%steps > 0) words = short_text(real(count%evaluations, dp)/real(count%steps, dp), 3)
-         end associate
-      end function passes_text
-
    end subroutine report_ending
 
    !> The window: extremes, spectrum, class, regime.

@@ -6,6 +6,7 @@ module scene_result
    use integrate_motion, only: motion_end_t
    use kinds, only: dp
    use lane_scenes, only: lane_ending_t, lane_scene_t
+   use newmark, only: motion_count_t
    use periodic_orbit, only: periodic_orbit_t
    use rattle_class, only: rattle_verdict_t
    use regime_check, only: check_regime, regime_verdict_t
@@ -34,7 +35,7 @@ module scene_result
       real(dp) :: solve_seconds = 0.0_dp, judge_seconds = 0.0_dp
    end type scene_result_t
 
-   public :: judge
+   public :: judge, passes_per_step
 
 contains
 
@@ -76,5 +77,14 @@ contains
       if (scene%spectrum%certify) call certify(scene, resolved, lane, result%ending%periods, window, result%rattle, &
                                                result%certificate, result%orbit)
    end subroutine judge
+
+   !> Evaluations of the film per step of a motion, 0 without a step.
+   pure real(dp) function passes_per_step(count)
+      !> Cost of the motion
+      type(motion_count_t), intent(in) :: count
+
+      passes_per_step = 0.0_dp
+      if (count%steps > 0) passes_per_step = real(count%evaluations, dp)/real(count%steps, dp)
+   end function passes_per_step
 
 end module scene_result

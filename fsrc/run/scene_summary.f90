@@ -10,7 +10,7 @@ module scene_summary
    use regime_words, only: regime_name
    use resolved_scene, only: resolved_scene_t
    use scene_report, only: speed_meaning
-   use scene_result, only: scene_result_t
+   use scene_result, only: passes_per_step, scene_result_t
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_sentence
    use scene_types, only: scene_t
    use summary_file, only: summary_t
@@ -61,7 +61,7 @@ contains
          call summary%add('evaluations', count%evaluations)
          call summary%add('steps', count%steps)
          call summary%add('steps_cut', count%cuts)
-         if (count%steps > 0) call summary%add('iterations_per_step', real(count%evaluations, dp)/real(count%steps, dp))
+         if (count%steps > 0) call summary%add('iterations_per_step', passes_per_step(count))
       end associate
       call summary%add('wall_seconds', result%solve_seconds + result%judge_seconds)
       call summary%write(path, error)

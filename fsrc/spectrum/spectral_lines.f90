@@ -49,6 +49,7 @@ contains
       highest = ubound(amplitudes, 1)
       resolved = (size(acceleration)/periods - 1)/2
       lines%harmonics = [(amplitudes(n*periods), n=1, resolved)]
+      ! A line stands for two bins of the transform; that at half the samples is one bin, whose square counts twice.
       power = sum(amplitudes(1:)**2)
       if (mod(size(acceleration), 2) == 0) power = power + amplitudes(highest)**2
       harmonic_power = sum(lines%harmonics**2)
