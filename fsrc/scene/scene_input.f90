@@ -5,7 +5,8 @@ module scene_input
                         logical_kind, nearest_group, nearest_key, path_limit, real_kind, reals_kind, table_kind, &
                         text_kind
    use kinds, only: dp
-   use namelist_text, only: assignment_t, value_t
+   use namelist_scanner, only: value_t
+   use namelist_text, only: assignment_t
    use number_text, only: read_strict_integer, read_strict_real
    use text, only: integer_text, logical_text, lower, quoted, quoted_words, real_text
    implicit none(type, external)

@@ -118,6 +118,8 @@ contains
       call expect('&g k = ''abc'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the closing quote', 'open quote')
       call expect('&g k(0) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'index 0')
       call expect('&g k(1:2) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'section')
+      call expect('&g k(:) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'column without its number')
+      call expect('&g k(:,) = 1'//end_of_line//'m=2 /', 1, 1, 'f:1: &g k: the index', 'column with an empty number')
       call expect('&g k=1'//end_of_line//achar(0)//' /', 1, 0, 'f:2: not a text file', 'binary file')
 
    contains
