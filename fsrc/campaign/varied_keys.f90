@@ -1,6 +1,7 @@
 !> Which keys a campaign may vary: the numbers that describe a motion scene.
 module varied_keys
-   use key_table, only: find_key, integer_kind, keys, known_group, nearest_group, nearest_key, real_kind
+   use input_key, only: integer_kind, real_kind
+   use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
    use text, only: lower
    implicit none(type, external)
    private

@@ -1,6 +1,7 @@
 !> Puts the values of varied keys into a scene, and says whether they make one.
 module varied_scene
-   use key_table, only: in_range, keys
+   use input_key, only: in_range
+   use key_table, only: keys
    use kinds, only: dp
    use scene_types, only: scene_t
    implicit none(type, external)

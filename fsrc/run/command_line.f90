@@ -1,7 +1,8 @@
 !> Arguments of the program.
 module command_line
    use errors, only: fault_list_t
-   use key_table, only: find_key, keys, list_kind, text_kind
+   use input_key, only: list_kind, text_kind
+   use key_table, only: find_key, keys
    use scene_reader, only: override_t
    use text, only: lower, quoted, quoted_words
    implicit none(type, external)

@@ -1,6 +1,7 @@
 !> The key table as text: a commented input (--template) and the page of all keys (--keys).
 module key_page
-   use key_table, only: allowed_text, key_t, keys, list_kind, text_kind
+   use input_key, only: allowed_text, key_t, list_kind, text_kind
+   use key_table, only: keys, starts_group
    use text, only: quoted, quoted_words
    implicit none(type, external)
    private
@@ -111,13 +112,5 @@ contains
          end_of_line//'iso-viscous law and q of (31) for a piezo-viscous one, left out where q does not exist; the'// &
          end_of_line//'deflection is then that of p, a lower bound.'//end_of_line
    end function class_text
-
-   !> Whether a key is the first of its group; the place behind the last key counts as one.
-   pure logical function starts_group(position)
-      integer, intent(in) :: position
-
-      starts_group = position == 1 .or. position == size(keys) + 1
-      if (.not. starts_group) starts_group = keys(position)%group /= keys(position - 1)%group
-   end function starts_group
 
 end module key_page

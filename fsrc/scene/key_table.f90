@@ -1,46 +1,13 @@
 !> The one table of input keys. Reader, checker, nearest-key suggestion, template, the page of all keys
 !> and the keys that a campaign may vary all come from here. A new key is a new line in this file
-!> and one line where its group is read (scene_reader).
+!> and one line where its group is read (scene_reader, task_reader); choices of its own have codes in
+!> scene_types.
 module key_table
+   use input_key, only: integer_kind, key_t, list_kind, logical_kind, range_t, real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
-   use text, only: edit_distance, real_text
+   use text, only: edit_distance
    implicit none(type, external)
    private
-
-   integer, parameter, public :: real_kind = 1, integer_kind = 2, logical_kind = 3, text_kind = 4, list_kind = 5, &
-                                 reals_kind = 6, table_kind = 7
-
-   !> Allowed numbers; an open bound itself is not allowed.
-   type, public :: range_t
-      real(dp) :: lower = -huge(1.0_dp)
-      logical :: lower_open = .true.
-      real(dp) :: upper = huge(1.0_dp)
-      logical :: upper_open = .true.
-   end type range_t
-
-   !> One key.
-   type, public :: key_t
-      !> Namelist group
-      character(12) :: group
-      !> Name in the group
-      character(24) :: name
-      !> Type of its value
-      integer :: kind
-      !> SI unit, '-' for a pure number, empty where it does not apply
-      character(8) :: unit
-      !> 'required', a value, or empty: optional, its absence means what the sentence says
-      character(256) :: default
-      !> Allowed numbers
-      type(range_t) :: range
-      !> Allowed words, separated by blanks; empty: any text that the reader accepts
-      character(400) :: choices
-      !> 'group.key=word[|word] [& ...]': legal only then; empty: always
-      character(48) :: used_when
-      !> What it means
-      character(240) :: sentence
-      !> Value in the template where there is no default
-      character(16) :: example = ''
-   end type key_t
 
    type(range_t), parameter :: any_number = range_t()
    type(range_t), parameter :: positive = range_t(lower=0.0_dp)
@@ -49,9 +16,6 @@ module key_table
    type(range_t), parameter :: at_least_1 = range_t(1.0_dp, .false., 1.0e9_dp, .false.)
    type(range_t), parameter :: at_least_8 = range_t(8.0_dp, .false., 1.0e7_dp, .false.)
    type(range_t), parameter :: fraction = range_t(0.0_dp, .true., 1.0_dp, .false.)
-
-   !> Longest text value.
-   integer, parameter, public :: name_limit = 64, path_limit = 512
 
    type(key_t), parameter, public :: keys(*) = [ &
       key_t('scene', 'name', text_kind, '', '', any_number, '', '', &
@@ -254,7 +218,7 @@ module key_table
             'Whether output files of an earlier run may be replaced; files of any other kind never are.') &
       ]
 
-   public :: find_key, nearest_key, known_group, nearest_group, allowed_text, choice_word, in_range
+   public :: find_key, known_group, starts_group, nearest_key, nearest_group
 
 contains
 
@@ -279,7 +243,16 @@ contains
       known_group = any(keys%group == group)
    end function known_group
 
-   !> 'did you mean ...' for a misspelt key: one of its own group, or the group where the key lives.
+   !> Whether a key is the first of its group; the place behind the last key counts as one.
+   pure logical function starts_group(position)
+      !> From 1 to one more than there are keys
+      integer, intent(in) :: position
+
+      starts_group = position == 1 .or. position == size(keys) + 1
+      if (.not. starts_group) starts_group = keys(position)%group /= keys(position - 1)%group
+   end function starts_group
+
+   !> Hint for a misspelt key: the nearest one of its own group, or the group where the key lives.
    pure function nearest_key(group, name) result(hint)
       !> Known group
       character(*), intent(in) :: group
@@ -320,87 +293,5 @@ contains
          nearest = trim(keys(i)%group)
       end do
    end function nearest_group
-
-   !> One of the words that a key allows, by its position from 1; empty beyond the last.
-   pure function choice_word(group, name, position) result(word)
-      !> Namelist group
-      character(*), intent(in) :: group
-      !> Key in the group
-      character(*), intent(in) :: name
-      !> Position
-      integer, intent(in) :: position
-      character(:), allocatable :: word
-      integer :: skipped
-
-      word = trim(keys(find_key(group, name))%choices)//' '
-      do skipped = 1, position - 1
-         word = word(index(word, ' ') + 1:)
-      end do
-      word = word(:index(word, ' ') - 1)
-   end function choice_word
-
-   !> Whether a number is allowed for a key.
-   pure logical function in_range(key, number)
-      !> Key with a range
-      type(key_t), intent(in) :: key
-      !> Finite number
-      real(dp), intent(in) :: number
-
-      in_range = merge(number > key%range%lower, number >= key%range%lower, key%range%lower_open) .and. &
-                 merge(number < key%range%upper, number <= key%range%upper, key%range%upper_open)
-   end function in_range
-
-   !> Allowed values in words.
-   pure function allowed_text(key) result(allowed)
-      !> Any key of the table
-      type(key_t), intent(in) :: key
-      character(:), allocatable :: allowed
-      logical :: bounded_below, bounded_above
-
-      select case (key%kind)
-      case (logical_kind)
-         allowed = '.true. or .false.'
-      case (text_kind, list_kind)
-         allowed = choices_text(key)
-      case default
-         ! One rule for a number and for each number of a list.
-         bounded_below = key%range%lower > -huge(1.0_dp)
-         bounded_above = key%range%upper < huge(1.0_dp)
-         allowed = trim(merge('an integer', 'a number  ', key%kind == integer_kind))
-         if (key%kind == reals_kind .or. key%kind == table_kind) allowed = 'numbers'
-         if (bounded_below) allowed = allowed//trim(merge(' >  ', ' >= ', key%range%lower_open))// &
-                                      ' '//bound_text(key%range%lower, key%kind)
-         if (bounded_below .and. bounded_above) allowed = allowed//' and'
-         if (bounded_above) allowed = allowed//trim(merge(' <  ', ' <= ', key%range%upper_open))// &
-                                      ' '//bound_text(key%range%upper, key%kind)
-      end select
-   end function allowed_text
-
-   pure function bound_text(bound, kind) result(words)
-      real(dp), intent(in) :: bound
-      integer, intent(in) :: kind
-      character(:), allocatable :: words
-
-      words = real_text(bound)
-      if (kind == integer_kind .and. index(words, '.0') == len(words) - 1) words = words(:len(words) - 2)
-   end function bound_text
-
-   pure function choices_text(key) result(words)
-      type(key_t), intent(in) :: key
-      character(:), allocatable :: words
-      integer :: i, start
-
-      if (len_trim(key%choices) == 0) then
-         words = 'a text in quotes'
-         return
-      end if
-      words = trim(merge('any of', 'one of', key%kind == list_kind))
-      start = 1
-      do i = 1, len_trim(key%choices) + 1
-         if (key%choices(i:i) /= ' ') cycle
-         words = words//" '"//key%choices(start:i - 1)//"'"
-         start = i + 1
-      end do
-   end function choices_text
 
 end module key_table

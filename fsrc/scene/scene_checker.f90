@@ -1,10 +1,12 @@
 !> What must hold between the keys of a scene. What a single key must be stands in the key table.
 module scene_checker
    use errors, only: fault_list_t
-   use key_table, only: allowed_text, find_key, in_range, keys
+   use input_key, only: allowed_text, in_range
+   use key_table, only: find_key, keys
    use kinds, only: dp
-   use scene_input, only: scene_input_t, word_position
+   use scene_input, only: scene_input_t
    use text, only: integer_text
+   use word_list, only: word_position
    implicit none(type, external)
    private
 
@@ -47,7 +49,7 @@ contains
       do i = 1, size(keys)
          if (keys(i)%default /= 'required' .or. input%entries(i)%given .or. .not. in_use(input, i)) cycle
          ! Which keys a task requires is not known before the task is.
-         if (keys(i)%used_when /= '' .and. faulty(input, 'scene', 'task')) cycle
+         if (keys(i)%used_when /= '' .and. input%is_faulty('scene', 'task')) cycle
          call faults%add(input%file, 0, trim(keys(i)%group), trim(keys(i)%name), &
                          'this key is required; allowed: '//allowed_text(keys(i)))
       end do
@@ -144,8 +146,8 @@ contains
          if (first) call input%add_fault('kinematics', 'surface_speed_1', rule, faults)
          if (second) call input%add_fault('kinematics', 'surface_speed_2', rule, faults)
       else if (first) then
-         if (faulty(input, 'kinematics', 'surface_speed_1')) return
-         if (faulty(input, 'kinematics', 'surface_speed_2')) return
+         if (input%is_faulty('kinematics', 'surface_speed_1')) return
+         if (input%is_faulty('kinematics', 'surface_speed_2')) return
          if (.not. input%number('kinematics', 'surface_speed_1') + input%number('kinematics', 'surface_speed_2') > 0.0_dp) &
             call input%add_fault('kinematics', 'surface_speed_1', 'the sum of both surface speeds must be positive', faults)
       else if (.not. (mean .or. sum_ .or. groups_given)) then
@@ -176,8 +178,8 @@ contains
       !> Samples in the window; the transform and its work space then stay below 10 GB
       real(dp), parameter :: most_samples = 2.0e8_dp
 
-      if (faulty(input, 'spectrum', 'periods')) return
-      if (.not. faulty(input, 'solver', 'periods') .and. &
+      if (input%is_faulty('spectrum', 'periods')) return
+      if (.not. input%is_faulty('solver', 'periods') .and. &
           input%count('solver', 'periods') < input%count('spectrum', 'periods')) then
          call input%add_fault('solver', 'periods', 'at least &spectrum periods ('// &
                               integer_text(input%count('spectrum', 'periods'))//') must be solved', faults)
@@ -190,22 +192,13 @@ contains
       subroutine check_samples(name)
          character(*), intent(in) :: name
 
-         if (faulty(input, 'solver', name)) return
+         if (input%is_faulty('solver', name)) return
          if (real(input%count('spectrum', 'periods'), dp)*real(input%count('solver', name), dp) > most_samples) &
             call input%add_fault('solver', name, 'the window of &spectrum periods would hold more than 200000000 samples', &
                                  faults)
       end subroutine check_samples
 
    end subroutine check_window
-
-   !> Whether a key was set to something that could not be read, so that no rule can be held against it.
-   pure logical function faulty(input, group, name)
-      type(scene_input_t), intent(in) :: input
-      character(*), intent(in) :: group
-      character(*), intent(in) :: name
-
-      faulty = input%entries(find_key(group, name))%faulty
-   end function faulty
 
    !> No word of a list twice.
    subroutine check_no_word_twice(input, group, name, faults)
@@ -216,7 +209,7 @@ contains
       character(:), allocatable :: rest
       integer :: blank
 
-      if (input%entries(find_key(group, name))%faulty) return
+      if (input%is_faulty(group, name)) return
       rest = input%words(group, name)
       do
          blank = index(rest, ' ')
@@ -252,7 +245,7 @@ contains
 
       if (input%word('solver', 'method') /= 'taylor') &
          call input%add_fault('solver', 'method', 'a sweep needs the taylor method', faults)
-      if (faulty(input, 'sweep', 'key') .or. faulty(input, 'sweep', 'first') .or. faulty(input, 'sweep', 'last')) return
+      if (input%is_faulty('sweep', 'key') .or. input%is_faulty('sweep', 'first') .or. input%is_faulty('sweep', 'last')) return
       if (.not. all([input%is_given('sweep', 'key'), input%is_given('sweep', 'first'), input%is_given('sweep', 'last')])) return
       key = input%word('sweep', 'key')
       group = trim(merge('kinematics', 'load      ', key == 'entrainment_speed'))
@@ -281,7 +274,7 @@ contains
          call input%add_fault('campaign', 'vary', 'give either vary or csv', faults)
       if (input%word('campaign', 'sample') /= 'grid' .and. .not. input%is_given('campaign', 'size')) &
          call input%add_fault('campaign', 'size', 'a sample needs its size', faults)
-      if (.not. (faulty(input, 'campaign', 'part') .or. faulty(input, 'campaign', 'parts')) .and. &
+      if (.not. (input%is_faulty('campaign', 'part') .or. input%is_faulty('campaign', 'parts')) .and. &
           input%count('campaign', 'part') > input%count('campaign', 'parts')) &
          call input%add_fault('campaign', 'part', 'at most parts ('//integer_text(input%count('campaign', 'parts'))//')', faults)
    end subroutine check_campaign
@@ -310,7 +303,7 @@ contains
          logical, intent(in) :: required
          real(dp), allocatable :: numbers(:)
 
-         if (input%entries(find_key('points', list))%faulty .or. input%entries(find_key('points', range))%faulty) return
+         if (input%is_faulty('points', list) .or. input%is_faulty('points', range)) return
          if (input%is_given('points', list) .and. input%is_given('points', range)) then
             call input%add_fault('points', range, 'give either '//list//' or '//range, faults)
          else if (input%is_given('points', range)) then

@@ -3,12 +3,14 @@
 module scene_reader
    use errors, only: fault_list_t
    use file_system, only: read_whole_file
-   use key_table, only: find_key, keys, name_limit, table_kind
+   use input_entry, only: numbers_text, value_text
+   use input_key, only: name_limit, table_kind
+   use key_table, only: keys, starts_group
    use kinds, only: dp
    use namelist_text, only: assignment_t, scan_namelists
    use scene_checker, only: check_together, in_use
-   use scene_input, only: new_scene_input, numbers_text, scene_input_t, value_text
-   use scene_types, only: column_names, contact_t, film_choice_t, kinematics_t, load_t, lubricant_t, output_t, scene_t, &
+   use scene_input, only: new_scene_input, scene_input_t
+   use scene_types, only: contact_t, film_choice_t, kinematics_t, load_t, lubricant_t, output_t, scene_t, &
                           solver_t, spectrum_choice_t, task_campaign, task_sweep
    use task_reader, only: read_campaign, read_points, read_sweep
    use text, only: integer_text, quoted
@@ -110,7 +112,7 @@ contains
       integer :: dot
 
       name = ''
-      if (input%entries(find_key('scene', 'name'))%faulty) return
+      if (input%is_faulty('scene', 'name')) return
       if (input%is_given('scene', 'name')) then
          stem = input%word('scene', 'name')
       else if (path == '-') then
@@ -228,32 +230,13 @@ contains
    function read_output(input) result(output)
       type(scene_input_t), intent(in) :: input
       type(output_t) :: output
-      character(:), allocatable :: words
-      integer :: i, start
 
       output%directory = input%word('output', 'directory')
       output%series = input%flag('output', 'series')
       output%overwrite = input%flag('output', 'overwrite')
-      words = input%words('output', 'columns')//' '
-      allocate (output%columns(0))
-      start = 1
-      do i = 1, len(words)
-         if (words(i:i) /= ' ') cycle
-         output%columns = [output%columns, column_code(words(start:i - 1))]
-         start = i + 1
-      end do
+      allocate (output%columns, source=input%choices('output', 'columns'))
       output%stride = input%count('output', 'stride')
    end function read_output
-
-   !> Code of a column, 0 if there is none of this name. (findloc of gfortran 12 never finds a shorter text.)
-   pure integer function column_code(name)
-      character(*), intent(in) :: name
-
-      do column_code = 1, size(column_names)
-         if (column_names(column_code) == name) return
-      end do
-      column_code = 0
-   end function column_code
 
    !> All keys that have a value and are in use, as namelist text. Where the files go is no property
    !> of the scene, so that the same scene gives the same bytes in any folder.
@@ -294,13 +277,6 @@ contains
          if (keys(i)%name == 'model') &
             is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') /= 'film')
       end function is_told
-
-      pure logical function starts_group(i)
-         integer, intent(in) :: i
-
-         starts_group = i == 1 .or. i == size(keys) + 1
-         if (.not. starts_group) starts_group = keys(i)%group /= keys(i - 1)%group
-      end function starts_group
 
    end function resolved_text
 

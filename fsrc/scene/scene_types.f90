@@ -1,7 +1,7 @@
 !> What is to be computed: one type per namelist group, all resolved, SI units.
 module scene_types
+   use input_key, only: name_limit, path_limit
    use kinds, only: dp
-   use key_table, only: name_limit, path_limit
    implicit none(type, external)
    private
 
@@ -172,10 +172,12 @@ module scene_types
       integer :: outward = 0
    end type sweep_t
 
-   !> Words or numbers of one varied key.
+   !> One word of a list.
    type, public :: word_t
       character(:), allocatable :: text
    end type word_t
+
+   !> One column of a table.
    type, public :: numbers_t
       real(dp), allocatable :: numbers(:)
    end type numbers_t

@@ -1,10 +1,11 @@
 !> The groups of tasks other than a single motion: &points, &sweep, &campaign.
 module task_reader
-   use key_table, only: choice_word, keys
+   use key_table, only: keys
    use kinds, only: dp
    use scene_checker, only: in_use
-   use scene_input, only: column_t, scene_input_t, word_position
+   use scene_input, only: scene_input_t
    use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t, word_t
+   use word_list, only: word_at, word_count
    implicit none(type, external)
    private
 
@@ -19,18 +20,13 @@ contains
       !> Code of the film model
       integer, intent(in) :: model
       type(film_points_t) :: points
-      character(:), allocatable :: words
-      integer :: i
 
       call take_list('film_ratios', 'film_ratio_range', .true., points%film_ratios)
       call take_list('squeeze_ratios', 'squeeze_ratio_range', .false., points%squeeze_ratios)
       call take_list('speed_groups', 'speed_group_range', .true., points%speed_groups)
       points%from_speeds = size(points%speed_groups) == 0
       points%speed_reading = input%choice('points', 'speed_reading')
-      words = input%words('points', 'compute')
-      do i = 1, size(points%compute)
-         points%compute(i) = word_position(words, choice_word('points', 'compute', i)) > 0
-      end do
+      points%compute(input%choices('points', 'compute')) = .true.
       if (input%is_given('film', 'model')) then
          points%published = model == model_published
          points%exact = .not. points%published
@@ -82,24 +78,18 @@ contains
       !> Typed values
       type(scene_input_t), intent(in) :: input
       type(campaign_choice_t) :: campaign
-      type(column_t), allocatable :: columns(:)
-      type(word_t), allocatable :: scales(:)
-      integer :: i
+      integer, allocatable :: scales(:)
+      integer :: i, count
 
       allocate (campaign%vary, source=words_of(input%words('campaign', 'vary')))
-      allocate (scales, source=words_of(input%words('campaign', 'scale')))
+      allocate (scales, source=input%choices('campaign', 'scale'))
       allocate (campaign%scale(size(campaign%vary)), source=1)
-      do i = 1, min(size(scales), size(campaign%vary))
-         campaign%scale(i) = merge(2, 1, scales(i)%text == 'logarithmic')
-      end do
+      count = min(size(scales), size(campaign%vary))
+      campaign%scale(:count) = scales(:count)
       allocate (campaign%first, source=input%numbers('campaign', 'first'))
       allocate (campaign%last, source=input%numbers('campaign', 'last'))
       allocate (campaign%count, source=input%numbers('campaign', 'count'))
-      allocate (columns, source=input%columns('campaign', 'values'))
-      allocate (campaign%values(size(columns)))
-      do i = 1, size(columns)
-         campaign%values(i)%numbers = columns(i)%numbers
-      end do
+      allocate (campaign%values, source=input%columns('campaign', 'values'))
       campaign%sample = input%choice('campaign', 'sample')
       campaign%size = input%count('campaign', 'size')
       campaign%seed = input%count('campaign', 'seed')
@@ -120,16 +110,11 @@ contains
    function words_of(list) result(words)
       character(*), intent(in) :: list
       type(word_t), allocatable :: words(:)
-      integer :: i, start
+      integer :: i
 
-      allocate (words(0))
-      start = 1
-      do i = 1, len(list) + 1
-         if (i <= len(list)) then
-            if (list(i:i) /= ' ') cycle
-         end if
-         if (i > start) words = [words, word_t(list(start:i - 1))]
-         start = i + 1
+      allocate (words(word_count(list)))
+      do i = 1, size(words)
+         words(i)%text = word_at(list, i)
       end do
    end function words_of
 

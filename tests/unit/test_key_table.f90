@@ -1,16 +1,16 @@
 !> Tests of the key table: its lines hang together and agree with the codes of scene_types.
 module test_key_table
    use checks, only: check_list_t
-   use key_table, only: allowed_text, find_key, in_range, integer_kind, key_t, keys, known_group, &
-      list_kind, logical_kind, &
-      nearest_group, nearest_key, real_kind, reals_kind, text_kind
+   use input_key, only: allowed_text, in_range, integer_kind, key_t, list_kind, logical_kind, real_kind, &
+      reals_kind, text_kind
+   use key_table, only: find_key, keys, known_group, nearest_group, nearest_key, starts_group
    use kinds, only: dp
-   use scene_input, only: word_position
    use scene_types, only: column_names, iteration_newton, iteration_successive, law_iso_viscous, &
       law_piezo_viscous, &
       method_newmark, model_published, predictor_extrapolated, predictor_previous, rupture_half_pi, &
       rupture_solved, &
       rupture_solver_fast, rupture_solver_successive
+   use word_list, only: word_position
    implicit none(type, external)
    private
 
@@ -55,7 +55,10 @@ contains
             name//': a number has a unit')
          call checks%check(len(allowed_text(keys(i))) > 0, name//': allowed values in words')
       end do
+      call checks%check(starts_group(1) .and. starts_group(size(keys) + 1), 'first group, and behind the last')
       do i = 2, size(keys)
+         call checks%check(starts_group(i) .neqv. keys(i)%group == keys(i - 1)%group, &
+            trim(keys(i)%group)//': begins where its first key stands')
          if (keys(i)%group == keys(i - 1)%group) cycle
          call checks%check(.not. any(keys(:i - 1)%group == keys(i)%group), &
             trim(keys(i)%group)//': group stands together')
@@ -144,8 +147,6 @@ contains
       do i = 1, size(column_names)
          call agree('output', 'columns', trim(column_names(i)), i)
       end do
-      call checks%check(word_position('fast successive', 'succ') == 0, 'part of a word is no word')
-      call checks%check(word_position('fast successive', '') == 0, 'no word')
 
    contains
 

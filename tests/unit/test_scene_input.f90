@@ -1,12 +1,11 @@
-!> Tests of typed input values: defaults, assignments, overrides, and every kind of wrong value.
+!> Tests of the keys of one scene: defaults, assignments, overrides, and keys that do not exist.
 module test_scene_input
-   use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_overflow
    use checks, only: check_list_t
    use errors, only: fault_list_t
-   use key_table, only: find_key, keys
+   use key_table, only: keys
    use kinds, only: dp
    use namelist_text, only: assignment_t, scan_namelists
-   use scene_input, only: new_scene_input, scene_input_t, value_text
+   use scene_input, only: new_scene_input, scene_input_t
    use scene_types, only: law_piezo_viscous, predictor_previous
    implicit none(type, external)
    private
@@ -22,10 +21,8 @@ contains
       call checks%start('scene_input')
       call test_defaults(checks)
       call test_values(checks)
-      call test_numbers(checks)
       call test_faults(checks)
       call test_override(checks)
-      call test_value_text(checks)
    end subroutine run_scene_input_tests
 
    !> Values that nobody set.
@@ -79,62 +76,10 @@ contains
          'what was given')
    end subroutine test_values
 
-   !> Spellings of numbers, right and wrong.
-   subroutine test_numbers(checks)
-      type(check_list_t), intent(inout) :: checks  !> Collects the results
-
-      character(8), parameter :: right(8) = [character(8) :: '1', '+1.', '.5', '1e3', '1.5E+03', '1.5d-03', &
-         '0.25', '007']
-      real(dp), parameter :: values(8) = [1.0_dp, 1.0_dp, 0.5_dp, 1.0e3_dp, 1.5e3_dp, 1.5e-3_dp, 0.25_dp, &
-         7.0_dp]
-      character(8), parameter :: wrong(17) = [character(8) :: '.', 'e5', '1e', '1e5.5', '1.2.3', 'nan', &
-         'inf', '-1', '0', '1e999', &
-         '0x10', '1*3', '3;', '1.0_dp', '--1', '1e+-3', '1 2']
-      type(scene_input_t) :: input
-      type(fault_list_t) :: faults
-      integer :: i, before
-      logical :: halting
-
-      do i = 1, size(right)
-         input = new_scene_input('f')
-         before = faults%count()
-         call take(input, '&load mass = '//trim(right(i))//' /', .false., faults)
-         call checks%check(faults%count() == before, 'number '//trim(right(i)))
-         call checks%check_close(input%number('load', 'mass'), values(i), 0.0_dp, 'value of '//trim(right(i)))
-      end do
-      ! 1e999 is infinite to the runtime's reader: a build with traps would stop there.
-      call ieee_get_halting_mode(ieee_overflow, halting)
-      do i = 1, size(wrong)
-         if (halting .and. wrong(i) == '1e999') cycle
-         input = new_scene_input('f')
-         before = faults%count()
-         call take(input, '&load mass = '//trim(wrong(i))//' /', .false., faults)
-         call checks%check(faults%count() > before, 'no mass: '//trim(wrong(i)))
-         call checks%check(input%entries(find_key('load', 'mass'))%faulty, &
-            'marked as faulty: '//trim(wrong(i)))
-      end do
-   end subroutine test_numbers
-
-   !> Every other wrong assignment, one fault each.
+   !> Assignments that have no place among the keys, one fault each.
    subroutine test_faults(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call expect("&load mass='3.0' /", 'f:1: &load mass: ''3.0'' is not allowed', 'number in quotes')
-      call expect('&solver periods=1.5 /', 'f:1: &solver periods: 1.5', 'fraction for an integer')
-      call expect('&solver periods=99999999999 /', 'f:1: &solver periods:', 'integer too large')
-      call expect('&solver steps_per_period=7 /', 'f:1: &solver steps_per_period: 7', 'too few steps')
-      call expect('&output series=yes /', 'f:1: &output series: yes', 'no logical')
-      call expect("&output series='T' /", 'f:1: &output series:', 'logical in quotes')
-      call expect('&film law=iso-viscous /', 'f:1: &film law:', 'word without quotes')
-      call expect("&film law='iso' /", 'f:1: &film law:', 'part of a word')
-      call expect("&film law='iso-viscous piezo-viscous' /", 'f:1: &film law:', 'two words in one')
-      call expect("&output directory='' /", 'f:1: &output directory:', 'empty text')
-      call expect("&output directory='"//repeat('x', 513)//"' /", 'f:1: &output directory:', 'text too long')
-      call expect("&output columns='time','times' /", 'f:1: &output columns: ''times''', 'unknown column')
-      call expect("&output columns(2)='time' /", 'f:1: &output columns: elements must be given', &
-         'index beyond 1')
-      call expect('&load mass(1)=3.0 /', 'f:1: &load mass: takes no index', 'index of a number')
-      call expect('&load mass=3.0 4.0 /', 'f:1: &load mass: takes one value, 2', 'two values')
       call expect('&load mass=3.0 mass=3.0 /', 'f:1: &load mass: this key is set in line 1', 'key twice')
       call expect('&load mas=3.0 /', 'f:1: &load mas: unknown key; the nearest known key is mass', &
          'unknown key')
@@ -177,44 +122,6 @@ contains
       call checks%check(input%words('output', 'columns') == 'acceleration', &
          'override: list replaced, not appended')
    end subroutine test_override
-
-   !> The text of a value reads back to it.
-   subroutine test_value_text(checks)
-      type(check_list_t), intent(inout) :: checks  !> Collects the results
-
-      type(scene_input_t) :: input, again
-      type(fault_list_t) :: faults
-      character(:), allocatable :: text
-      integer :: i
-      logical :: same
-
-      input = new_scene_input('f')
-      call take(input, "&load mass=3.3333333333333335 frequency=1e-300 / "// &
-         "&scene name='x''y' / &solver periods=17 /", &
-         .false., faults)
-      text = ''
-      do i = 1, size(keys)
-         if (input%entries(i)%present) text = text//'&'//trim(keys(i)%group)//' '//trim(keys(i)%name)// &
-            ' = '// &
-            value_text(keys(i), input%entries(i))//' /'//new_line('a')
-      end do
-      again = new_scene_input('f')
-      ! Each key stands in a group of its own here, and a group may stand only once: scan them one by one.
-      do while (len(text) > 0)
-         call take(again, text(:index(text, new_line('a'))), .true., faults)
-         text = text(index(text, new_line('a')) + 1:)
-      end do
-      call checks%check(faults%count() == 0, 'text of values: no fault')
-      same = .true.
-      do i = 1, size(keys)
-         same = same .and. abs(input%entries(i)%number - again%entries(i)%number) <= 0.0_dp .and. &
-            input%entries(i)%count == again%entries(i)%count &
-            .and. (input%entries(i)%flag .eqv. again%entries(i)%flag) .and. &
-            input%entries(i)%word == again%entries(i)%word &
-            .and. input%entries(i)%words == again%entries(i)%words
-      end do
-      call checks%check(same, 'text of values reads back')
-   end subroutine test_value_text
 
    !> Scan a text and take its assignments.
    subroutine take(input, text, overriding, faults)

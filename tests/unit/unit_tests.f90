@@ -6,6 +6,7 @@ program unit_tests
    use test_film_law, only: run_film_law_tests
    use test_film_pressure, only: run_film_pressure_tests
    use test_fourier, only: run_fourier_tests
+   use test_input_entry, only: run_input_entry_tests
    use test_integrate_motion, only: run_integrate_motion_tests
    use test_key_table, only: run_key_table_tests
    use test_namelist_text, only: run_namelist_text_tests
@@ -21,6 +22,7 @@ program unit_tests
    use test_scene_input, only: run_scene_input_tests
    use test_spectral_lines, only: run_spectral_lines_tests
    use test_text, only: run_text_tests
+   use test_word_list, only: run_word_list_tests
    use test_film_fit, only: run_film_fit_tests
    use test_film_point, only: run_film_point_tests
    use test_numerical_reynolds, only: run_numerical_reynolds_tests
@@ -43,9 +45,11 @@ program unit_tests
    type(check_list_t) :: checks
 
    call run_text_tests(checks)
+   call run_word_list_tests(checks)
    call run_errors_tests(checks)
    call run_key_table_tests(checks)
    call run_namelist_text_tests(checks)
+   call run_input_entry_tests(checks)
    call run_scene_input_tests(checks)
    call run_film_integrals_tests(checks)
    call run_rupture_tests(checks)

@@ -1,0 +1,283 @@
+!> Value of one key: taken from an assignment as the key asks, or refused with a fault; and its text.
+module input_entry
+   use errors, only: fault_list_t
+   use input_key, only: allowed_text, in_range, integer_kind, is_list, key_t, list_kind, logical_kind, path_limit, &
+                        real_kind, reals_kind, table_kind, text_kind
+   use kinds, only: dp
+   use namelist_scanner, only: value_t
+   use namelist_text, only: assignment_t
+   use number_text, only: read_strict_integer, read_strict_real
+   use scene_types, only: numbers_t
+   use text, only: integer_text, logical_text, lower, quoted, quoted_words, real_text
+   use word_list, only: word_at, word_count, word_position
+   implicit none(type, external)
+   private
+
+   !> Value of one key.
+   type, public :: entry_t
+      !> Whether the user set it, and whether it has any value
+      logical :: given = .false., present = .false.
+      !> Whether it was set but could not be read: a fault stands for it already
+      logical :: faulty = .false.
+      !> Input it was set in, and the line there (0: on the command line)
+      character(:), allocatable :: file
+      integer :: line = 0
+      real(dp) :: number = 0.0_dp
+      integer :: count = 0
+      logical :: flag = .false.
+      character(:), allocatable :: word
+      !> Blank-separated words of a list
+      character(:), allocatable :: words
+      !> Numbers of a list
+      real(dp), allocatable :: numbers(:)
+      !> Columns of a table
+      type(numbers_t), allocatable :: columns(:)
+   end type entry_t
+
+   public :: new_entry, set_entry, continues_list, value_text, numbers_text
+
+contains
+
+   !> Entry that nobody has set: the default of its key, or no value.
+   function new_entry(key, file) result(entry)
+      !> Its key
+      type(key_t), intent(in) :: key
+      !> Name of the input for the faults
+      character(*), intent(in) :: file
+      type(entry_t) :: entry
+      type(value_t), allocatable :: values(:)
+      type(fault_list_t) :: none
+      integer :: i
+
+      entry%file = file
+      entry%word = ''
+      entry%words = ''
+      allocate (entry%numbers(0), entry%columns(0))
+      entry%present = key%default /= '' .and. key%default /= 'required'
+      if (.not. entry%present) return
+      allocate (values(merge(word_count(trim(key%default)), 1, key%kind == list_kind)))
+      values%quoted = any(key%kind == [text_kind, list_kind])
+      values(1)%text = trim(key%default)
+      if (key%kind == list_kind) then
+         do i = 1, size(values)
+            values(i)%text = word_at(trim(key%default), i)
+         end do
+      end if
+      call add_values(key, values, entry, none)
+   end function new_entry
+
+   !> Read the value of one assignment into its entry.
+   subroutine set_entry(key, assignment, entry, file, faults)
+      !> Its key
+      type(key_t), intent(in) :: key
+      !> The assignment
+      type(assignment_t), intent(in) :: assignment
+      !> Takes the value, or becomes faulty
+      type(entry_t), intent(inout) :: entry
+      !> Name of the source of the assignment for the faults
+      character(*), intent(in) :: file
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      integer :: length
+
+      ! The default of a list is no beginning of it.
+      length = 0
+      if (entry%given) length = list_length(key, entry)
+      entry%given = .true.
+      entry%file = file
+      entry%line = assignment%line
+      entry%faulty = .not. assignment%sound
+      if (entry%faulty) return
+      if (key%kind == table_kind .and. .not. assignment%whole_column) then
+         call refuse('give it as '//trim(key%name)//'(:, 1) = ..., '//trim(key%name)//'(:, 2) = ...')
+         return
+      else if (key%kind /= table_kind .and. assignment%whole_column) then
+         call refuse('takes no (:, i)')
+         return
+      end if
+      if (.not. is_list(key)) then
+         if (assignment%first_element /= 0) then
+            call refuse('takes no index')
+            return
+         else if (size(assignment%values) > 1) then
+            call refuse('takes one value, '//integer_text(size(assignment%values))//' are given')
+            return
+         end if
+      else if (assignment%first_element > 1 .and. assignment%first_element /= length + 1) then
+         call refuse('elements must be given one after the other; element '//integer_text(length + 1)//' comes next')
+         return
+      end if
+      if (assignment%first_element <= 1) then
+         entry%words = ''
+         entry%numbers = [real(dp) ::]
+         entry%columns = [numbers_t ::]
+      end if
+      call add_values(key, assignment%values, entry, faults)
+      if (.not. entry%faulty) entry%present = .true.
+
+   contains
+
+      subroutine refuse(message)
+         character(*), intent(in) :: message
+
+         entry%faulty = .true.
+         call faults%add(file, assignment%line, assignment%group, assignment%key, message)
+      end subroutine refuse
+
+   end subroutine set_entry
+
+   !> Elements that a list has so far.
+   pure integer function list_length(key, entry)
+      type(key_t), intent(in) :: key
+      type(entry_t), intent(in) :: entry
+
+      select case (key%kind)
+      case (reals_kind)
+         list_length = size(entry%numbers)
+      case (table_kind)
+         list_length = size(entry%columns)
+      case default
+         list_length = word_count(entry%words)
+      end select
+   end function list_length
+
+   !> Whether an assignment adds elements to a list: key(i) = ... behind key(i - 1) = ...
+   pure logical function continues_list(key, assignment, entry)
+      !> Its key
+      type(key_t), intent(in) :: key
+      !> The assignment
+      type(assignment_t), intent(in) :: assignment
+      !> What was set before
+      type(entry_t), intent(in) :: entry
+
+      continues_list = is_list(key) .and. assignment%first_element > 1 .and. &
+                       assignment%first_element > list_length(key, entry)
+   end function continues_list
+
+   !> Read values as their key asks, and put them behind those that a list has already.
+   subroutine add_values(key, values, entry, faults)
+      type(key_t), intent(in) :: key
+      type(value_t), intent(in) :: values(:)
+      type(entry_t), intent(inout) :: entry
+      type(fault_list_t), intent(inout) :: faults
+      real(dp), allocatable :: numbers(:)
+      integer :: i
+
+      allocate (numbers(size(values)))
+      do i = 1, size(values)
+         call read_value(key, values(i), entry, faults)
+         if (entry%faulty) return
+         numbers(i) = entry%number
+      end do
+      if (key%kind == reals_kind) entry%numbers = [entry%numbers, numbers]
+      if (key%kind == table_kind) entry%columns = [entry%columns, numbers_t(numbers)]
+   end subroutine add_values
+
+   !> Read one value as its key asks.
+   subroutine read_value(key, value, entry, faults)
+      type(key_t), intent(in) :: key
+      type(value_t), intent(in) :: value
+      type(entry_t), intent(inout) :: entry
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: allowed
+      logical :: sound
+
+      sound = .false.
+      select case (key%kind)
+      case (real_kind, reals_kind, table_kind)
+         if (.not. value%quoted) call read_strict_real(value%text, entry%number, sound)
+         if (sound) sound = in_range(key, entry%number)
+      case (integer_kind)
+         if (.not. value%quoted) call read_strict_integer(value%text, entry%count, sound)
+         if (sound) sound = in_range(key, real(entry%count, dp))
+      case (logical_kind)
+         if (.not. value%quoted) call read_logical(value%text, entry%flag, sound)
+      case default
+         sound = value%quoted .and. len_trim(value%text) > 0 .and. len(value%text) <= path_limit
+         if (sound .and. (key%choices /= '' .or. key%kind == list_kind)) sound = scan(trim(value%text), ' ') == 0
+         if (sound .and. key%choices /= '') sound = word_position(trim(key%choices), trim(value%text)) > 0
+         if (sound .and. key%kind == text_kind) entry%word = value%text
+         if (sound .and. key%kind == list_kind) entry%words = trim(adjustl(entry%words//' '//value%text))
+      end select
+      if (sound) return
+      entry%faulty = .true.
+      allowed = allowed_text(key)
+      if (key%kind == text_kind .and. key%choices == '') &
+         allowed = allowed//' of at most '//integer_text(path_limit)//' characters'
+      call faults%add(entry%file, entry%line, trim(key%group), trim(key%name), &
+                      shown(value)//' is not allowed; allowed: '//allowed)
+   end subroutine read_value
+
+   !> Value as it stands in the input, shortened for a sentence.
+   pure function shown(value) result(words)
+      type(value_t), intent(in) :: value
+      character(:), allocatable :: words
+      integer, parameter :: most = 40
+
+      words = value%text
+      if (len(words) > most) words = words(:most)//'...'
+      if (value%quoted) words = quoted(words)
+   end function shown
+
+   !> The namelist spellings of true and false.
+   pure subroutine read_logical(text, flag, sound)
+      character(*), intent(in) :: text
+      logical, intent(out) :: flag
+      logical, intent(out) :: sound
+
+      flag = .false.
+      sound = .true.
+      select case (lower(text))
+      case ('.true.', 'true', 't', '.t.')
+         flag = .true.
+      case ('.false.', 'false', 'f', '.f.')
+      case default
+         sound = .false.
+      end select
+   end subroutine read_logical
+
+   !> Value of an entry in namelist spelling.
+   function value_text(key, entry) result(words)
+      !> Its key
+      type(key_t), intent(in) :: key
+      !> Entry with a value
+      type(entry_t), intent(in) :: entry
+      character(:), allocatable :: words
+
+      select case (key%kind)
+      case (real_kind)
+         words = real_text(entry%number)
+      case (integer_kind)
+         words = integer_text(entry%count)
+      case (logical_kind)
+         words = logical_text(entry%flag)
+      case (text_kind)
+         words = quoted(entry%word)
+      case (reals_kind)
+         words = numbers_text(entry%numbers)
+      case default
+         words = quoted_words(entry%words, ' ')
+      end select
+   end function value_text
+
+   !> Numbers with commas between.
+   pure function numbers_text(numbers) result(words)
+      !> Finite numbers
+      real(dp), intent(in) :: numbers(:)
+      character(:), allocatable :: words
+      ! A sign, 18 digits, a point and an exponent; comma and blank
+      integer, parameter :: longest = 27
+      integer :: i, used
+
+      allocate (character(longest*size(numbers)) :: words)
+      used = 0
+      do i = 1, size(numbers)
+         associate (part => real_text(numbers(i))//', ')
+            words(used + 1:used + len(part)) = part
+            used = used + len(part)
+         end associate
+      end do
+      words = words(:max(0, used - len(', ')))
+   end function numbers_text
+
+end module input_entry

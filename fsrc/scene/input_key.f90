@@ -1,0 +1,121 @@
+!> One key of the input: its name, its kind of value, and what it allows. The keys themselves stand in the
+!> key table.
+module input_key
+   use kinds, only: dp
+   use text, only: real_text
+   use word_list, only: word_at, word_count
+   implicit none(type, external)
+   private
+
+   integer, parameter, public :: real_kind = 1, integer_kind = 2, logical_kind = 3, text_kind = 4, list_kind = 5, &
+                                 reals_kind = 6, table_kind = 7
+
+   !> Allowed numbers; an open bound itself is not allowed.
+   type, public :: range_t
+      real(dp) :: lower = -huge(1.0_dp)
+      logical :: lower_open = .true.
+      real(dp) :: upper = huge(1.0_dp)
+      logical :: upper_open = .true.
+   end type range_t
+
+   !> One key.
+   type, public :: key_t
+      !> Namelist group
+      character(12) :: group
+      !> Name in the group
+      character(24) :: name
+      !> Type of its value
+      integer :: kind
+      !> SI unit, '-' for a pure number, empty where it does not apply
+      character(8) :: unit
+      !> 'required', a value, or empty: optional, its absence means what the sentence says
+      character(256) :: default
+      !> Allowed numbers
+      type(range_t) :: range
+      !> Allowed words, separated by blanks; empty: any text that the reader accepts
+      character(400) :: choices
+      !> 'group.key=word[|word] [& ...]': legal only then; empty: always
+      character(48) :: used_when
+      !> What it means
+      character(240) :: sentence
+      !> Value in the template where there is no default
+      character(16) :: example = ''
+   end type key_t
+
+   !> Longest name of a scene, and longest text of any key.
+   integer, parameter, public :: name_limit = 64, path_limit = 512
+
+   public :: in_range, is_list, allowed_text
+
+contains
+
+   !> Whether a number is allowed for a key.
+   pure logical function in_range(key, number)
+      !> Key with a range
+      type(key_t), intent(in) :: key
+      !> Finite number
+      real(dp), intent(in) :: number
+
+      in_range = merge(number > key%range%lower, number >= key%range%lower, key%range%lower_open) .and. &
+                 merge(number < key%range%upper, number <= key%range%upper, key%range%upper_open)
+   end function in_range
+
+   !> Whether a key holds several values.
+   pure logical function is_list(key)
+      !> Any key of the table
+      type(key_t), intent(in) :: key
+
+      is_list = any(key%kind == [list_kind, reals_kind, table_kind])
+   end function is_list
+
+   !> Allowed values in words.
+   pure function allowed_text(key) result(allowed)
+      !> Any key of the table
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: allowed
+      logical :: bounded_below, bounded_above
+
+      select case (key%kind)
+      case (logical_kind)
+         allowed = '.true. or .false.'
+      case (text_kind, list_kind)
+         allowed = choices_text(key)
+      case default
+         ! One rule for a number and for each number of a list.
+         bounded_below = key%range%lower > -huge(1.0_dp)
+         bounded_above = key%range%upper < huge(1.0_dp)
+         allowed = trim(merge('an integer', 'a number  ', key%kind == integer_kind))
+         if (is_list(key)) allowed = 'numbers'
+         if (bounded_below) allowed = allowed//trim(merge(' >  ', ' >= ', key%range%lower_open))// &
+                                      ' '//bound_text(key%range%lower, key%kind)
+         if (bounded_below .and. bounded_above) allowed = allowed//' and'
+         if (bounded_above) allowed = allowed//trim(merge(' <  ', ' <= ', key%range%upper_open))// &
+                                      ' '//bound_text(key%range%upper, key%kind)
+      end select
+   end function allowed_text
+
+   pure function bound_text(bound, kind) result(words)
+      real(dp), intent(in) :: bound
+      integer, intent(in) :: kind
+      character(:), allocatable :: words
+
+      words = real_text(bound)
+      if (kind == integer_kind .and. index(words, '.0') == len(words) - 1) words = words(:len(words) - 2)
+   end function bound_text
+
+   pure function choices_text(key) result(words)
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: words
+      integer :: i
+
+      if (len_trim(key%choices) == 0) then
+         words = 'a text in quotes'
+         return
+      end if
+      words = trim(merge('any of', 'one of', key%kind == list_kind))
+      do i = 1, word_count(trim(key%choices))
+         words = words//" '"//word_at(trim(key%choices), i)//"'"
+      end do
+   end function choices_text
+
+end module input_key
