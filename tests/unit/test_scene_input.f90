@@ -6,7 +6,7 @@ module test_scene_input
    use kinds, only: dp
    use namelist_text, only: assignment_t, scan_namelists
    use scene_input, only: new_scene_input, scene_input_t
-   use scene_types, only: law_piezo_viscous, predictor_previous
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, predictor_previous
    implicit none(type, external)
    private
 
@@ -74,6 +74,10 @@ contains
       call checks%check(input%word('output', 'directory') == 'a b', 'text with a blank')
       call checks%check(input%is_given('load', 'mass') .and. .not. input%is_given('load', 'gravity'), &
          'what was given')
+      input = new_scene_input('f')
+      call take(input, "&film law='iso-viscous  ' /", .false., faults)
+      call checks%check(faults%count() == 0 .and. input%choice('film', 'law') == law_iso_viscous, &
+         'a word with blanks behind it is that word')
    end subroutine test_values
 
    !> Assignments that have no place among the keys, one fault each.
