@@ -1,8 +1,9 @@
 !> Files that are written byte by byte, with every failure seen. The runtime's own unformatted and stream
-!> output forgets that the disk was full when it empties its buffer; hence these thin calls of the C library.
+!> output forgets that the disk was full when it empties its buffer; hence this one.
 module byte_file
-   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc
    use errors, only: error_t, exit_system, raise
+   use file_descriptor, only: close_descriptor, open_replacing, write_bytes
    use kinds, only: dp, int64
    use system_error, only: error_words, last_error
    implicit none(type, external)
@@ -10,7 +11,6 @@ module byte_file
 
    !> Bytes that are gathered before they go to the disk.
    integer, parameter :: buffer_bytes = 65536
-   integer(c_int), parameter :: read_and_write_for_all = 438, interrupted_call = 4
 
    !> An open file.
    type, public :: byte_file_t
@@ -30,41 +30,9 @@ module byte_file
       procedure :: close => close_file
       procedure, private :: put_text
       procedure, private :: put_numbers
-      procedure, private :: write_bytes
+      procedure, private :: write_on
       procedure, private :: fail
    end type byte_file_t
-
-   interface
-      function c_creat(path, mode) bind(c, name='creat') result(descriptor)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-         integer(c_int) :: descriptor
-      end function c_creat
-
-      function c_write(descriptor, bytes, count) bind(c, name='write') result(written)
-         import :: c_char, c_int, c_size_t
-         integer(c_int), value :: descriptor
-         character(kind=c_char), intent(in) :: bytes(*)
-         integer(c_size_t), value :: count
-         integer(c_size_t) :: written
-      end function c_write
-
-      function c_pwrite(descriptor, bytes, count, offset) bind(c, name='pwrite') result(written)
-         import :: c_char, c_int, c_long, c_size_t
-         integer(c_int), value :: descriptor
-         character(kind=c_char), intent(in) :: bytes(*)
-         integer(c_size_t), value :: count
-         integer(c_long), value :: offset
-         integer(c_size_t) :: written
-      end function c_pwrite
-
-      function c_close(descriptor) bind(c, name='close') result(stat)
-         import :: c_int
-         integer(c_int), value :: descriptor
-         integer(c_int) :: stat
-      end function c_close
-   end interface
 
 contains
 
@@ -80,7 +48,7 @@ contains
       self%used = 0
       self%broken = .false.
       if (.not. allocated(self%buffer)) allocate (self%buffer(buffer_bytes))
-      self%descriptor = c_creat(path//c_null_char, read_and_write_for_all)
+      self%descriptor = open_replacing(path)
       if (self%descriptor < 0) call self%fail(error)
    end subroutine open_file
 
@@ -125,7 +93,7 @@ contains
       if (self%used + size(bytes, kind=int64) > buffer_bytes) call self%flush(error)
       if (allocated(error)) return
       if (size(bytes, kind=int64) >= buffer_bytes) then
-         call self%write_bytes(bytes, error)
+         call self%write_on(bytes, error)
       else
          self%buffer(self%used + 1:self%used + size(bytes)) = bytes
          self%used = self%used + size(bytes)
@@ -142,11 +110,13 @@ contains
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error
       character(8) :: bytes
+      logical :: complete
 
       call self%flush(error)
       if (allocated(error)) return
       bytes = transfer(number, bytes)
-      if (c_pwrite(self%descriptor, bytes, 8_c_size_t, int(offset, c_long)) /= 8_c_size_t) call self%fail(error)
+      call write_bytes(self%descriptor, 8_int64, bytes, complete, offset)
+      if (.not. complete) call self%fail(error)
    end subroutine put_at
 
    !> Hand everything to the operating system.
@@ -158,7 +128,7 @@ contains
 
       used = self%used
       self%used = 0
-      if (used > 0) call self%write_bytes(self%buffer(:used), error)
+      if (used > 0) call self%write_on(self%buffer(:used), error)
    end subroutine flush_buffer
 
    !> Close the file. After a failed write nothing more is written, and no second error is raised.
@@ -167,36 +137,26 @@ contains
       !> Set if the file is not complete
       type(error_t), allocatable, intent(out) :: error
       integer(c_int) :: descriptor
+      logical :: closed
 
       if (self%descriptor < 0) return
       if (.not. self%broken) call self%flush(error)
       descriptor = self%descriptor
       self%descriptor = -1
-      ! A disk across the network may report only now that it is full.
-      if (c_close(descriptor) /= 0 .and. .not. self%broken) call self%fail(error)
+      call close_descriptor(descriptor, closed)
+      if (.not. closed .and. .not. self%broken) call self%fail(error)
    end subroutine close_file
 
-   !> Write bytes, in as many calls as it takes.
-   subroutine write_bytes(self, bytes, error)
+   !> Write bytes behind those that the file has.
+   subroutine write_on(self, bytes, error)
       class(byte_file_t), intent(inout) :: self
       character(kind=c_char), contiguous, intent(in) :: bytes(:)
       type(error_t), allocatable, intent(out) :: error
-      integer(c_size_t) :: done, written
-      integer(c_int) :: cause
+      logical :: complete
 
-      done = 0
-      do while (done < size(bytes, kind=c_size_t))
-         written = c_write(self%descriptor, bytes(done + 1:), size(bytes, kind=c_size_t) - done)
-         if (written > 0) then
-            done = done + written
-            cycle
-         end if
-         cause = last_error()
-         if (written < 0 .and. cause == interrupted_call) cycle
-         call self%fail(error)
-         return
-      end do
-   end subroutine write_bytes
+      call write_bytes(self%descriptor, size(bytes, kind=int64), bytes, complete)
+      if (.not. complete) call self%fail(error)
+   end subroutine write_on
 
    !> Turn the failure of the last call into an error.
    subroutine fail(self, error)

@@ -1,15 +1,15 @@
 !> Files that are read and written at any place, by several threads at once as long as their places differ,
 !> with every failure seen. Thin calls of the C library.
 module random_access_file
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_long, &
-                                          c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, c_ptr
    use errors, only: error_t, exit_system, raise
+   use file_descriptor, only: close_descriptor, open_existing, read_and_write, read_bytes, write_bytes
    use kinds, only: dp, int64
    use system_error, only: error_words, interrupted_call, last_error, no_locks, no_such_call, not_supported
    implicit none(type, external)
    private
 
-   integer(c_int), parameter :: read_and_write = 2, exclusive_without_waiting = 6, from_end = 2
+   integer(c_int), parameter :: exclusive_without_waiting = 6, from_end = 2
 
    !> What came of asking for the lock.
    integer, parameter, public :: lock_held = 1, lock_refused = 2, lock_unknown = 3
@@ -36,19 +36,12 @@ module random_access_file
       procedure, private :: read_text_at
       procedure, private :: read_reals_at
       procedure, private :: read_longs_at
-      procedure, private :: write_bytes
-      procedure, private :: read_bytes
+      procedure, private :: write_all
+      procedure, private :: read_all
       procedure, private :: fail
    end type random_access_file_t
 
    interface
-      function c_open(path, flags) bind(c, name='open') result(descriptor)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: flags
-         integer(c_int) :: descriptor
-      end function c_open
-
       function c_fopen(path, mode) bind(c, name='fopen') result(stream)
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*)
@@ -61,12 +54,6 @@ module random_access_file
          type(c_ptr), value :: stream
          integer(c_int) :: stat
       end function c_fclose
-
-      function c_close(descriptor) bind(c, name='close') result(stat)
-         import :: c_int
-         integer(c_int), value :: descriptor
-         integer(c_int) :: stat
-      end function c_close
 
       function c_flock(descriptor, operation) bind(c, name='flock') result(stat)
          import :: c_int
@@ -95,24 +82,6 @@ module random_access_file
          integer(c_int), value :: descriptor
          integer(c_int) :: stat
       end function c_fsync
-
-      function c_pwrite(descriptor, bytes, count, offset) bind(c, name='pwrite') result(written)
-         import :: c_char, c_int, c_long, c_size_t
-         integer(c_int), value :: descriptor
-         character(kind=c_char), intent(in) :: bytes(*)
-         integer(c_size_t), value :: count
-         integer(c_long), value :: offset
-         integer(c_size_t) :: written
-      end function c_pwrite
-
-      function c_pread(descriptor, bytes, count, offset) bind(c, name='pread') result(got)
-         import :: c_char, c_int, c_long, c_size_t
-         integer(c_int), value :: descriptor
-         character(kind=c_char), intent(out) :: bytes(*)
-         integer(c_size_t), value :: count
-         integer(c_long), value :: offset
-         integer(c_size_t) :: got
-      end function c_pread
    end interface
 
 contains
@@ -139,7 +108,7 @@ contains
          end if
          ignored = c_fclose(stream)
       end if
-      self%descriptor = c_open(path//c_null_char, read_and_write)
+      self%descriptor = open_existing(path, read_and_write)
       if (self%descriptor < 0) call self%fail('opened', error)
    end subroutine open_file
 
@@ -205,7 +174,7 @@ contains
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error
 
-      call self%write_bytes(offset, len(text, int64), text, error)
+      call self%write_all(offset, len(text, int64), text, error)
    end subroutine write_text_at
 
    !> Write numbers in the byte order of the machine.
@@ -221,7 +190,7 @@ contains
 
       if (size(numbers) == 0) return
       call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
-      call self%write_bytes(offset, size(bytes, kind=int64), bytes, error)
+      call self%write_all(offset, size(bytes, kind=int64), bytes, error)
    end subroutine write_reals_at
 
    !> Write long integers in the byte order of the machine.
@@ -237,7 +206,7 @@ contains
 
       if (size(numbers) == 0) return
       call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
-      call self%write_bytes(offset, size(bytes, kind=int64), bytes, error)
+      call self%write_all(offset, size(bytes, kind=int64), bytes, error)
    end subroutine write_longs_at
 
    !> Read text; `complete` tells whether the file went so far.
@@ -250,7 +219,7 @@ contains
       !> Whether all of it was read
       logical, intent(out) :: complete
 
-      call self%read_bytes(offset, len(text, int64), text, complete)
+      call self%read_all(offset, len(text, int64), text, complete)
    end subroutine read_text_at
 
    !> Read numbers; `complete` tells whether the file went so far.
@@ -267,7 +236,7 @@ contains
       complete = .true.
       if (size(numbers) == 0) return
       call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
-      call self%read_bytes(offset, size(bytes, kind=int64), bytes, complete)
+      call self%read_all(offset, size(bytes, kind=int64), bytes, complete)
    end subroutine read_reals_at
 
    !> Read long integers; `complete` tells whether the file went so far.
@@ -284,7 +253,7 @@ contains
       complete = .true.
       if (size(numbers) == 0) return
       call c_f_pointer(c_loc(numbers), bytes, [8_int64*size(numbers, kind=int64)])
-      call self%read_bytes(offset, size(bytes, kind=int64), bytes, complete)
+      call self%read_all(offset, size(bytes, kind=int64), bytes, complete)
    end subroutine read_longs_at
 
    !> See that everything stands on the disk itself.
@@ -306,62 +275,41 @@ contains
       !> Set if the file is not complete
       type(error_t), allocatable, intent(out) :: error
       integer(c_int) :: descriptor
+      logical :: closed
 
       if (self%descriptor < 0) return
       descriptor = self%descriptor
       self%descriptor = -1
-      ! A disk across the network may report only now that it is full.
-      if (c_close(descriptor) /= 0) call self%fail('written', error)
+      call close_descriptor(descriptor, closed)
+      if (.not. closed) call self%fail('written', error)
    end subroutine close_file
 
-   !> Write bytes, in as many calls as it takes.
-   subroutine write_bytes(self, offset, count, bytes, error)
+   !> Write bytes at a place.
+   subroutine write_all(self, offset, count, bytes, error)
       class(random_access_file_t), intent(in) :: self
       integer(int64), intent(in) :: offset
       integer(int64), intent(in) :: count
       character(kind=c_char), intent(in) :: bytes(count)
       type(error_t), allocatable, intent(out) :: error
-      integer(int64) :: done
-      integer(c_size_t) :: written
+      logical :: complete
 
-      done = 0_int64
-      do while (done < count)
-         written = c_pwrite(self%descriptor, bytes(done + 1_int64:), int(count - done, c_size_t), &
-                            int(offset + done, c_long))
-         if (written > 0_c_size_t) then
-            done = done + int(written, int64)
-            cycle
-         end if
-         if (written < 0_c_size_t) then
-            if (last_error() == interrupted_call) cycle
-         end if
-         call self%fail('written', error)
-         return
-      end do
-   end subroutine write_bytes
+      call write_bytes(self%descriptor, count, bytes, complete, offset)
+      if (.not. complete) call self%fail('written', error)
+   end subroutine write_all
 
-   !> Read bytes, in as many calls as it takes.
-   subroutine read_bytes(self, offset, count, bytes, complete)
+   !> Read bytes at a place.
+   subroutine read_all(self, offset, count, bytes, complete)
       class(random_access_file_t), intent(in) :: self
       integer(int64), intent(in) :: offset
       integer(int64), intent(in) :: count
       character(kind=c_char), intent(out) :: bytes(count)
       logical, intent(out) :: complete
-      integer(int64) :: done
-      integer(c_size_t) :: got
+      integer(int64) :: got
+      logical :: failed
 
-      done = 0_int64
-      do while (done < count)
-         got = c_pread(self%descriptor, bytes(done + 1_int64:), int(count - done, c_size_t), &
-                       int(offset + done, c_long))
-         if (got < 0_c_size_t) then
-            if (last_error() == interrupted_call) cycle
-         end if
-         if (got <= 0_c_size_t) exit
-         done = done + int(got, int64)
-      end do
-      complete = done == count
-   end subroutine read_bytes
+      call read_bytes(self%descriptor, count, bytes, got, failed, offset)
+      complete = got == count
+   end subroutine read_all
 
    !> Turn the failure of the last call into an error.
    subroutine fail(self, what, error)

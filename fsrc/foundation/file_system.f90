@@ -1,38 +1,18 @@
 !> What Fortran lacks of the file system: whole files as text, folders, permissions, terminals.
 !> Thin calls of the C library.
 module file_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
+   use file_descriptor, only: close_descriptor, open_existing, read_bytes, read_only, standard_input, standard_output
+   use kinds, only: int64
    implicit none(type, external)
    private
 
    public :: read_whole_file, first_bytes, path_exists, is_directory, is_writable, make_directory, rename_file, &
              delete_file, is_terminal
 
-   integer(c_int), parameter :: standard_input = 0, standard_output = 1
-   integer(c_int), parameter :: read_only = 0, test_exists = 0, test_write_and_enter = 3
+   integer(c_int), parameter :: test_exists = 0, test_write_and_enter = 3
 
    interface
-      function c_open(path, flags) bind(c, name='open') result(descriptor)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: flags
-         integer(c_int) :: descriptor
-      end function c_open
-
-      function c_read(descriptor, buffer, count) bind(c, name='read') result(got)
-         import :: c_char, c_int, c_size_t
-         integer(c_int), value :: descriptor
-         character(kind=c_char), intent(out) :: buffer(*)
-         integer(c_size_t), value :: count
-         integer(c_size_t) :: got
-      end function c_read
-
-      function c_close(descriptor) bind(c, name='close') result(stat)
-         import :: c_int
-         integer(c_int), value :: descriptor
-         integer(c_int) :: stat
-      end function c_close
-
       function c_access(path, mode) bind(c, name='access') result(stat)
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
@@ -82,13 +62,14 @@ contains
       integer, parameter :: block = 65536
       character(block) :: buffer
       character(:), allocatable :: grown
-      integer(c_int) :: descriptor, ignored
-      integer(c_size_t) :: got
+      integer(c_int) :: descriptor
+      integer(int64) :: got
       integer :: used
+      logical :: failed, ignored
 
       stat = 0
       descriptor = standard_input
-      if (path /= '-') descriptor = c_open(trim(path)//c_null_char, read_only)
+      if (path /= '-') descriptor = open_existing(trim(path), read_only)
       if (descriptor < 0) then
          stat = 1
          return
@@ -96,9 +77,9 @@ contains
       allocate (character(block) :: content)
       used = 0
       do
-         got = c_read(descriptor, buffer, int(block, c_size_t))
-         if (got < 0) stat = 2
-         if (got <= 0) exit
+         call read_bytes(descriptor, int(block, int64), buffer, got, failed)
+         if (failed) stat = 2
+         if (failed) exit
          if (used + int(got) > limit) then
             stat = 3
             exit
@@ -110,8 +91,9 @@ contains
          end if
          content(used + 1:used + int(got)) = buffer(:got)
          used = used + int(got)
+         if (got < block) exit
       end do
-      if (path /= '-') ignored = c_close(descriptor)
+      if (path /= '-') call close_descriptor(descriptor, ignored)
       content = content(:used)
    end subroutine read_whole_file
 
@@ -123,14 +105,17 @@ contains
       character(*), intent(out) :: bytes
       !> How many bytes were filled
       integer, intent(out) :: got
-      integer(c_int) :: descriptor, ignored
+      integer(c_int) :: descriptor
+      integer(int64) :: filled
+      logical :: ignored
 
       got = 0
       bytes = ''
-      descriptor = c_open(trim(path)//c_null_char, read_only)
+      descriptor = open_existing(trim(path), read_only)
       if (descriptor < 0) return
-      got = max(0, int(c_read(descriptor, bytes, int(len(bytes), c_size_t))))
-      ignored = c_close(descriptor)
+      call read_bytes(descriptor, len(bytes, int64), bytes, filled, ignored)
+      got = int(filled)
+      call close_descriptor(descriptor, ignored)
    end subroutine first_bytes
 
    !> Whether anything stands at a path.

@@ -89,9 +89,8 @@ contains
       integer :: start, first
 
       exponent = 0
-      start = 1
-      if (len(word) > 0) start = merge(2, 1, scan(word(1:1), '+-') > 0)
-      sound = len(word) >= start .and. verify(word(start:), '0123456789') == 0
+      start = first_digit(word)
+      sound = start > 0
       if (.not. sound) return
       first = verify(word(start:), '0')
       if (first == 0) return
@@ -112,16 +111,27 @@ contains
       integer, intent(out) :: number
       !> Whether it is an integer in range
       logical, intent(out) :: sound
-      integer :: start, stat
+      integer :: stat
 
       number = 0
-      start = 1
-      if (len(word) > 0) start = merge(2, 1, scan(word(1:1), '+-') > 0)
-      sound = len(word) >= start .and. verify(word(start:), '0123456789') == 0
+      sound = first_digit(word) > 0
       if (.not. sound) return
       read (word, *, iostat=stat) number
       sound = stat == 0
       if (.not. sound) number = 0
    end subroutine read_strict_integer
+
+   !> Place of the first of the digits that make up a word, behind an optional sign; 0 if it is anything else.
+   pure integer function first_digit(word)
+      character(*), intent(in) :: word
+
+      first_digit = 1
+      if (len(word) > 0) first_digit = merge(2, 1, scan(word(1:1), '+-') > 0)
+      if (len(word) < first_digit) then
+         first_digit = 0
+      else if (verify(word(first_digit:), '0123456789') > 0) then
+         first_digit = 0
+      end if
+   end function first_digit
 
 end module number_text

@@ -1,0 +1,171 @@
+!> Open files by their descriptors: what is interrupted by a signal is repeated, what is done in part is carried
+!> on, and every failure is seen; last_error then says why. Thin calls of the C library.
+module file_descriptor
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char, c_size_t
+   use kinds, only: int64
+   use system_error, only: interrupted_call, last_error
+   implicit none(type, external)
+   private
+
+   !> How an existing file is opened.
+   integer(c_int), parameter, public :: read_only = 0, read_and_write = 2
+   integer(c_int), parameter, public :: standard_input = 0, standard_output = 1
+   integer(c_int), parameter :: read_and_write_for_all = 438
+
+   interface
+      function c_open(path, flags) bind(c, name='open') result(descriptor)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: flags
+         integer(c_int) :: descriptor
+      end function c_open
+
+      function c_creat(path, mode) bind(c, name='creat') result(descriptor)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+         integer(c_int) :: descriptor
+      end function c_creat
+
+      function c_close(descriptor) bind(c, name='close') result(stat)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: stat
+      end function c_close
+
+      function c_read(descriptor, bytes, count) bind(c, name='read') result(got)
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(out) :: bytes(*)
+         integer(c_size_t), value :: count
+         integer(c_size_t) :: got
+      end function c_read
+
+      function c_pread(descriptor, bytes, count, offset) bind(c, name='pread') result(got)
+         import :: c_char, c_int, c_long, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(out) :: bytes(*)
+         integer(c_size_t), value :: count
+         integer(c_long), value :: offset
+         integer(c_size_t) :: got
+      end function c_pread
+
+      function c_write(descriptor, bytes, count) bind(c, name='write') result(written)
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(in) :: bytes(*)
+         integer(c_size_t), value :: count
+         integer(c_size_t) :: written
+      end function c_write
+
+      function c_pwrite(descriptor, bytes, count, offset) bind(c, name='pwrite') result(written)
+         import :: c_char, c_int, c_long, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(in) :: bytes(*)
+         integer(c_size_t), value :: count
+         integer(c_long), value :: offset
+         integer(c_size_t) :: written
+      end function c_pwrite
+   end interface
+
+   public :: open_existing, open_replacing, close_descriptor, read_bytes, write_bytes
+
+contains
+
+   !> Open a file that is there; a negative descriptor: it cannot be opened.
+   integer(c_int) function open_existing(path, access) result(descriptor)
+      !> Path, without blanks behind it
+      character(*), intent(in) :: path
+      !> read_only or read_and_write
+      integer(c_int), intent(in) :: access
+
+      descriptor = c_open(path//c_null_char, access)
+   end function open_existing
+
+   !> Open an empty file for writing, in place of one that is there; a negative descriptor: it cannot be opened.
+   integer(c_int) function open_replacing(path) result(descriptor)
+      !> Path, without blanks behind it
+      character(*), intent(in) :: path
+
+      descriptor = c_creat(path//c_null_char, read_and_write_for_all)
+   end function open_replacing
+
+   !> Close a file.
+   subroutine close_descriptor(descriptor, closed)
+      !> Open file
+      integer(c_int), intent(in) :: descriptor
+      !> Whether everything written is taken; a disk across the network may report only now that it is full
+      logical, intent(out) :: closed
+
+      closed = c_close(descriptor) == 0
+   end subroutine close_descriptor
+
+   !> Read bytes, in as many calls as it takes.
+   subroutine read_bytes(descriptor, count, bytes, got, failed, offset)
+      !> Open file
+      integer(c_int), intent(in) :: descriptor
+      !> Bytes that are asked for
+      integer(int64), intent(in) :: count
+      !> Filled from the left
+      character(kind=c_char), intent(out) :: bytes(count)
+      !> How many were read; fewer than asked for where the file ends or reading fails
+      integer(int64), intent(out) :: got
+      !> Whether it failed
+      logical, intent(out) :: failed
+      !> Bytes before them; absent: from where the last call ended
+      integer(int64), optional, intent(in) :: offset
+      integer(c_size_t) :: part
+
+      got = 0_int64
+      failed = .false.
+      do while (got < count)
+         if (present(offset)) then
+            part = c_pread(descriptor, bytes(got + 1_int64:), int(count - got, c_size_t), int(offset + got, c_long))
+         else
+            part = c_read(descriptor, bytes(got + 1_int64:), int(count - got, c_size_t))
+         end if
+         if (part > 0_c_size_t) then
+            got = got + int(part, int64)
+            cycle
+         end if
+         failed = part < 0_c_size_t
+         if (.not. failed) return
+         if (last_error() /= interrupted_call) return
+         failed = .false.
+      end do
+   end subroutine read_bytes
+
+   !> Write bytes, in as many calls as it takes.
+   subroutine write_bytes(descriptor, count, bytes, complete, offset)
+      !> Open file
+      integer(c_int), intent(in) :: descriptor
+      !> Their number
+      integer(int64), intent(in) :: count
+      !> Bytes as they are
+      character(kind=c_char), intent(in) :: bytes(count)
+      !> Whether all were written; .false. if the disk is full, say
+      logical, intent(out) :: complete
+      !> Bytes before them; absent: from where the last call ended
+      integer(int64), optional, intent(in) :: offset
+      integer(int64) :: done
+      integer(c_size_t) :: part
+
+      done = 0_int64
+      do while (done < count)
+         if (present(offset)) then
+            part = c_pwrite(descriptor, bytes(done + 1_int64:), int(count - done, c_size_t), int(offset + done, c_long))
+         else
+            part = c_write(descriptor, bytes(done + 1_int64:), int(count - done, c_size_t))
+         end if
+         if (part > 0_c_size_t) then
+            done = done + int(part, int64)
+         else if (part == 0_c_size_t) then
+            exit
+         else if (last_error() /= interrupted_call) then
+            exit
+         end if
+      end do
+      complete = done == count
+   end subroutine write_bytes
+
+end module file_descriptor
