@@ -196,9 +196,11 @@ contains
          sound = value%quoted .and. len_trim(value%text) > 0 .and. len(value%text) <= path_limit
          if (sound .and. (key%choices /= '' .or. key%kind == list_kind)) sound = scan(trim(value%text), ' ') == 0
          if (sound .and. key%choices /= '') sound = word_position(trim(key%choices), trim(value%text)) > 0
-         if (sound .and. key%kind == text_kind) entry%word = value%text
-         ! Every later question compares whole words: a blank behind one must not make it another.
-         if (sound .and. key%kind == text_kind .and. key%choices /= '') entry%word = trim(value%text)
+         if (sound .and. key%kind == text_kind) then
+            entry%word = value%text
+            ! Every later question compares whole words: a blank behind one must not make it another.
+            if (key%choices /= '') entry%word = trim(value%text)
+         end if
          if (sound .and. key%kind == list_kind) entry%words = trim(adjustl(entry%words//' '//value%text))
       end select
       if (sound) return

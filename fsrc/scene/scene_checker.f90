@@ -3,6 +3,7 @@ module scene_checker
    use errors, only: fault_list_t
    use input_key, only: allowed_text, in_range
    use key_table, only: find_key, keys
+   use keys_in_use, only: in_use
    use kinds, only: dp
    use scene_input, only: scene_input_t
    use text, only: integer_text
@@ -10,7 +11,7 @@ module scene_checker
    implicit none(type, external)
    private
 
-   public :: check_together, in_use
+   public :: check_together
 
 contains
 
@@ -67,38 +68,6 @@ contains
                               trim(keys(i)%used_when)//'; leave it out', faults)
       end do
    end subroutine check_used
-
-   !> Whether the choices of the input make use of a key. Where a deciding key is itself in doubt, yes.
-   pure recursive logical function in_use(input, position) result(used)
-      !> Typed values
-      type(scene_input_t), intent(in) :: input
-      !> Position in the key table
-      integer, intent(in) :: position
-      character(:), allocatable :: rules
-      integer :: conjunction
-
-      used = .true.
-      rules = trim(keys(position)%used_when)
-      do while (used .and. len(rules) > 0)
-         conjunction = index(rules//' & ', ' & ')
-         used = rule_holds(input, rules(:conjunction - 1))
-         rules = rules(min(len(rules), conjunction + 2) + 1:)
-      end do
-   end function in_use
-
-   !> Whether 'group.key=word|word' holds, and the deciding key is itself in use.
-   pure recursive logical function rule_holds(input, rule) result(holds)
-      type(scene_input_t), intent(in) :: input
-      character(*), intent(in) :: rule
-      integer :: dot, equals, decider
-
-      dot = index(rule, '.')
-      equals = index(rule, '=')
-      decider = find_key(rule(:dot - 1), rule(dot + 1:equals - 1))
-      holds = in_use(input, decider)
-      if (.not. holds .or. .not. input%entries(decider)%present .or. input%entries(decider)%faulty) return
-      holds = index('|'//rule(equals + 1:)//'|', '|'//input%entries(decider)%word//'|') > 0
-   end function rule_holds
 
    !> Exactly one way to give the radius.
    subroutine check_radius(input, faults)

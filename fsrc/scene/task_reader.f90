@@ -1,8 +1,8 @@
 !> The groups of tasks other than a single motion: &points, &sweep, &campaign.
 module task_reader
    use key_table, only: keys
+   use keys_in_use, only: in_use
    use kinds, only: dp
-   use scene_checker, only: in_use
    use scene_input, only: scene_input_t
    use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t, word_t
    use word_list, only: word_at, word_count

@@ -5,11 +5,14 @@ module test_key_table
       reals_kind, text_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key, starts_group
    use kinds, only: dp
-   use scene_types, only: column_names, iteration_newton, iteration_successive, law_iso_viscous, &
-      law_piezo_viscous, &
-      method_newmark, model_published, predictor_extrapolated, predictor_previous, rupture_half_pi, &
-      rupture_solved, &
-      rupture_solver_fast, rupture_solver_successive
+   use scene_types, only: column_names, compute_damping, compute_limits, compute_load, compute_pressure, &
+      compute_profile, compute_rupture, compute_stiffness, iteration_newton, iteration_successive, &
+      law_iso_viscous, law_piezo_viscous, method_newmark, method_newmark_extrapolated, method_taylor, &
+      model_numerical, model_published, model_reynolds, predictor_extrapolated, predictor_previous, &
+      rupture_half_pi, rupture_solved, rupture_solver_fast, rupture_solver_successive, speed_mean, &
+      speed_sum, sweep_entrainment_speed, sweep_force_amplitude, sweep_frequency, sweep_steady_force, &
+      task_campaign, task_film, task_motion, task_sweep, until_periods, until_steady, viscosity_barus, &
+      viscosity_roelands
    use word_list, only: word_position
    implicit none(type, external)
    private
@@ -135,15 +138,40 @@ contains
       call agree('film', 'law', 'iso-viscous', law_iso_viscous)
       call agree('film', 'law', 'piezo-viscous', law_piezo_viscous)
       call agree('film', 'model', 'published', model_published)
+      call agree('film', 'model', 'reynolds', model_reynolds)
+      call agree('film', 'model', 'numerical', model_numerical)
       call agree('film', 'rupture', 'half-pi', rupture_half_pi)
       call agree('film', 'rupture', 'solved', rupture_solved)
       call agree('film', 'rupture_solver', 'fast', rupture_solver_fast)
       call agree('film', 'rupture_solver', 'successive', rupture_solver_successive)
       call agree('solver', 'method', 'newmark', method_newmark)
+      call agree('solver', 'method', 'newmark-extrapolated', method_newmark_extrapolated)
+      call agree('solver', 'method', 'taylor', method_taylor)
+      call agree('solver', 'until', 'periods', until_periods)
+      call agree('solver', 'until', 'steady', until_steady)
       call agree('solver', 'iteration', 'newton', iteration_newton)
       call agree('solver', 'iteration', 'successive', iteration_successive)
       call agree('solver', 'predictor', 'extrapolated', predictor_extrapolated)
       call agree('solver', 'predictor', 'previous', predictor_previous)
+      call agree('scene', 'task', 'motion', task_motion)
+      call agree('scene', 'task', 'film', task_film)
+      call agree('scene', 'task', 'sweep', task_sweep)
+      call agree('scene', 'task', 'campaign', task_campaign)
+      call agree('sweep', 'key', 'frequency', sweep_frequency)
+      call agree('sweep', 'key', 'force_amplitude', sweep_force_amplitude)
+      call agree('sweep', 'key', 'steady_force', sweep_steady_force)
+      call agree('sweep', 'key', 'entrainment_speed', sweep_entrainment_speed)
+      call agree('lubricant', 'viscosity_law', 'barus', viscosity_barus)
+      call agree('lubricant', 'viscosity_law', 'roelands', viscosity_roelands)
+      call agree('points', 'speed_reading', 'mean', speed_mean)
+      call agree('points', 'speed_reading', 'sum', speed_sum)
+      call agree('points', 'compute', 'rupture', compute_rupture)
+      call agree('points', 'compute', 'load', compute_load)
+      call agree('points', 'compute', 'stiffness', compute_stiffness)
+      call agree('points', 'compute', 'damping', compute_damping)
+      call agree('points', 'compute', 'pressure', compute_pressure)
+      call agree('points', 'compute', 'limits', compute_limits)
+      call agree('points', 'compute', 'profile', compute_profile)
       do i = 1, size(column_names)
          call agree('output', 'columns', trim(column_names(i)), i)
       end do
