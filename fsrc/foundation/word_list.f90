@@ -3,7 +3,12 @@ module word_list
    implicit none(type, external)
    private
 
-   public :: word_count, word_at, word_position
+   !> One word, of its own length.
+   type, public :: word_t
+      character(:), allocatable :: text
+   end type word_t
+
+   public :: word_count, split_words, word_position
 
 contains
 
@@ -17,21 +22,22 @@ contains
       if (len(list) > 0) word_count = 1 + count([(list(i:i) == ' ', i=1, len(list))])
    end function word_count
 
-   !> Word at a position, from 1; empty beyond the last.
-   pure function word_at(list, position) result(word)
+   !> The words one by one.
+   pure function split_words(list) result(words)
       !> The list, may be empty
       character(*), intent(in) :: list
-      !> Position
-      integer, intent(in) :: position
-      character(:), allocatable :: word
-      integer :: skipped
+      type(word_t), allocatable :: words(:)
+      integer :: i, start, length
 
-      word = list//' '
-      do skipped = 1, position - 1
-         word = word(index(word, ' ') + 1:)
+      allocate (words(word_count(list)))
+      start = 1
+      do i = 1, size(words)
+         length = index(list(start:), ' ') - 1
+         if (length < 0) length = len(list) - start + 1
+         words(i)%text = list(start:start + length - 1)
+         start = start + length + 1
       end do
-      word = word(:index(word, ' ') - 1)
-   end function word_at
+   end function split_words
 
    !> Position of the first word that equals a word, from 1; 0 if there is none.
    pure integer function word_position(list, word)

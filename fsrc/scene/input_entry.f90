@@ -9,7 +9,7 @@ module input_entry
    use number_text, only: read_strict_integer, read_strict_real
    use scene_types, only: numbers_t
    use text, only: integer_text, logical_text, lower, quoted, quoted_words, real_text
-   use word_list, only: word_at, word_count, word_position
+   use word_list, only: split_words, word_count, word_position, word_t
    implicit none(type, external)
    private
 
@@ -45,6 +45,7 @@ contains
       !> Name of the input for the faults
       character(*), intent(in) :: file
       type(entry_t) :: entry
+      type(word_t), allocatable :: words(:)
       type(value_t), allocatable :: values(:)
       type(fault_list_t) :: none
       integer :: i
@@ -55,14 +56,17 @@ contains
       allocate (entry%numbers(0), entry%columns(0))
       entry%present = key%default /= '' .and. key%default /= 'required'
       if (.not. entry%present) return
-      allocate (values(merge(word_count(trim(key%default)), 1, key%kind == list_kind)))
-      values%quoted = any(key%kind == [text_kind, list_kind])
-      values(1)%text = trim(key%default)
       if (key%kind == list_kind) then
-         do i = 1, size(values)
-            values(i)%text = word_at(trim(key%default), i)
-         end do
+         allocate (words, source=split_words(trim(key%default)))
+      else
+         allocate (words(1))
+         words(1)%text = trim(key%default)
       end if
+      allocate (values(size(words)))
+      do i = 1, size(words)
+         values(i)%text = words(i)%text
+         values(i)%quoted = any(key%kind == [text_kind, list_kind])
+      end do
       call add_values(key, values, entry, none)
    end function new_entry
 

@@ -3,7 +3,7 @@
 module input_key
    use kinds, only: dp
    use text, only: real_text
-   use word_list, only: word_at, word_count
+   use word_list, only: split_words, word_t
    implicit none(type, external)
    private
 
@@ -106,6 +106,7 @@ contains
    pure function choices_text(key) result(words)
       type(key_t), intent(in) :: key
       character(:), allocatable :: words
+      type(word_t), allocatable :: choices(:)
       integer :: i
 
       if (len_trim(key%choices) == 0) then
@@ -113,8 +114,9 @@ contains
          return
       end if
       words = trim(merge('any of', 'one of', key%kind == list_kind))
-      do i = 1, word_count(trim(key%choices))
-         words = words//" '"//word_at(trim(key%choices), i)//"'"
+      allocate (choices, source=split_words(trim(key%choices)))
+      do i = 1, size(choices)
+         words = words//" '"//choices(i)%text//"'"
       end do
    end function choices_text
 

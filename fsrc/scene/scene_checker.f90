@@ -7,7 +7,7 @@ module scene_checker
    use kinds, only: dp
    use scene_input, only: scene_input_t
    use text, only: integer_text
-   use word_list, only: word_position
+   use word_list, only: split_words, word_t
    implicit none(type, external)
    private
 
@@ -175,19 +175,17 @@ contains
       character(*), intent(in) :: group
       character(*), intent(in) :: name
       type(fault_list_t), intent(inout) :: faults
-      character(:), allocatable :: rest
-      integer :: blank
+      type(word_t), allocatable :: words(:)
+      integer :: i, j
 
       if (input%is_faulty(group, name)) return
-      rest = input%words(group, name)
-      do
-         blank = index(rest, ' ')
-         if (blank == 0) return
-         if (word_position(rest(blank + 1:), rest(:blank - 1)) > 0) then
-            call input%add_fault(group, name, "'"//rest(:blank - 1)//"' is named twice", faults)
+      allocate (words, source=split_words(input%words(group, name)))
+      do i = 1, size(words)
+         do j = i + 1, size(words)
+            if (words(i)%text /= words(j)%text) cycle
+            call input%add_fault(group, name, "'"//words(i)%text//"' is named twice", faults)
             return
-         end if
-         rest = rest(blank + 1:)
+         end do
       end do
    end subroutine check_no_word_twice
 

@@ -7,7 +7,7 @@ module scene_input
    use namelist_text, only: assignment_t
    use scene_types, only: numbers_t
    use text, only: integer_text
-   use word_list, only: word_at, word_count, word_position
+   use word_list, only: split_words, word_position, word_t
    implicit none(type, external)
    private
 
@@ -215,12 +215,12 @@ contains
       !> Key in the group
       character(*), intent(in) :: name
       integer, allocatable :: choices(:)
+      type(word_t), allocatable :: words(:)
       integer :: position, i
 
       position = find_key(group, name)
-      associate (words => self%entries(position)%words)
-         choices = [(word_position(trim(keys(position)%choices), word_at(words, i)), i=1, word_count(words))]
-      end associate
+      allocate (words, source=split_words(self%entries(position)%words))
+      choices = [(word_position(trim(keys(position)%choices), words(i)%text), i=1, size(words))]
    end function choices_of
 
    !> Add a fault at the place of a key: where it was set, or without a line if it was not.

@@ -2,6 +2,7 @@
 module scene_types
    use input_key, only: name_limit, path_limit
    use kinds, only: dp
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
@@ -171,11 +172,6 @@ module scene_types
       !> How many of them lead there; the others lead back
       integer :: outward = 0
    end type sweep_t
-
-   !> One word of a list.
-   type, public :: word_t
-      character(:), allocatable :: text
-   end type word_t
 
    !> One column of a table.
    type, public :: numbers_t

@@ -4,8 +4,8 @@ module task_reader
    use keys_in_use, only: in_use
    use kinds, only: dp
    use scene_input, only: scene_input_t
-   use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t, word_t
-   use word_list, only: word_at, word_count
+   use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t
+   use word_list, only: split_words
    implicit none(type, external)
    private
 
@@ -81,7 +81,7 @@ contains
       integer, allocatable :: scales(:)
       integer :: i, count
 
-      allocate (campaign%vary, source=words_of(input%words('campaign', 'vary')))
+      allocate (campaign%vary, source=split_words(input%words('campaign', 'vary')))
       allocate (scales, source=input%choices('campaign', 'scale'))
       allocate (campaign%scale(size(campaign%vary)), source=1)
       count = min(size(scales), size(campaign%vary))
@@ -94,7 +94,7 @@ contains
       campaign%size = input%count('campaign', 'size')
       campaign%seed = input%count('campaign', 'seed')
       campaign%csv = input%word('campaign', 'csv')
-      allocate (campaign%record, source=words_of(input%words('campaign', 'record')))
+      allocate (campaign%record, source=split_words(input%words('campaign', 'record')))
       campaign%samples_per_period = input%count('campaign', 'samples_per_period')
       campaign%allow_invalid = input%flag('campaign', 'allow_invalid')
       campaign%confirm_size = input%flag('campaign', 'confirm_size')
@@ -105,18 +105,6 @@ contains
          campaign%in_base(i) = input%entries(i)%present .and. in_use(input, i)
       end do
    end function read_campaign
-
-   !> Words of a blank-separated list.
-   function words_of(list) result(words)
-      character(*), intent(in) :: list
-      type(word_t), allocatable :: words(:)
-      integer :: i
-
-      allocate (words(word_count(list)))
-      do i = 1, size(words)
-         words(i)%text = word_at(list, i)
-      end do
-   end function words_of
 
    !> Numbers from first to last, both hit exactly.
    pure function spread_between(first, last, count, logarithmic) result(numbers)

@@ -1,7 +1,7 @@
 !> Tests of lists of words in one text.
 module test_word_list
    use checks, only: check_list_t
-   use word_list, only: word_at, word_count, word_position
+   use word_list, only: split_words, word_count, word_position, word_t
    implicit none(type, external)
    private
 
@@ -14,13 +14,16 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       character(*), parameter :: list = 'time film film_load time'
+      type(word_t), allocatable :: words(:)
 
       call checks%start('word_list')
       call checks%check(word_count('') == 0 .and. word_count('fast') == 1 .and. word_count(list) == 4, 'count')
-      call checks%check(word_at(list, 1) == 'time' .and. word_at(list, 3) == 'film_load' .and. &
-         word_at(list, 4) == 'time', 'word at a position')
-      call checks%check(len(word_at(list, 2)) == 4, 'a word ends before the blank')
-      call checks%check(len(word_at(list, 5)) == 0 .and. len(word_at('', 1)) == 0, 'no word beyond the last')
+      allocate (words, source=split_words(list))
+      call checks%check(size(words) == 4, 'as many words as are counted')
+      call checks%check(words(1)%text == 'time' .and. words(3)%text == 'film_load' .and. words(4)%text == 'time', &
+         'the words one by one')
+      call checks%check(len(words(2)%text) == 4, 'a word ends before the blank')
+      call checks%check(size(split_words('')) == 0, 'no word in an empty list')
       call checks%check(word_position(list, 'time') == 1, 'position of the first of two')
       call checks%check(word_position(list, 'film_load') == 3, 'position behind a word that begins alike')
       call checks%check(word_position('', 'time') == 0, 'no word in an empty list')
