@@ -3,7 +3,7 @@
 module random_access_file
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, c_ptr
    use errors, only: error_t, exit_system, raise
-   use file_descriptor, only: close_descriptor, open_existing, read_and_write, read_bytes, write_bytes
+   use file_descriptor, only: close_descriptor, open_existing, read_and_write, read_bytes, read_only, write_bytes
    use kinds, only: dp, int64
    use system_error, only: error_words, interrupted_call, last_error, no_locks, no_such_call, not_supported
    implicit none(type, external)
@@ -21,6 +21,7 @@ module random_access_file
       character(:), allocatable :: path
    contains
       procedure :: open => open_file
+      procedure :: open_to_read
       procedure :: is_open
       procedure :: rename_path
       procedure :: lock
@@ -111,6 +112,19 @@ contains
       self%descriptor = open_existing(path, read_and_write)
       if (self%descriptor < 0) call self%fail('opened', error)
    end subroutine open_file
+
+   !> Open a file for reading alone.
+   subroutine open_to_read(self, path, error)
+      class(random_access_file_t), intent(inout) :: self
+      !> Path of the file
+      character(*), intent(in) :: path
+      !> Set if it cannot be opened
+      type(error_t), allocatable, intent(out) :: error
+
+      self%path = path
+      self%descriptor = open_existing(path, read_only)
+      if (self%descriptor < 0) call self%fail('opened', error)
+   end subroutine open_to_read
 
    !> Whether there is an open file.
    pure logical function is_open(self)

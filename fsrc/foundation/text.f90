@@ -46,7 +46,7 @@ contains
          text = '0.0'
          return
       end if
-      if (abs(number) >= 1.0e-3_dp .and. abs(number) < 1.0e6_dp) then
+      if (is_plain(number)) then
          do digits = 1, 17
             write (buffer, '(f32.'//integer_text(digits)//')') number
             read (buffer, *, iostat=stat) back
@@ -77,7 +77,7 @@ contains
 
       if (.not. abs(number) > 0.0_dp) then
          text = '0'
-      else if (abs(number) >= 1.0e-3_dp .and. abs(number) < 1.0e6_dp) then
+      else if (is_plain(number)) then
          decimals = max(0, digits - 1 - floor(log10(abs(number))))
          write (buffer, '(f40.'//integer_text(decimals)//')') number
          text = trim(adjustl(buffer))
@@ -87,6 +87,13 @@ contains
          text = plain_exponent(trim(adjustl(buffer)))
       end if
    end function short_text
+
+   !> Whether a number is written without an exponent.
+   pure logical function is_plain(number)
+      real(dp), intent(in) :: number
+
+      is_plain = abs(number) >= 1.0e-3_dp .and. abs(number) < 1.0e6_dp
+   end function is_plain
 
    !> Exponent without its leading zeros: 1.5E-007 becomes 1.5E-7.
    pure function plain_exponent(long) result(text)
