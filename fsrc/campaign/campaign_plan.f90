@@ -7,8 +7,8 @@ module campaign_plan
    use sampling, only: chunk_values, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, sample_plan_t
    use scene_types, only: scene_t
    use text, only: integer_text
-   use varied_keys, only: find_varied_key, is_whole, varied_key_name
-   use varied_scene, only: can_be_varied, is_valid_scene, set_varied_key
+   use varied_keys, only: find_varied_key, is_whole, varied_code, varied_key_name
+   use varied_scene, only: is_valid_scene, set_varied_keys
    implicit none(type, external)
    private
 
@@ -112,7 +112,7 @@ contains
       end associate
    end subroutine form_axes
 
-   !> A varied key must be one of a single motion, and have its value in the base.
+   !> A varied key must have its value in the base.
    subroutine check_position(scene, file, name, position, faults)
       type(scene_t), intent(in) :: scene
       character(*), intent(in) :: file
@@ -120,12 +120,9 @@ contains
       integer, intent(in) :: position
       type(fault_list_t), intent(inout) :: faults
 
-      if (.not. can_be_varied(position)) then
-         call faults%add(file, 0, 'campaign', 'vary', name//': this key does not belong to the single motion')
-      else if (.not. scene%campaign%in_base(position)) then
+      if (.not. scene%campaign%in_base(position)) &
          call faults%add(file, 0, 'campaign', 'vary', name// &
                          ': the base input does not use this key; give it there, or vary the one it uses')
-      end if
    end subroutine check_position
 
    !> Scenes that are no valid scenes; the first ones are named as faults unless they are allowed.
@@ -146,19 +143,18 @@ contains
       type(scene_t) :: trial
       real(dp), allocatable :: values(:, :)
       integer(int64) :: start
-      integer :: i, k, count
+      integer :: codes(size(plan%positions)), i, count
 
       invalid = 0_int64
       trial = scene
+      codes = varied_code(plan%positions)
       do start = first, last, int(block, int64)
          count = int(min(int(block, int64), last - start + 1_int64))
          if (allocated(values)) deallocate (values)
          allocate (values(size(plan%positions), count))
          call chunk_values(plan, start, values)
          do i = 1, count
-            do k = 1, size(plan%positions)
-               call set_varied_key(trial, plan%positions(k), values(k, i))
-            end do
+            call set_varied_keys(trial, codes, values(:, i))
             if (is_valid_scene(trial, plan%positions, values(:, i))) cycle
             invalid = invalid + 1_int64
             if (scene%campaign%allow_invalid .or. invalid > int(most_named, int64)) cycle

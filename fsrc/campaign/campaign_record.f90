@@ -5,6 +5,13 @@ module campaign_record
    use kinds, only: dp, int64
    use lane_scenes, only: lane_ending_t
    use rattle_class, only: rattle_verdict_t
+   use recorded_quantities, only: quantities, record_acceleration_maximum, record_acceleration_minimum, record_alpha_p_maximum, &
+                                  record_certified, record_damping_ratio, record_deflection, record_film_maximum, &
+                                  record_film_minimum, record_film_regime, record_harmonic_distortion, record_harmonics, &
+                                  record_irregular_fraction, record_law_contradicted, record_line_count, &
+                                  record_natural_frequency, record_orbit_period, record_periods_solved, &
+                                  record_pressure_maximum, record_rattle_class, record_reversals_per_period, &
+                                  record_sampling_sufficient, record_steady_film
    use regime_check, only: regime_verdict_t
    use resolved_scene, only: resolved_scene_t
    use result_format, only: column_name_bytes, column_unit_bytes
@@ -17,10 +24,7 @@ module campaign_record
    !> Harmonics that are recorded.
    integer, parameter :: recorded_harmonics = 8
 
-   !> Quantities by their codes; the words stand in the key table.
-   integer, parameter, public :: needs_nothing = 0, needs_spectrum = 1, needs_regime = 2
-
-   !> A judged scene. Parts that no column asks for are left as they are.
+   !> A judged scene. Parts that no column asks for, or that its ending leaves unknown, are those of the scene before.
    type, public :: judged_scene_t
       logical :: success = .false.
       type(lane_ending_t) :: ending
@@ -29,9 +33,11 @@ module campaign_record
       type(regime_verdict_t) :: regime
       !> Extremes of the window
       real(dp) :: film_minimum = 0.0_dp, film_maximum = 0.0_dp, acceleration_minimum = 0.0_dp, acceleration_maximum = 0.0_dp
+      !> Whether the class stands when the scene is solved tighter
+      logical :: certified = .false.
    end type judged_scene_t
 
-   public :: record_columns, record_row, need_of
+   public :: record_columns, record_row
 
 contains
 
@@ -54,13 +60,15 @@ contains
       end do
       call put(names, units, 'status', '-')
       do i = 1, size(scene%campaign%record)
-         if (scene%campaign%record(i)%text == 'harmonics') then
-            do n = 1, recorded_harmonics
-               call put(names, units, 'harmonic_'//integer_text(n), 'm/s2')
-            end do
-         else
-            call put(names, units, scene%campaign%record(i)%text, unit_of(scene%campaign%record(i)%text))
-         end if
+         associate (quantity => quantities(scene%campaign%record(i)))
+            if (quantity%code == record_harmonics) then
+               do n = 1, recorded_harmonics
+                  call put(names, units, 'harmonic_'//integer_text(n), quantity%unit)
+               end do
+            else
+               call put(names, units, quantity%name, quantity%unit)
+            end if
+         end associate
       end do
 
    end subroutine record_columns
@@ -79,41 +87,6 @@ contains
       names = [names, full_name]
       units = [units, full_unit]
    end subroutine put
-
-   !> Unit of a recorded quantity.
-   pure function unit_of(name) result(unit)
-      character(*), intent(in) :: name
-      character(:), allocatable :: unit
-
-      select case (name)
-      case ('film_minimum', 'film_maximum', 'steady_film', 'deflection')
-         unit = 'm'
-      case ('acceleration_minimum', 'acceleration_maximum')
-         unit = 'm/s2'
-      case ('natural_frequency')
-         unit = 'Hz'
-      case ('pressure_maximum')
-         unit = 'Pa'
-      case default
-         unit = '-'
-      end select
-   end function unit_of
-
-   !> What has to be computed for a recorded quantity.
-   pure integer function need_of(name)
-      !> Name of the quantity
-      character(*), intent(in) :: name
-
-      select case (name)
-      case ('line_count', 'harmonic_distortion', 'irregular_fraction', 'reversals_per_period', 'rattle_class', 'harmonics', &
-            'sampling_sufficient')
-         need_of = needs_spectrum
-      case ('film_regime', 'law_contradicted', 'alpha_p_maximum', 'pressure_maximum', 'deflection')
-         need_of = needs_regime
-      case default
-         need_of = needs_nothing
-      end select
-   end function need_of
 
    !> Row of a scene.
    pure subroutine record_row(scene, number, values, judged, row)
@@ -136,82 +109,82 @@ contains
       column = 2 + size(values)
       row(column) = real(judged%ending%status, dp)
       do i = 1, size(scene%campaign%record)
-         if (scene%campaign%record(i)%text == 'harmonics') then
+         if (scene%campaign%record(i) == record_harmonics) then
             row(column + 1:column + recorded_harmonics) = unknown
             if (judged%success) row(column + 1:column + recorded_harmonics) = &
                judged%rattle%lines%harmonics(:recorded_harmonics)
             column = column + recorded_harmonics
          else
             column = column + 1
-            row(column) = value_of(scene%campaign%record(i)%text, judged, unknown)
+            row(column) = value_of(scene%campaign%record(i), judged, unknown)
          end if
       end do
    end subroutine record_row
 
    !> Value of a recorded quantity.
-   pure real(dp) function value_of(name, judged, unknown) result(value)
-      character(*), intent(in) :: name
+   pure real(dp) function value_of(code, judged, unknown) result(value)
+      integer, intent(in) :: code
       type(judged_scene_t), intent(in) :: judged
       real(dp), intent(in) :: unknown
 
       value = unknown
-      select case (name)
-      case ('steady_film')
+      select case (code)
+      case (record_steady_film)
          if (judged%resolved%steady_film > 0.0_dp) value = judged%resolved%steady_film
-      case ('natural_frequency')
+      case (record_natural_frequency)
          if (judged%resolved%steady_film > 0.0_dp) value = judged%resolved%natural_frequency
-      case ('damping_ratio')
+      case (record_damping_ratio)
          if (judged%resolved%steady_film > 0.0_dp) value = judged%resolved%damping_ratio
-      case ('periods_solved')
+      case (record_periods_solved)
          value = real(judged%ending%periods, dp)
-      case ('orbit_period')
+      case (record_orbit_period)
          value = real(judged%ending%orbit, dp)
       case default
-         if (judged%success) value = window_value(name, judged, unknown)
+         if (judged%success) value = window_value(code, judged, unknown)
       end select
    end function value_of
 
    !> Value of a quantity that rests on the window.
-   pure real(dp) function window_value(name, judged, unknown) result(value)
-      character(*), intent(in) :: name
+   pure real(dp) function window_value(code, judged, unknown) result(value)
+      integer, intent(in) :: code
       type(judged_scene_t), intent(in) :: judged
       real(dp), intent(in) :: unknown
 
       value = unknown
       associate (lines => judged%rattle%lines, regime => judged%regime)
-         select case (name)
-         case ('film_minimum')
+         select case (code)
+         case (record_film_minimum)
             value = judged%film_minimum
-         case ('film_maximum')
+         case (record_film_maximum)
             value = judged%film_maximum
-         case ('acceleration_minimum')
+         case (record_acceleration_minimum)
             value = judged%acceleration_minimum
-         case ('acceleration_maximum')
+         case (record_acceleration_maximum)
             value = judged%acceleration_maximum
-         case ('line_count')
+         case (record_line_count)
             if (lines%moving) value = real(lines%line_count, dp)
-         case ('harmonic_distortion')
+         case (record_harmonic_distortion)
             if (lines%moving) value = lines%harmonic_distortion
-         case ('irregular_fraction')
+         case (record_irregular_fraction)
             if (lines%moving) value = lines%irregular_fraction
-         case ('reversals_per_period')
+         case (record_reversals_per_period)
             value = judged%rattle%reversals_per_period
-         case ('rattle_class')
+         case (record_rattle_class)
             value = real(judged%rattle%class, dp)
-         case ('sampling_sufficient')
+         case (record_sampling_sufficient)
             value = merge(1.0_dp, 0.0_dp, lines%sampling_sufficient)
-         case ('film_regime')
+         case (record_film_regime)
             value = real(regime%regime, dp)
-         case ('law_contradicted')
+         case (record_law_contradicted)
             value = merge(1.0_dp, 0.0_dp, regime%law_contradicted)
-         case ('alpha_p_maximum')
+         case (record_alpha_p_maximum)
             value = regime%alpha_p_maximum
-         case ('pressure_maximum')
+         case (record_pressure_maximum)
             if (regime%pressure_exists) value = regime%pressure_maximum
-         case ('deflection')
+         case (record_deflection)
             value = regime%deflection
-         case default
-            value = unknown
+         case (record_certified)
+            value = merge(1.0_dp, 0.0_dp, judged%certified)
          end select
       end associate
    end function window_value

@@ -40,7 +40,7 @@ contains
       end if
       if (faults%count() > 0) then
          call print_faults(faults)
-      else if (scenes(1)%task == task_campaign) then
+      else if (any(scenes%task == task_campaign)) then
          call run_campaign_task(command, scenes(1), exit_code)
       else
          call run_batch(command, scenes, exit_code)

@@ -1,10 +1,16 @@
 !> Solves and judges the scenes of a chunk: the kernels of the single scene, eight scenes to a register.
 module solve_chunk
-   use campaign_record, only: judged_scene_t, need_of, needs_regime, needs_spectrum, record_row
+   use campaign_record, only: judged_scene_t, record_row
+   use certificate, only: certificate_t
+   use certify_scene, only: certify
+   use fine_window, only: window_t
    use kinds, only: dp, int64
    use lane_motions, only: accelerations, solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use period_repetition, only: longest_orbit
    use rattle_class, only: classify
+   use recorded_quantities, only: need_count, needs_acceleration_range, needs_certificate, needs_film_range, needs_regime, &
+                                  needs_spectrum, quantities
    use regime_check, only: check_regime
    use resolved_scene, only: resolve, resolved_scene_t
    use sampling, only: chunk_values, sample_plan_t
@@ -12,7 +18,9 @@ module solve_chunk
    use scene_status, only: is_success, status_invalid
    use scene_types, only: scene_t, spectrum_choice_t, until_steady
    use schedule, only: cost_order
-   use varied_scene, only: is_valid_scene, set_varied_key
+   use value_range, only: range_of
+   use varied_keys, only: varied_code
+   use varied_scene, only: is_valid_scene, set_varied_keys
    implicit none(type, external)
    private
 
@@ -23,7 +31,12 @@ module solve_chunk
    !> Samples of a batch; kept from chunk to chunk, since the system takes its time to hand out fresh memory.
    type, public :: chunk_space_t
       private
+      !> h [m] and z' [m/s]: sample, scene
       real(dp), allocatable :: films(:, :), velocities(:, :)
+      !> z'' of one scene [m/s2]
+      real(dp), allocatable :: accelerations(:)
+      !> The scene judged last; its arrays serve the next one
+      type(judged_scene_t) :: judged
    end type chunk_space_t
 
    public :: solve_scenes
@@ -44,51 +57,46 @@ contains
       real(dp), contiguous, intent(out) :: rows(:, :)
       real(dp), allocatable :: values(:, :)
       type(scene_t) :: scene
-      integer :: start, count, samples, together
+      logical :: needed(need_count)
+      integer :: codes(size(plan%positions)), start, count, i
 
-      samples = max(base%spectrum%periods, 8)*base%campaign%samples_per_period
-      together = min(batch, size(rows, 2))
-      if (allocated(space%films)) then
-         if (size(space%films, 2) < together) deallocate (space%films, space%velocities)
-      end if
-      if (.not. allocated(space%films)) allocate (space%films(samples, together), space%velocities(samples, together))
-      allocate (values(size(plan%positions), together))
+      allocate (values(size(plan%positions), min(batch, size(rows, 2))))
+      codes = varied_code(plan%positions)
+      needed = [(any(quantities(base%campaign%record)%need == i), i=1, need_count)]
       scene = base
       scene%resolved_input = ''
       do start = 1, size(rows, 2), batch
          count = min(batch, size(rows, 2) - start + 1)
          call chunk_values(plan, first + int(start - 1, int64), values(:, :count))
-         call solve_batch(scene, plan%positions, values(:, :count), first + int(start - 1, int64), space%films, &
-                          space%velocities, &
+         call solve_batch(scene, plan%positions, codes, values(:, :count), first + int(start - 1, int64), needed, space, &
                           rows(:, start:start + count - 1))
       end do
    end subroutine solve_scenes
 
    !> Rows of a batch.
-   subroutine solve_batch(scene, positions, values, first, films, velocities, rows)
+   subroutine solve_batch(scene, positions, codes, values, first, needed, space, rows)
       !> Base scene; its varied keys are changed
       type(scene_t), intent(inout) :: scene
+      !> Varied keys by their positions in the key table, and by their codes
       integer, intent(in) :: positions(:)
+      integer, intent(in) :: codes(:)
       real(dp), intent(in) :: values(:, :)
       integer(int64), intent(in) :: first
-      !> Work space: samples of h and z'
-      real(dp), contiguous, intent(inout) :: films(:, :)
-      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> What the columns need
+      logical, intent(in) :: needed(:)
+      type(chunk_space_t), intent(inout) :: space
       real(dp), intent(out) :: rows(:, :)
       type(resolved_scene_t) :: resolved(size(values, 2))
       type(lane_scene_t) :: lanes(size(values, 2))
+      type(lane_request_t) :: requests(size(values, 2))
       type(lane_ending_t) :: endings(size(values, 2))
-      type(judged_scene_t) :: judged
-      type(lane_request_t) :: request
-      real(dp) :: costs(size(values, 2)), accuracy(size(values, 2))
-      integer :: periods(size(values, 2)), order(size(values, 2)), place(size(values, 2)), i, solved
-      logical :: valid(size(values, 2)), with_spectrum, with_regime
+      real(dp) :: costs(size(values, 2))
+      integer :: order(size(values, 2)), i, solved
+      logical :: valid(size(values, 2)), together
 
-      with_spectrum = is_needed(scene, needs_spectrum)
-      with_regime = is_needed(scene, needs_regime)
       solved = 0
       do i = 1, size(values, 2)
-         call set_values(scene, positions, values(:, i))
+         call set_varied_keys(scene, codes, values(:, i))
          valid(i) = is_valid_scene(scene, positions, values(:, i))
          costs(i) = huge(1.0_dp)
          if (.not. valid(i)) cycle
@@ -96,72 +104,72 @@ contains
          resolved(i) = resolve(scene)
          lanes(i) = lane_of_scene(scene, resolved(i)%film, resolved(i)%initial_film, scene%film%initial_velocity)
          costs(i) = -likely_cost(scene, resolved(i))
-         accuracy(i) = scene%solver%accuracy
-         periods(i) = scene%solver%periods
+         requests(i) = request_of(scene)
       end do
       call cost_order(costs, order)
-      do i = 1, solved
-         place(order(i)) = i
-      end do
-      call request_of(scene, accuracy(order(1)), periods(order(1)), request)
-      if (alike(accuracy(order(:solved)), periods(order(:solved)))) then
-         call solve_motions(lanes(order(:solved)), request, films(:, :solved), velocities(:, :solved), endings(:solved))
-      else
-         do i = 1, solved
-            call request_of(scene, accuracy(order(i)), periods(order(i)), request)
-            call solve_motions(lanes(order(i):order(i)), request, films(:, i:i), velocities(:, i:i), endings(i:i))
-         end do
-      end if
+      together = alike(requests(order(:solved)))
+      call provide_space(space, requests(order(:solved)), merge(solved, 1, together))
+      if (together .and. solved > 0) call solve_motions(lanes(order(:solved)), requests(order(1)), space%films(:, :solved), &
+                                                        space%velocities(:, :solved), endings(:solved))
       do i = 1, size(values, 2)
-         judged = judged_scene_t()
-         if (valid(i)) then
-            call set_values(scene, positions, values(:, i))
-            judged%ending = endings(place(i))
-            judged%resolved = resolved(i)
-            call judge_scene(scene, lanes(i), with_spectrum, with_regime, films(:, place(i)), velocities(:, place(i)), judged)
-         else
-            judged%ending%status = status_invalid
-         end if
-         call record_row(scene, first + int(i - 1, int64), values(:, i), judged, rows(:, i))
+         associate (scene_number => order(i))
+            if (valid(scene_number)) then
+               call set_varied_keys(scene, codes, values(:, scene_number))
+               if (.not. together) call solve_motions(lanes(scene_number:scene_number), requests(scene_number), &
+                                                      space%films(:, :1), space%velocities(:, :1), endings(i:i))
+               space%judged%ending = endings(i)
+               space%judged%resolved = resolved(scene_number)
+               call judge_scene(scene, lanes(scene_number), needed, merge(i, 1, together), space)
+            else
+               space%judged%success = .false.
+               space%judged%ending = lane_ending_t(status=status_invalid)
+               space%judged%resolved = resolved_scene_t()
+            end if
+            call record_row(scene, first + int(scene_number - 1, int64), values(:, scene_number), space%judged, &
+                            rows(:, scene_number))
+         end associate
       end do
    end subroutine solve_batch
 
-   pure subroutine set_values(scene, positions, values)
-      type(scene_t), intent(inout) :: scene
-      integer, intent(in) :: positions(:)
-      real(dp), intent(in) :: values(:)
-      integer :: k
+   !> See that the samples of so many scenes have their place.
+   pure subroutine provide_space(space, requests, scenes)
+      type(chunk_space_t), intent(inout) :: space
+      type(lane_request_t), intent(in) :: requests(:)
+      integer, intent(in) :: scenes
+      integer :: samples
 
-      do k = 1, size(positions)
-         call set_varied_key(scene, positions(k), values(k))
-      end do
-   end subroutine set_values
+      samples = max(1, maxval(requests%sampled_periods*requests%samples_per_period))
+      if (allocated(space%films)) then
+         if (size(space%films, 1) >= samples .and. size(space%films, 2) >= scenes) return
+         deallocate (space%films, space%velocities, space%accelerations)
+      end if
+      allocate (space%films(samples, scenes), space%velocities(samples, scenes), space%accelerations(samples))
+   end subroutine provide_space
 
    !> Whether all scenes of a batch ask for the same.
-   pure logical function alike(accuracy, periods)
-      real(dp), intent(in) :: accuracy(:)
-      integer, intent(in) :: periods(:)
+   pure logical function alike(requests)
+      type(lane_request_t), intent(in) :: requests(:)
 
       alike = .true.
-      if (size(periods) < 2) return
-      alike = all(periods == periods(1)) .and. .not. any(abs(accuracy - accuracy(1)) > 0.0_dp)
+      if (size(requests) < 2) return
+      alike = all(requests%periods == requests(1)%periods) .and. &
+              all(requests%sampled_periods == requests(1)%sampled_periods) .and. &
+              .not. any(abs(requests%accuracy - requests(1)%accuracy) > 0.0_dp)
    end function alike
 
    !> What is asked of the engine.
-   pure subroutine request_of(scene, accuracy, periods, request)
+   pure function request_of(scene) result(request)
       type(scene_t), intent(in) :: scene
-      real(dp), intent(in) :: accuracy
-      integer, intent(in) :: periods
-      type(lane_request_t), intent(out) :: request
+      type(lane_request_t) :: request
 
-      request%accuracy = accuracy
-      request%periods = periods
+      request%accuracy = scene%solver%accuracy
+      request%periods = scene%solver%periods
       request%samples_per_period = scene%campaign%samples_per_period
       request%sampled_periods = scene%spectrum%periods
       request%until_steady = scene%solver%until == until_steady
-      if (request%until_steady) request%sampled_periods = max(scene%spectrum%periods, 8)
+      if (request%until_steady) request%sampled_periods = max(scene%spectrum%periods, longest_orbit)
       request%forecast = request%until_steady
-   end subroutine request_of
+   end function request_of
 
    !> Work that a scene is likely to be: stiff ones take short steps, lightly damped ones many periods.
    pure real(dp) function likely_cost(scene, resolved)
@@ -177,44 +185,48 @@ contains
    end function likely_cost
 
    !> Judge the window of a scene as far as its columns ask for it.
-   subroutine judge_scene(scene, lane, with_spectrum, with_regime, films, velocities, judged)
+   subroutine judge_scene(scene, lane, needed, column, space)
       type(scene_t), intent(in) :: scene
       type(lane_scene_t), intent(in) :: lane
       !> What the columns need
-      logical, intent(in) :: with_spectrum, with_regime
-      real(dp), intent(in) :: films(:)
-      real(dp), intent(in) :: velocities(:)
-      type(judged_scene_t), intent(inout) :: judged
+      logical, intent(in) :: needed(:)
+      !> Where its samples stand
+      integer, intent(in) :: column
+      !> With its ending and what follows from it; the verdict is added
+      type(chunk_space_t), intent(inout) :: space
       type(spectrum_choice_t) :: choice
-      real(dp), allocatable :: values(:)
       integer :: samples
 
-      judged%success = is_success(judged%ending%status)
-      if (.not. judged%success) return
-      samples = judged%ending%samples
+      samples = space%judged%ending%samples
       choice = scene%spectrum
       choice%periods = samples/scene%campaign%samples_per_period
-      allocate (values(samples))
-      call accelerations(lane, scene%campaign%samples_per_period, films(:samples), velocities(:samples), values)
-      judged%film_minimum = minval(films(:samples))
-      judged%film_maximum = maxval(films(:samples))
-      judged%acceleration_minimum = minval(values)
-      judged%acceleration_maximum = maxval(values)
-      if (with_spectrum) call classify(values, choice, judged%resolved%noise_floor, judged%rattle)
-      if (with_regime) judged%regime = check_regime(judged%resolved%film, scene%film%law, films(:samples), &
-                                                    velocities(:samples))
+      associate (judged => space%judged, films => space%films(:samples, column), &
+                 velocities => space%velocities(:samples, column), values => space%accelerations(:samples))
+         judged%success = is_success(judged%ending%status)
+         if (.not. judged%success) return
+         if (needed(needs_film_range)) call range_of(films, judged%film_minimum, judged%film_maximum)
+         if (any(needed([needs_acceleration_range, needs_spectrum, needs_certificate]))) &
+            call accelerations(lane, scene%campaign%samples_per_period, films, velocities, values)
+         if (needed(needs_acceleration_range)) call range_of(values, judged%acceleration_minimum, judged%acceleration_maximum)
+         if (any(needed([needs_spectrum, needs_certificate]))) &
+            call classify(values, choice, judged%resolved%noise_floor, judged%rattle)
+         if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, scene%film%law, films, velocities)
+         if (needed(needs_certificate)) judged%certified = &
+            is_certified(scene, lane, judged, window_t(choice%periods, scene%campaign%samples_per_period, films, velocities, &
+                                                       values))
+      end associate
    end subroutine judge_scene
 
-   !> Whether any recorded quantity needs this.
-   pure logical function is_needed(scene, need)
+   !> Whether the class of a scene stands: the certificate of the single scene.
+   logical function is_certified(scene, lane, judged, window)
       type(scene_t), intent(in) :: scene
-      integer, intent(in) :: need
-      integer :: i
+      type(lane_scene_t), intent(in) :: lane
+      type(judged_scene_t), intent(in) :: judged
+      type(window_t), intent(in) :: window
+      type(certificate_t) :: verdict
 
-      is_needed = .false.
-      do i = 1, size(scene%campaign%record)
-         is_needed = is_needed .or. need_of(scene%campaign%record(i)%text) == need
-      end do
-   end function is_needed
+      call certify(scene, judged%resolved, lane, judged%ending%periods, window, judged%rattle, verdict)
+      is_certified = verdict%certified
+   end function is_certified
 
 end module solve_chunk

@@ -4,118 +4,115 @@ module varied_scene
    use key_table, only: keys
    use kinds, only: dp
    use scene_types, only: scene_t
+   use varied_keys, only: vary_accuracy, vary_entrainment_speed, vary_force_amplitude, vary_frequency, vary_gravity, &
+                          vary_idle_lines, vary_initial_film, vary_initial_velocity, vary_irregular_limit, vary_length, &
+                          vary_line_threshold, vary_mass, vary_poisson_ratio, vary_pressure_viscosity, vary_quiet_limit, &
+                          vary_radius, vary_radius_1, vary_radius_2, vary_rolling_speed, vary_solver_periods, &
+                          vary_spectrum_periods, vary_steady_force, vary_surface_speed_1, vary_surface_speed_2, vary_viscosity, &
+                          vary_young_modulus
    implicit none(type, external)
    private
 
-   public :: set_varied_key, is_valid_scene, can_be_varied
+   public :: set_varied_keys, is_valid_scene
 
 contains
 
-   !> Set one key of a scene. Speeds all end as the entrainment speed, as in a single input.
-   pure subroutine set_varied_key(scene, position, value)
+   !> Set the varied keys of a scene, in their order.
+   pure subroutine set_varied_keys(scene, codes, values)
       !> The scene
       type(scene_t), intent(inout) :: scene
-      !> Position of the key in the key table
-      integer, intent(in) :: position
-      !> Its value, SI unit
+      !> Keys by their codes
+      integer, intent(in) :: codes(:)
+      !> Their values, SI units
+      real(dp), intent(in) :: values(:)
+      integer :: i
+
+      do i = 1, size(codes)
+         call set_varied_key(scene, codes(i), values(i))
+      end do
+   end subroutine set_varied_keys
+
+   !> Set one key of a scene. Speeds all end as the entrainment speed, as in a single input.
+   pure subroutine set_varied_key(scene, code, value)
+      type(scene_t), intent(inout) :: scene
+      integer, intent(in) :: code
       real(dp), intent(in) :: value
 
-      select case (trim(keys(position)%group)//'.'//trim(keys(position)%name))
-      case ('contact.radius')
+      select case (code)
+      case (vary_radius)
          scene%contact%radius = value
-      case ('contact.radius_1')
+      case (vary_radius_1)
          scene%contact%radius_1 = value
-      case ('contact.radius_2')
+      case (vary_radius_2)
          scene%contact%radius_2 = value
-      case ('contact.length')
+      case (vary_length)
          scene%contact%length = value
-      case ('contact.young_modulus')
+      case (vary_young_modulus)
          scene%contact%young_modulus = value
-      case ('contact.poisson_ratio')
+      case (vary_poisson_ratio)
          scene%contact%poisson_ratio = value
-      case ('lubricant.viscosity')
+      case (vary_viscosity)
          scene%lubricant%viscosity = value
-      case ('lubricant.pressure_viscosity')
+      case (vary_pressure_viscosity)
          scene%lubricant%pressure_viscosity = value
-      case ('kinematics.entrainment_speed')
+      case (vary_entrainment_speed)
          scene%kinematics%entrainment_speed = value
-      case ('kinematics.rolling_speed')
+      case (vary_rolling_speed)
          scene%kinematics%entrainment_speed = 0.5_dp*value
-      case ('kinematics.surface_speed_1')
+      case (vary_surface_speed_1)
          scene%kinematics%surface_speed_1 = value
          scene%kinematics%entrainment_speed = 0.5_dp*(value + scene%kinematics%surface_speed_2)
-      case ('kinematics.surface_speed_2')
+      case (vary_surface_speed_2)
          scene%kinematics%surface_speed_2 = value
          scene%kinematics%entrainment_speed = 0.5_dp*(scene%kinematics%surface_speed_1 + value)
+      case (vary_mass)
+         scene%load%mass = value
+      case (vary_steady_force)
+         scene%load%steady_force = value
+      case (vary_force_amplitude)
+         scene%load%force_amplitude = value
+      case (vary_frequency)
+         scene%load%frequency = value
+      case (vary_gravity)
+         scene%load%gravity = value
       case default
-         call set_motion_key(scene, trim(keys(position)%group)//'.'//trim(keys(position)%name), value)
+         call set_choice_key(scene, code, value)
       end select
    end subroutine set_varied_key
 
-   !> Keys of load, film, solver and spectrum.
-   pure subroutine set_motion_key(scene, name, value)
+   !> Keys of film, solver and spectrum.
+   pure subroutine set_choice_key(scene, code, value)
       type(scene_t), intent(inout) :: scene
-      character(*), intent(in) :: name
+      integer, intent(in) :: code
       real(dp), intent(in) :: value
 
-      select case (name)
-      case ('load.mass')
-         scene%load%mass = value
-      case ('load.steady_force')
-         scene%load%steady_force = value
-      case ('load.force_amplitude')
-         scene%load%force_amplitude = value
-      case ('load.frequency')
-         scene%load%frequency = value
-      case ('load.gravity')
-         scene%load%gravity = value
-      case ('film.initial_film')
+      select case (code)
+      case (vary_initial_film)
          scene%film%initial_film = value
-      case ('film.initial_velocity')
+      case (vary_initial_velocity)
          scene%film%initial_velocity = value
-      case ('solver.accuracy')
+      case (vary_accuracy)
          scene%solver%accuracy = value
-      case ('solver.periods')
+      case (vary_solver_periods)
          scene%solver%periods = nint(value)
-      case ('spectrum.periods')
+      case (vary_spectrum_periods)
          scene%spectrum%periods = nint(value)
-      case ('spectrum.line_threshold')
+      case (vary_line_threshold)
          scene%spectrum%line_threshold = value
-      case ('spectrum.idle_lines')
+      case (vary_idle_lines)
          scene%spectrum%idle_lines = nint(value)
-      case ('spectrum.quiet_limit')
+      case (vary_quiet_limit)
          scene%spectrum%quiet_limit = value
-      case ('spectrum.irregular_limit')
+      case (vary_irregular_limit)
          scene%spectrum%irregular_limit = value
-      case default
-         continue
       end select
-   end subroutine set_motion_key
-
-   !> Whether a numeric key describes a single motion of a campaign.
-   pure logical function can_be_varied(position)
-      !> Position of the key in the key table
-      integer, intent(in) :: position
-
-      select case (trim(keys(position)%group))
-      case ('contact', 'lubricant', 'kinematics', 'load')
-         can_be_varied = .true.
-      case ('film')
-         can_be_varied = .true.
-      case ('solver')
-         can_be_varied = keys(position)%name == 'accuracy' .or. keys(position)%name == 'periods'
-      case ('spectrum')
-         can_be_varied = keys(position)%name /= 'certificate_tolerance'
-      case default
-         can_be_varied = .false.
-      end select
-   end function can_be_varied
+   end subroutine set_choice_key
 
    !> Whether every value is in the range of its key and the scene as a whole is one.
    pure logical function is_valid_scene(scene, positions, values)
       !> The scene with its values set
       type(scene_t), intent(in) :: scene
-      !> Varied keys
+      !> Varied keys, by their positions in the key table
       integer, intent(in) :: positions(:)
       !> Their values
       real(dp), intent(in) :: values(:)

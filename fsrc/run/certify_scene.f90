@@ -40,7 +40,7 @@ contains
       !> Its certificate
       type(certificate_t), intent(out) :: certificate
       !> Periodic motion at the end of the run
-      type(periodic_orbit_t), intent(out) :: orbit
+      type(periodic_orbit_t), intent(out), optional :: orbit
       type(lane_ending_t) :: ending
       type(rattle_verdict_t) :: tight_verdict
       type(window_t) :: tight
@@ -60,7 +60,7 @@ contains
                               tight%accelerations(stride::stride), verdict, tight_verdict, scene%spectrum, &
                               scene%spectrum%certificate_tolerance, certificate)
       end associate
-      orbit = find_periodic_orbit(lane, ending%film, ending%velocity, orbit_nearness)
+      if (present(orbit)) orbit = find_periodic_orbit(lane, ending%film, ending%velocity, orbit_nearness)
    end subroutine certify
 
 end module certify_scene

@@ -192,8 +192,8 @@ module key_table
             'film_minimum film_maximum acceleration_minimum acceleration_maximum steady_film natural_frequency '// &
             'damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period rattle_class '// &
             'film_regime law_contradicted alpha_p_maximum pressure_maximum deflection harmonics orbit_period '// &
-            'periods_solved sampling_sufficient', 'scene.task=campaign', &
-            'Quantities that are recorded of every scene, beside its number, its varied keys and its status.'), &
+            'periods_solved sampling_sufficient certified', 'scene.task=campaign', &
+            'Recorded of every scene beside number, varied keys and status; certified (1 or 0) solves each again, tighter.'), &
       key_t('campaign', 'samples_per_period', integer_kind, '-', '256', range_t(32.0_dp, .false., 16384.0_dp, .false.), '', &
             'scene.task=campaign', &
             'Samples of a period that a scene is judged by; sampling_sufficient says where they are too few.'), &

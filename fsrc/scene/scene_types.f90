@@ -190,8 +190,8 @@ module scene_types
       integer :: size = 0
       integer :: seed = 1
       character(:), allocatable :: csv
-      !> Names of the recorded quantities
-      type(word_t), allocatable :: record(:)
+      !> Recorded quantities, by their codes in recorded_quantities
+      integer, allocatable :: record(:)
       integer :: samples_per_period = 256
       logical :: allow_invalid = .false.
       logical :: confirm_size = .false.

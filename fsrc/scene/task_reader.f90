@@ -3,9 +3,10 @@ module task_reader
    use key_table, only: keys
    use keys_in_use, only: in_use
    use kinds, only: dp
+   use recorded_quantities, only: quantity_code
    use scene_input, only: scene_input_t
    use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t
-   use word_list, only: split_words
+   use word_list, only: split_words, word_t
    implicit none(type, external)
    private
 
@@ -78,6 +79,7 @@ contains
       !> Typed values
       type(scene_input_t), intent(in) :: input
       type(campaign_choice_t) :: campaign
+      type(word_t), allocatable :: recorded(:)
       integer, allocatable :: scales(:)
       integer :: i, count
 
@@ -94,7 +96,11 @@ contains
       campaign%size = input%count('campaign', 'size')
       campaign%seed = input%count('campaign', 'seed')
       campaign%csv = input%word('campaign', 'csv')
-      allocate (campaign%record, source=split_words(input%words('campaign', 'record')))
+      allocate (recorded, source=split_words(input%words('campaign', 'record')))
+      allocate (campaign%record(size(recorded)))
+      do i = 1, size(recorded)
+         campaign%record(i) = quantity_code(recorded(i)%text)
+      end do
       campaign%samples_per_period = input%count('campaign', 'samples_per_period')
       campaign%allow_invalid = input%flag('campaign', 'allow_invalid')
       campaign%confirm_size = input%flag('campaign', 'confirm_size')

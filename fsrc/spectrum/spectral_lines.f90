@@ -43,12 +43,13 @@ contains
       type(spectral_lines_t), intent(out) :: lines
       real(dp), allocatable :: amplitudes(:)
       real(dp) :: power, harmonic_power
-      integer :: resolved, highest, n
+      integer :: resolved, highest
 
       call amplitude_spectrum(acceleration, amplitudes)
       highest = ubound(amplitudes, 1)
       resolved = (size(acceleration)/periods - 1)/2
-      lines%harmonics = [(amplitudes(n*periods), n=1, resolved)]
+      allocate (lines%harmonics(resolved))
+      lines%harmonics(:) = amplitudes(periods:resolved*periods:periods)
       ! A line stands for two bins of the transform; that at half the samples is one bin, whose square counts twice.
       power = sum(amplitudes(1:)**2)
       if (mod(size(acceleration), 2) == 0) power = power + amplitudes(highest)**2

@@ -5,6 +5,7 @@ module regime_check
    use kinds, only: dp
    use regime, only: contact_deflection, film_iso_viscous, film_piezo_viscous, film_regime
    use scene_types, only: law_iso_viscous
+   use value_range, only: range_of
    implicit none(type, external)
    private
 
@@ -44,7 +45,7 @@ contains
       !> Film velocity of the samples [m/s]
       real(dp), intent(in) :: velocities(:)
       type(regime_verdict_t) :: verdict
-      real(dp) :: pressures(block), largest, alpha_q
+      real(dp) :: pressures(block), largest, lowest, highest, alpha_q
       integer :: first, last, place
 
       largest = -1.0_dp
@@ -53,9 +54,10 @@ contains
          last = min(first + block - 1, size(films))
          associate (found => pressures(:last - first + 1))
             found = exact_pressure(film%radius, film%speed, film%viscosity, films(first:last), velocities(first:last))
-            if (maxval(found) <= largest) cycle
-            largest = maxval(found)
-            place = first - 1 + maxloc(found, dim=1)
+            call range_of(found, lowest, highest)
+            if (highest <= largest) cycle
+            largest = highest
+            place = first - 1 + findloc(found, highest, dim=1)
          end associate
       end do
       verdict%film = films(place)

@@ -5,6 +5,7 @@ module test_key_table
       reals_kind, text_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key, starts_group
    use kinds, only: dp
+   use recorded_quantities, only: quantities, quantity_code
    use scene_types, only: column_names, compute_damping, compute_limits, compute_load, compute_pressure, &
       compute_profile, compute_rupture, compute_stiffness, iteration_newton, iteration_successive, &
       law_iso_viscous, law_piezo_viscous, method_newmark, method_newmark_extrapolated, method_taylor, &
@@ -13,6 +14,7 @@ module test_key_table
       speed_sum, sweep_entrainment_speed, sweep_force_amplitude, sweep_frequency, sweep_steady_force, &
       task_campaign, task_film, task_motion, task_sweep, until_periods, until_steady, viscosity_barus, &
       viscosity_roelands
+   use varied_keys, only: varied, varied_code
    use word_list, only: word_position
    implicit none(type, external)
    private
@@ -28,9 +30,49 @@ contains
       call checks%start('key_table')
       call test_lines(checks)
       call test_codes(checks)
+      call test_recorded_quantities(checks)
+      call test_varied_keys(checks)
       call test_ranges(checks)
       call test_hints(checks)
    end subroutine run_key_table_tests
+
+   !> What a campaign can record is what the key table allows, in its order, each quantity in the place of its code.
+   subroutine test_recorded_quantities(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      do i = 1, size(quantities)
+         words = trim(adjustl(words//' '//trim(quantities(i)%name)))
+         call checks%check(quantities(i)%code == i .and. quantity_code(trim(quantities(i)%name)) == i, &
+            trim(quantities(i)%name)//': its code is its place')
+      end do
+      call checks%check(keys(find_key('campaign', 'record'))%choices == words, 'recorded quantities')
+      call checks%check(quantity_code('everything') == 0, 'no quantity of this name')
+   end subroutine test_recorded_quantities
+
+   !> The keys that a campaign varies are numbers of the key table, and all numbers of the groups that make a motion.
+   subroutine test_varied_keys(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      character(*), parameter :: groups(5) = [character(12) :: 'contact', 'lubricant', 'kinematics', 'load', 'film']
+      logical :: is_number, is_varied
+      integer :: i
+
+      do i = 1, size(varied)
+         call checks%check(varied(i)%code == i .and. varied_code(find_key(varied(i)%group, varied(i)%name)) == i, &
+            trim(varied(i)%name)//': its code is its place')
+      end do
+      do i = 1, size(keys)
+         is_number = keys(i)%kind == real_kind .or. keys(i)%kind == integer_kind
+         is_varied = varied_code(i) > 0
+         call checks%check(is_number .or. .not. is_varied, trim(keys(i)%name)//': varied, so a number')
+         if (any(groups == keys(i)%group)) &
+            call checks%check(is_varied .eqv. is_number, trim(keys(i)%name)//': a number of a motion, so it can vary')
+      end do
+   end subroutine test_varied_keys
 
    !> Every line is found under its own name only, its group stands together, its default and example are
    !> allowed, its deciding key exists and has those words, and nothing is cut off by the length of a field.

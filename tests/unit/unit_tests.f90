@@ -23,6 +23,7 @@ program unit_tests
    use test_spectral_lines, only: run_spectral_lines_tests
    use test_text, only: run_text_tests
    use test_word_list, only: run_word_list_tests
+   use test_value_range, only: run_value_range_tests
    use test_film_fit, only: run_film_fit_tests
    use test_film_point, only: run_film_point_tests
    use test_numerical_reynolds, only: run_numerical_reynolds_tests
@@ -46,6 +47,7 @@ program unit_tests
 
    call run_text_tests(checks)
    call run_word_list_tests(checks)
+   call run_value_range_tests(checks)
    call run_errors_tests(checks)
    call run_key_table_tests(checks)
    call run_namelist_text_tests(checks)
