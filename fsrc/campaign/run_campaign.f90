@@ -177,8 +177,9 @@ contains
          allocate (rows(size(layout%names), last_row - first_row + 1_int64))
          call solve_scenes(scene, plan, first + first_row - 1_int64, space, rows)
          call results%write_chunk(chunk, rows, own_error)
-         call progress%add(last_row - first_row + 1_int64, &
-                           count(.not. is_success(nint(rows(status_column, :))), kind=int64))
+         if (.not. allocated(own_error)) &
+            call progress%add(last_row - first_row + 1_int64, &
+                              count(.not. is_success(nint(rows(status_column, :))), kind=int64))
          deallocate (rows)
          if (allocated(own_error)) then
             !$omp critical (campaign_error)

@@ -15,6 +15,7 @@ from matplotlib.image import imread
 import rattle
 from rattle.campaign_section import new_section
 from rattle.figures import campaign_look as look
+from rattle.figures import campaign_summary
 
 SCRIPT = Path(__file__).parents[2] / "scripts" / "campaign_map.py"
 
@@ -152,6 +153,24 @@ def test_a_campaign_that_is_no_grid_is_drawn_as_dots(tmp_path, made):
     refused = draw(path, "--slice", f"{FORCE}=1")
     assert refused.returncode == 2
     assert "is no grid" in refused.stderr
+
+
+def test_summary_page_says_where_certificates_fail(run, repository, tmp_path):
+    """The certificates of a campaign that the program solved loosely."""
+    recorded = "campaign.record='rattle_class', 'acceleration_maximum', 'certified'"
+    changes = ["--set", recorded, "--set", "campaign.count=12, 12", "--set", "solver.accuracy=1e-2"]
+    solved = run("--output", tmp_path, *changes, repository / "input" / "map.nml", cwd=tmp_path)
+    assert solved.returncode == 0, solved.stderr
+    campaign = rattle.read_campaign(tmp_path / "map.rattle")
+    failing = int((campaign["certified"] == 0.0).sum())
+    assert 0 < failing < campaign.row_count
+    page = campaign_summary.draw(
+        campaign, campaign_summary.Worst([0], "acceleration_maximum", smallest=False)
+    )
+    share = look.share(failing, campaign.row_count)
+    assert f"Certificate fails in {share} of 144 scenes" in [axes.get_title() for axes in page.axes]
+    assert draw(campaign.path, "--summary").returncode == 0
+    assert stems(tmp_path / "out") == ["map_summary"]
 
 
 @pytest.mark.parametrize("keys", [(FORCES,), (FORCES, SPEEDS), (FORCES, SPEEDS, VISCOSITIES)])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import signal
 import subprocess
@@ -13,38 +12,10 @@ from pathlib import Path
 import f90nml
 import numpy as np
 import pytest
+from campaign_runs import BASE, digest, grid, solve
 
 import rattle as package
-
-BASE = {
-    "scene": {"task": "'campaign'"},
-    "solver": {
-        "steps_per_period": None,
-        "method": None,
-        "periods": "60",
-        "accuracy": "1e-6",
-        "until": "'steady'",
-    },
-    "spectrum": {"periods": "8"},
-}
-
-
-def grid(scene_text, first: int, second: int, **changes: dict) -> str:
-    """A campaign over two keys."""
-    campaign = {
-        "vary": "'load.force_amplitude', 'kinematics.entrainment_speed'",
-        "scale": "'linear', 'logarithmic'",
-        "first": "5.0, 0.5",
-        "last": "400.0, 20.0",
-        "count": f"{first}, {second}",
-        "samples_per_period": "64",
-    }
-    campaign.update(changes.pop("campaign", {}))
-    return scene_text(**{**BASE, **changes}, campaign=campaign)
-
-
-def digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+from rattle.campaign_codes import CLASSES
 
 
 @pytest.fixture
@@ -52,12 +23,6 @@ def folder(tmp_path: Path, scene_text) -> Path:
     """A folder with a campaign of 900 scenes, and its undisturbed result in `whole`."""
     (tmp_path / "scene.nml").write_text(grid(scene_text, 30, 30))
     return tmp_path
-
-
-def solve(run, folder: Path, *options: object, name: str = "whole", code: int = 0) -> Path:
-    ended = run("--output", name, *options, "scene.nml", cwd=folder, timeout=120.0)
-    assert ended.returncode == code, ended.stderr
-    return folder / name / "scene.rattle"
 
 
 def test_grid_is_in_the_order_of_its_axes(run, folder: Path) -> None:
@@ -109,6 +74,93 @@ def test_a_scene_of_a_campaign_is_the_single_scene(run, folder: Path, scene_text
         assert single["film_minimum"] == result["film_minimum"][row]
         assert single["harmonics"][:8] == [result[f"harmonic_{n}"][row] for n in range(1, 9)]
     assert single["natural_frequency"] == result["natural_frequency"][row]
+
+
+def test_certified_scene_is_the_certified_single_scene(run, scene_text, tmp_path: Path) -> None:
+    """Solved loosely, not every class stands: row by row what the certificate of a single scene says."""
+    loose = {**BASE["solver"], "accuracy": "1e-2", "periods": "200"}
+    recorded = "'rattle_class', 'line_count', 'sampling_sufficient', 'certified'"
+    changes = {"solver": loose, "campaign": {"record": recorded, "samples_per_period": "1024"}}
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 6, 6, **changes))
+    result = package.read(solve(run, tmp_path))
+    certified = result["certified"]
+    assert np.isin(certified, [0.0, 1.0]).all()
+    compared = {0.0: 0, 1.0: 0}
+    # A single scene refines its samples where they are too few; then it judges another window.
+    for row in np.flatnonzero(result["sampling_sufficient"] == 1.0):
+        compared[certified[row]] += 1
+        values = {
+            "load": {"force_amplitude": repr(float(result["load.force_amplitude"][row]))},
+            "kinematics": {"entrainment_speed": repr(float(result["kinematics.entrainment_speed"][row]))},
+            "solver": {**loose, "samples_per_period": "1024"},
+            "spectrum": {"periods": "8"},
+        }
+        (tmp_path / "single.nml").write_text(scene_text(**values))
+        assert (
+            run("--overwrite", "--set", "output.series=.false.", "single.nml", cwd=tmp_path).returncode == 0
+        )
+        single = f90nml.read(tmp_path / "results" / "single.summary.nml")["summary"]
+        assert single["certificate"] == ("certified" if certified[row] else "uncertain"), single
+        assert single["rattle_class"] == CLASSES[int(result["rattle_class"][row])]
+    assert min(compared.values()) > 0, compared
+
+
+def test_certified_is_for_those_who_ask(run, folder: Path) -> None:
+    """The column changes no other one, and is unknown where a scene failed."""
+    plain = package.read(solve(run, folder))
+    columns = [name for name in plain.columns if name.startswith("film_m") or name == "rattle_class"]
+    words = ", ".join(f"'{name}'" for name in [*columns, "certified"])
+    few = ("--set", "campaign.count=5, 5", "--set", f"campaign.record={words}")
+    asked = package.read(solve(run, folder, *few, name="asked"))
+    alone = package.read(solve(run, folder, *few[:2], name="alone"))
+    assert "certified" not in plain and list(asked.columns)[-1] == "certified"
+    for name in columns:
+        assert (asked[name] == alone[name]).all()
+    invalid = (
+        "--set",
+        "load.steady_force=-29.0",
+        "--set",
+        "campaign.vary='load.mass', 'load.force_amplitude'",
+    )
+    ranges = (
+        "--set",
+        "campaign.scale='linear', 'linear'",
+        "--set",
+        "campaign.first=2, 5",
+        "--set",
+        "campaign.last=4, 9",
+    )
+    options = (*few, *invalid, *ranges, "--set", "campaign.allow_invalid=.true.")
+    failed = package.read(solve(run, folder, *options, name="failed", code=1))
+    known = np.isin(failed["status"], [0.0, 1.0])
+    assert 0 < known.sum() < known.size
+    assert (np.isfinite(failed["certified"]) == known).all()
+
+
+def test_window_may_be_varied(run, scene_text, tmp_path: Path) -> None:
+    """Every scene is judged by its own window, also by one longer than that of the base."""
+    changes = {
+        "solver": {**BASE["solver"], "until": None, "periods": "16"},
+        "campaign": {
+            "vary": "'spectrum.periods'",
+            "scale": None,
+            "first": None,
+            "last": None,
+            "count": None,
+            "values(:, 1)": "2, 16, 4",
+        },
+    }
+    windows = (2, 16, 4)
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, **changes))
+    result = package.read(solve(run, tmp_path))
+    for row, periods in enumerate(windows):
+        changes["spectrum"] = {"periods": str(periods)}
+        changes["campaign"]["values(:, 1)"] = str(periods)
+        (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, **changes))
+        alone = package.read(solve(run, tmp_path, name=f"alone_{periods}"))
+        for name in set(alone.columns) - {"scene"}:
+            assert alone[name][0] == result[name][row], (name, periods)
+    assert len(set(result["film_minimum"])) > 1
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGUSR1, signal.SIGKILL])
@@ -261,13 +313,3 @@ def test_check_tells_the_size(run, folder: Path) -> None:
     assert ended.returncode == 0
     assert "scenes              900 (0 invalid)" in ended.stdout and "core time" in ended.stdout
     assert not (folder / "results").exists()
-
-
-def test_full_disk_keeps_what_was_written(run, rattle: Path, scene_text, tmp_path: Path) -> None:
-    """A limit on the size of files stands in for a full disk; resumed without it the bytes are the same."""
-    (tmp_path / "scene.nml").write_text(grid(scene_text, 60, 60))
-    whole = digest(solve(run, tmp_path))
-    limited = f"ulimit -f 200; exec {rattle} --quiet --output cut scene.nml"
-    ended = subprocess.run(["bash", "-c", limited], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert ended.returncode == 3 and ended.stderr
-    assert digest(solve(run, tmp_path, "--resume", name="cut")) == whole
