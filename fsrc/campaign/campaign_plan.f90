@@ -4,7 +4,8 @@ module campaign_plan
    use csv_samples, only: csv_samples_t, read_csv_samples
    use errors, only: fault_list_t
    use kinds, only: dp, int64
-   use sampling, only: chunk_values, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, sample_plan_t
+   use sampling, only: chunk_values, method_grid, method_sobol, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, &
+                       sample_plan_t
    use scene_types, only: scene_t
    use text, only: integer_text
    use varied_keys, only: find_varied_key, is_whole, varied_code, varied_key_name
@@ -12,7 +13,6 @@ module campaign_plan
    implicit none(type, external)
    private
 
-   integer, parameter :: sample_grid = 1, sample_sobol = 2
    !> Campaigns beyond this must be meant.
    integer(int64), parameter :: unconfirmed_limit = 10000000_int64
    !> Scenes that are looked at together
@@ -52,9 +52,9 @@ contains
          call form_axes(scene, file, axes, faults)
          if (faults%count() > before) return
          select case (scene%campaign%sample)
-         case (sample_grid)
+         case (method_grid)
             call plan_grid(axes, plan, bad_axis, message)
-         case (sample_sobol)
+         case (method_sobol)
             call plan_sobol(axes, int(scene%campaign%size, int64), int(scene%campaign%seed, int64), plan, bad_axis, message)
          case default
             call plan_latin_hypercube(axes, int(scene%campaign%size, int64), int(scene%campaign%seed, int64), plan, &
@@ -97,7 +97,7 @@ contains
                end if
             end if
             if (i > size(campaign%first) .or. i > size(campaign%last) .or. &
-                (campaign%sample == sample_grid .and. i > size(campaign%count))) then
+                (campaign%sample == method_grid .and. i > size(campaign%count))) then
                call faults%add(file, 0, 'campaign', 'vary', campaign%vary(i)%text// &
                                ': give first('//integer_text(i)//'), last('//integer_text(i)//') and count('// &
                                integer_text(i)//'), or values(:, '//integer_text(i)//')')

@@ -185,6 +185,8 @@ contains
             value = regime%deflection
          case (record_certified)
             value = merge(1.0_dp, 0.0_dp, judged%certified)
+         case default
+            continue
          end select
       end associate
    end function window_value

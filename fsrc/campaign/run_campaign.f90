@@ -48,12 +48,8 @@ contains
       integer :: trial
 
       lines = ''
-      call plan_campaign(scene, file, plan, faults)
+      call prepare(scene, file, plan, first, last, invalid, layout, faults)
       if (faults%count() > 0) return
-      call share_of_part(scene, plan%size, first, last)
-      call count_invalid(scene, file, plan, first, last, invalid, faults)
-      if (faults%count() > 0) return
-      call form_layout(scene, plan, last - first + 1_int64, layout)
       trial = int(min(256_int64, last - first + 1_int64))
       allocate (rows(size(layout%names), trial))
       started = wall_seconds()
@@ -93,12 +89,8 @@ contains
 
       exit_code = exit_bad_input
       started = wall_seconds()
-      call plan_campaign(scene, file, plan, faults)
+      call prepare(scene, file, plan, first, last, invalid, layout, faults)
       if (faults%count() > 0) return
-      call share_of_part(scene, plan%size, first, last)
-      call count_invalid(scene, file, plan, first, last, invalid, faults)
-      if (faults%count() > 0) return
-      call form_layout(scene, plan, last - first + 1_int64, layout)
       spoilt = 0_int64
       if (this_rank() == 0) then
          call check_folder(scene, file, faults)
@@ -144,6 +136,29 @@ contains
       end if
       call share_number(exit_code)
    end subroutine run_one_campaign
+
+   !> What is known before anything is solved. After a fault only the faults are of use.
+   subroutine prepare(scene, file, plan, first, last, invalid, layout, faults)
+      type(scene_t), intent(in) :: scene
+      character(*), intent(in) :: file
+      type(sample_plan_t), intent(out) :: plan
+      !> First and last scene of this part of the campaign, and how many of them are invalid
+      integer(int64), intent(out) :: first
+      integer(int64), intent(out) :: last
+      integer(int64), intent(out) :: invalid
+      type(campaign_layout_t), intent(out) :: layout
+      type(fault_list_t), intent(inout) :: faults
+
+      first = 0_int64
+      last = 0_int64
+      invalid = 0_int64
+      call plan_campaign(scene, file, plan, faults)
+      if (faults%count() > 0) return
+      call share_of_part(scene, plan%size, first, last)
+      call count_invalid(scene, file, plan, first, last, invalid, faults)
+      if (faults%count() > 0) return
+      call form_layout(scene, plan, last - first + 1_int64, layout)
+   end subroutine prepare
 
    !> Chunks until none is left, or a signal asks to stop.
    subroutine solve_chunks(scene, plan, layout, first, results, progress, log, error)

@@ -10,6 +10,7 @@ module sampling
    implicit none(type, external)
    private
 
+   !> The codes of samples count the words of &campaign sample in the order of the key table.
    integer, parameter, public :: method_grid = 1, method_sobol = 2, method_latin_hypercube = 3, &
       method_table = 4
    !> Most axes of a full grid

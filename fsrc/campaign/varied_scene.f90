@@ -105,6 +105,8 @@ contains
          scene%spectrum%quiet_limit = value
       case (vary_irregular_limit)
          scene%spectrum%irregular_limit = value
+      case default
+         continue
       end select
    end subroutine set_choice_key
 

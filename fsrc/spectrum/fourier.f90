@@ -12,8 +12,8 @@ module fourier
       !> Number of samples, none yet if 0
       integer :: length = 0
       type(c_ptr) :: plan = c_null_ptr
-      real(dp), pointer :: samples(:) => null()
-      complex(dp), pointer :: lines(:) => null()
+      real(dp), pointer, contiguous :: samples(:) => null()
+      complex(dp), pointer, contiguous :: lines(:) => null()
    end type plan_t
 
    ! Making a plan costs more than many transforms, so each thread keeps its last ones: motions of one, two and
