@@ -12,7 +12,7 @@ contains
    !> comparison. Which of -0 and 0 is told is not said.
    pure subroutine range_of(values, smallest, largest)
       !> One or more numbers, none of them NaN
-      real(dp), contiguous, intent(in) :: values(:)
+      real(dp), intent(in) :: values(:)
       !> Smallest
       real(dp), intent(out) :: smallest
       !> Largest

@@ -26,7 +26,7 @@ contains
    !> than the threshold meets just those extrema.
    pure integer function count_reversals(signal, share) result(count)
       !> Samples of whole periods
-      real(dp), contiguous, intent(in) :: signal(:)
+      real(dp), intent(in) :: signal(:)
       !> Smallest prominence as a share of the range [-]
       real(dp), intent(in) :: share
       type(walk_t) :: walk
@@ -47,7 +47,7 @@ contains
 
    !> Go on along some samples.
    pure subroutine walk_along(signal, walk)
-      real(dp), contiguous, intent(in) :: signal(:)
+      real(dp), intent(in) :: signal(:)
       type(walk_t), intent(inout) :: walk
       integer :: i
 
