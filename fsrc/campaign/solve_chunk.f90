@@ -104,7 +104,7 @@ contains
          resolved(i) = resolve(scene)
          lanes(i) = lane_of_scene(scene, resolved(i)%film, resolved(i)%initial_film, scene%film%initial_velocity)
          costs(i) = -likely_cost(scene, resolved(i))
-         requests(i) = request_of(scene)
+         requests(i) = request_of(scene, needed)
       end do
       call cost_order(costs, order)
       together = alike(requests(order(:solved)))
@@ -158,8 +158,10 @@ contains
    end function alike
 
    !> What is asked of the engine.
-   pure function request_of(scene) result(request)
+   pure function request_of(scene, needed) result(request)
       type(scene_t), intent(in) :: scene
+      !> What the columns need
+      logical, intent(in) :: needed(:)
       type(lane_request_t) :: request
 
       request%accuracy = scene%solver%accuracy
@@ -168,7 +170,8 @@ contains
       request%sampled_periods = scene%spectrum%periods
       request%until_steady = scene%solver%until == until_steady
       if (request%until_steady) request%sampled_periods = max(scene%spectrum%periods, longest_orbit)
-      request%forecast = request%until_steady
+      ! A certificate solves the same periods from the start again.
+      request%forecast = request%until_steady .and. .not. needed(needs_certificate)
    end function request_of
 
    !> Work that a scene is likely to be: stiff ones take short steps, lightly damped ones many periods.
