@@ -37,6 +37,8 @@ module lane_scenes
       integer :: periods_done = 0
       logical :: implicit = .false.
       real(dp) :: initial_momentum = 0.0_dp
+      !> Film by which the motion is scaled, carried on or not, where none carries the static load [m]; 0: initial_film
+      real(dp) :: first_film = 0.0_dp
    end type lane_scene_t
 
    !> What is asked of all scenes of a call.
@@ -124,6 +126,7 @@ contains
       reference_film = 0.0_dp
       if (scene%steady_force + scene%weight > 0.0_dp) &
          reference_film = steady_film(scene%film, scene%steady_force + scene%weight)
+      if (.not. reference_film > 0.0_dp) reference_film = scene%first_film
       if (.not. reference_film > 0.0_dp) reference_film = scene%initial_film
    end function reference_film
 

@@ -30,6 +30,7 @@ contains
       lane%force_amplitude = scene%load%force_amplitude
       lane%frequency = scene%load%frequency
       lane%initial_film = initial_film
+      lane%first_film = initial_film
       lane%initial_velocity = initial_velocity
    end function lane_of_scene
 
