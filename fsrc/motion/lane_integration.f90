@@ -79,7 +79,7 @@ contains
    end function has_series
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
-   pure subroutine integrate_lanes(by_series, scenes, queue, request, films, velocities, endings)
+   pure subroutine integrate_lanes(by_series, scenes, queue, request, films, velocities, endings, watches)
       !> Taylor series, else collocation
       logical, intent(in) :: by_series
       !> The scenes
@@ -91,8 +91,10 @@ contains
       !> Samples of h [m] and z' [m/s]: sample, scene
       real(dp), contiguous, intent(inout) :: films(:, :)
       real(dp), contiguous, intent(inout) :: velocities(:, :)
-      !> How the scenes ended
+      !> How the scenes ended; on entry the steps they took before
       type(lane_ending_t), intent(inout) :: endings(:)
+      !> What the watchers of the scenes carried on have seen, kept up
+      type(orbit_watch_t), optional, intent(inout) :: watches(:)
       type(lane_run_t) :: run
       integer :: l, events
 
@@ -106,7 +108,7 @@ contains
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
       do l = 1, lanes
-         call next_scene(l, scenes, queue, request, run, endings)
+         call next_scene(l, scenes, queue, request, run, endings, watches)
       end do
       do while (run%active > 0)
          if (by_series) then
@@ -128,14 +130,14 @@ contains
                call give_up(l, run)
             end if
             if (run%watches(l)%period < run%watches(l)%last_period) cycle
-            call finish(l, run, endings)
-            call next_scene(l, scenes, queue, request, run, endings)
+            call finish(l, run, endings, watches)
+            call next_scene(l, scenes, queue, request, run, endings, watches)
          end do
       end do
    end subroutine integrate_lanes
 
    !> Put the next scene that can start into a lane.
-   pure subroutine next_scene(lane, scenes, queue, request, run, endings)
+   pure subroutine next_scene(lane, scenes, queue, request, run, endings, watches)
       !> Lane
       integer, intent(in) :: lane
       type(lane_scene_t), intent(in) :: scenes(:)
@@ -143,6 +145,7 @@ contains
       type(lane_request_t), intent(in) :: request
       type(lane_run_t), intent(inout) :: run
       type(lane_ending_t), intent(inout) :: endings(:)
+      type(orbit_watch_t), optional, intent(in) :: watches(:)
       integer :: scene, status
 
       run%watches(lane) = lane_watch_t()
@@ -154,13 +157,15 @@ contains
                                         velocity=scenes(scene)%initial_velocity, &
                                            implicit=.not. run%by_series, &
                                         periods=scenes(scene)%periods_done, &
-                                           momentum=scenes(scene)%initial_momentum)
+                                           momentum=scenes(scene)%initial_momentum, &
+                                        steps=endings(scene)%steps)
          if (status /= status_complete .or. request%periods <= scenes(scene)%periods_done) cycle
          call load_scene(scenes(scene), run%by_series, request%accuracy, lane, run%block)
          run%films(lane) = scenes(scene)%film
          associate (watch => run%watches(lane))
             watch%scene = scene
             watch%ending%implicit = .not. run%by_series
+            watch%ending%steps = endings(scene)%steps
             watch%period = scenes(scene)%periods_done
             watch%last_period = request%periods
             watch%sample_from = max(0, request%periods - request%sampled_periods)
@@ -168,6 +173,7 @@ contains
             watch%momentum = run%block%momentum(lane, 0)
             watch%states = watch_from(watch%film, watch%momentum)
             watch%forecasts = 0
+            if (present(watches) .and. scenes(scene)%carried_on) watch%states = watches(scene)
          end associate
          run%samples%written(lane) = samples_before(run%watches(lane), run%samples)
          run%samples%column(lane) = scene
@@ -202,7 +208,8 @@ contains
          watch%period = watch%period + 1
          watch%film = block%film(lane, 0)
          watch%momentum = block%momentum(lane, 0)
-         if (request%until_steady .and. watch%period < watch%sample_from) then
+         ! A run without samples is one to be carried on: there the last state counts like the others.
+         if (request%until_steady .and. (watch%period < watch%sample_from .or. request%sampled_periods == 0)) then
             weight = momentum_weight(watch%film, block%damping_rate(lane), block%force(lane))
             call note_state(watch%states, watch%film, watch%momentum, weight, repetition_share*request%accuracy, orbit, &
                             distance)
@@ -262,12 +269,14 @@ contains
    end subroutine give_up
 
    !> Record the end of a scene.
-   pure subroutine finish(lane, run, endings)
+   pure subroutine finish(lane, run, endings, watches)
       !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
       type(lane_ending_t), intent(inout) :: endings(:)
+      type(orbit_watch_t), optional, intent(inout) :: watches(:)
 
+      if (present(watches)) watches(run%watches(lane)%scene) = run%watches(lane)%states
       associate (ending => run%watches(lane)%ending)
          ending%periods = run%watches(lane)%period
          ending%samples = run%samples%written(lane)

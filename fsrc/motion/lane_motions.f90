@@ -5,6 +5,7 @@ module lane_motions
    use kinds, only: dp
    use lane_integration, only: has_series, integrate_lanes
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use period_repetition, only: orbit_watch_t
    use scene_status, only: status_film_lost, status_not_converged
    implicit none(type, external)
    private
@@ -15,7 +16,7 @@ contains
 
    !> Solve all scenes. The order of the scenes decides only which share a block: those of like cost should be
    !> neighbours, the longest first.
-   pure subroutine solve_motions(scenes, request, films, velocities, endings)
+   pure subroutine solve_motions(scenes, request, films, velocities, endings, watches)
       !> The scenes
       type(lane_scene_t), intent(in) :: scenes(:)
       !> What is asked for
@@ -25,6 +26,8 @@ contains
       real(dp), contiguous, intent(inout) :: velocities(:, :)
       !> How the scenes ended
       type(lane_ending_t), intent(out) :: endings(:)
+      !> What a search for repetition that is carried on looks back on, scene by scene; without it every search begins anew
+      type(orbit_watch_t), optional, intent(inout) :: watches(:)
       type(lane_scene_t), allocatable :: rest(:)
       logical, allocatable :: explicit(:), left(:)
       integer, allocatable :: number(:)
@@ -39,7 +42,7 @@ contains
          first = findloc(left, .true., dim=1)
          kernel = scenes(first)%film%kernel
          call integrate_lanes(.true., scenes, pack(number, left .and. scenes%film%kernel == kernel), request, &
-                              films, velocities, endings)
+                              films, velocities, endings, watches)
          left(:) = left .and. scenes%film%kernel /= kernel
       end do
 
@@ -50,7 +53,7 @@ contains
          if (left(i)) call go_on(endings(i), rest(i))
       end do
       if (any(left)) &
-         call integrate_lanes(.false., rest, pack(number, left), request, films, velocities, endings)
+         call integrate_lanes(.false., rest, pack(number, left), request, films, velocities, endings, watches)
    end subroutine solve_motions
 
    !> The rest of a motion that Taylor series could not finish.

@@ -9,6 +9,7 @@ module test_lane_motions
    use kinds, only: dp
    use lane_motions, only: accelerations, solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use period_repetition, only: orbit_watch_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, &
@@ -41,6 +42,7 @@ contains
       call checks%start('lane_motions')
       call test_canonical(checks)
       call test_carrying_on(checks)
+      call test_search_in_pieces(checks)
       call test_steady(checks)
       call test_company(checks)
    end subroutine run_lane_motions_tests
@@ -175,12 +177,7 @@ contains
       request%sampled_periods = 0
       part = motions_of(lanes, request)
       rest = lanes
-      rest%carried_on = .true.
-      rest%periods_done = part%endings%periods
-      rest%implicit = part%endings%implicit
-      rest%initial_film = part%endings%film
-      rest%initial_velocity = part%endings%velocity
-      rest%initial_momentum = part%endings%momentum
+      call carry_on(part%endings, rest)
       request%periods = 12
       request%sampled_periods = 7
       part = motions_of(rest, request)
@@ -190,6 +187,49 @@ contains
          call checks%check(part%endings(i)%periods == 12, 'carried on: periods')
       end do
    end subroutine test_carrying_on
+
+   !> Make a scene start where its motion ended.
+   elemental subroutine carry_on(ending, lane)
+      type(lane_ending_t), intent(in) :: ending  !> Its ending
+      type(lane_scene_t), intent(inout) :: lane  !> The scene
+
+      lane%carried_on = .true.
+      lane%periods_done = ending%periods
+      lane%implicit = ending%implicit
+      lane%initial_film = ending%film
+      lane%initial_velocity = ending%velocity
+      lane%initial_momentum = ending%momentum
+   end subroutine carry_on
+
+   !> A search for repetition, period by period, finds what one call finds.
+   subroutine test_search_in_pieces(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer, parameter :: most_periods = 60
+      type(lane_scene_t) :: lanes(2*size(kernels))
+      type(lane_ending_t) :: whole(2*size(kernels)), piece(1)
+      type(orbit_watch_t) :: watches(1)
+      real(dp) :: films(0, 2*size(kernels)), velocities(0, 2*size(kernels))
+      integer :: i
+
+      lanes(:size(kernels)) = all_lanes()
+      lanes(size(kernels) + 1:) = lanes(:size(kernels))
+      lanes(size(kernels) + 1:)%implicit = .true.
+      call solve_motions(lanes, lane_request_t(periods=most_periods, until_steady=.true.), films, velocities, whole)
+      do i = 1, size(lanes)
+         do while (lanes(i)%periods_done < most_periods)
+            call solve_motions(lanes(i:i), lane_request_t(periods=lanes(i)%periods_done + 1, until_steady=.true.), &
+                               films(:, i:i), velocities(:, i:i), piece, watches)
+            call carry_on(piece(1), lanes(i))
+            if (piece(1)%orbit > 0) exit
+         end do
+         call checks%check(whole(i)%orbit > 0 .and. piece(1)%orbit == whole(i)%orbit .and. &
+                           piece(1)%periods == whole(i)%periods .and. &
+                           abs(piece(1)%distance - whole(i)%distance) <= 0.0_dp .and. &
+                           abs(piece(1)%momentum - whole(i)%momentum) <= 0.0_dp, &
+                           trim(names(1 + modulo(i - 1, size(kernels))))//': search in pieces')
+      end do
+   end subroutine test_search_in_pieces
 
    !> A run that stops when the motion repeats ends on the same motion as the full one.
    subroutine test_steady(checks)
