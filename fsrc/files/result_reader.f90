@@ -3,6 +3,7 @@ module result_reader
    use errors, only: error_t, exit_bad_input, raise
    use kinds, only: dp, int64
    use random_access_file, only: random_access_file_t
+   use result_format, only: column_name_bytes
    use result_header, only: read_result_header, result_header_t
    implicit none(type, external)
    private
@@ -12,6 +13,8 @@ module result_reader
       !> Resolved input as namelist text
       character(:), allocatable :: input_text
       integer :: columns = 0
+      !> Names of the columns
+      character(column_name_bytes), allocatable :: names(:)
       integer(int64), private :: header_bytes = 0_int64
       type(random_access_file_t), private :: file
       character(:), allocatable, private :: path
@@ -42,6 +45,7 @@ contains
       if (allocated(error)) return
       self%columns = size(header%names)
       self%header_bytes = header%header_bytes
+      call move_alloc(header%names, self%names)
       call move_alloc(header%input_text, self%input_text)
    end subroutine open_result
 

@@ -2,6 +2,7 @@
 !> as if it had never stopped.
 module checkpoint
    use kinds, only: dp, int64
+   use period_repetition, only: orbit_watch_t
    implicit none(type, external)
    private
 
@@ -16,10 +17,16 @@ module checkpoint
       !> Scaled momentum of the error-controlled engine, and whether it had gone over to its implicit method
       real(dp) :: momentum = 0.0_dp
       logical :: implicit = .false.
+      !> Of a run until steady: the states that its search looks back on
+      type(orbit_watch_t) :: watch
+      !> and, once it is over, the periods after which the motion repeats; 0: it goes on
+      integer :: orbit = 0
       !> Cost so far
       integer(int64) :: steps = 0
       integer(int64) :: evaluations = 0
       integer(int64) :: cuts = 0
+      !> Steps of the first row, interval by interval, that the extrapolated Newmark method has come to; unallocated: none
+      integer, allocatable :: bases(:)
    end type checkpoint_t
 
 end module checkpoint

@@ -1,23 +1,23 @@
 !> Motion of a single scene by the error-controlled engine: the same lanes as in a campaign, one of them used.
 !>
-!> A run that stops once the motion repeats is solved without samples first. How long it is then known, and the
-!> samples that are wanted are made in blocks of periods, each carried on from the one before to the last bit.
+!> The motion is solved in blocks of periods, each carried on from the one before to the last bit, with the samples
+!> that are wanted. A run that stops once the motion repeats looks for that block by block, and then solves the one
+!> orbit that it is judged by.
 module integrate_controlled
    use checkpoint, only: checkpoint_t
    use clock, only: wall_seconds
    use errors, only: error_t
    use film_law, only: film_t
    use forcing, only: applied_force, force_of_period
-   use integrate_motion, only: motion_end_t, motion_watcher_t, time_is_up
+   use integrate_motion, only: motion_end_t, motion_watcher_t, status_of_stop
    use kinds, only: dp, int64
    use lane_motions, only: accelerations, solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use period_repetition, only: longest_orbit
+   use period_repetition, only: longest_orbit, orbit_watch_t
    use sample_sink, only: sample_sink_t
    use scene_lane, only: lane_of_scene
-   use scene_status, only: is_success, status_complete, status_interrupted, status_steady, status_time_limit
+   use scene_status, only: is_success, status_complete, status_steady
    use scene_types, only: scene_t, until_steady
-   use signals, only: caught_signal
    implicit none(type, external)
    private
 
@@ -26,7 +26,7 @@ module integrate_controlled
    !> Periods of a block without samples.
    integer, parameter :: block_periods = 256
 
-   public :: solve_controlled, solve_window, find_steady_motion
+   public :: solve_controlled, solve_window, find_steady_motion, last_search_period
 
 contains
 
@@ -38,7 +38,7 @@ contains
       type(film_t), intent(in) :: film
       !> Film at t = 0 [m]
       real(dp), intent(in) :: initial_film
-      !> State to carry on from; 0 periods: start at t = 0. A run until steady always starts there.
+      !> State to carry on from; 0 periods: start at t = 0
       type(checkpoint_t), intent(in) :: start
       !> Whether the sink wants all samples, or those of the window only
       logical, intent(in) :: wants_all
@@ -51,29 +51,55 @@ contains
       !> Set if the sink failed
       type(error_t), allocatable, intent(out) :: error
       type(lane_scene_t) :: lane
-      type(lane_ending_t) :: found
+      real(dp) :: started, first(1)
       integer :: periods, window
 
+      started = wall_seconds()
       ending%status = film%status_without_load
       if (.not. initial_film > 0.0_dp) return
+      ending%status = status_complete
+      ending%checkpoint = start
+      ending%count%evaluations = start%evaluations
       lane = lane_of_scene(scene, film, initial_film, scene%film%initial_velocity)
+      if (start%periods > 0) then
+         call carry_on(start, lane)
+      else
+         call accelerations_at_start(lane, first)
+         call sink%take(0_int64, [applied_force(lane%steady_force, lane%force_amplitude, 0.0_dp)], [lane%initial_film], &
+                        [lane%initial_velocity], first, error)
+         if (allocated(error)) return
+      end if
       periods = scene%solver%periods
       window = scene%spectrum%periods
       if (scene%solver%until == until_steady) then
-         call find_steady_motion(lane, scene%solver%accuracy, periods, window, found)
-         if (.not. is_success(found%status)) then
-            call record_ending(scene, found, ending)
-            return
+         call search_blocks(scene, lane, started, wants_all, sink, watcher, ending, error)
+         if (allocated(error) .or. ending%status /= status_complete) return
+         ending%orbit = ending%checkpoint%orbit
+         if (ending%orbit > 0) then
+            window = ending%orbit
+            periods = ending%checkpoint%periods + window
          end if
-         periods = found%periods
-         if (found%orbit > 0) window = found%orbit
       end if
-      call solve_blocks(scene, lane, start, periods, window, wants_all, sink, watcher, ending, error)
-      if (ending%status == status_complete .and. scene%solver%until == until_steady .and. found%orbit > 0) then
-         ending%status = status_steady
-         ending%orbit = found%orbit
-      end if
+      call solve_blocks(scene, lane, started, periods, window, wants_all, sink, watcher, ending, error)
+      if (ending%orbit > 0 .and. ending%status == status_complete) ending%status = status_steady
    end subroutine solve_controlled
+
+   !> Last period of a run until steady after which it may be found that the motion repeats: the longest orbit and
+   !> the window have to follow.
+   pure integer function last_search_period(periods, window)
+      !> Most periods, and periods of the window at their end
+      integer, intent(in) :: periods
+      integer, intent(in) :: window
+
+      last_search_period = periods - reserved_periods(window) - 1
+   end function last_search_period
+
+   !> Periods at the end of a run until steady of which each may belong to the window.
+   pure integer function reserved_periods(window)
+      integer, intent(in) :: window
+
+      reserved_periods = max(window, longest_orbit)
+   end function reserved_periods
 
    !> Films, velocities and accelerations of the last periods of a run, and how it ended.
    subroutine solve_window(scene, lane, accuracy, samples_per_period, periods, window, films, velocities, values, ending)
@@ -131,83 +157,132 @@ contains
       request%periods = periods
       request%until_steady = .true.
       request%samples_per_period = 1
-      request%sampled_periods = max(window, longest_orbit)
+      request%sampled_periods = reserved_periods(window)
       allocate (no_films(request%sampled_periods, 1), no_velocities(request%sampled_periods, 1), source=0.0_dp)
       call solve_motions([lane], request, no_films, no_velocities, endings)
       found = endings(1)
    end subroutine find_steady_motion
 
-   !> Solve a known number of periods in blocks and hand over the samples that are wanted.
-   subroutine solve_blocks(scene, lane, start, periods, window, wants_all, sink, watcher, ending, error)
+   !> Solve block by block until the motion is found to repeat or the search must end. The checkpoint follows every block.
+   subroutine search_blocks(scene, lane, started, wants_all, sink, watcher, ending, error)
       type(scene_t), intent(in) :: scene
-      type(lane_scene_t), intent(in) :: lane
-      type(checkpoint_t), intent(in) :: start
+      !> The scene where it stands, carried on
+      type(lane_scene_t), intent(inout) :: lane
+      real(dp), intent(in) :: started
+      logical, intent(in) :: wants_all
+      class(sample_sink_t), intent(inout) :: sink
+      class(motion_watcher_t), intent(inout) :: watcher
+      type(motion_end_t), intent(inout) :: ending
+      type(error_t), allocatable, intent(out) :: error
+      type(lane_request_t) :: request
+      type(lane_ending_t) :: endings(1), sampled
+      type(orbit_watch_t) :: watches(1)
+      real(dp) :: no_films(0, 1), no_velocities(0, 1)
+      integer :: last, block
+
+      request%accuracy = scene%solver%accuracy
+      request%until_steady = .true.
+      last = last_search_period(scene%solver%periods, scene%spectrum%periods)
+      block = merge(sampled_block(scene), block_periods, wants_all)
+      watches(1) = ending%checkpoint%watch
+      do while (lane%periods_done < last .and. ending%checkpoint%orbit == 0)
+         request%periods = min(last, lane%periods_done + block)
+         call solve_motions([lane], request, no_films, no_velocities, endings, watches)
+         ! Where the search ends is known only now: samples, if wanted, are made by solving the block again.
+         if (wants_all) call solve_sampled(scene, lane, endings(1)%periods, sink, sampled, error)
+         if (allocated(error)) return
+         call record_block(scene, endings(1), ending)
+         if (ending%status /= status_complete) return
+         ending%checkpoint = checkpoint_of(endings(1), ending%count%evaluations)
+         ending%checkpoint%watch = watches(1)
+         ending%checkpoint%orbit = endings(1)%orbit
+         call carry_on(ending%checkpoint, lane)
+         call watcher%period_done(lane%periods_done, scene%solver%periods)
+         ending%status = status_of_stop(scene, started)
+         if (ending%status /= status_complete) return
+      end do
+   end subroutine search_blocks
+
+   !> Solve up to a known period in blocks and hand over the samples that are wanted.
+   subroutine solve_blocks(scene, lane, started, periods, window, wants_all, sink, watcher, ending, error)
+      type(scene_t), intent(in) :: scene
+      !> The scene where it stands, carried on
+      type(lane_scene_t), intent(inout) :: lane
+      real(dp), intent(in) :: started
       integer, intent(in) :: periods
       integer, intent(in) :: window
       logical, intent(in) :: wants_all
       class(sample_sink_t), intent(inout) :: sink
       class(motion_watcher_t), intent(inout) :: watcher
-      type(motion_end_t), intent(out) :: ending
+      type(motion_end_t), intent(inout) :: ending
       type(error_t), allocatable, intent(out) :: error
-      type(lane_scene_t) :: carried
       type(lane_request_t) :: request
       type(lane_ending_t) :: endings(1)
-      real(dp), allocatable :: films(:, :), velocities(:, :), values(:), force(:)
-      real(dp) :: started, first(1)
-      integer :: samples, block, done, sampled_from
+      type(checkpoint_t) :: here
+      real(dp) :: no_films(0, 1), no_velocities(0, 1)
+      integer :: samples, sampled_from, last
 
-      started = wall_seconds()
       samples = scene%solver%samples_per_period()
       sampled_from = merge(0, periods - window, wants_all)
-      block = max(1, min(periods, block_samples/samples))
-      allocate (films(block*samples, 1), velocities(block*samples, 1), source=0.0_dp)
-      allocate (values(block*samples), force(samples))
-      call force_of_period(scene%load%steady_force, scene%load%force_amplitude, force)
       request%accuracy = scene%solver%accuracy
-      request%samples_per_period = samples
-      carried = lane
-
       call sink%begin_window(int(periods - window, int64)*int(samples, int64) + 1_int64, window*samples)
-      if (start%periods > 0) then
-         carried%carried_on = .true.
-         carried%periods_done = start%periods
-         carried%implicit = start%implicit
-         carried%initial_film = start%film
-         carried%initial_velocity = start%velocity
-         carried%initial_momentum = start%momentum
-         ending%count%evaluations = start%evaluations
-      else
-         call accelerations_at_start(lane, first)
-         call sink%take(0_int64, [applied_force(lane%steady_force, lane%force_amplitude, 0.0_dp)], [lane%initial_film], &
-                        [lane%initial_velocity], first, error)
-      end if
-      ending%checkpoint = start
-      done = start%periods
-      do while (done < periods .and. .not. allocated(error))
-         if (done < sampled_from) then
-            request%sampled_periods = 0
-            request%periods = min(sampled_from, done + block_periods)
+      do while (lane%periods_done < periods)
+         if (lane%periods_done < sampled_from) then
+            request%periods = min(sampled_from, lane%periods_done + block_periods)
+            call solve_motions([lane], request, no_films, no_velocities, endings)
          else
-            request%periods = min(periods, done + block)
+            last = min(periods, lane%periods_done + sampled_block(scene))
             ! A block ends where the window begins: from there the run can be carried on.
-            if (done < periods - window) request%periods = min(request%periods, periods - window)
-            request%sampled_periods = request%periods - done
+            if (lane%periods_done < periods - window) last = min(last, periods - window)
+            call solve_sampled(scene, lane, last, sink, endings(1), error)
          end if
-         call solve_motions([carried], request, films, velocities, endings)
-         call hand_over(lane, force, done, endings(1), films(:, 1), velocities(:, 1), values, sink, error)
-         ending%count%evaluations = ending%count%evaluations + endings(1)%steps
-         call record_ending(scene, endings(1), ending)
-         if (allocated(error) .or. .not. is_success(endings(1)%status)) return
-         done = request%periods
-         call carry_on(endings(1), carried)
-         if (done <= periods - window) ending%checkpoint = checkpoint_of(endings(1), ending%count%evaluations)
-         call watcher%period_done(done, periods)
-         if (done == periods) exit
-         if (caught_signal() /= 0) ending%status = status_interrupted
-         if (time_is_up(scene, started)) ending%status = status_time_limit
+         if (allocated(error)) return
+         call record_block(scene, endings(1), ending)
+         if (ending%status /= status_complete) return
+         here = checkpoint_of(endings(1), ending%count%evaluations)
+         call carry_on(here, lane)
+         ! A search is carried on from where it ended, not from behind it.
+         if (scene%solver%until /= until_steady .and. here%periods <= periods - window) ending%checkpoint = here
+         call watcher%period_done(here%periods, periods)
+         if (here%periods == periods) return
+         ending%status = status_of_stop(scene, started)
          if (ending%status /= status_complete) return
       end do
    end subroutine solve_blocks
+
+   !> Periods of a block with samples.
+   pure integer function sampled_block(scene)
+      type(scene_t), intent(in) :: scene
+
+      sampled_block = max(1, block_samples/scene%solver%samples_per_period())
+   end function sampled_block
+
+   !> Solve the periods of a block, from where the lane stands, and hand over their samples.
+   subroutine solve_sampled(scene, lane, last, sink, found, error)
+      type(scene_t), intent(in) :: scene
+      type(lane_scene_t), intent(in) :: lane
+      !> Last period of the block
+      integer, intent(in) :: last
+      class(sample_sink_t), intent(inout) :: sink
+      type(lane_ending_t), intent(out) :: found
+      type(error_t), allocatable, intent(out) :: error
+      type(lane_request_t) :: request
+      type(lane_ending_t) :: endings(1)
+      real(dp), allocatable :: films(:, :), velocities(:, :), values(:), force(:)
+      integer :: samples
+
+      samples = scene%solver%samples_per_period()
+      request%accuracy = scene%solver%accuracy
+      request%samples_per_period = samples
+      request%periods = last
+      request%sampled_periods = last - lane%periods_done
+      allocate (films(request%sampled_periods*samples, 1), velocities(request%sampled_periods*samples, 1), source=0.0_dp)
+      allocate (values(request%sampled_periods*samples), force(samples))
+      call force_of_period(scene%load%steady_force, scene%load%force_amplitude, force)
+      call solve_motions([lane], request, films, velocities, endings)
+      call hand_over(lane, force, lane%periods_done, endings(1), films(:, 1), velocities(:, 1), values, sink, error)
+      found = endings(1)
+   end subroutine solve_sampled
 
    !> Samples of a block, period by period.
    subroutine hand_over(lane, force, done, ending, films, velocities, values, sink, error)
@@ -242,16 +317,16 @@ contains
    end subroutine accelerations_at_start
 
    !> Make a lane start where a motion ended.
-   pure subroutine carry_on(ending, lane)
-      type(lane_ending_t), intent(in) :: ending
+   pure subroutine carry_on(here, lane)
+      type(checkpoint_t), intent(in) :: here
       type(lane_scene_t), intent(inout) :: lane
 
       lane%carried_on = .true.
-      lane%periods_done = ending%periods
-      lane%implicit = ending%implicit
-      lane%initial_film = ending%film
-      lane%initial_velocity = ending%velocity
-      lane%initial_momentum = ending%momentum
+      lane%periods_done = here%periods
+      lane%implicit = here%implicit
+      lane%initial_film = here%film
+      lane%initial_velocity = here%velocity
+      lane%initial_momentum = here%momentum
    end subroutine carry_on
 
    !> State at the end of a lane's run, with what it cost.
@@ -268,18 +343,19 @@ contains
       here%evaluations = evaluations
    end function checkpoint_of
 
-   !> Ending of a lane as that of the motion.
-   pure subroutine record_ending(scene, found, ending)
+   !> How far the motion is after a block.
+   pure subroutine record_block(scene, found, ending)
       type(scene_t), intent(in) :: scene
       type(lane_ending_t), intent(in) :: found
       type(motion_end_t), intent(inout) :: ending
 
+      ending%count%evaluations = ending%count%evaluations + found%steps
       ending%status = merge(status_complete, found%status, is_success(found%status))
       ending%film = found%film
       ending%velocity = found%velocity
       ending%time = (real(found%periods, dp) + found%phase)/scene%load%frequency
       ending%periods = found%periods
       ending%count%steps = ending%count%evaluations
-   end subroutine record_ending
+   end subroutine record_block
 
 end module integrate_controlled

@@ -58,7 +58,7 @@ module integrate_motion
    !> the error of its steps [-].
    real(dp), parameter :: repetition_tolerance = 1.0e-9_dp
 
-   public :: solve_motion, time_is_up
+   public :: solve_motion, status_of_stop
 
 contains
 
@@ -113,10 +113,10 @@ contains
       real(dp), allocatable :: force(:), films(:), velocities(:), accelerations(:)
       type(orbit_watch_t) :: states
       type(extrapolation_t) :: extrapolation
-      logical :: extrapolated
+      logical :: extrapolated, searching
       integer(int64) :: first_step
-      integer :: period, last_period, window, steps, done, orbit
-      real(dp) :: distance, started
+      integer :: period, last_period, window, steps, done
+      real(dp) :: started
 
       started = wall_seconds()
       method = newmark_of(scene)
@@ -132,6 +132,9 @@ contains
       if (start%periods > 0) then
          state = motion_state_t(start%film, start%velocity, start%acceleration)
          ending%count = motion_count_t(start%steps, start%evaluations, start%cuts)
+         ending%periods = start%periods
+         states = start%watch
+         if (allocated(start%bases)) extrapolation%bases(:) = start%bases
       else
          call start_motion(kernel, film, method, initial_film, scene%film%initial_velocity, state, ending%count, ending%status)
          ending%film = state%film
@@ -145,6 +148,12 @@ contains
 
       last_period = scene%solver%periods
       window = scene%spectrum%periods
+      searching = scene%solver%until == until_steady .and. start%orbit == 0
+      if (start%orbit > 0) then
+         ending%orbit = start%orbit
+         last_period = start%periods + start%orbit
+         window = start%orbit
+      end if
       call sink%begin_window(int(last_period - window, int64)*int(steps, int64) + 1_int64, window*steps)
       period = start%periods
       do while (period < last_period)
@@ -163,49 +172,78 @@ contains
          ending%time = real(first_step + int(done - 1, int64), dp)/(method%frequency*real(steps, dp))
          if (allocated(error) .or. ending%status /= status_complete) return
          ending%periods = period
-         if (period <= scene%solver%periods - window) ending%checkpoint = checkpoint_of(period, state, ending%count)
+         if (searching) then
+            call look_back(state, initial_film, method%frequency, last_period - period, states, ending%orbit)
+            searching = ending%orbit == 0
+            if (.not. searching) then
+               window = ending%orbit
+               last_period = period + window
+               call sink%begin_window(int(period, int64)*int(steps, int64) + 1_int64, window*steps)
+            end if
+         end if
+         if (period <= last_period - window) &
+            ending%checkpoint = checkpoint_of(period, state, ending%count, extrapolation%bases, states, ending%orbit)
          call watcher%period_done(period, last_period)
          if (period == last_period) exit
-         if (caught_signal() /= 0) ending%status = status_interrupted
-         if (time_is_up(scene, started)) ending%status = status_time_limit
+         ending%status = status_of_stop(scene, started)
          if (ending%status /= status_complete) return
-         if (scene%solver%until /= until_steady .or. ending%orbit > 0) cycle
-         call note_state(states, state%film/initial_film, state%velocity/(initial_film*method%frequency), 1.0_dp/two_pi, &
-                         repetition_tolerance, orbit, distance)
-         if (orbit == 0 .or. period + orbit > last_period) cycle
-         ending%orbit = orbit
-         last_period = period + orbit
-         call sink%begin_window(int(period, int64)*int(steps, int64) + 1_int64, orbit*steps)
       end do
       if (ending%orbit > 0) ending%status = status_steady
    end subroutine run_periods
 
+   !> Take the state at the end of a period: does the motion repeat?
+   pure subroutine look_back(state, initial_film, frequency, periods_left, states, orbit)
+      type(motion_state_t), intent(in) :: state
+      !> Film at t = 0 [m] and frequency of the force [Hz], that scale the states
+      real(dp), intent(in) :: initial_film
+      real(dp), intent(in) :: frequency
+      !> Periods in which the orbit must find room
+      integer, intent(in) :: periods_left
+      type(orbit_watch_t), intent(inout) :: states
+      !> Periods after which the motion repeats, 0: not known to, or too many
+      integer, intent(out) :: orbit
+      real(dp) :: distance
+
+      call note_state(states, state%film/initial_film, state%velocity/(initial_film*frequency), 1.0_dp/two_pi, &
+                      repetition_tolerance, orbit, distance)
+      if (orbit > periods_left) orbit = 0
+   end subroutine look_back
+
    !> State at the end of a period, with what it cost.
-   pure function checkpoint_of(period, state, count) result(here)
+   pure function checkpoint_of(period, state, count, bases, watch, orbit) result(here)
       integer, intent(in) :: period
       type(motion_state_t), intent(in) :: state
       type(motion_count_t), intent(in) :: count
+      integer, intent(in) :: bases(:)
+      type(orbit_watch_t), intent(in) :: watch
+      integer, intent(in) :: orbit
       type(checkpoint_t) :: here
 
       here%periods = period
       here%film = state%film
       here%velocity = state%velocity
       here%acceleration = state%acceleration
+      allocate (here%bases, source=bases)
+      here%watch = watch
+      here%orbit = orbit
       here%steps = count%steps
       here%evaluations = count%evaluations
       here%cuts = count%cuts
    end function checkpoint_of
 
-   !> Whether a scene has used up its time.
-   logical function time_is_up(scene, started)
+   !> Whether a scene may go on, status_complete, or must stop between two periods and why.
+   integer function status_of_stop(scene, started) result(status)
       !> The scene
       type(scene_t), intent(in) :: scene
       !> When it began, on the clock of wall_seconds [s]
       real(dp), intent(in) :: started
 
-      time_is_up = .false.
-      if (scene%solver%time_limit > 0.0_dp) time_is_up = wall_seconds() - started > scene%solver%time_limit
-   end function time_is_up
+      status = status_complete
+      if (caught_signal() /= 0) status = status_interrupted
+      if (scene%solver%time_limit > 0.0_dp) then
+         if (wall_seconds() - started > scene%solver%time_limit) status = status_time_limit
+      end if
+   end function status_of_stop
 
    !> Constants of the method from the scene.
    pure function newmark_of(scene) result(method)

@@ -1,27 +1,39 @@
 !> Carrying on: NAME.state keeps the state of a run from which it can be extended, and --resume takes it up.
 !>
 !> The state is that at the start of the last window (or the last period before, if the run did not get so far), so
-!> that the window of the longer run is complete however little longer it is.
+!> that the window of the longer run is complete however little longer it is. Of a run until steady it is the last at
+!> which the longer run would still look for repetition, with all that the search looks back on; once the motion is
+!> known to repeat, the state at the start of the one orbit that it is judged by.
 module resume
    use checkpoint, only: checkpoint_t
    use errors, only: error_t, exit_bad_input, raise
    use file_system, only: path_exists
+   use integrate_controlled, only: last_search_period
    use kinds, only: dp, int64
-   use output_place, only: state_path
+   use newmark_extrapolated, only: extrapolation_t, new_extrapolation
+   use output_place, only: result_path, state_path
+   use period_repetition, only: orbit_watch_t
+   use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
-   use scene_types, only: scene_t
+   use scene_types, only: method_newmark_extrapolated, method_taylor, scene_t, until_steady
    use text, only: integer_text
    implicit none(type, external)
    private
 
-   character(*), parameter :: state_names(9) = [character(12) :: 'periods', 'film', 'velocity', 'acceleration', 'momentum', &
-                                                'implicit', 'steps', 'evaluations', 'cuts']
-   character(*), parameter :: state_units(9) = [character(4) :: '-', 'm', 'm/s', 'm/s2', '-', '-', '-', '-', '-']
+   !> Columns of a state; those of the watch and of the intervals follow.
+   character(*), parameter :: state_names(12) = [character(column_name_bytes) :: 'periods', 'film', 'velocity', 'acceleration', &
+                                                 'momentum', 'implicit', 'steps', 'evaluations', 'cuts', 'orbit', &
+                                                 'watch_count', 'watch_newest']
+   character(*), parameter :: state_units(12) = [character(column_unit_bytes) :: '-', 'm', 'm/s', 'm/s2', '-', '-', '-', '-', &
+                                                 '-', '-', '-', '-']
 
    !> Keys that may change when a run is carried on: they do not touch what has been solved.
    character(*), parameter :: free_keys(9) = [character(24) :: 'periods', 'time_limit', 'line_threshold', 'idle_lines', &
                                               'quiet_limit', 'irregular_limit', 'certify', 'certificate_tolerance', 'until']
+
+   !> What to do with a state that cannot be carried on.
+   character(*), parameter :: begin_anew = '; without --resume the run begins anew'
 
    public :: save_state, load_state
 
@@ -36,12 +48,16 @@ contains
       !> Set if the file cannot be written
       type(error_t), allocatable, intent(out) :: error
       type(result_writer_t) :: writer
-      real(dp) :: row(size(state_names), 1)
+      character(column_name_bytes), allocatable :: names(:)
+      character(column_unit_bytes), allocatable :: units(:)
+      real(dp), allocatable :: row(:, :)
 
-      row(:, 1) = [real(state%periods, dp), state%film, state%velocity, state%acceleration, state%momentum, &
-                   merge(1.0_dp, 0.0_dp, state%implicit), real(state%steps, dp), real(state%evaluations, dp), &
-                   real(state%cuts, dp)]
-      call writer%open(state_path(scene), scene%resolved_input, state_names, state_units, error)
+      allocate (names, source=column_names(scene))
+      allocate (units(size(names)), row(size(names), 1))
+      units(:) = '-'
+      units(:size(state_units)) = state_units
+      row(:, 1) = row_of(state, interval_count(scene))
+      call writer%open(state_path(scene), scene%resolved_input, names, units, error)
       if (.not. allocated(error)) call writer%write_rows(row, error)
       if (.not. allocated(error)) call writer%close(error)
    end subroutine save_state
@@ -52,36 +68,160 @@ contains
       type(scene_t), intent(in) :: scene
       !> Its state
       type(checkpoint_t), intent(out) :: state
-      !> Set if the file is damaged or belongs to another scene
+      !> Set if the file is damaged, belongs to another scene or version, or is no state that this run comes through
       type(error_t), allocatable, intent(out) :: error
       type(result_reader_t) :: reader
-      real(dp) :: row(size(state_names), 1)
-      character(:), allocatable :: changed
+      character(column_name_bytes), allocatable :: names(:)
+      real(dp), allocatable :: row(:, :)
 
       if (.not. path_exists(state_path(scene))) return
-      call reader%open(state_path(scene), error)
-      if (.not. allocated(error)) call reader%read_rows(1_int64, row, error)
+      allocate (names, source=column_names(scene))
+      allocate (row(size(names), 1))
+      call open_earlier(scene, state_path(scene), reader, error)
+      if (.not. allocated(error)) then
+         if (.not. equal_names(reader%names, names)) then
+            call raise(error, exit_bad_input, state_path(scene)//' was kept by another version of rattle'//begin_anew)
+         else
+            call reader%read_rows(1_int64, row, error)
+         end if
+      end if
       call reader%close()
       if (allocated(error)) return
-      changed = changed_key(reader%input_text, scene%resolved_input)
-      if (len(changed) > 0) then
-         call raise(error, exit_bad_input, state_path(scene)//' belongs to another scene: '//changed//' was different')
+      state = state_of(row(:, 1))
+      if (state%periods == 0) return
+      if (scene%solver%until /= until_steady) then
+         ! The search ends here: what it has seen does not follow the motion any more.
+         state%watch = orbit_watch_t()
+         state%orbit = 0
+      else if (state%watch%count == 0) then
+         call raise(error, exit_bad_input, state_path(scene)//" was kept by a run with until = 'periods', which does not "// &
+                    'watch whether the motion repeats'//begin_anew)
          return
       end if
-      state%periods = nint(row(1, 1))
-      state%film = row(2, 1)
-      state%velocity = row(3, 1)
-      state%acceleration = row(4, 1)
-      state%momentum = row(5, 1)
-      state%implicit = row(6, 1) > 0.5_dp
-      state%steps = nint(row(7, 1), int64)
-      state%evaluations = nint(row(8, 1), int64)
-      state%cuts = nint(row(9, 1), int64)
-      if (state%periods > scene%solver%periods - scene%spectrum%periods) then
+      if (state%periods > latest_start(scene, state)) then
          call raise(error, exit_bad_input, state_path(scene)//' is at period '//integer_text(state%periods)// &
                     '; the window of this run would begin before')
+         return
       end if
+      if (.not. scene%output%series) return
+      call open_earlier(scene, result_path(scene), reader, error)
+      call reader%close()
    end subroutine load_state
+
+   !> Open a file of an earlier run of this scene.
+   subroutine open_earlier(scene, path, reader, error)
+      type(scene_t), intent(in) :: scene
+      character(*), intent(in) :: path
+      type(result_reader_t), intent(out) :: reader
+      !> Set if it cannot be read or belongs to another scene
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: changed
+
+      call reader%open(path, error)
+      if (allocated(error)) return
+      changed = changed_key(reader%input_text, scene%resolved_input)
+      if (len(changed) > 0) call raise(error, exit_bad_input, path//' belongs to another scene: '//changed//' was different')
+   end subroutine open_earlier
+
+   !> Last period at which a run can take up a state and go on as if it had come there itself.
+   pure integer function latest_start(scene, state)
+      type(scene_t), intent(in) :: scene
+      type(checkpoint_t), intent(in) :: state
+
+      associate (periods => scene%solver%periods, window => scene%spectrum%periods)
+         latest_start = periods - window
+         if (scene%solver%until /= until_steady) return
+         if (scene%solver%method == method_taylor) then
+            latest_start = last_search_period(periods, window)
+         else if (state%orbit > 0) then
+            latest_start = periods - state%orbit
+         end if
+      end associate
+   end function latest_start
+
+   !> Columns of the state of a scene.
+   pure function column_names(scene) result(names)
+      type(scene_t), intent(in) :: scene
+      character(column_name_bytes), allocatable :: names(:)
+      type(orbit_watch_t) :: watch
+      integer :: i, fixed, watched
+
+      fixed = size(state_names)
+      watched = size(watch%film)
+      allocate (names(fixed + 2*watched + interval_count(scene)))
+      names(:fixed) = state_names
+      do i = 1, watched
+         names(fixed + i) = 'watch_film_'//integer_text(i)
+         names(fixed + watched + i) = 'watch_momentum_'//integer_text(i)
+      end do
+      fixed = fixed + 2*watched
+      do i = 1, size(names) - fixed
+         names(fixed + i) = 'interval_steps_'//integer_text(i)
+      end do
+   end function column_names
+
+   !> Whether two lists of names are the same.
+   pure logical function equal_names(some, others)
+      character(*), intent(in) :: some(:)
+      character(*), intent(in) :: others(:)
+
+      equal_names = size(some) == size(others)
+      if (equal_names) equal_names = all(some == others)
+   end function equal_names
+
+   !> Intervals of a period that the method of a scene keeps its steps for.
+   pure integer function interval_count(scene)
+      type(scene_t), intent(in) :: scene
+      type(extrapolation_t) :: extrapolation
+
+      interval_count = 0
+      if (scene%solver%method /= method_newmark_extrapolated) return
+      extrapolation = new_extrapolation(scene%solver%accuracy, scene%solver%samples_per_period())
+      interval_count = size(extrapolation%bases)
+   end function interval_count
+
+   !> A state as a row; see `state_of`.
+   pure function row_of(state, intervals) result(row)
+      type(checkpoint_t), intent(in) :: state
+      integer, intent(in) :: intervals
+      real(dp), allocatable :: row(:)
+      integer :: bases(intervals)
+
+      bases = 0
+      if (intervals > 0 .and. allocated(state%bases)) bases = state%bases
+      associate (watch => state%watch)
+         row = [real(state%periods, dp), state%film, state%velocity, state%acceleration, state%momentum, &
+                merge(1.0_dp, 0.0_dp, state%implicit), real(state%steps, dp), real(state%evaluations, dp), &
+                real(state%cuts, dp), real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), watch%film, &
+                watch%momentum, real(bases, dp)]
+      end associate
+   end function row_of
+
+   !> The state of a row; see `row_of`.
+   pure function state_of(row) result(state)
+      real(dp), intent(in) :: row(:)
+      type(checkpoint_t) :: state
+      integer :: place
+
+      state%periods = nint(row(1))
+      state%film = row(2)
+      state%velocity = row(3)
+      state%acceleration = row(4)
+      state%momentum = row(5)
+      state%implicit = row(6) > 0.5_dp
+      state%steps = nint(row(7), int64)
+      state%evaluations = nint(row(8), int64)
+      state%cuts = nint(row(9), int64)
+      state%orbit = nint(row(10))
+      state%watch%count = nint(row(11))
+      state%watch%newest = nint(row(12))
+      place = size(state_names)
+      state%watch%film(:) = row(place + 1:place + size(state%watch%film))
+      place = place + size(state%watch%film)
+      state%watch%momentum(:) = row(place + 1:place + size(state%watch%momentum))
+      place = place + size(state%watch%momentum)
+      if (size(row) > place) state%bases = nint(row(place + 1:))
+   end function state_of
 
    !> First key, as group.key, whose line differs between two resolved inputs; empty if none does.
    pure function changed_key(old, new) result(key)

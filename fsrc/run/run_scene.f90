@@ -16,7 +16,7 @@ module run_scene
    use scene_result, only: judge, scene_result_t
    use scene_status, only: status_complete, status_not_written
    use scene_summary, only: write_scene_summary
-   use scene_types, only: method_newmark_extrapolated, method_taylor, scene_t, until_steady
+   use scene_types, only: method_taylor, scene_t
    use text, only: integer_text
    implicit none(type, external)
    private
@@ -54,10 +54,12 @@ contains
       if (allocated(error)) return
       call report_start(log, scene, resolved)
 
-      ! What the extrapolation has learnt of the motion is no part of its state: it begins anew, as a run until steady does.
-      if (carry_on .and. scene%solver%until /= until_steady .and. scene%solver%method /= method_newmark_extrapolated) &
-         call load_state(scene, start, error)
-      if (start%periods > 0) call log%line('  carried on from period '//integer_text(start%periods))
+      if (carry_on) call load_state(scene, start, error)
+      if (start%orbit > 0) then
+         call log%line('  found steady by the earlier run; its orbit is solved again from period '//integer_text(start%periods))
+      else if (start%periods > 0) then
+         call log%line('  carried on from period '//integer_text(start%periods))
+      end if
       if (.not. allocated(error)) call recorder%open(scene, result_path(scene), start%periods, error)
       if (.not. allocated(error)) then
          call watcher%start(log, quiet)
