@@ -1,11 +1,7 @@
-"""What a user does beyond one motion: film tasks, sweeps, steady runs, certificates, carrying on."""
+"""What a user does beyond one motion: film tasks, sweeps, steady runs, certificates."""
 
 from __future__ import annotations
 
-import hashlib
-import signal
-import subprocess
-import time
 from pathlib import Path
 
 import f90nml
@@ -33,10 +29,6 @@ def solve(run, folder: Path, text: str, *options: str, name: str = "scene") -> P
 
 def summary(results: Path, name: str = "scene") -> dict:
     return f90nml.read(results / f"{name}.summary.nml")["summary"]
-
-
-def digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 # --- film ---------------------------------------------------------------------------------------------
@@ -194,67 +186,3 @@ def test_sweep_goes_there_and_back(run, repository: Path, tmp_path: Path) -> Non
     differs = np.abs(back / there - 1.0)
     assert differs.max() > 0.5
     assert differs[[0, -1]] == pytest.approx([0.0, 0.0], abs=1e-6)
-
-
-# --- carrying on -----------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("method", ["newmark", "taylor"])
-def test_one_long_run_equals_three_chained(method: str, run, scene_text, tmp_path: Path) -> None:
-    solver = {"method": f"'{method}'", "steps_per_period": "64" if method == "newmark" else None}
-    (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver))
-    for periods in (17, 20, 60):
-        ended = run(
-            "--resume", "--output", "chained", "--set", f"solver.periods={periods}", "scene.nml", cwd=tmp_path
-        )
-        assert ended.returncode == 0, ended.stderr
-    assert "carried on from period 4" in ended.stdout
-    assert run("--output", "long", "scene.nml", cwd=tmp_path).returncode == 0
-    for name in ("scene.rattle", "scene.state"):
-        assert digest(tmp_path / "chained" / name) == digest(tmp_path / "long" / name)
-    both = [summary(tmp_path / folder) for folder in ("chained", "long")]
-    for one in both:
-        del one["wall_seconds"]
-    assert both[0] == both[1]
-
-
-@pytest.mark.parametrize("method", ["newmark", "taylor"])
-def test_interrupted_run_is_carried_on(method: str, rattle: Path, run, scene_text, tmp_path: Path) -> None:
-    """A terminated run resumed ends like one that was left alone."""
-    solver = {
-        "method": f"'{method}'",
-        "steps_per_period": "512" if method == "newmark" else None,
-        "periods": "20000",
-    }
-    (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver))
-    quiet = ["--set", "output.series=.false.", "--set", "spectrum.certify=.false.", "--quiet"]
-    process = subprocess.Popen([rattle, *quiet, "--output", "cut", "scene.nml"], cwd=tmp_path)
-    time.sleep(0.1)
-    process.send_signal(signal.SIGTERM)
-    assert process.wait(20) == 128 + signal.SIGTERM
-    cut = summary(tmp_path / "cut")
-    assert cut["status"] == "interrupted" and 0 < cut["periods_solved"] < 20000
-    assert run(*quiet, "--resume", "--output", "cut", "scene.nml", cwd=tmp_path).returncode == 0
-    assert run(*quiet, "--output", "whole", "scene.nml", cwd=tmp_path).returncode == 0
-    assert digest(tmp_path / "cut" / "scene.state") == digest(tmp_path / "whole" / "scene.state")
-
-
-def test_time_limit_ends_cleanly(run, scene_text, tmp_path: Path) -> None:
-    text = canonical(
-        scene_text, method="'newmark'", steps_per_period="4096", periods="1000000", time_limit="0.05"
-    )
-    (tmp_path / "scene.nml").write_text(text)
-    ended = run("--set", "output.series=.false.", "scene.nml", cwd=tmp_path)
-    assert ended.returncode == 1
-    assert summary(tmp_path / "results")["status"] == "time_limit"
-    assert (tmp_path / "results" / "scene.state").exists()
-
-
-def test_resume_refuses_another_scene(run, scene_text, tmp_path: Path) -> None:
-    """The key that changed is named, and nothing of the earlier run is touched."""
-    results = solve(run, tmp_path, canonical(scene_text))
-    before = {path.name: digest(path) for path in results.iterdir()}
-    ended = run("--resume", "--set", "load.mass=4", "scene.nml", cwd=tmp_path)
-    assert ended.returncode == 2
-    assert "load.mass" in ended.stderr
-    assert {path.name: digest(path) for path in results.iterdir()} == before
