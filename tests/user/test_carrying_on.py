@@ -78,7 +78,7 @@ def settling(scene_text, film: str, method: str, **keys: str | None) -> str:
 
 
 def creeping(scene_text, method: str, periods: str, **keys: str) -> str:
-    """A film that rises for thousands of periods: nothing repeats, and explicit steps are too short for it."""
+    """A film that rises for thousands of periods: nothing repeats, and it is too stiff for series."""
     return scene_text(
         contact={"length": "0.0002"},
         kinematics={"entrainment_speed": "0.001"},
@@ -163,7 +163,7 @@ def test_time_limit_ends_cleanly(run, scene_text, tmp_path: Path) -> None:
 
 
 def test_change_of_method_within_a_run_is_counted_once(run, scene_text, tmp_path: Path) -> None:
-    """Wherever the chain is cut, steps tried before the engine went over to collocation are counted, and once."""
+    """Wherever the chain is cut, steps tried before the engine went over to collocation count once."""
     text = creeping(scene_text, "taylor", "60", until="'periods'")
     (tmp_path / "scene.nml").write_text(text)
     for periods in (2, 3, 4, 5, 6, 60):
