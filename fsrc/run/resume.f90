@@ -33,7 +33,7 @@ module resume
                                               'quiet_limit', 'irregular_limit', 'certify', 'certificate_tolerance', 'until']
 
    !> What to do with a state that cannot be carried on.
-   character(*), parameter :: begin_anew = '; without --resume the run begins anew'
+   character(*), parameter :: begin_anew = '; --overwrite instead of --resume begins the run anew'
 
    public :: save_state, load_state
 

@@ -254,7 +254,7 @@ def test_steady_run_goes_on_beyond_its_orbit(method: str, run, scene_text, tmp_p
     before = digest(tmp_path / "chained" / "scene.state")
     ended = run("--resume", "--output", "chained", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 2
-    assert "does not watch whether the motion repeats; without --resume the run begins anew" in ended.stderr
+    assert "does not watch whether the motion repeats; --overwrite instead" in ended.stderr
     assert digest(tmp_path / "chained" / "scene.state") == before
 
 
@@ -287,7 +287,7 @@ def test_resume_refuses_the_state_of_an_earlier_version(method: str, run, scene_
     before = {file.name: digest(file) for file in path.parent.iterdir()}
     ended = run("--resume", "--set", "solver.periods=90", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 2
-    assert "was kept by another version of rattle; without --resume the run begins anew" in ended.stderr
+    assert "was kept by another version of rattle; --overwrite instead of --resume" in ended.stderr
     assert {file.name: digest(file) for file in path.parent.iterdir()} == before
 
 
