@@ -1,0 +1,157 @@
+"""The film-thickness regression (32): laws of its form, fitted to exact films and judged on them."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rattle import _kernels
+from rattle.kernels._arguments import finite_numbers, finite_samples, positive_count
+from rattle.kernels._elementwise import evaluate
+
+
+class FilmLaw(NamedTuple):
+    """Coefficients of h* = c u*^a Wbar^b exp(s w*), eq (32); Wbar = W h0/(12 l u eta0 R), eq (20)."""
+
+    factor: float  # c [-]
+    speed_exponent: float  # a [-]
+    load_exponent: float  # b [-]
+    squeeze_factor: float  # s [-]
+
+
+class LawError(NamedTuple):
+    """Residuals of a law: its ln h* less that of the points."""
+
+    rms: float  # root mean square [-]
+    bias: float  # mean [-]
+    maximum: float  # largest absolute one [-]
+    r_squared: float  # share of the variance of ln h* that the law explains; negative: worse than the mean
+
+
+class FilmFit(NamedTuple):
+    """A least-squares law; where the points do not determine it, the one of least norm."""
+
+    law: FilmLaw
+    error: LawError
+    singular_values: np.ndarray  # of the design matrix with columns of unit length, falling, four of them
+    condition: float  # ratio of the first to the last of them
+    rank: int  # number of coefficients that the points determine
+    unique: bool  # whether that is all four
+
+
+class FilmPoints(NamedTuple):
+    """Exact piezo-viscous films, one-dimensional arrays of one length, all pure numbers."""
+
+    speed_group: np.ndarray  # u*
+    load_group: np.ndarray  # Wbar of eq (20)
+    squeeze_ratio: np.ndarray  # w*
+    film_ratio: np.ndarray  # h*
+
+
+PUBLISHED_FILM_LAW = FilmLaw(*_kernels.wrap_published_film_law().tolist())
+
+
+def law_film_ratio(law: FilmLaw, speed_group: Any, load_group: Any, squeeze_ratio: Any) -> Any:
+    """h* [-] of a law of the form (32), for arrays of u* > 0, Wbar > 0 and w* [-].
+
+    A group that is not positive gives NaN or infinity, as the logarithm has it.
+    """
+    values = {"speed_group": speed_group, "load_group": load_group, "squeeze_ratio": squeeze_ratio}
+    return evaluate(partial(_kernels.wrap_law_film_ratio, _coefficients(law)), values)
+
+
+def judge_film_law(
+    law: FilmLaw, speed_group: Any, load_group: Any, squeeze_ratio: Any, film_ratio: Any
+) -> LawError:
+    """Error of a law of the form (32) on given points: `judge_film_law(law, *points)`.
+
+    Four one-dimensional arrays of one length, not empty, finite; u*, Wbar and h* positive.
+    """
+    points = _points(speed_group, load_group, squeeze_ratio, film_ratio)
+    return LawError(*_kernels.wrap_judge_film_law(_coefficients(law), *points).tolist())
+
+
+def fit_film_law(speed_group: Any, load_group: Any, squeeze_ratio: Any, film_ratio: Any) -> FilmFit:
+    """Least squares of ln h* in the form (32), by LAPACK's dgelsd: `fit_film_law(*points)`.
+
+    Four one-dimensional arrays of one length of at least five, finite; u*, Wbar and h* positive.
+    """
+    points = _points(speed_group, load_group, squeeze_ratio, film_ratio)
+    if points[0].size < 5:
+        raise ValueError("a fit needs at least five points")
+    (status, rank), law, error, conditioning = _kernels.wrap_fit_film_law(*points)
+    if status > 1:
+        raise np.linalg.LinAlgError("the singular values of the design matrix did not converge")
+    values, condition = conditioning[:4], float(conditioning[4])
+    return FilmFit(
+        FilmLaw(*law.tolist()), LawError(*error.tolist()), values, condition, int(rank), bool(status == 0)
+    )
+
+
+def sample_film_window(
+    film_ratio: tuple[float, float],
+    squeeze_ratio: tuple[float, float],
+    alpha_p: tuple[float, float],
+    *,
+    film_count: int = 9,
+    squeeze_count: int = 9,
+    pressure_count: int = 16,
+    pressure_factor: float = 1.0,
+    load_factor: float = 1.0,
+) -> FilmPoints:
+    """Exact piezo-viscous films over a window, for `fit_film_law` and `judge_film_law`; errors as of Psi.
+
+    film_ratio: least and largest h* > 0, sampled evenly in its logarithm. squeeze_ratio: of w*. alpha_p: of
+    alpha p_max, within 0 to 1, sampled at the centres of equal parts. pressure_factor: 1 for the pressure of
+    eq (6) as printed, 1/2 where u* is formed with u1 + u2 and the pressure with the mean. load_factor: Wbar
+    over Psi. All pure numbers; a range that is out of order or outside its limits raises ValueError.
+    """
+    ranges = []
+    for name, pair in (("film_ratio", film_ratio), ("squeeze_ratio", squeeze_ratio), ("alpha_p", alpha_p)):
+        if not isinstance(pair, tuple) or len(pair) != 2:
+            raise TypeError(f"{name} must be a tuple of its least and its largest value")
+        ranges += [finite_numbers(**{name: value}) for value in pair]
+    counts = [
+        positive_count(film_count, "film_count"),
+        positive_count(squeeze_count, "squeeze_count"),
+        positive_count(pressure_count, "pressure_count"),
+    ]
+    factors = finite_numbers(pressure_factor=pressure_factor, load_factor=load_factor)
+    size = math.prod(counts)
+    if size > np.iinfo(np.int32).max:
+        raise ValueError(f"a window of {size} films is too large")
+    *points, valid = _kernels.wrap_sample_film_window(
+        np.concatenate(ranges), np.array(counts, dtype=np.int32), factors, size
+    )
+    if not valid:
+        raise ValueError(
+            "a window needs 0 < h*, 0 <= alpha p <= 1, every range in order and the factors positive"
+        )
+    return FilmPoints(*points)
+
+
+def _points(speed_group: Any, load_group: Any, squeeze_ratio: Any, film_ratio: Any) -> list[np.ndarray]:
+    """Four sample arrays of one length, groups positive."""
+    values = {
+        "speed_group": speed_group,
+        "load_group": load_group,
+        "squeeze_ratio": squeeze_ratio,
+        "film_ratio": film_ratio,
+    }
+    points = {name: finite_samples(value, name) for name, value in values.items()}
+    for name, array in points.items():
+        if array.size != points["speed_group"].size:
+            raise ValueError(f"{name} has {array.size} points, speed_group has {points['speed_group'].size}")
+        if name != "squeeze_ratio" and not (array > 0.0).all():
+            raise ValueError(f"{name} must be positive")
+    return list(points.values())
+
+
+def _coefficients(law: FilmLaw) -> np.ndarray:
+    """The coefficients of a law, all finite, the factor positive."""
+    if not isinstance(law, FilmLaw):
+        raise TypeError(f"law must be a FilmLaw, not {type(law).__name__}")
+    return finite_numbers(positive=("factor",), **law._asdict())

@@ -1,0 +1,63 @@
+"""Spectrum of a motion, and the rattle class that follows from it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from rattle import _kernels
+from rattle.kernels._arguments import finite_samples, positive_count
+
+CLASSES = ("quiet", "creep", "idle", "irregular")
+
+
+def amplitude_spectrum(samples: Any) -> np.ndarray:
+    """Single-sided amplitudes a_0 .. a_(n/2) of n equidistant samples, rectangular window.
+
+    samples: one-dimensional, finite, not empty; the amplitudes have their unit.
+    """
+    flat = finite_samples(samples, "samples")
+    return _kernels.wrap_amplitude_spectrum(flat, flat.size // 2 + 1)
+
+
+def lines(acceleration: Any, samples_per_period: int) -> np.ndarray:
+    """a_n [m/s2]: amplitude of z'' at n f_exc for every n that the samples resolve; n = 1 comes first."""
+    return classify(acceleration, samples_per_period)["harmonics"]
+
+
+def classify(
+    acceleration: Any,
+    samples_per_period: int,
+    *,
+    line_threshold: float = 0.01,
+    idle_lines: int = 20,
+    quiet_limit: float = 0.35,
+    irregular_limit: float = 0.01,
+    noise_floor: float = 0.0,
+) -> dict[str, Any]:
+    """Class of a window of whole periods of z'' [m/s2], with the measures it rests on.
+
+    noise_floor [m/s2]: a motion whose rms times sqrt(2) does not exceed it is at rest. A motion at rest is
+    quiet and has no ratios: these are nan then.
+    """
+    samples = finite_samples(acceleration, "acceleration")
+    period = positive_count(samples_per_period, "samples_per_period")
+    if period < 3 or samples.size % period:
+        raise ValueError(
+            f"acceleration holds {samples.size} samples; that is no whole number of periods of {period}"
+        )
+    limits = np.array([line_threshold, quiet_limit, irregular_limit, noise_floor], dtype=np.float64)
+    harmonics, ratios, counts = _kernels.wrap_classify(
+        samples, samples.size // period, limits, positive_count(idle_lines, "idle_lines"), (period - 1) // 2
+    )
+    moving = bool(counts[2])
+    return {
+        "rattle_class": CLASSES[counts[0] - 1],
+        "line_count": int(counts[1]),
+        "harmonic_distortion": float(ratios[0]) if moving else float("nan"),
+        "irregular_fraction": float(ratios[1]) if moving else float("nan"),
+        "reversals_per_period": float(ratios[2]),
+        "sampling_sufficient": bool(counts[3]),
+        "harmonics": harmonics,
+    }
