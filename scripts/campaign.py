@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import rattle
-from rattle import campaign_codes, command, job_script, rerun, table
+from rattle import codes, command, job_script, rerun, table
 from rattle.campaign import Campaign
 from rattle.namelist import NamelistError, parse
 
@@ -186,10 +186,9 @@ def state_rows(campaign: Campaign) -> list[list[str]]:
     for name, title in (("status", "status"), ("rattle_class", "class")):
         if name not in campaign:
             continue
-        counts = Counter(campaign_codes.word(name, code) for code in campaign[name][campaign.done].tolist())
+        counts = Counter(codes.word(name, code) for code in campaign[name][campaign.done].tolist())
         rows += [
-            [f"{title} {name_of}", f"{count}{percent(count, done)}"]
-            for name_of, count in counts.most_common()
+            [f"{title} {word}", f"{count}{percent(count, done)}"] for word, count in counts.most_common()
         ]
     if "status" in campaign:
         failures = int(campaign.failed.sum())

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rattle.campaign_codes import SUCCESSES
 from rattle.campaign_plan import GRID, LINEAR, Plan, PlannedAxis, read_plan
 from rattle.chunk_table import ChunkTable, read_chunk_table
+from rattle.codes import SUCCESSES
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import ResultError, ResultHeader, read_header
 

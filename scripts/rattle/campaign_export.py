@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from rattle.campaign import Campaign
-from rattle.campaign_codes import CODES, word
 from rattle.campaign_tables import WORD_ENDING, arrow_table, dataset
+from rattle.codes import CODES, word
 
 ROWS_AT_ONCE = 10000
 

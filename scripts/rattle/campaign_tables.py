@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rattle.campaign_codes import CODES, words_of
 from rattle.campaign_plan import GRID
+from rattle.codes import CODES, words_of
 
 if TYPE_CHECKING:
     import pandas

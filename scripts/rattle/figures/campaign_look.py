@@ -14,9 +14,9 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from rattle.campaign import Axis, Campaign
-from rattle.campaign_codes import STATUSES, SUCCESSES, words_of
 from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC
 from rattle.campaign_section import short_name
+from rattle.codes import STATUSES, SUCCESSES, words_of
 
 # From the palette of Okabe and Ito, ordered so that they also differ in lightness.
 CLASS_COLOURS = {1: "#DCE6EC", 2: "#56B4E9", 3: "#D55E00", 4: "#4B2E63"}

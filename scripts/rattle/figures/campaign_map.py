@@ -17,8 +17,8 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 
 from rattle.campaign import Campaign
-from rattle.campaign_codes import word
 from rattle.campaign_section import Section
+from rattle.codes import word
 from rattle.command import CommandError
 from rattle.figures import campaign_look as look
 from rattle.figures import style

@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from rattle.campaign_codes import CLASSES, words_of
 from rattle.campaign_section import Section
+from rattle.codes import CLASSES, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import style
 

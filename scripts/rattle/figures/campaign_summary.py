@@ -13,9 +13,9 @@ from matplotlib.ticker import PercentFormatter
 
 from rattle import table
 from rattle.campaign import Campaign
-from rattle.campaign_codes import CLASSES, word
 from rattle.campaign_plan import GRID
 from rattle.campaign_section import new_section
+from rattle.codes import CLASSES, SUCCESSES, word
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, style
 from rattle.rerun import scene_label
@@ -179,7 +179,7 @@ def _draw_statuses(axes: Axes, campaign: Campaign) -> None:
         return
     codes, counts = np.unique(campaign["status"][campaign.done], return_counts=True)
     names = [word("status", code).replace("_", " ") for code in codes]
-    colours = [BAR_COLOUR if code in (0, 1) else FAILED_COLOUR for code in codes]
+    colours = [BAR_COLOUR if code in SUCCESSES else FAILED_COLOUR for code in codes]
     left = campaign.row_count - int(campaign.done.sum())
     counts = counts.tolist()
     if left:

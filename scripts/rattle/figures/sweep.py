@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rattle.codes import SUCCESSES
 from rattle.figures import style
 from rattle.result import Result, ResultError
 
@@ -68,7 +69,7 @@ def column(result: Result, name: str, rows: np.ndarray, scale: float = 1.0) -> n
     """Values of some rows; motions that failed or were not found leave a gap."""
     values = scale * np.asarray(result[name][rows])
     unknown = result["orbit_period"][rows] == 0 if name in ("orbit_period", "floquet_modulus") else False
-    return np.where((result["status"][rows] > 1) | unknown, np.nan, values)
+    return np.where(~np.isin(result["status"][rows], SUCCESSES) | unknown, np.nan, values)
 
 
 def labels(axes: Axes, text: str) -> None:

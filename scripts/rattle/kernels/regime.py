@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from rattle import codes
 from rattle.kernels._elementwise import elementwise
 
 MAP_REGIMES = (
@@ -13,7 +14,7 @@ MAP_REGIMES = (
     "iso-viscous elastic",
     "piezo-viscous elastic",
 )
-FILM_REGIMES = ("unknown", "iso-viscous", "piezo-viscous", "elastohydrodynamic")
+FILM_REGIMES = tuple(codes.FILM_REGIMES.values())
 
 
 @elementwise
@@ -95,7 +96,7 @@ def mapped_regime(g_viscosity: Any, g_elasticity: Any) -> Any:
 def film_regime(alpha_p_maximum: Any, deflection: Any, film: Any) -> Any:
     """Regime of a computed film as an index into FILM_REGIMES (int32).
 
-    For arrays of alpha p_max [-] of the exact pressure, delta [m] of eq (4) and h0 [m]. From alpha p = 1 or
-    delta = 0.1 h0 on elastohydrodynamic, from alpha p = 0.1 on piezo-viscous; 0 where a number is negative or
-    NaN or the film not positive.
+    For arrays of alpha p_max [-] of the exact pressure, delta [m] of eq (4) and h0 [m]. From alpha p = 1 on
+    and above delta = 0.1 h0 elastohydrodynamic, from alpha p = 0.1 on piezo-viscous; 0 where a number is
+    negative or NaN or the film not positive, but delta is read below alpha p = 1 only.
     """

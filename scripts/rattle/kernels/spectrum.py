@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from rattle import _kernels
+from rattle import _kernels, codes
 from rattle.kernels._arguments import finite_samples, positive_count
 
-CLASSES = ("quiet", "creep", "idle", "irregular")
+CLASSES = tuple(codes.CLASSES.values())
 
 
 def amplitude_spectrum(samples: Any) -> np.ndarray:
@@ -53,7 +53,7 @@ def classify(
     )
     moving = bool(counts[2])
     return {
-        "rattle_class": CLASSES[counts[0] - 1],
+        "rattle_class": codes.CLASSES[counts[0]],
         "line_count": int(counts[1]),
         "harmonic_distortion": float(ratios[0]) if moving else float("nan"),
         "irregular_fraction": float(ratios[1]) if moving else float("nan"),

@@ -1,4 +1,4 @@
-"""What the codes in the columns of a campaign mean."""
+"""What the codes mean that stand in columns of results and that the kernels return."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from types import MappingProxyType
 import numpy as np
 
 CLASSES = MappingProxyType({1: "quiet", 2: "creep", 3: "idle", 4: "irregular"})
-REGIMES = MappingProxyType({0: "unknown", 1: "iso-viscous", 2: "piezo-viscous", 3: "elastohydrodynamic"})
+FILM_REGIMES = MappingProxyType({0: "unknown", 1: "iso-viscous", 2: "piezo-viscous", 3: "elastohydrodynamic"})
 STATUSES = MappingProxyType(
     {
         0: "complete",
@@ -28,7 +28,7 @@ SUCCESSES = (0, 1)
 
 # Columns whose numbers stand for words.
 CODES: Mapping[str, Mapping[int, str]] = MappingProxyType(
-    {"rattle_class": CLASSES, "film_regime": REGIMES, "status": STATUSES}
+    {"rattle_class": CLASSES, "film_regime": FILM_REGIMES, "status": STATUSES}
 )
 FLAGS = ("law_contradicted", "certified", "sampling_sufficient")
 
