@@ -100,7 +100,7 @@ def plane(campaign: Campaign, x: str | None, y: str | None, slices: Collection[s
 
 def check_columns(campaign: Campaign, columns: Sequence[str]) -> None:
     for name in columns:
-        campaign[name]  # an unknown name ends the work before a picture is drawn
+        campaign.check_column(name)  # an unknown name ends the work before a picture is drawn
 
 
 def save(figure, output: Path, stem: str) -> None:

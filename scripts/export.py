@@ -23,7 +23,7 @@ def main() -> None:
     result = rattle.read(options.result)
     names = options.columns or list(result.columns)
     for name in names:
-        result[name]  # an unknown name ends the work before a file is touched
+        result.check_column(name)  # an unknown name ends the work before a file is touched
     if not result.closed:
         command.note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")
     output = options.output or result.path.with_suffix(".csv")

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rattle.campaign_plan import GRID, LINEAR, Plan, PlannedAxis, read_plan
 from rattle.chunk_table import ChunkTable, read_chunk_table
 from rattle.codes import SUCCESSES
-from rattle.namelist import NamelistError, parse
+from rattle.result_file import ResultFile, check_length, map_rows
 from rattle.result_header import ResultError, ResultHeader, read_header
 
 if TYPE_CHECKING:
@@ -34,7 +32,7 @@ class Axis:
     values: np.ndarray
 
 
-class Campaign:
+class Campaign(ResultFile):
     """One campaign result.
 
     ``campaign['rattle_class']`` is a read-only array with an entry for every scene, NaN where the scene is
@@ -42,17 +40,15 @@ class Campaign:
 
     Attributes
     ----------
-    path : where the file stands
-    names, units : column names in order, and their units
+    header : what stands before the chunk table
     row_count : scenes that the file is to hold
-    closed : False when the run was killed, or still runs
     chunks : the chunk table: rows in a chunk, and the checksum of each
     done : for every scene, whether it is done
     kind : 'grid', 'sample' or 'csv'
     varied : the varied keys, as group.key
     part, parts : which part of how many this is; 1 and 1 for a whole campaign
     scene_count : scenes of the whole campaign, None where only its end tells
-    program_version, input_text : as written by the program
+    and those of every `ResultFile`
     """
 
     def __init__(
@@ -64,12 +60,9 @@ class Campaign:
         row_count: int,
         plan: Plan,
     ) -> None:
-        self.path = path
+        super().__init__(path, header)
         self.header = header
-        self.names = header.names
-        self.units: Mapping[str, str] = MappingProxyType(dict(zip(header.names, header.units, strict=True)))
         self.row_count = row_count
-        self.closed = header.row_count >= 0
         self.chunks = chunks
         self.done = np.repeat(chunks.done, chunks.chunk_rows)[:row_count]
         self.kind = plan.kind
@@ -78,14 +71,11 @@ class Campaign:
         if self.scene_count is None and self.closed and self.parts == 1:
             self.scene_count = row_count
         self.varied = tuple(name for name in header.names if "." in name)
-        self.program_version = header.program_version
-        self.input_text = header.input_text
         self._plan = plan
         self._rows = rows
 
     def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self.units:
-            raise ResultError(f"{self.path} has no column '{name}'; it holds {', '.join(self.names)}.")
+        self.check_column(name)
         held = self._rows[:, self.names.index(name)]
         if self.done.all():
             return held
@@ -95,9 +85,6 @@ class Campaign:
         values.flags.writeable = False
         return values
 
-    def __contains__(self, name: object) -> bool:
-        return name in self.units
-
     def __repr__(self) -> str:
         state = "closed" if self.closed else "not closed"
         return f"<Campaign {self.path}: {self.done.sum()} of {self.row_count} scenes done; {state}>"
@@ -106,14 +93,6 @@ class Campaign:
     def rows(self) -> np.ndarray:
         """All rows that the file holds, as they stand there; those not done hold nothing meaningful."""
         return self._rows
-
-    @cached_property
-    def input(self) -> dict[str, dict[str, Any]]:
-        """The resolved input: group, key, value."""
-        try:
-            return parse(self.input_text)
-        except NamelistError as fault:
-            raise ResultError(f"The resolved input in {self.path} cannot be read: {fault}") from None
 
     @property
     def name(self) -> str:
@@ -207,29 +186,20 @@ def read_campaign(path: str | Path) -> Campaign:
         raise ResultError(f"{path} is no campaign: its columns are not a scene and the varied keys.")
     row_count = _row_count(path, header, chunks, data_bytes, plan)
     held = min(data_bytes // header.row_bytes, row_count)
-    if held == 0:
-        rows = np.empty((0, len(header.names)), dtype="<f8")
-    else:
-        shape = (held, len(header.names))
-        rows = np.memmap(path, dtype="<f8", mode="r", offset=header.header_bytes, shape=shape)
-    return Campaign(path, header, chunks, rows, row_count, plan)
+    return Campaign(path, header, chunks, map_rows(path, header, held), row_count, plan)
 
 
 def _row_count(path: Path, header: ResultHeader, chunks: ChunkTable, data_bytes: int, plan: Plan) -> int:
     """Scenes that the file is to hold, after all checks of its length."""
     count, size = chunks.checksums.size, chunks.chunk_rows
     held = data_bytes // header.row_bytes
-    if header.row_count >= 0:
+    if header.closed:
         if -(-header.row_count // size) != count:
             raise ResultError(
                 f"{path} has a damaged chunk table: {count} chunks of {size} rows are not "
                 f"{header.row_count} rows."
             )
-        if data_bytes < header.row_count * header.row_bytes:
-            raise ResultError(f"{path} is cut short: it holds {held} of its {header.row_count} rows.")
-        if data_bytes > header.row_count * header.row_bytes:
-            extra = data_bytes - header.row_count * header.row_bytes
-            raise ResultError(f"{path} is {extra} bytes longer than its {header.row_count} rows.")
+        check_length(path, header, data_bytes)
         if not chunks.done.all():
             missing = int(np.argmin(chunks.done)) + 1
             raise ResultError(f"{path} is damaged: it is closed, but its chunk {missing} is not done.")

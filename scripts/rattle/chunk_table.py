@@ -22,7 +22,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from rattle.result_header import ALIGNMENT, COLUMN_PART, FIXED_PART, ResultError, ResultHeader
+from rattle.result_header import ResultError, ResultHeader, aligned
 
 MAGIC = b"CHUNKTAB"
 TABLE_HEAD = struct.Struct("<8sqq")
@@ -45,15 +45,9 @@ class ChunkTable:
         return head + self.checksums.astype("<i8").tobytes()
 
 
-def aligned(count: int) -> int:
-    """The next multiple of the alignment of a result file."""
-    return -(-count // ALIGNMENT) * ALIGNMENT
-
-
 def read_chunk_table(stream: BinaryIO, header: ResultHeader, path: object) -> ChunkTable:
     """Read and check the chunk table; `header` is that of the same stream."""
-    text_bytes = _input_bytes(stream)
-    start = aligned(FIXED_PART.size + COLUMN_PART.size * len(header.names) + text_bytes)
+    start = aligned(header.input_end)
     stream.seek(start)
     head = stream.read(TABLE_HEAD.size) if start + TABLE_HEAD.size <= header.header_bytes else b""
     if not head.startswith(MAGIC):
@@ -63,9 +57,3 @@ def read_chunk_table(stream: BinaryIO, header: ResultHeader, path: object) -> Ch
         raise ResultError(f"{path} has a damaged chunk table: its sizes contradict each other.")
     checksums = np.frombuffer(stream.read(8 * count), dtype="<i8")
     return ChunkTable(chunk_rows, checksums)
-
-
-def _input_bytes(stream: BinaryIO) -> int:
-    """Bytes of the resolved input, with the blanks that may end it."""
-    stream.seek(0)
-    return FIXED_PART.unpack(stream.read(FIXED_PART.size))[6]

@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 from rattle.campaign import SCENE, Campaign, read_campaign
-from rattle.chunk_table import ChunkTable, aligned
+from rattle.chunk_table import ChunkTable
 from rattle.command import CommandError
-from rattle.result_header import BYTE_ORDER_MARK, COLUMN_PART, FIXED_PART, FORMAT_VERSION, MAGIC
+from rattle.result_header import BYTE_ORDER_MARK, COLUMN_PART, FIXED_PART, FORMAT_VERSION, MAGIC, aligned
 
 PART_KEY = re.compile(r"^(\s*parts?\s*=\s*)\d+")
 GROUP = re.compile(r"^\s*&(\w+)")
@@ -195,6 +195,5 @@ def _head(parts: Sequence[Campaign]) -> bytes:
 def _text_as_stored(part: Campaign) -> bytes:
     """The resolved input with the blanks that may end it, as that of the whole."""
     with part.path.open("rb") as stream:
-        size = FIXED_PART.unpack(stream.read(FIXED_PART.size))[6]
-        stream.seek(FIXED_PART.size + COLUMN_PART.size * len(part.names))
-        return whole_input(stream.read(size).decode("ascii")).encode("ascii")
+        stream.seek(part.header.input_start)
+        return whole_input(stream.read(part.header.input_bytes).decode("ascii")).encode("ascii")

@@ -3,66 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from rattle.namelist import NamelistError, parse
+from rattle.result_file import ResultFile, check_length, map_rows
 from rattle.result_header import ResultError, ResultHeader, read_header
 from rattle.summary import read_summary
 
 
-class Result:
-    """One result file.
+class Result(ResultFile):
+    """One result file of a single scene.
 
     ``result['film_thickness']`` is a read-only array mapped from the file, not a copy.
 
     Attributes
     ----------
-    path : where the file stands
     columns : mapping of column name to array
-    units : mapping of column name to unit
     row_count : rows that the file holds
-    closed : False when the run was killed, or still runs
-    program_version : version of the program that wrote the file
-    input_text : resolved input as namelist text
+    and those of every `ResultFile`
     """
 
-    def __init__(self, path: Path, header: ResultHeader, rows: np.ndarray, closed: bool) -> None:
-        self.path = path
-        self.closed = closed
+    def __init__(self, path: Path, header: ResultHeader, rows: np.ndarray) -> None:
+        super().__init__(path, header)
         self.row_count = rows.shape[0]
-        self.program_version = header.program_version
-        self.input_text = header.input_text
-        self.units: Mapping[str, str] = MappingProxyType(dict(zip(header.names, header.units, strict=True)))
         self.columns: Mapping[str, np.ndarray] = MappingProxyType(
             {name: rows[:, position] for position, name in enumerate(header.names)}
         )
 
     def __getitem__(self, name: str) -> np.ndarray:
-        try:
-            return self.columns[name]
-        except KeyError:
-            held = ", ".join(self.columns)
-            raise ResultError(f"{self.path} has no column '{name}'; it holds {held}.") from None
-
-    def __contains__(self, name: object) -> bool:
-        return name in self.columns
+        self.check_column(name)
+        return self.columns[name]
 
     def __repr__(self) -> str:
         state = "closed" if self.closed else "not closed"
         return f"<Result {self.path}: {self.row_count} rows of {', '.join(self.columns)}; {state}>"
-
-    @cached_property
-    def input(self) -> dict[str, dict[str, Any]]:
-        """The resolved input: group, key, value."""
-        try:
-            return parse(self.input_text)
-        except NamelistError as fault:
-            raise ResultError(f"The resolved input in {self.path} cannot be read: {fault}") from None
 
     def value(self, group: str, key: str) -> Any:
         """One value of the resolved input."""
@@ -170,25 +147,5 @@ def read(path: str | Path) -> Result:
             data_bytes = stream.seek(0, 2) - header.header_bytes
     except OSError as fault:
         raise ResultError(f"{path} cannot be read: {fault.strerror or fault}.") from None
-
-    closed = header.row_count >= 0
-    row_count = header.row_count if closed else data_bytes // header.row_bytes
-    expected = row_count * header.row_bytes
-    if closed and data_bytes < expected:
-        held = data_bytes // header.row_bytes
-        raise ResultError(f"{path} is cut short: it holds {held} of its {row_count} rows.")
-    if closed and data_bytes > expected:
-        raise ResultError(f"{path} is {data_bytes - expected} bytes longer than its {row_count} rows.")
-    return Result(path, header, _map_rows(path, header, row_count), closed)
-
-
-def _map_rows(path: Path, header: ResultHeader, row_count: int) -> np.ndarray:
-    shape = (row_count, len(header.names))
-    if row_count == 0:  # an empty range cannot be mapped
-        rows = np.empty(shape, dtype="<f8")
-        rows.flags.writeable = False
-        return rows
-    try:
-        return np.memmap(path, dtype="<f8", mode="r", offset=header.header_bytes, shape=shape)
-    except OSError as fault:
-        raise ResultError(f"{path} cannot be mapped: {fault.strerror or fault}.") from None
+    check_length(path, header, data_bytes)
+    return Result(path, header, map_rows(path, header, data_bytes // header.row_bytes))

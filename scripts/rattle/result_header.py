@@ -38,18 +38,41 @@ class ResultError(Exception):
 
 @dataclass(frozen=True)
 class ResultHeader:
-    """What the header says. `row_count` is -1 while the run is not closed."""
+    """What the header says. `row_count` is -1 while the run is not closed.
+
+    `input_text` comes without the blanks that may end it, `input_bytes` counts them.
+    """
 
     header_bytes: int
     row_count: int
     names: tuple[str, ...]
     units: tuple[str, ...]
     program_version: str
+    input_bytes: int
     input_text: str
+
+    @property
+    def closed(self) -> bool:
+        return self.row_count >= 0
+
+    @property
+    def input_start(self) -> int:
+        """Offset of the resolved input."""
+        return FIXED_PART.size + COLUMN_PART.size * len(self.names)
+
+    @property
+    def input_end(self) -> int:
+        """Offset of what follows the resolved input."""
+        return self.input_start + self.input_bytes
 
     @property
     def row_bytes(self) -> int:
         return 8 * len(self.names)
+
+
+def aligned(count: int) -> int:
+    """The next multiple of the alignment of a result file."""
+    return -(-count // ALIGNMENT) * ALIGNMENT
 
 
 def read_header(stream: BinaryIO, path: object) -> ResultHeader:
@@ -85,6 +108,7 @@ def read_header(stream: BinaryIO, path: object) -> ResultHeader:
         names=names,
         units=tuple(_text(unit, "unit", path) for _, unit in columns),
         program_version=_text(program, "program version", path),
+        input_bytes=input_bytes,
         input_text=_text(stream.read(input_bytes), "resolved input", path),
     )
 
