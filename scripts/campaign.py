@@ -61,8 +61,7 @@ def slurm(options: argparse.Namespace) -> None:
                 f'Slurm cannot take the directory {place}: it has one of " % \\ in it.'
             )
     script = options.script or (options.output or Path()) / f"{name}.slurm"
-    if script.exists() and not options.overwrite:
-        raise command.CommandError(f"{script} exists; --overwrite replaces it.")
+    keep_existing(script, options)
     # Slurm drops a job, without a word, whose directory of logs is absent.
     job.log_directory.mkdir(parents=True, exist_ok=True)
     script.parent.mkdir(parents=True, exist_ok=True)
@@ -102,8 +101,7 @@ def merge(options: argparse.Namespace) -> None:
     """Join parts."""
     from rattle.merge import merge
 
-    if options.output.exists() and not options.overwrite:
-        raise command.CommandError(f"{options.output} exists; --overwrite replaces it.")
+    keep_existing(options.output, options)
     count = merge(options.parts, options.output)
     print(options.output)
     command.note(f"{len(options.parts)} parts joined, {count} scenes.")
@@ -116,13 +114,17 @@ def export(options: argparse.Namespace) -> None:
     campaign = opened(options.file)
     ending, write = WRITERS[options.to]
     output = options.output or campaign.path.with_suffix(ending)
-    if output.exists():
-        if output.samefile(campaign.path):
-            raise command.CommandError(f"{output} is the campaign itself; give another --output.")
-        if not options.overwrite:
-            raise command.CommandError(f"{output} exists; --overwrite replaces it.")
+    if output.exists() and output.samefile(campaign.path):
+        raise command.CommandError(f"{output} is the campaign itself; give another --output.")
+    keep_existing(output, options)
     write(campaign, output)
     print(output)
+
+
+def keep_existing(path: Path, options: argparse.Namespace) -> None:
+    """Refuse to replace a file without --overwrite."""
+    if path.exists() and not options.overwrite:
+        raise command.CommandError(f"{path} exists; --overwrite replaces it.")
 
 
 def run_again(options: argparse.Namespace) -> None:

@@ -42,7 +42,7 @@ def draw_maps(campaign: Campaign, options: argparse.Namespace, slices: dict[str,
             f"{campaign.path} is no grid but a {campaign.kind} campaign: nothing to slice."
         )
     x, y = plane(campaign, options.x, options.y, slices)
-    look = campaign_map.Options(options.contours, options.colours)
+    overlay = campaign_map.Options(options.contours, options.colours)
     for name in campaign_map.lacking_contours(campaign, options.contours):
         command.note(f"{campaign.path} does not record what the contours of {name} need; they are left out.")
     columns = options.columns or ["rattle_class"]
@@ -53,9 +53,9 @@ def draw_maps(campaign: Campaign, options: argparse.Namespace, slices: dict[str,
             command.note(sentence)
     for column in columns:
         if campaign.kind == GRID:
-            figure = campaign_map.draw(section, column, look)
+            figure = campaign_map.draw(section, column, overlay)
         else:
-            figure = campaign_map.draw_points(campaign, x, y, column, look)
+            figure = campaign_map.draw_points(campaign, x, y, column, overlay)
         save(figure, options.output, f"{campaign.name}_map_{column}")
 
 
@@ -134,10 +134,6 @@ def contour_names(text: str) -> list[str]:
     return names
 
 
-def column_names(text: str) -> list[str]:
-    return [name.strip() for name in text.split(",") if name.strip()]
-
-
 def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description="Draw a campaign: a map of the class or of any column over two varied keys (default), "
@@ -145,7 +141,7 @@ def parse_options() -> argparse.Namespace:
     )
     parser.add_argument("campaign", type=Path, metavar="FILE", help="campaign result, NAME.rattle")
     parser.add_argument(
-        "--columns", type=column_names, metavar="NAME,NAME", help="what is drawn; rattle_class for a map"
+        "--columns", type=command.names, metavar="NAME,NAME", help="what is drawn; rattle_class for a map"
     )
     parser.add_argument("--x", metavar="KEY", help="varied key on the x axis, by default the first")
     parser.add_argument("--y", metavar="KEY", help="varied key on the y axis, by default the next")

@@ -34,8 +34,7 @@ def main() -> int:
         except rattle.ResultError as fault:
             code = command.complain(str(fault))
             continue
-        if not result.closed:
-            command.note(f"{path} is not closed; its {result.row_count} complete rows are used.")
+        command.note_open(result)
     if rows:
         print(table.plain([heads(), *map(cells, rows)]))
         if options.output:

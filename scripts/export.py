@@ -24,8 +24,7 @@ def main() -> None:
     names = options.columns or list(result.columns)
     for name in names:
         result.check_column(name)  # an unknown name ends the work before a file is touched
-    if not result.closed:
-        command.note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")
+    command.note_open(result)
     output = options.output or result.path.with_suffix(".csv")
     if output == STANDARD_OUTPUT:
         write(sys.stdout, result, names, options.stride)
@@ -47,15 +46,11 @@ def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) 
         writer.writerows(np.column_stack([result[name][rows] for name in names]).tolist())
 
 
-def column_names(text: str) -> list[str]:
-    return [name.strip() for name in text.split(",") if name.strip()]
-
-
 def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Write a result file as CSV with a head of name[unit].")
     parser.add_argument("result", type=Path, metavar="RESULT", help="result file, NAME.rattle")
     parser.add_argument(
-        "--columns", type=column_names, metavar="NAME,NAME", help="the columns to write, all by default"
+        "--columns", type=command.names, metavar="NAME,NAME", help="the columns to write, all by default"
     )
     parser.add_argument(
         "--output",

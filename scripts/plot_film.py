@@ -72,19 +72,19 @@ def parse_options() -> argparse.Namespace:
     parser.add_argument("--output", type=Path, default=Path("."), metavar="DIR", help="where the figures go")
     parser.add_argument(
         "--figures",
-        type=figure_numbers,
+        type=command.one_of_numbers(NUMBERS),
         metavar="3,4,5",
         help="the figures to draw; by default all that the result holds",
     )
     parser.add_argument(
         "--film-ratio",
-        type=positive_number,
+        type=command.positive_number,
         metavar="X",
         help="film ratio h* of figures 3 and 5; by default the one nearest to the 70e-6 of the paper",
     )
     parser.add_argument(
         "--speed-group",
-        type=positive_number,
+        type=command.positive_number,
         metavar="X",
         help="speed group u*; by default the one nearest to the 0.9e-6 of the paper, in figure 5 up to three",
     )
@@ -96,25 +96,6 @@ def result_path(text: str) -> Path:
     return Path(
         text.removesuffix(".profiles.rattle") + ".rattle" if text.endswith(".profiles.rattle") else text
     )
-
-
-def figure_numbers(text: str) -> tuple[int, ...]:
-    known = {str(number): number for number in NUMBERS}
-    parts = [part.strip() for part in text.split(",")]
-    unknown = [part for part in parts if part not in known]
-    if unknown:
-        raise argparse.ArgumentTypeError(f"'{unknown[0]}' is not one of {', '.join(known)}")
-    return tuple(known[part] for part in parts)
-
-
-def positive_number(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = -1.0
-    if not 0.0 < number < float("inf"):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a positive number")
-    return number
 
 
 if __name__ == "__main__":

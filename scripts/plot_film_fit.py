@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from pathlib import Path
 
 from rattle import command, table
@@ -76,29 +75,18 @@ def parse_options() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def numbers(text: str) -> tuple[float, ...]:
-    """Numbers between commas, all finite."""
-    try:
-        values = tuple(float(part) for part in text.split(","))
-    except ValueError:
-        values = (math.nan,)
-    if not all(map(math.isfinite, values)):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a list of numbers")
-    return values
-
-
 def span(text: str) -> tuple[float, float]:
-    values = numbers(text)
+    values = [command.finite(part) for part in text.split(",")]
     if len(values) != 2 or values[0] > values[1]:
         raise argparse.ArgumentTypeError(f"'{text}' is not a range LEAST,LARGEST")
     return values[0], values[1]
 
 
 def fraction(text: str) -> float:
-    values = numbers(text)
-    if len(values) != 1 or not 0.0 < values[0] <= 1.0:
+    value = command.finite(text)
+    if not 0.0 < value <= 1.0:
         raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0 and up to 1")
-    return values[0]
+    return value
 
 
 if __name__ == "__main__":

@@ -15,8 +15,7 @@ def main() -> None:
     options = parse_options()
     results = [rattle.read(path) for path in options.results]
     for result in results:
-        if not result.closed:
-            command.note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")
+        command.note_open(result)
     make = catalogue.overlay_figures if options.overlay else catalogue.single_figures
     extent = catalogue.Extent(options.periods, options.window)
     drawn = 0
@@ -40,7 +39,7 @@ def parse_options() -> argparse.Namespace:
     parser.add_argument("--output", type=Path, default=Path("."), metavar="DIR", help="where the figures go")
     parser.add_argument(
         "--figures",
-        type=figure_numbers,
+        type=command.one_of_numbers(catalogue.NUMBERS),
         default=catalogue.NUMBERS,
         metavar="6,7,8,9,10",
         help="the figures to draw, all by default",
@@ -56,15 +55,6 @@ def parse_options() -> argparse.Namespace:
     )
     parser.add_argument("--overlay", action="store_true", help="draw all results in the same figures")
     return parser.parse_args()
-
-
-def figure_numbers(text: str) -> tuple[int, ...]:
-    known = {str(number): number for number in catalogue.NUMBERS}
-    parts = [part.strip() for part in text.split(",")]
-    unknown = [part for part in parts if part not in known]
-    if unknown:
-        raise argparse.ArgumentTypeError(f"'{unknown[0]}' is not one of {', '.join(known)}")
-    return tuple(known[part] for part in parts)
 
 
 if __name__ == "__main__":

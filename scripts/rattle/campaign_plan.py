@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import f90nml
 import numpy as np
+
+from rattle.namelist import NamelistError, parse_groups
 
 GRID, SAMPLE, TABLE = "grid", "sample", "csv"
 LINEAR, LOGARITHMIC, LISTED = "linear", "logarithmic", "values"
@@ -37,9 +38,9 @@ class Plan:
 def read_plan(input_text: str) -> Plan:
     """The plan behind a resolved input. Raises ValueError with a sentence where it has none."""
     try:
-        group = f90nml.Parser().reads(input_text).get("campaign")
-    except Exception as fault:  # the parser shows damaged text by exceptions of many types
-        raise ValueError(f"its resolved input cannot be read ({fault}).") from None
+        group = parse_groups(input_text).get("campaign")
+    except NamelistError as fault:
+        raise ValueError(f"its resolved input cannot be read: {fault}") from None
     if group is None:
         raise ValueError("its resolved input has no group &campaign.")
     part, parts = int(group.get("part") or 1), int(group.get("parts") or 1)

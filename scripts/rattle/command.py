@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from rattle.result import ResultError
+from rattle.result import Result, ResultError
 from rattle.summary import SummaryError
 
 COMPLETE = 0
@@ -51,8 +52,52 @@ def note(sentence: str) -> None:
     print(f"{Path(sys.argv[0]).name}: {sentence}", file=sys.stderr)
 
 
+def note_open(result: Result) -> None:
+    """Tell the user that a result is not closed, if it is not."""
+    if not result.closed:
+        note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")
+
+
 def positive(text: str) -> int:
     """The value of an option that is a positive whole number."""
     if not (text.isascii() and text.isdecimal() and int(text) > 0):
         raise argparse.ArgumentTypeError(f"'{text}' is not a positive whole number")
     return int(text)
+
+
+def finite(text: str) -> float:
+    """The value of an option that is a finite number."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number")
+    return number
+
+
+def positive_number(text: str) -> float:
+    """The value of an option that is a positive finite number."""
+    number = finite(text)
+    if number <= 0.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a positive number")
+    return number
+
+
+def names(text: str) -> list[str]:
+    """The value of an option that is a list of names between commas."""
+    return [name.strip() for name in text.split(",") if name.strip()]
+
+
+def one_of_numbers(known: Sequence[int]) -> Callable[[str], tuple[int, ...]]:
+    """A reader of an option that lists some of the known numbers between commas."""
+
+    def read(text: str) -> tuple[int, ...]:
+        parts = [part.strip() for part in text.split(",")]
+        choice = {str(number): number for number in known}
+        for part in parts:
+            if part not in choice:
+                raise argparse.ArgumentTypeError(f"'{part}' is not one of {', '.join(choice)}")
+        return tuple(choice[part] for part in parts)
+
+    return read

@@ -1,4 +1,4 @@
-"""Namelist text as plain Python values."""
+"""Namelist text as Python values."""
 
 from __future__ import annotations
 
@@ -13,9 +13,16 @@ class NamelistError(Exception):
 
 def parse(text: str) -> dict[str, dict[str, Any]]:
     """Parse namelist text into group, key, value."""
+    return {name: dict(group) for name, group in parse_groups(text).items()}
+
+
+def parse_groups(text: str) -> f90nml.Namelist:
+    """Parse namelist text into groups that also know where their arrays start, and can be written."""
     try:
         groups = f90nml.Parser().reads(text)
-        return {name: dict(group) for name, group in groups.items()}
+        for group in groups.values():
+            dict(group)  # what is no mapping of keys fails here
+        return groups
     except Exception as fault:  # the parser shows damaged text by exceptions of many types
         detail = str(fault).splitlines()[0].rstrip(".") if str(fault) else type(fault).__name__
         raise NamelistError(f"it is not a namelist ({detail}).") from fault

@@ -10,6 +10,7 @@ import numpy as np
 
 from rattle.campaign import SCENE, Campaign
 from rattle.command import CommandError
+from rattle.namelist import parse_groups
 
 
 def extreme_rows(campaign: Campaign, column: str, count: int, *, smallest: bool = False) -> np.ndarray:
@@ -53,7 +54,7 @@ def write_inputs(campaign: Campaign, rows: Sequence[int], directory: Path, resul
 
 def input_text(campaign: Campaign, row: int, results: str) -> str:
     """The input of one scene. The base is the resolved input, so no default can change it."""
-    groups = f90nml.Parser().reads(campaign.input_text)
+    groups = parse_groups(campaign.input_text)
     groups.pop("campaign", None)
     for name, value in scene_values(campaign, row).items():
         group, key = name.split(".", 1)

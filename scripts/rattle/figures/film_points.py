@@ -139,8 +139,7 @@ def angle_axis(axes: Axes) -> None:
 def _check_task(result: Result) -> None:
     if result.input.get("scene", {}).get("task", "motion").strip() != "film":
         raise ResultError(f"{result.path} is not the result of a film task; plot_motion.py draws motions.")
-    if not result.closed:
-        command.note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")
+    command.note_open(result)
 
 
 def _thinned(ratios: np.ndarray, result: Result) -> np.ndarray:
