@@ -30,7 +30,8 @@ def main() -> int:
         try:
             result = rattle.read(path)
             verdict = classify(result, options.periods, overrides)
-            rows.append({"file": str(path), "scene": result.scene_name, **measures(verdict)})
+            measures = {key: verdict[key] for key, _, _ in MEASURES}
+            rows.append({"file": str(path), "scene": result.scene_name, **measures})
         except rattle.ResultError as fault:
             code = command.complain(str(fault))
             continue
@@ -40,17 +41,6 @@ def main() -> int:
         if options.output:
             save(options.output, rows)
     return code
-
-
-def measures(verdict: dict[str, Any]) -> dict[str, Any]:
-    """The verdict in plain Python types."""
-    return {
-        "rattle_class": str(verdict["rattle_class"]).strip(),
-        "line_count": int(verdict["line_count"]),
-        "harmonic_distortion": float(verdict["harmonic_distortion"]),
-        "irregular_fraction": float(verdict["irregular_fraction"]),
-        "reversals_per_period": float(verdict["reversals_per_period"]),
-    }
 
 
 def heads() -> list[str]:
@@ -80,14 +70,22 @@ def parse_options() -> argparse.Namespace:
         "--periods", type=command.positive, metavar="N", help="whole periods at the end that are judged"
     )
     parser.add_argument(
-        "--line-threshold", type=float, metavar="X", help="a line counts above X times the first harmonic"
+        "--line-threshold",
+        type=command.finite,
+        metavar="X",
+        help="a line counts above X times the first harmonic",
     )
     parser.add_argument(
         "--idle-lines", type=command.positive, metavar="N", help="idle from this many lines on"
     )
-    parser.add_argument("--quiet-limit", type=float, metavar="X", help="quiet below this harmonic distortion")
     parser.add_argument(
-        "--irregular-limit", type=float, metavar="X", help="irregular above this fraction between harmonics"
+        "--quiet-limit", type=command.finite, metavar="X", help="quiet below this harmonic distortion"
+    )
+    parser.add_argument(
+        "--irregular-limit",
+        type=command.finite,
+        metavar="X",
+        help="irregular above this fraction between harmonics",
     )
     return parser.parse_args()
 

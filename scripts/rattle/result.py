@@ -114,7 +114,7 @@ class Result(ResultFile):
         return self.positive_integer("spectrum", "periods")
 
     def window(self, periods: int | None = None, *, with_start: bool = False) -> slice:
-        """The rows of the last whole `periods`, by default those of the &spectrum group.
+        """The rows of the last whole `periods`, by default those that the program judged.
 
         The window is half open: its first sample follows its start by one sample, so it holds exactly
         ``periods * samples_per_period`` rows, as a spectrum needs them. `with_start` adds the row at its

@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from rattle.result import Result
+from rattle.result import Result, ResultError
 
-THRESHOLDS = ("line_threshold", "idle_lines", "quiet_limit", "irregular_limit")
+LIMITS = ("line_threshold", "quiet_limit", "irregular_limit")
+THRESHOLDS = (*LIMITS, "idle_lines")
 
 
 def thresholds(result: Result, overrides: Mapping[str, float | None] | None = None) -> dict[str, float]:
     """Thresholds of the resolved input, replaced where an override is not None."""
     given = {name: value for name, value in (overrides or {}).items() if value is not None}
-    return {name: given[name] if name in given else result.number("spectrum", name) for name in THRESHOLDS}
+    own = {name: float(result.number("spectrum", name)) for name in LIMITS if name not in given}
+    if "idle_lines" not in given:
+        own["idle_lines"] = result.positive_integer("spectrum", "idle_lines")
+    return own | given
 
 
 def classify(
@@ -21,8 +25,14 @@ def classify(
     periods: int | None = None,
     overrides: Mapping[str, float | None] | None = None,
 ) -> dict[str, Any]:
-    """Class and measures of the last `periods`, by default those of the &spectrum group."""
+    """Class and measures of the last `periods`, by default those that the program judged.
+
+    Raises ResultError where the samples carry no class.
+    """
     from rattle import kernels
 
     samples = result.samples("acceleration", result.window(periods))
-    return kernels.classify(samples, result.samples_per_period, **thresholds(result, overrides))
+    try:
+        return kernels.classify(samples, result.samples_per_period, **thresholds(result, overrides))
+    except ValueError as fault:
+        raise ResultError(f"{result.path} cannot be classified: {fault}.") from None

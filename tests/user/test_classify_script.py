@@ -91,3 +91,18 @@ def test_a_result_without_the_acceleration_is_refused(tmp_path):
     done = classify(tmp_path, str(path))
     assert done.returncode == 2
     assert "has no column 'acceleration'" in done.stderr
+
+
+def test_too_few_samples_a_period_are_refused(tmp_path):
+    path = write_motion(tmp_path / "a.rattle", lines={1.0: 1.0}, steps_per_period=2)
+    done = classify(tmp_path, str(path))
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "cannot be classified: a class needs at least 3 samples a period, not 2." in done.stderr
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "much"])
+def test_thresholds_are_numbers(results, tmp_path, value):
+    done = classify(tmp_path, "idle.rattle", "--quiet-limit", value)
+    assert done.returncode == 2
+    assert f"'{value}' is not a number" in done.stderr

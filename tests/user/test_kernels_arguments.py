@@ -154,6 +154,9 @@ def test_beyond_the_range_the_answer_is_nan():
         (lambda: kernels.amplitude_spectrum(np.array([1.0, np.nan])), ValueError),
         (lambda: kernels.classify(np.ones(10), 4), ValueError),
         (lambda: kernels.classify(np.ones(12), 4.0), TypeError),
+        (lambda: kernels.classify(np.ones(12), 2), ValueError),
+        (lambda: kernels.classify(np.ones(12), 4, quiet_limit=np.nan), ValueError),
+        (lambda: kernels.classify(np.ones(12), 4, noise_floor=0), TypeError),
     ],
 )
 def test_other_wrong_arguments_raise(call, fault):

@@ -82,7 +82,7 @@ def _draw_single(
 
 def _verdict_words(result: Result, window: int | None) -> str:
     verdict = classify(result, window)
-    return f"{verdict['line_count']} lines, class {str(verdict['rattle_class']).strip()}"
+    return f"{verdict['line_count']} lines, class {verdict['rattle_class']}"
 
 
 def _draw_overlay(

@@ -85,8 +85,8 @@ def _words(result: Result, window: int | None) -> str:
     verdict = classify(result, window)
     return (
         f"{_power(result.number('solver', 'tolerance'))}: "
-        f"{float(verdict['reversals_per_period']):.3g} reversals a period, "
-        f"class {str(verdict['rattle_class']).strip()}"
+        f"{verdict['reversals_per_period']:.3g} reversals a period, "
+        f"class {verdict['rattle_class']}"
     )
 
 

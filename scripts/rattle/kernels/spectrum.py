@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from rattle import _kernels, codes
-from rattle.kernels._arguments import finite_samples, positive_count
+from rattle.kernels._arguments import finite_numbers, finite_samples, positive_count
 
 CLASSES = tuple(codes.CLASSES.values())
 
@@ -38,16 +38,24 @@ def classify(
 ) -> dict[str, Any]:
     """Class of a window of whole periods of z'' [m/s2], with the measures it rests on.
 
+    acceleration: one-dimensional, finite; samples_per_period: at least 3. The thresholds are finite floats.
     noise_floor [m/s2]: a motion whose rms times sqrt(2) does not exceed it is at rest. A motion at rest is
     quiet and has no ratios: these are nan then.
     """
     samples = finite_samples(acceleration, "acceleration")
     period = positive_count(samples_per_period, "samples_per_period")
-    if period < 3 or samples.size % period:
+    if period < 3:
+        raise ValueError(f"a class needs at least 3 samples a period, not {period}")
+    if samples.size % period:
         raise ValueError(
             f"acceleration holds {samples.size} samples; that is no whole number of periods of {period}"
         )
-    limits = np.array([line_threshold, quiet_limit, irregular_limit, noise_floor], dtype=np.float64)
+    limits = finite_numbers(
+        line_threshold=line_threshold,
+        quiet_limit=quiet_limit,
+        irregular_limit=irregular_limit,
+        noise_floor=noise_floor,
+    )
     harmonics, ratios, counts = _kernels.wrap_classify(
         samples, samples.size // period, limits, positive_count(idle_lines, "idle_lines"), (period - 1) // 2
     )
