@@ -51,7 +51,7 @@ def parse_options() -> argparse.Namespace:
         "--window",
         type=command.positive,
         metavar="N",
-        help="periods behind the spectra, by default those of the &spectrum group",
+        help="periods behind the spectra, by default those that the program judged",
     )
     parser.add_argument("--overlay", action="store_true", help="draw all results in the same figures")
     return parser.parse_args()

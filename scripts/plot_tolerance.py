@@ -50,7 +50,7 @@ def parse_options() -> argparse.Namespace:
         "--window",
         type=command.positive,
         metavar="N",
-        help="periods behind the spectra, by default those of the &spectrum group",
+        help="periods behind the spectra, by default those that the program judged",
     )
     return parser.parse_args()
 

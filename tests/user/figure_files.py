@@ -1,0 +1,31 @@
+"""Calls the scripts that draw, and looks at the pictures they leave."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from matplotlib.image import imread
+
+SCRIPTS = Path(__file__).parents[2] / "scripts"
+
+
+def call(script: str, *arguments: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, str(SCRIPTS / script), *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def stems(directory: Path) -> list[str]:
+    """Names of the figures; each must be there in both forms, and not blank."""
+    found = sorted(path.stem for path in directory.glob("*.png"))
+    assert found == sorted(path.stem for path in directory.glob("*.pdf"))
+    for path in directory.glob("*.png"):
+        picture = imread(path)
+        assert picture.shape[0] > 400 and picture.shape[1] > 1000
+        assert 0.005 < (picture[:, :, :3].min(axis=2) < 0.7).mean() < 0.5, path
+    return found
