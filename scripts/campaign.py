@@ -97,7 +97,7 @@ def find_program() -> str:
     return found
 
 
-def merge(options: argparse.Namespace) -> None:
+def merge_parts(options: argparse.Namespace) -> None:
     """Join parts."""
     from rattle.merge import merge
 
@@ -312,7 +312,7 @@ def add_merge(commands: argparse._SubParsersAction) -> None:
     parts.add_argument("parts", nargs="+", type=Path, metavar="PART", help="NAME.part-K-of-N.rattle")
     parts.add_argument("--output", required=True, type=Path, metavar="FILE", help="the whole, NAME.rattle")
     parts.add_argument("--overwrite", action="store_true", help="replace a file of that name")
-    parts.set_defaults(act=merge)
+    parts.set_defaults(act=merge_parts)
 
 
 def add_rerun(commands: argparse._SubParsersAction) -> None:

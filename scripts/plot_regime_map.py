@@ -41,7 +41,7 @@ def read_scene(path: Path) -> Any:
             f"{path} does not hold the contact of its scene, and {result_path}, which would, does not exist."
         )
     result = rattle.read(result_path)
-    if str(result.input.get("scene", {}).get("task", "motion")).strip() != "motion":
+    if result.task != "motion":
         raise command.CommandError(f"{result_path} is no motion: its contact has no static load.")
     summary = rattle.read_summary(summary_path) if summary_path.exists() else {}
     return film_regimes.new_scene(result.scene_name, result.input, summary)

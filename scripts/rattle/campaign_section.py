@@ -26,8 +26,7 @@ class Held:
     @property
     def words(self) -> str:
         """As in 'viscosity = 0.3 Pa s'."""
-        unit = "" if self.axis.unit in ("", "-") else f" {self.axis.unit}"
-        return f"{short_name(self.axis.key)} = {self.value:.4g}{unit}"
+        return f"{short_name(self.axis.key)} = {self.value:.4g}{spaced_unit(self.axis.unit)}"
 
 
 @dataclass(frozen=True)
@@ -102,3 +101,8 @@ def new_section(campaign: Campaign, free: Sequence[str], slices: Mapping[str, fl
 def short_name(key: str) -> str:
     """The words of a key or column, as in 'force amplitude'."""
     return key.rpartition(".")[2].replace("_", " ")
+
+
+def spaced_unit(unit: str) -> str:
+    """What follows a number of this unit; nothing behind a pure number."""
+    return "" if unit in ("", "-") else f" {unit}"

@@ -74,6 +74,11 @@ class Result(ResultFile):
         return str(self.value("scene", "name")).strip()
 
     @property
+    def task(self) -> str:
+        """What the program was to do, as in 'motion', 'film' or 'sweep'."""
+        return str(self.value("scene", "task")).strip()
+
+    @property
     def law(self) -> str:
         """The film law, 'iso-viscous' or 'piezo-viscous'."""
         return str(self.value("film", "law")).strip()

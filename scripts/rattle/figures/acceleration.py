@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from rattle.figures import style
 from rattle.figures.history import last_periods, period_rules, time_label
-from rattle.figures.labels import overlay_title, title
+from rattle.figures.labels import name_runs
 from rattle.result import Result
 
 SUBJECT = "Acceleration of the film surface"
@@ -18,17 +18,12 @@ def draw(results: Sequence[Result], labels: Sequence[str], periods: int) -> Figu
     """Acceleration of one run, or of several in one picture."""
     figure = Figure(figsize=(style.WIDTH, 3.0))
     axes = figure.subplots()
-    single = len(results) == 1
     axes.axhline(0.0, color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
-    for position, (result, label) in enumerate(zip(results, labels, strict=True)):
-        line = {"color": style.law_colour(result.law)} if single else style.run_line(position)
+    lines = style.run_lines([result.law for result in results])
+    for result, label, line in zip(results, labels, lines, strict=True):
         axes.plot(*last_periods(result, "acceleration", periods), label=label, **line)
     period_rules(axes, results, periods)
     axes.set_ylabel(style.ACCELERATION_LABEL)
     axes.set_xlabel(time_label(results, periods))
-    if single:
-        axes.set_title(title(SUBJECT, results[0], labels[0]))
-    else:
-        axes.set_title(overlay_title(SUBJECT, results))
-        style.legend_below(figure, axes)
+    name_runs(figure, axes, SUBJECT, results, labels)
     return figure

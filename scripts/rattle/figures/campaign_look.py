@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from rattle.campaign import Axis, Campaign
-from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC
+from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC, SAMPLE, TABLE
 from rattle.campaign_section import short_name
 from rattle.codes import STATUSES, SUCCESSES, words_of
 
@@ -118,9 +118,13 @@ def axis_label(axis: Axis) -> str:
 
 
 def _with_unit(words: str, unit: str) -> str:
-    words = words[:1].upper() + words[1:]
     unit = unit.replace("m/s2", r"m/s$^2$")
-    return words if unit == "" else f"{words} [{unit}]"
+    return capital(words) if unit == "" else f"{capital(words)} [{unit}]"
+
+
+def capital(words: str) -> str:
+    """The words, the first with a capital letter."""
+    return words[:1].upper() + words[1:]
 
 
 def is_logarithmic(axis: Axis) -> bool:
@@ -198,7 +202,7 @@ def headline(campaign: Campaign) -> str:
     done = int(campaign.done.sum())
     count = f"{done:,}" if done == campaign.row_count else f"{done:,} of {campaign.row_count:,}"
     part = f", part {campaign.part} of {campaign.parts}" if campaign.parts > 1 else ""
-    kind = {GRID: "", "sample": ", sampled", "csv": ", from a table"}[campaign.kind]
+    kind = {GRID: "", SAMPLE: ", sampled", TABLE: ", from a table"}[campaign.kind]
     return f"campaign {campaign.name}{part}, {count} scenes{kind}"
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,7 +20,6 @@ from matplotlib.tri import Triangulation
 from rattle.campaign import Campaign
 from rattle.campaign_section import Section
 from rattle.codes import word
-from rattle.command import CommandError
 from rattle.figures import campaign_look as look
 from rattle.figures import style
 
@@ -48,7 +48,7 @@ def draw(section: Section, column: str, options: Options) -> Figure:
     handles += draw_contours(axes, section, options.contours)
     _finish(figure, axes, section.campaign, column, handles, colours)
     held = f"\n{section.words}" if section.held else ""
-    axes.set_title(f"{_subject(column)}, {look.headline(section.campaign)}{held}")
+    axes.set_title(f"{look.capital(look.short_name(column))}, {look.headline(section.campaign)}{held}")
     return figure
 
 
@@ -61,7 +61,7 @@ def draw_points(campaign: Campaign, x: str, y: str, column: str, options: Option
     _finish(figure, axes, campaign, column, handles, colours)
     others = [look.short_name(key) for key in campaign.varied if key not in (x, y)]
     also = f"\nall values of {', '.join(others)}" if others else ""
-    axes.set_title(f"{_subject(column)}, {look.headline(campaign)}{also}")
+    axes.set_title(f"{look.capital(look.short_name(column))}, {look.headline(campaign)}{also}")
     return figure
 
 
@@ -144,12 +144,8 @@ def draw_contours(axes: Axes, section: Section, names: Sequence[str]) -> list[Li
         values = np.ma.masked_invalid(section.cut(grid).T)
         levels = _levels(values.compressed(), name)
         if levels:
-            dashes, words, _, _ = CONTOUR_LOOKS[name]
-            lines = axes.contour(
-                x.values, y.values, values, levels=levels, colors="black", linewidths=0.9, linestyles=dashes
-            )
-            _label(axes, lines, name)
-            handles.append(Line2D([], [], color="black", linewidth=0.9, linestyle=dashes, label=words))
+            draw_lines = partial(axes.contour, x.values, y.values, values)
+            handles.append(_draw_lines(axes, draw_lines, levels, name))
     return handles
 
 
@@ -167,20 +163,19 @@ def _point_contours(axes: Axes, campaign: Campaign, x: str, y: str, names: Seque
         known = campaign.done & np.isfinite(column)
         levels = _levels(column[known], name)
         if levels and known.sum() >= 10:
-            dashes, words, _, _ = CONTOUR_LOOKS[name]
-            triangles = _triangles(campaign, x, y, known)
-            lines = axes.tricontour(
-                triangles,
-                column[known],
-                levels=levels,
-                colors="black",
-                linewidths=0.9,
-                linestyles=dashes,
-                zorder=3,
-            )
-            _label(axes, lines, name)
-            handles.append(Line2D([], [], color="black", linewidth=0.9, linestyle=dashes, label=words))
+            draw_lines = partial(axes.tricontour, _triangles(campaign, x, y, known), column[known], zorder=3)
+            handles.append(_draw_lines(axes, draw_lines, levels, name))
     return handles
+
+
+def _draw_lines(
+    axes: Axes, draw_lines: Callable[..., ContourSet], levels: Sequence[float], name: str
+) -> Line2D:
+    """Contours in the look of their name; returns their legend entry."""
+    dashes, words, _, _ = CONTOUR_LOOKS[name]
+    lines = draw_lines(levels=levels, colors="black", linewidths=0.9, linestyles=dashes)
+    _label(axes, lines, name)
+    return Line2D([], [], color="black", linewidth=0.9, linestyle=dashes, label=words)
 
 
 def _triangles(campaign: Campaign, x: str, y: str, known: np.ndarray) -> Triangulation:
@@ -290,14 +285,7 @@ def _new_figure() -> tuple[Figure, Axes]:
 def _finish(
     figure: Figure, axes: Axes, campaign: Campaign, column: str, handles: list, colours: ScalarMappable | None
 ) -> None:
-    if not campaign.done.any():
-        raise CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
     if colours is not None:
         figure.colorbar(colours, ax=axes, label=look.column_label(campaign, column), pad=0.02, aspect=30)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3)
-
-
-def _subject(column: str) -> str:
-    words = look.short_name(column)
-    return words[:1].upper() + words[1:]

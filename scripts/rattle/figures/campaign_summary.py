@@ -14,7 +14,7 @@ from matplotlib.ticker import PercentFormatter
 from rattle import table
 from rattle.campaign import Campaign
 from rattle.campaign_plan import GRID
-from rattle.campaign_section import new_section
+from rattle.campaign_section import new_section, spaced_unit
 from rattle.codes import CLASSES, SUCCESSES, word
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, style
@@ -54,13 +54,14 @@ def draw(campaign: Campaign, worst: Worst) -> Figure:
 
 def _draw_head(axes: Axes, campaign: Campaign) -> None:
     axes.axis("off")
-    axes.text(0.0, 1.0, _capital(look.headline(campaign)), fontsize=13, va="top", transform=axes.transAxes)
+    axes.text(
+        0.0, 1.0, look.capital(look.headline(campaign)), fontsize=13, va="top", transform=axes.transAxes
+    )
     keys = []
     for axis in campaign.axes:
         if axis.values.size:
-            unit = "" if axis.unit in ("", "-") else f" {axis.unit}"
             count = f", {axis.values.size} values" if campaign.kind == GRID else ""
-            span = f"{axis.values[0]:.4g} to {axis.values[-1]:.4g}{unit}"
+            span = f"{axis.values[0]:.4g} to {axis.values[-1]:.4g}{spaced_unit(axis.unit)}"
             keys.append(f"{look.short_name(axis.key)}: {span} ({axis.scale}{count})")
     film = campaign.input.get("film", {})
     words = " ".join(str(film[key]).strip() for key in ("model", "law") if key in film)
@@ -241,7 +242,3 @@ def _head(words: str, unit: str) -> str:
 def _say(axes: Axes, words: str) -> None:
     axes.axis("off")
     axes.text(0.5, 0.5, words, ha="center", va="center", transform=axes.transAxes, color=style.FORCE_COLOUR)
-
-
-def _capital(words: str) -> str:
-    return words[:1].upper() + words[1:]

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rattle.figures import style
-from rattle.figures.labels import overlay_title, title
+from rattle.figures.labels import name_runs
 from rattle.figures.spectra import column_spectrum
 from rattle.result import Result
 
@@ -23,25 +23,22 @@ def draw(results: Sequence[Result], labels: Sequence[str], window: int | None) -
     axes = figure.subplots()
     single = len(results) == 1
     largest = 0.0
-    for position, (result, label) in enumerate(zip(results, labels, strict=True)):
+    lines = style.run_lines([result.law for result in results])
+    for position, (result, label, line) in enumerate(zip(results, labels, lines, strict=True)):
         ratio, amplitude = column_spectrum(result, "applied_force", window)
         shown = ratio <= LARGEST_RATIO
-        colour = style.law_colour(result.law) if single else style.run_line(position)["color"]
         shift = 0.06 * (position - 0.5 * (len(results) - 1))
-        axes.vlines(ratio[shown] + shift, 0.0, amplitude[shown], label=label, linewidth=2.0, color=colour)
+        axes.vlines(
+            ratio[shown] + shift, 0.0, amplitude[shown], label=label, linewidth=2.0, color=line["color"]
+        )
         largest = max(largest, float(amplitude[shown].max()))
         if single:
             _name_lines(axes, result, ratio[shown], amplitude[shown])
     axes.set_xlim(-0.25, LARGEST_RATIO)
     axes.set_ylim(0.0, 1.12 * largest if largest > 0.0 else 1.0)
     axes.set_ylabel("Amplitude of $F$ [N]")
-    if single:
-        axes.set_xlabel(style.RATIO_LABEL)
-        axes.set_title(title(SUBJECT, results[0], labels[0]))
-    else:
-        axes.set_xlabel(f"{style.RATIO_LABEL}; runs side by side")
-        axes.set_title(overlay_title(SUBJECT, results))
-        style.legend_below(figure, axes)
+    axes.set_xlabel(style.RATIO_LABEL if single else f"{style.RATIO_LABEL}; runs side by side")
+    name_runs(figure, axes, SUBJECT, results, labels)
     return figure
 
 

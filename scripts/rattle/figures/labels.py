@@ -6,6 +6,10 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rattle.figures import style
 from rattle.result import Result
 
 
@@ -42,6 +46,17 @@ def title(subject: str, result: Result, label: str) -> str:
 def overlay_title(subject: str, results: Sequence[Result]) -> str:
     films = sorted({film_words(result) for result in results})
     return f"{subject}\n{len(results)} runs, {' and '.join(films)}"
+
+
+def name_runs(
+    figure: Figure, axes: Axes, subject: str, results: Sequence[Result], labels: Sequence[str]
+) -> None:
+    """Title the axes; several runs are told apart by a legend below."""
+    if len(results) == 1:
+        axes.set_title(title(subject, results[0], labels[0]))
+    else:
+        axes.set_title(overlay_title(subject, results))
+        style.legend_below(figure, axes)
 
 
 def _repeated(labels: Sequence[str]) -> list[bool]:

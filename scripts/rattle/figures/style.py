@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -67,6 +67,13 @@ def run_line(position: int) -> dict[str, object]:
         "color": RUN_COLOURS[position],
         "linestyle": RUN_DASHES[position % len(RUN_DASHES)],
     }
+
+
+def run_lines(laws: Sequence[str]) -> list[dict[str, object]]:
+    """How the runs of a figure look, given their film laws: a single one has the colour of its law."""
+    if len(laws) == 1:
+        return [{"color": law_colour(laws[0])}]
+    return [run_line(position) for position in range(len(laws))]
 
 
 def law_colour(law: str) -> str:

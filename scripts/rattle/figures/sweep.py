@@ -21,7 +21,7 @@ WAYS = (("there", 1.0, style.RUN_COLOURS[0], "-"), ("back", -1.0, style.RUN_COLO
 
 def draw(result: Result) -> Figure:
     """Film range, peak acceleration, period of the motion and Floquet multiplier over the swept key."""
-    if str(result.value("scene", "task")).strip() != "sweep":
+    if result.task != "sweep":
         raise ResultError(
             f"{result.path} is no sweep; plot_motion.py and plot_film.py draw the other results."
         )
@@ -35,19 +35,19 @@ def draw(result: Result) -> Figure:
         if rows.size == 0:
             continue
         value = result["value"][rows]
-        look = {"color": colour, "linestyle": dashes}
-        film.semilogy(value, column(result, "film_maximum", rows, 1e6), label=f"way {name}", **look)
-        film.semilogy(value, column(result, "film_minimum", rows, 1e6), **look)
+        line = {"color": colour, "linestyle": dashes}
+        film.semilogy(value, column(result, "film_maximum", rows, 1e6), label=f"way {name}", **line)
+        film.semilogy(value, column(result, "film_minimum", rows, 1e6), **line)
         peak = np.maximum(
             np.abs(column(result, "acceleration_minimum", rows)), column(result, "acceleration_maximum", rows)
         )
-        acceleration.plot(value, peak, **look)
-        period.plot(value, column(result, "orbit_period", rows), **look)
-        multiplier.plot(value, column(result, "floquet_modulus", rows), **look)
-    labels(film, r"Film, least and" "\n" r"largest [$\mathrm{\mu}$m]")
-    labels(acceleration, r"Largest $|\ddot{z}|$" "\n" r"[m/s$^2$]")
-    labels(period, "Period\n[$1/f_\\mathrm{exc}$]")
-    labels(multiplier, "Largest Floquet\nmultiplier")
+        acceleration.plot(value, peak, **line)
+        period.plot(value, column(result, "orbit_period", rows), **line)
+        multiplier.plot(value, column(result, "floquet_modulus", rows), **line)
+    label_values(film, r"Film, least and" "\n" r"largest [$\mathrm{\mu}$m]")
+    label_values(acceleration, r"Largest $|\ddot{z}|$" "\n" r"[m/s$^2$]")
+    label_values(period, "Period\n[$1/f_\\mathrm{exc}$]")
+    label_values(multiplier, "Largest Floquet\nmultiplier")
     period.set_ylim(0.5, max(2.5, float(np.nanmax(result["orbit_period"])) + 0.5))
     multiplier.axhline(1.0, color=style.FAINT_COLOUR, linewidth=0.8)
     multiplier.set_ylim(0.0, 1.1)
@@ -72,6 +72,6 @@ def column(result: Result, name: str, rows: np.ndarray, scale: float = 1.0) -> n
     return np.where(~np.isin(result["status"][rows], SUCCESSES) | unknown, np.nan, values)
 
 
-def labels(axes: Axes, text: str) -> None:
+def label_values(axes: Axes, text: str) -> None:
     axes.set_ylabel(text)
     axes.margins(x=0.01)
