@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from outcomes import assert_no_crash, contents
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -44,18 +45,27 @@ def rattle() -> Path:
 
 @pytest.fixture(scope="session")
 def run(rattle: Path) -> Run:
-    """``run(*arguments, cwd=..., stdin=...)`` calls the program and waits for its end."""
+    """``run(*arguments, cwd=..., stdin=...)`` calls the program and waits for its end.
+
+    `program` is another path of it, `identity` names the user and groups that it runs as.
+    """
 
     def call(
-        *arguments: object, cwd: Path, stdin: str | bytes = b"", timeout: float = 20.0
+        *arguments: object,
+        cwd: Path,
+        stdin: str | bytes = b"",
+        timeout: float = 20.0,
+        program: Path | str = rattle,
+        **identity: object,
     ) -> subprocess.CompletedProcess[str]:
         ended = subprocess.run(
-            [rattle, *map(str, arguments)],
+            [program, *map(str, arguments)],
             cwd=cwd,
             input=stdin.encode() if isinstance(stdin, str) else stdin,
             capture_output=True,
             timeout=timeout,
             check=False,
+            **identity,
         )
         return subprocess.CompletedProcess(
             ended.args,
@@ -85,3 +95,35 @@ def scene_text() -> SceneText:
         return text
 
     return build
+
+
+@pytest.fixture
+def refused(run: Run, tmp_path: Path) -> Callable[..., list[str]]:
+    """Call the program with bad input; return its faults, one per line, everything else checked."""
+
+    def call(*arguments: object, **options: object) -> list[str]:
+        before = contents(tmp_path)
+        ended = run(*arguments, cwd=tmp_path, **options)
+        assert ended.returncode == 2, ended
+        assert ended.stdout == ""
+        assert_no_crash(ended.stderr)
+        assert contents(tmp_path) == before
+        assert ended.stderr.endswith("\n")
+        return ended.stderr[:-1].split("\n")
+
+    return call
+
+
+@pytest.fixture
+def solved(run: Run, scene_text: SceneText, tmp_path: Path) -> Callable[..., Path]:
+    """Run a scene that must succeed; return the folder of its files."""
+
+    def solve(name: str = "scene", **changes: dict[str, str | None] | None) -> Path:
+        folder = tmp_path / name
+        folder.mkdir()
+        (folder / f"{name}.nml").write_text(scene_text(**changes))
+        ended = run(f"{name}.nml", cwd=folder)
+        assert (ended.returncode, ended.stderr) == (0, ""), ended
+        return folder / "results"
+
+    return solve
