@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 
 BASE = {
@@ -30,10 +29,6 @@ def grid(scene_text, first: int, second: int, **changes: dict) -> str:
     }
     campaign.update(changes.pop("campaign", {}))
     return scene_text(**{**BASE, **changes}, campaign=campaign)
-
-
-def digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def solve(run, folder: Path, *options: object, name: str = "whole", code: int = 0) -> Path:

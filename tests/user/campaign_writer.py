@@ -11,6 +11,7 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
+from result_writer import header_end, header_front
 
 FORCE, SPEED, VISCOSITY = "load.force_amplitude", "kinematics.entrainment_speed", "lubricant.viscosity"
 UNITS = {FORCE: "N", SPEED: "m/s", VISCOSITY: "Pa s"}
@@ -129,14 +130,15 @@ class Made:
             checksums[chunk] = 0
             rows[chunk * size : (chunk + 1) * size] = -7e77
         text = self.input_text(part, parts).encode("ascii")
-        before = 64 + 48 * len(self.columns) + len(text)
-        table_start = -(-before // 64) * 64
+        table_start = -(-header_end(self.columns, text) // 64) * 64
         header_bytes = -(-(table_start + 24 + 8 * len(checksums)) // 64) * 64
-        head = b"RATTLE\r\n" + struct.pack("<iiqq", 1, 0x01020304, header_bytes, len(rows) if closed else -1)
-        head += struct.pack("<ii", len(self.columns), len(text)) + self.version.encode("ascii").ljust(24)
-        for name, unit in self.columns:
-            head += name.encode("ascii").ljust(32) + unit.encode("ascii").ljust(16)
-        head = (head + text).ljust(table_start, b"\0")
+        head = header_front(
+            self.columns,
+            text,
+            header_bytes=header_bytes,
+            row_count=len(rows) if closed else -1,
+            program_version=self.version,
+        ).ljust(table_start, b"\0")
         head += b"CHUNKTAB" + struct.pack(f"<qq{len(checksums)}q", size, len(checksums), *checksums)
         return head.ljust(header_bytes, b"\0") + rows.astype("<f8").tobytes()
 

@@ -21,17 +21,42 @@ def result_bytes(
 ) -> bytes:
     """A whole result file; `columns` holds pairs of name and unit."""
     text = input_text.encode("ascii")
-    used = 64 + 48 * len(columns) + len(text)
-    header_bytes = -(-used // 64) * 64
-    row_count = len(rows) if closed else -1
+    header_bytes = -(-header_end(columns, text) // 64) * 64
+    head = header_front(
+        columns,
+        text,
+        header_bytes=header_bytes,
+        row_count=len(rows) if closed else -1,
+        program_version=program_version,
+        format_version=format_version,
+        byte_order=byte_order,
+    ).ljust(header_bytes, b"\0")
+    return head + np.asarray(rows, dtype=byte_order + "f8").reshape(-1, len(columns)).tobytes()
+
+
+def header_end(columns: Sequence[tuple[str, str]], text: bytes) -> int:
+    """Bytes of a header up to the end of its input text."""
+    return 64 + 48 * len(columns) + len(text)
+
+
+def header_front(
+    columns: Sequence[tuple[str, str]],
+    text: bytes,
+    *,
+    header_bytes: int,
+    row_count: int,
+    program_version: str,
+    format_version: int = 1,
+    byte_order: str = "<",
+) -> bytes:
+    """A header up to the end of its input text; a row count of -1: not closed."""
     head = b"RATTLE\r\n"
     head += struct.pack(byte_order + "iiqq", format_version, 0x01020304, header_bytes, row_count)
     head += struct.pack(byte_order + "ii", len(columns), len(text))
     head += program_version.encode("ascii").ljust(24)
     for name, unit in columns:
         head += name.encode("ascii").ljust(32) + unit.encode("ascii").ljust(16)
-    head = (head + text).ljust(header_bytes, b"\0")
-    return head + np.asarray(rows, dtype=byte_order + "f8").reshape(-1, len(columns)).tobytes()
+    return head + text
 
 
 def write_result(path: Path, columns: Sequence[tuple[str, str]], rows, **options) -> Path:

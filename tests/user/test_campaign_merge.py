@@ -3,25 +3,17 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from campaign_writer import FORCES, SPEEDS, grid, sample
+from script_calls import call_script
 
 import rattle
 
-SCRIPT = Path(__file__).parents[2] / "scripts" / "campaign.py"
-
 
 def merge(directory: Path, *arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, str(SCRIPT), "merge", *map(str, arguments)],
-        cwd=directory,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    return call_script("campaign.py", "merge", *arguments, cwd=directory)
 
 
 @pytest.fixture

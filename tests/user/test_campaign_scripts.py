@@ -6,28 +6,21 @@ import csv
 import os
 import stat
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray
 from campaign_writer import FORCE, FORCES, SPEED, SPEEDS, Key, grid, sample
+from pyarrow import parquet
+from script_calls import call_script
 
 import rattle as package
 from rattle.namelist import parse
 
-SCRIPT = Path(__file__).parents[2] / "scripts" / "campaign.py"
-
 
 def call(directory: Path, *arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, str(SCRIPT), *map(str, arguments)],
-        cwd=directory,
-        capture_output=True,
-        text=True,
-        check=False,
-        env=os.environ | environment,
-    )
+    return call_script("campaign.py", *arguments, cwd=directory, **environment)
 
 
 @pytest.fixture
@@ -219,7 +212,6 @@ def test_csv_reads_back_exactly(made, whole):
 
 
 def test_parquet_holds_columns_units_and_input(made, whole):
-    parquet = pytest.importorskip("pyarrow.parquet")
     done = call(whole.parent, "export", "map.rattle", "--to", "parquet")
     assert done.returncode == 0, done.stderr
     table = parquet.read_table(whole.with_suffix(".parquet"))
@@ -231,8 +223,6 @@ def test_parquet_holds_columns_units_and_input(made, whole):
 
 
 def test_netcdf_holds_the_grid(made, whole):
-    xarray = pytest.importorskip("xarray")
-    pytest.importorskip("netCDF4")
     done = call(whole.parent, "export", "map.rattle", "--to", "netcdf", "--output", "grid.nc")
     assert (done.returncode, done.stdout) == (0, "grid.nc\n"), done.stderr
     with xarray.open_dataset(whole.parent / "grid.nc") as data:

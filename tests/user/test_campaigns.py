@@ -5,17 +5,17 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
-import f90nml
 import numpy as np
 import pytest
-from campaign_runs import BASE, digest, grid, solve
+from campaign_runs import BASE, grid, solve
+from outcomes import digest, summary_of
+from script_calls import call_script
 
 import rattle as package
-from rattle.campaign_codes import CLASSES
+from rattle.codes import CLASSES
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def test_grid_is_in_the_order_of_its_axes(run, folder: Path) -> None:
     assert np.isin(result["status"], [0.0, 1.0]).all()
 
 
-def test_threads_and_parts_give_the_same_bytes(run, folder: Path, repository: Path) -> None:
+def test_threads_and_parts_give_the_same_bytes(run, folder: Path) -> None:
     """One thread, two threads, and three parts merged."""
     whole = solve(run, folder, "--threads", 2)
     assert digest(solve(run, folder, "--threads", 1, name="one")) == digest(whole)
@@ -45,15 +45,8 @@ def test_threads_and_parts_give_the_same_bytes(run, folder: Path, repository: Pa
         ended = run("--output", "parts", *options, "scene.nml", cwd=folder, timeout=120.0)
         assert ended.returncode == 0, ended.stderr
     parts = [folder / "parts" / f"scene.part-{part}-of-3.rattle" for part in (1, 2, 3)]
-    merge = [
-        sys.executable,
-        repository / "scripts" / "campaign.py",
-        "merge",
-        *parts,
-        "--output",
-        "joined.rattle",
-    ]
-    subprocess.run(merge, cwd=folder, check=True, capture_output=True)
+    merged = call_script("campaign.py", "merge", *parts, "--output", "joined.rattle", cwd=folder)
+    assert merged.returncode == 0, merged.stderr
     assert digest(folder / "joined.rattle") == digest(whole)
 
 
@@ -69,7 +62,7 @@ def test_a_scene_of_a_campaign_is_the_single_scene(run, folder: Path, scene_text
     }
     (folder / "single.nml").write_text(scene_text(**changes))
     assert run("--set", "output.series=.false.", "single.nml", cwd=folder).returncode == 0
-    single = f90nml.read(folder / "results" / "single.summary.nml")["summary"]
+    single = summary_of(folder / "results" / "single.summary.nml")
     if single["samples_per_period"] == 64:
         assert single["film_minimum"] == result["film_minimum"][row]
         assert single["harmonics"][:8] == [result[f"harmonic_{n}"][row] for n in range(1, 9)]
@@ -99,7 +92,7 @@ def test_certified_scene_is_the_certified_single_scene(run, scene_text, tmp_path
         assert (
             run("--overwrite", "--set", "output.series=.false.", "single.nml", cwd=tmp_path).returncode == 0
         )
-        single = f90nml.read(tmp_path / "results" / "single.summary.nml")["summary"]
+        single = summary_of(tmp_path / "results" / "single.summary.nml")
         assert single["certificate"] == ("certified" if certified[row] else "uncertain"), single
         assert single["rattle_class"] == CLASSES[int(result["rattle_class"][row])]
     assert min(compared.values()) > 0, compared

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 import signal
 import subprocess
 import time
 from pathlib import Path
 
-import f90nml
 import numpy as np
 import pytest
+from outcomes import digest, summary_of
 from result_writer import write_result
 
 import rattle as package
@@ -28,17 +27,13 @@ FILMS = {
 
 def summary(results: Path) -> dict:
     """The summary without the time it took."""
-    read = f90nml.read(results / "scene.summary.nml")["summary"].todict()
+    read = summary_of(results / "scene.summary.nml").todict()
     del read["wall_seconds"]
     return read
 
 
 def films(results: Path) -> np.ndarray:
     return np.array(package.read(results / "scene.rattle")["film_thickness"])
-
-
-def digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def same(folder: Path, *names: str, one: str = "chained", other: str = "long") -> None:

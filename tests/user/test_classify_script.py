@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import csv
-import os
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from result_writer import write_motion
+from script_calls import call_script
 
-pytest.importorskip("rattle.kernels", reason="'make python' builds the kernels", exc_type=ImportError)
-
-SCRIPT = Path(__file__).parents[2] / "scripts" / "classify.py"
 IDLE = {float(order): 10.0 * 0.9**order for order in range(1, 31)}
 MOTIONS = {
     "idle": IDLE,
@@ -24,14 +20,7 @@ MOTIONS = {
 
 
 def classify(directory: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, str(SCRIPT), *arguments],
-        cwd=directory,
-        capture_output=True,
-        text=True,
-        check=False,
-        env=dict(os.environ),
-    )
+    return call_script("classify.py", *arguments, cwd=directory)
 
 
 @pytest.fixture

@@ -10,17 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from result_writer import write_result
+from script_calls import SCRIPTS, call_script
 
-SCRIPT = Path(__file__).parents[2] / "scripts" / "export.py"
 COLUMNS = [("time", "s"), ("film_thickness", "m"), ("acceleration", "m/s2")]
 ROWS = np.random.default_rng(1).normal(size=(25000, 3)) * [1.0, 1e-7, 1e200]
 ROWS[3] = [np.nan, np.inf, -0.0]
 
 
 def export(directory: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, str(SCRIPT), *arguments], cwd=directory, capture_output=True, text=True, check=False
-    )
+    return call_script("export.py", *arguments, cwd=directory)
 
 
 @pytest.fixture
@@ -62,7 +60,8 @@ def test_columns_in_the_order_asked_for_and_every_nth_row(result, tmp_path):
 
 
 def test_standard_output_may_be_cut_by_its_reader(result):
-    command = f"'{sys.executable}' '{SCRIPT}' '{result}' --output - | head -n 1"
+    script = SCRIPTS / "export.py"
+    command = f"'{sys.executable}' '{script}' '{result}' --output - | head -n 1"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
     assert done.stdout == "time[s],film_thickness[m],acceleration[m/s2]\n"
     assert done.stderr == ""

@@ -2,30 +2,15 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from matplotlib.image import imread
 from result_writer import write_motion
+from script_calls import call_script, figure_stems
 
-pytest.importorskip("rattle.kernels", reason="'make python' builds the kernels", exc_type=ImportError)
-
-SCRIPTS = Path(__file__).parents[2] / "scripts"
 LINES = {1.0: 10.0, 2.0: 8.0, 3.0: 3.0}
 PAPER = ["figure_06", "figure_07", "figure_08", "figure_09", "figure_10a", "figure_10b"]
-
-
-def draw(script: str, *arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, str(SCRIPTS / script), *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-        env=os.environ | environment,
-    )
 
 
 @pytest.fixture
@@ -38,18 +23,11 @@ def piezo(tmp_path) -> Path:
     return write_motion(tmp_path / "creep.rattle", lines=LINES, law="piezo-viscous")
 
 
-def stems(directory: Path) -> list[str]:
-    """Names of the figures; each must be there in both forms."""
-    found = sorted(path.stem for path in directory.glob("*.png"))
-    assert found == sorted(path.stem for path in directory.glob("*.pdf"))
-    return found
-
-
 def test_one_run_of_each_law_gives_the_set_of_the_paper(iso, piezo, tmp_path):
     output = tmp_path / "figures"
-    done = draw("plot_motion.py", iso, piezo, "--output", output)
+    done = call_script("plot_motion.py", iso, piezo, "--output", output)
     assert done.returncode == 0, done.stderr
-    assert stems(output) == PAPER
+    assert figure_stems(output) == PAPER
     assert len(done.stdout.splitlines()) == 2 * len(PAPER)
     for path in output.glob("*.png"):
         picture = imread(path)
@@ -62,7 +40,7 @@ def test_one_run_of_each_law_gives_the_set_of_the_paper(iso, piezo, tmp_path):
 def test_same_results_give_the_same_bytes(iso, piezo, tmp_path):
     outputs = [tmp_path / "first", tmp_path / "second"]
     for output, zone in zip(outputs, ("UTC", "Asia/Tokyo"), strict=True):
-        assert draw("plot_motion.py", iso, piezo, "--output", output, TZ=zone).returncode == 0
+        assert call_script("plot_motion.py", iso, piezo, "--output", output, TZ=zone).returncode == 0
     for first in outputs[0].iterdir():
         assert first.read_bytes() == (outputs[1] / first.name).read_bytes(), first.name
 
@@ -70,39 +48,39 @@ def test_same_results_give_the_same_bytes(iso, piezo, tmp_path):
 def test_settings_of_the_user_do_not_matter(iso, tmp_path):
     (tmp_path / "matplotlibrc").write_text("axes.edgecolor: red\nxtick.major.size: 12\n")
     first, second = tmp_path / "first", tmp_path / "second"
-    assert draw("plot_motion.py", iso, "--figures", 6, "--output", first).returncode == 0
+    assert call_script("plot_motion.py", iso, "--figures", 6, "--output", first).returncode == 0
     settings = {"MATPLOTLIBRC": str(tmp_path / "matplotlibrc")}
-    assert draw("plot_motion.py", iso, "--figures", 6, "--output", second, **settings).returncode == 0
+    assert call_script("plot_motion.py", iso, "--figures", 6, "--output", second, **settings).returncode == 0
     assert (first / "figure_06.png").read_bytes() == (second / "figure_06.png").read_bytes()
 
 
 def test_only_the_figures_asked_for_are_drawn(iso, piezo, tmp_path):
     output = tmp_path / "figures"
-    done = draw("plot_motion.py", iso, piezo, "--figures", "9,10", "--periods", 2, "--output", output)
+    done = call_script("plot_motion.py", iso, piezo, "--figures", "9,10", "--periods", 2, "--output", output)
     assert done.returncode == 0, done.stderr
-    assert stems(output) == ["figure_09", "figure_10a", "figure_10b"]
+    assert figure_stems(output) == ["figure_09", "figure_10a", "figure_10b"]
 
 
 def test_runs_of_one_law_are_told_apart_by_scene_name(iso, tmp_path):
     other = write_motion(tmp_path / "light.rattle", lines={1.0: 1.0})
     output = tmp_path / "figures"
-    assert draw("plot_motion.py", iso, other, "--figures", "8", "--output", output).returncode == 0
-    assert stems(output) == ["figure_08_idle", "figure_08_light"]
+    assert call_script("plot_motion.py", iso, other, "--figures", "8", "--output", output).returncode == 0
+    assert figure_stems(output) == ["figure_08_idle", "figure_08_light"]
 
 
 def test_runs_of_one_name_are_told_apart_by_directory(iso, tmp_path):
     (tmp_path / "loose").mkdir()
     other = write_motion(tmp_path / "loose" / "idle.rattle", lines=LINES)
     output = tmp_path / "figures"
-    assert draw("plot_motion.py", iso, other, "--figures", "8", "--output", output).returncode == 0
-    assert stems(output) == sorted([f"figure_08_{tmp_path.name}_idle", "figure_08_loose_idle"])
+    assert call_script("plot_motion.py", iso, other, "--figures", "8", "--output", output).returncode == 0
+    assert figure_stems(output) == sorted([f"figure_08_{tmp_path.name}_idle", "figure_08_loose_idle"])
 
 
 def test_overlay_draws_all_runs_in_one_figure(iso, piezo, tmp_path):
     output = tmp_path / "figures"
-    done = draw("plot_motion.py", iso, piezo, "--overlay", "--output", output)
+    done = call_script("plot_motion.py", iso, piezo, "--overlay", "--output", output)
     assert done.returncode == 0, done.stderr
-    assert stems(output) == [
+    assert figure_stems(output) == [
         "figure_06_overlay",
         "figure_07_overlay",
         "figure_08_09_overlay",
@@ -111,14 +89,14 @@ def test_overlay_draws_all_runs_in_one_figure(iso, piezo, tmp_path):
 
 
 def test_overlay_of_more_runs_than_colours_is_refused(iso, tmp_path):
-    done = draw("plot_motion.py", *[iso] * 8, "--overlay", "--output", tmp_path)
+    done = call_script("plot_motion.py", *[iso] * 8, "--overlay", "--output", tmp_path)
     assert done.returncode == 2
     assert "An overlay shows 7 runs at most; 8 were given." in done.stderr
 
 
 def test_unclosed_run_is_drawn_with_a_word(tmp_path):
     path = write_motion(tmp_path / "killed.rattle", lines=LINES, closed=False)
-    done = draw("plot_motion.py", path, "--figures", "8", "--output", tmp_path)
+    done = call_script("plot_motion.py", path, "--figures", "8", "--output", tmp_path)
     assert done.returncode == 0
     assert "is not closed; its 2561 complete rows are used." in done.stderr
 
@@ -126,17 +104,17 @@ def test_unclosed_run_is_drawn_with_a_word(tmp_path):
 def test_tolerance_figure_is_drawn(iso, tmp_path):
     loose = write_motion(tmp_path / "loose.rattle", lines={1.0: 4.0, 2.5: 9.0}, tolerance=1e-7)
     pair = ("--forged-line", loose, iso, "--false-reversals", loose, iso)
-    done = draw("plot_tolerance.py", *pair, "--output", tmp_path / "figures")
+    done = call_script("plot_tolerance.py", *pair, "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
-    assert stems(tmp_path / "figures") == ["tolerance"]
+    assert figure_stems(tmp_path / "figures") == ["tolerance"]
 
 
 def test_tolerance_figure_refuses_two_motions_and_a_wrong_order(iso, piezo, tmp_path):
     loose = write_motion(tmp_path / "loose.rattle", lines=LINES, tolerance=1e-7)
-    other = draw("plot_tolerance.py", "--forged-line", loose, piezo, "--output", tmp_path)
+    other = call_script("plot_tolerance.py", "--forged-line", loose, piezo, "--output", tmp_path)
     assert other.returncode == 2
     assert "are not the same motion: their groups &film differ." in other.stderr
-    swapped = draw("plot_tolerance.py", "--forged-line", iso, loose, "--output", tmp_path)
+    swapped = call_script("plot_tolerance.py", "--forged-line", iso, loose, "--output", tmp_path)
     assert swapped.returncode == 2
     assert "is not looser than" in swapped.stderr
 
@@ -145,26 +123,26 @@ def test_tolerance_figure_refuses_two_motions_and_a_wrong_order(iso, piezo, tmp_
 def test_a_needed_column_that_is_absent_is_named(tmp_path, number):
     column = {"6": "film_thickness", "8": "acceleration"}[number]
     path = write_motion(tmp_path / "a.rattle", lines=LINES, without=column)
-    done = draw("plot_motion.py", path, "--figures", number, "--output", tmp_path)
+    done = call_script("plot_motion.py", path, "--figures", number, "--output", tmp_path)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert f"has no column '{column}'" in done.stderr
 
 
 def test_figures_that_no_result_gives_are_refused(iso, tmp_path):
-    done = draw("plot_motion.py", iso, "--figures", "9", "--output", tmp_path)
+    done = call_script("plot_motion.py", iso, "--figures", "9", "--output", tmp_path)
     assert done.returncode == 2
     assert "Nothing to draw: iso-viscous results give no figure 9." in done.stderr
 
 
 def test_an_output_place_that_cannot_be_written_is_named(iso, tmp_path):
     (tmp_path / "taken").write_text("a file, not a directory")
-    done = draw("plot_motion.py", iso, "--figures", "8", "--output", tmp_path / "taken")
+    done = call_script("plot_motion.py", iso, "--figures", "8", "--output", tmp_path / "taken")
     assert done.returncode == 2
     assert "taken cannot take the figures" in done.stderr
 
 
 def test_a_motion_at_rest_is_drawn(tmp_path):
     path = write_motion(tmp_path / "rest.rattle", lines={1.0: 0.0})
-    done = draw("plot_motion.py", path, "--figures", "8", "--output", tmp_path)
+    done = call_script("plot_motion.py", path, "--figures", "8", "--output", tmp_path)
     assert done.returncode == 0, done.stderr

@@ -7,7 +7,8 @@ import subprocess
 import warnings
 from pathlib import Path
 
-from campaign_runs import digest, grid, solve
+from campaign_runs import grid, solve
+from outcomes import digest
 
 # Some hundred kilobytes stay beside the ballast. The finished file is copied out of the file system.
 SMALL_FILE_SYSTEM = """

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import f90nml
 import numpy as np
 import pytest
+from outcomes import digest, summary_of
 
 import rattle as package
 
@@ -28,7 +28,7 @@ def solve(run, folder: Path, text: str, *options: str, name: str = "scene") -> P
 
 
 def summary(results: Path, name: str = "scene") -> dict:
-    return f90nml.read(results / f"{name}.summary.nml")["summary"]
+    return summary_of(results / f"{name}.summary.nml")
 
 
 # --- film ---------------------------------------------------------------------------------------------
