@@ -1,6 +1,7 @@
 !> A tiny test driver: checks are counted, failures are told with their numbers, nothing stops.
 module checks
-   use kinds, only: dp
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: dp, int64
    implicit none(type, external)
    private
 
@@ -15,6 +16,8 @@ module checks
       procedure :: check => check_condition
       procedure :: check_close
    end type check_list_t
+
+   public :: same_bits
 
 contains
 
@@ -63,5 +66,15 @@ contains
             ', tolerance', tolerance
       end if
    end subroutine check_close
+
+   !> Whether two numbers are finite and the same to the last bit.
+   elemental logical function same_bits(x, y)
+      !> A number
+      real(dp), intent(in) :: x
+      !> Another one
+      real(dp), intent(in) :: y
+
+      same_bits = ieee_is_finite(x) .and. transfer(x, 1_int64) == transfer(y, 1_int64)
+   end function same_bits
 
 end module checks

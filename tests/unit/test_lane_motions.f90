@@ -2,7 +2,7 @@
 !> converged values of other integrators; runs carried on; steady motions; scenes in company.
 module test_lane_motions
    use canonical_scenes, only: canonical_scene
-   use checks, only: check_list_t
+   use checks, only: check_list_t, same_bits
    use constants, only: standard_gravity
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
                        kernel_solved_fast, kernel_solved_successive, new_film, steady_film
@@ -294,10 +294,10 @@ contains
       type(motions_t), intent(in) :: others  !> Other motions
       integer, intent(in) :: j               !> The one of them
 
-      same = all(abs(some%films(:, i) - others%films(:, j)) <= 0.0_dp) .and. &
-             all(abs(some%velocities(:, i) - others%velocities(:, j)) <= 0.0_dp) .and. &
-             abs(some%endings(i)%film - others%endings(j)%film) <= 0.0_dp .and. &
-             abs(some%endings(i)%momentum - others%endings(j)%momentum) <= 0.0_dp .and. &
+      same = all(same_bits(some%films(:, i), others%films(:, j))) .and. &
+             all(same_bits(some%velocities(:, i), others%velocities(:, j))) .and. &
+             same_bits(some%endings(i)%film, others%endings(j)%film) .and. &
+             same_bits(some%endings(i)%momentum, others%endings(j)%momentum) .and. &
              some%endings(i)%status == others%endings(j)%status .and. &
              some%endings(i)%periods == others%endings(j)%periods
    end function same

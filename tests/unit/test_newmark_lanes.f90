@@ -2,7 +2,7 @@
 !> step fails.
 module test_newmark_lanes
    use canonical_scenes, only: canonical_scene
-   use checks, only: check_list_t
+   use checks, only: check_list_t, same_bits
    use film_law, only: film_t, kernel_half_pi, load_half_pi, load_piezo, new_film
    use forcing, only: force_of_period
    use kinds, only: dp
@@ -193,9 +193,9 @@ contains
       type(motions_t), intent(in) :: others  !> Other motions
       integer, intent(in) :: j               !> The one of them
 
-      same = all(abs(some%films(:, i) - others%films(:, j)) <= 0.0_dp) .and. &
-         all(abs(some%velocities(:, i) - others%velocities(:, j)) <= 0.0_dp) .and. &
-         all(abs(some%accelerations(:, i) - others%accelerations(:, j)) <= 0.0_dp) .and. &
+      same = all(same_bits(some%films(:, i), others%films(:, j))) .and. &
+         all(same_bits(some%velocities(:, i), others%velocities(:, j))) .and. &
+         all(same_bits(some%accelerations(:, i), others%accelerations(:, j))) .and. &
          some%endings(i)%status == others%endings(j)%status .and. &
          some%endings(i)%periods_alone == others%endings(j)%periods_alone .and. &
          some%endings(i)%count%evaluations == others%endings(j)%count%evaluations

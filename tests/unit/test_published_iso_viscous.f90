@@ -83,15 +83,15 @@ contains
             error = 5.0e-11_dp
             call half_pi_load(h, w, load, slope_h, slope_w)
             stiffness = (abs(load) + abs(slope_w*w))/h
-            call checks%check_close(by_film(.false., h, w, step_h), slope_h, error*stiffness, '(35): dW/dh')
-            call checks%check_close(by_velocity(.false., h, w, step_w), slope_w, error*stiffness*h/step_w, &
+            call checks%check_close(difference(.false., h, w, step_h, 0.0_dp), slope_h, error*stiffness, '(35): dW/dh')
+            call checks%check_close(difference(.false., h, w, 0.0_dp, step_w), slope_w, error*stiffness*h/step_w, &
                '(35): dW/dw')
             call solved_load(h, w, load, slope_h, slope_w)
             damping = 3.0_dp*pi/sqrt(2.0_dp)*length*viscosity*(radius/h)**1.5_dp
             stiffness = (abs(load) + damping*abs(w))/h
-            call checks%check_close(by_film(.true., h, w, step_h), slope_h, error*stiffness, &
+            call checks%check_close(difference(.true., h, w, step_h, 0.0_dp), slope_h, error*stiffness, &
                '(24): dW/dh, x_e moving')
-            call checks%check_close(by_velocity(.true., h, w, step_w), slope_w, &
+            call checks%check_close(difference(.true., h, w, 0.0_dp, step_w), slope_w, &
                error*(damping + stiffness*h/step_w), &
                '(24): dW/dw, x_e moving')
          end do
@@ -153,29 +153,21 @@ contains
       end if
    end function load_of
 
-   !> Fourth-order difference in h.
-   real(dp) function by_film(solved, film, velocity, step)
-      logical, intent(in) :: solved     !> (24) with x_e, else (35)
-      real(dp), intent(in) :: film      !> h [m]
-      real(dp), intent(in) :: velocity  !> w [m/s]
-      real(dp), intent(in) :: step      !> Step in h [m]
+   !> Slope of the load in one direction by fourth-order central differences.
+   real(dp) function difference(solved, film, velocity, film_step, velocity_step)
+      logical, intent(in) :: solved          !> (24) with x_e, else (35)
+      real(dp), intent(in) :: film           !> h [m]
+      real(dp), intent(in) :: velocity       !> w [m/s]
+      real(dp), intent(in) :: film_step      !> Step in h [m], or zero
+      real(dp), intent(in) :: velocity_step  !> Step in w [m/s], or zero
 
-      by_film = (8.0_dp*(load_of(solved, film + step, velocity) - load_of(solved, film - step, velocity)) - &
-         (load_of(solved, film + 2.0_dp*step, velocity) - load_of(solved, film - 2.0_dp*step, &
-         velocity)))/(12.0_dp*step)
-   end function by_film
+      real(dp) :: loads(-2:2)
+      integer :: i
 
-   !> Fourth-order difference in w.
-   real(dp) function by_velocity(solved, film, velocity, step)
-      logical, intent(in) :: solved     !> (24) with x_e, else (35)
-      real(dp), intent(in) :: film      !> h [m]
-      real(dp), intent(in) :: velocity  !> w [m/s]
-      real(dp), intent(in) :: step      !> Step in w [m/s]
-
-      by_velocity = (8.0_dp*(load_of(solved, film, velocity + step) &
-         - load_of(solved, film, velocity - step)) - &
-         (load_of(solved, film, velocity + 2.0_dp*step) - load_of(solved, film, &
-         velocity - 2.0_dp*step)))/(12.0_dp*step)
-   end function by_velocity
+      do i = -2, 2
+         loads(i) = load_of(solved, film + real(i, dp)*film_step, velocity + real(i, dp)*velocity_step)
+      end do
+      difference = (8.0_dp*(loads(1) - loads(-1)) - (loads(2) - loads(-2)))/(12.0_dp*(film_step + velocity_step))
+   end function difference
 
 end module test_published_iso_viscous

@@ -2,7 +2,7 @@
 module test_reynolds_film
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_is_nan, &
       ieee_quiet_nan, ieee_set_halting_mode, ieee_support_halting, ieee_value
-   use checks, only: check_list_t
+   use checks, only: check_list_t, same_bits
    use constants, only: half_pi, pi
    use iso_viscous_sums, only: film_block
    use kinds, only: dp
@@ -281,14 +281,14 @@ contains
       call piezo_viscous_load_array(n, a, b, psi, dpsi_da, dpsi_db)
       do i = 1, n
          call iso_viscous_load(a(i), one(1), one(2))
-         alone = alone .and. same(one(1), phi(i)) .and. same(one(2), slope(i))
+         alone = alone .and. same_bits(one(1), phi(i)) .and. same_bits(one(2), slope(i))
          call piezo_viscous_load(a(i), b(i), one(1), one(2), one(3))
-         alone = alone .and. all(same(one, [psi(i), dpsi_da(i), dpsi_db(i)]))
+         alone = alone .and. all(same_bits(one, [psi(i), dpsi_da(i), dpsi_db(i)]))
       end do
       call checks%check(alone, 'a film alone and in an array')
       do i = 2, n
          call piezo_viscous_load_array(1, a(i), b(i), one(1), one(2), one(3))
-         moved = moved .and. all(same(one, [psi(i), dpsi_da(i), dpsi_db(i)]))
+         moved = moved .and. all(same_bits(one, [psi(i), dpsi_da(i), dpsi_db(i)]))
       end do
       call checks%check(moved, 'a film elsewhere in an array')
    end subroutine test_arrays
@@ -335,14 +335,5 @@ contains
       call checks%check(ieee_is_nan(critical_pressure_group(nan)), 'B_crit of NaN')
       if (ieee_support_halting(ieee_invalid)) call ieee_set_halting_mode(ieee_invalid, halting)
    end subroutine test_no_answer
-
-   !> Whether two numbers are the same, without an equality of reals.
-   elemental function same(first, second)
-      real(dp), intent(in) :: first   !> A number
-      real(dp), intent(in) :: second  !> Another one
-      logical :: same
-
-      same = .not. (first < second .or. first > second)
-   end function same
 
 end module test_reynolds_film

@@ -1,12 +1,10 @@
-!> Tests of grids, Sobol points and Latin hypercubes, and of the checks of what they are made from.
+!> Tests of the values that grids, Sobol points and Latin hypercubes give to scenes, and of what they refuse.
 module test_sampling
    use campaign_axis, only: campaign_axis_t, scale_linear, scale_logarithmic
-   use checks, only: check_list_t
+   use checks, only: check_list_t, same_bits
    use kinds, only: dp, int64
-   use latin_hypercube, only: hypercube_point, latin_hypercube_t, new_latin_hypercube
    use sampling, only: chunk_values, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, sample_plan_t, &
       scene_values
-   use sobol_sequence, only: largest_sobol_size, new_sobol_sequence, sobol_point, sobol_sequence_t
    use text, only: integer_text
    implicit none(type, external)
    private
@@ -20,11 +18,6 @@ contains
       !> Collects the results
       type(check_list_t), intent(inout) :: checks
 
-      call checks%start('sobol_sequence')
-      call test_sobol_points(checks)
-      call test_sobol_evenness(checks)
-      call checks%start('latin_hypercube')
-      call test_strata(checks)
       call checks%start('sampling')
       call test_grid(checks)
       call test_grid_values(checks)
@@ -33,103 +26,6 @@ contains
       call test_table(checks)
       call test_faults(checks)
    end subroutine run_sampling_tests
-
-   !> The first points of eight dimensions and point 1000 of 32, from an independent program.
-   subroutine test_sobol_points(checks)
-      type(check_list_t), intent(inout) :: checks
-      integer, parameter :: sixteenths(8, 9) = reshape([ &
-                                                       0, 0, 0, 0, 0, 0, 0, 0, &
-                                                       8, 8, 8, 8, 8, 8, 8, 8, &
-                                                       12, 4, 4, 4, 12, 12, 4, 12, &
-                                                       4, 12, 12, 12, 4, 4, 12, 4, &
-                                                       6, 6, 10, 14, 6, 2, 6, 14, &
-                                                       14, 14, 2, 6, 14, 10, 14, 6, &
-                                                       10, 2, 14, 10, 10, 14, 2, 2, &
-                                                       2, 10, 6, 2, 2, 6, 10, 10, &
-                                                       3, 5, 15, 7, 9, 5, 7, 15], [8, 9])
-      integer, parameter :: point_1000(32) = [225, 99, 531, 693, 287, 929, 47, 921, 513, 71, 87, 261, 165, &
-                                              393, 147, 379, &
-                                              737, 353, 1015, 743, 535, 563, 973, 553, 597, 929, 41, 1003, &
-                                                 61, 349, 151, 149]
-      type(sobol_sequence_t) :: sequence
-      real(dp) :: point(32)
-      integer :: i
-
-      sequence = new_sobol_sequence(8, 0_int64)
-      do i = 1, 9
-         call sobol_point(sequence, int(i - 1, int64), point(:8))
-         call checks%check(all(abs(16.0_dp*point(:8) - real(sixteenths(:, i), dp)) <= 0.0_dp), 'point '// &
-                           integer_text(i - 1))
-      end do
-      sequence = new_sobol_sequence(32, 0_int64)
-      call sobol_point(sequence, 1000_int64, point)
-      call checks%check(all(abs(1024.0_dp*point - real(point_1000, dp)) <= 0.0_dp), 'point 1000')
-      call sobol_point(sequence, largest_sobol_size - 1_int64, point)
-      call checks%check(all(point >= 0.0_dp .and. point < 1.0_dp), 'the last point')
-   end subroutine test_sobol_points
-
-   !> The first 1024 points have one in each of 1024 strata of every dimension, and the first two dimensions
-   !> one in each of 32 x 32 squares; a shift by a seed keeps both.
-   subroutine test_sobol_evenness(checks)
-      type(check_list_t), intent(inout) :: checks
-      type(sobol_sequence_t) :: sequence
-      real(dp) :: point(32), other(32)
-      logical :: strata(0:1023, 32), squares(0:31, 0:31)
-      integer(int64) :: index
-      integer :: seed, i
-
-      do seed = 0, 2
-         sequence = new_sobol_sequence(32, int(seed, int64))
-         strata = .false.
-         squares = .false.
-         do index = 0_int64, 1023_int64
-            call sobol_point(sequence, index, point)
-            do i = 1, 32
-               strata(int(1024.0_dp*point(i)), i) = .true.
-            end do
-            squares(int(32.0_dp*point(1)), int(32.0_dp*point(2))) = .true.
-         end do
-         call checks%check(all(strata), 'one point in each stratum, seed '//integer_text(seed))
-         call checks%check(all(squares), 'one point in each square, seed '//integer_text(seed))
-      end do
-      call sobol_point(new_sobol_sequence(32, 1_int64), 0_int64, other)
-      call checks%check(all(abs(other) > 0.0_dp), 'shifted away from the origin')
-   end subroutine test_sobol_evenness
-
-   subroutine test_strata(checks)
-      type(check_list_t), intent(inout) :: checks
-      integer, parameter :: sizes(6) = [1, 2, 3, 10, 97, 1000]
-      type(latin_hypercube_t) :: hypercube
-      real(dp) :: point(6)
-      integer :: hits(0:999, 6), i, k, stratum
-      integer(int64) :: index
-      logical :: inside
-
-      do k = 1, size(sizes)
-         hypercube = new_latin_hypercube(6, int(sizes(k), int64), 3_int64)
-         hits = 0
-         inside = .true.
-         do index = 0_int64, sizes(k) - 1_int64
-            call hypercube_point(hypercube, index, point)
-            inside = inside .and. all(point > 0.0_dp .and. point < 1.0_dp)
-            do i = 1, 6
-               stratum = int(sizes(k)*point(i))
-               hits(stratum, i) = hits(stratum, i) + 1
-            end do
-         end do
-         call checks%check(inside, 'between 0 and 1, size '//integer_text(sizes(k)))
-         call checks%check(all(hits(:sizes(k) - 1, :) == 1), 'one in each stratum, size '// &
-                           integer_text(sizes(k)))
-      end do
-      ! The upper end of the largest size, where rounding is worst.
-      hypercube = new_latin_hypercube(1, 2_int64**30, 3_int64)
-      inside = .true.
-      do index = 0_int64, 2000_int64
-         call hypercube_point(hypercube, index, point(:1))
-         inside = inside .and. abs(2.0_dp**30*point(1) - anint(2.0_dp**30*point(1))) > 0.0_dp
-      end do
-      call checks%check(inside, 'never on the edge of a stratum')
-   end subroutine test_strata
 
    !> Order and corners of a grid of three axes.
    subroutine test_grid(checks)
@@ -150,11 +46,11 @@ contains
       call checks%check(plan%size == 66_int64, 'count of scenes')
       call checks%check(all(plan%positions == [11, 12, 13]), 'keys')
       call scene_values(plan, 1_int64, values)
-      call checks%check(all(same(values, [0.1_dp, 3.0e-7_dp, 5.0_dp])), 'first corner')
+      call checks%check(all(same_bits(values, [0.1_dp, 3.0e-7_dp, 5.0_dp])), 'first corner')
       call scene_values(plan, 66_int64, values)
-      call checks%check(all(same(values, [0.7_dp, 7.0e3_dp, -1.0_dp])), 'last corner')
+      call checks%check(all(same_bits(values, [0.7_dp, 7.0e3_dp, -1.0_dp])), 'last corner')
       call scene_values(plan, 2_int64, values)
-      call checks%check(all(same(values, [0.1_dp, 3.0e-7_dp, -1.0_dp])), 'the last axis moves fastest')
+      call checks%check(all(same_bits(values, [0.1_dp, 3.0e-7_dp, -1.0_dp])), 'the last axis moves fastest')
       scene = 0_int64
       ordered = .true.
       do i = 0, 2
@@ -165,7 +61,7 @@ contains
                ordered = ordered .and. abs(values(1) - (0.1_dp + 0.3_dp*i)) < 1.0e-15_dp
                ordered = ordered .and. &
                          abs(log(values(2)/3.0e-7_dp) - j*log(7.0e3_dp/3.0e-7_dp)/10.0_dp) < 1.0e-13_dp
-               ordered = ordered .and. same(values(3), 5.0_dp - 6.0_dp*k)
+               ordered = ordered .and. same_bits(values(3), 5.0_dp - 6.0_dp*k)
             end do
          end do
       end do
@@ -188,9 +84,9 @@ contains
          do count = 2, 300
             call plan_grid([range_axis(1, scale, 0.1_dp, 0.3_dp, count)], plan, bad_axis, message)
             call scene_values(plan, 1_int64, value)
-            exact = exact .and. same(value(1), 0.1_dp)
+            exact = exact .and. same_bits(value(1), 0.1_dp)
             call scene_values(plan, int(count, int64), value)
-            exact = exact .and. same(value(1), 0.3_dp)
+            exact = exact .and. same_bits(value(1), 0.3_dp)
          end do
       end do
       call checks%check(exact, 'both ends exactly')
@@ -198,7 +94,7 @@ contains
       exact = .true.
       do scene = 1_int64, 101_int64
          call scene_values(plan, scene, value)
-         exact = exact .and. same(value(1), real(scene - 1_int64, dp))
+         exact = exact .and. same_bits(value(1), real(scene - 1_int64, dp))
       end do
       call checks%check(exact, 'whole steps exactly')
       axis = range_axis(1, scale_logarithmic, 10.0_dp, 1000.0_dp, 12)
@@ -207,7 +103,7 @@ contains
       exact = len(message) == 0
       do scene = 1_int64, 12_int64
          call scene_values(plan, scene, value)
-         exact = exact .and. same(value(1), anint(value(1)))
+         exact = exact .and. same_bits(value(1), anint(value(1)))
       end do
       call checks%check(exact, 'integers on a logarithmic axis')
    end subroutine test_grid_values
@@ -229,23 +125,23 @@ contains
       call plan_sobol(axes, 1024_int64, 0_int64, plan, bad_axis, message)
       call checks%check(len(message) == 0, 'a sound sample: '//message)
       call chunk_values(plan, 1_int64, values)
-      call checks%check(all(same(values(:, 1), [-2.0_dp, 1.0e-6_dp, 3.0_dp, 7.0_dp])), &
+      call checks%check(all(same_bits(values(:, 1), [-2.0_dp, 1.0e-6_dp, 3.0_dp, 7.0_dp])), &
                         'the origin is the first of each')
       call checks%check_close(sum(values(1, :))/1024.0_dp, 2.0_dp, 0.01_dp, 'mean of a linear axis')
       call checks%check_close(sum(log10(values(2, :)))/1024.0_dp, -2.0_dp, 0.01_dp, &
                               'mean of a logarithmic axis')
-      call checks%check(all(same(values(3, :), anint(values(3, :)))), 'integers')
-      call checks%check(count(same(values(3, :), 3.0_dp)) == 128 .and. count(same(values(3, :), &
+      call checks%check(all(same_bits(values(3, :), anint(values(3, :)))), 'integers')
+      call checks%check(count(same_bits(values(3, :), 3.0_dp)) == 128 .and. count(same_bits(values(3, :), &
                                                             10.0_dp)) == 128, &
                         'equal shares of integers')
-      call checks%check(count(same(values(4, :), 2.0_dp)) == 256, 'equal shares of a list')
+      call checks%check(count(same_bits(values(4, :), 2.0_dp)) == 256, 'equal shares of a list')
       call plan_latin_hypercube(axes, 1024_int64, 9_int64, plan, bad_axis, message)
       call chunk_values(plan, 1_int64, values)
       call checks%check(minval(values(1, :)) > -2.0_dp .and. maxval(values(1, :)) < 6.0_dp, &
                         'within a linear range')
       call checks%check(minval(values(2, :)) > 1.0e-6_dp .and. maxval(values(2, :)) < 1.0e2_dp, &
                         'within a logarithmic range')
-      call checks%check(count(same(values(4, :), 7.0_dp)) == 256, 'equal shares of a list, Latin hypercube')
+      call checks%check(count(same_bits(values(4, :), 7.0_dp)) == 256, 'equal shares of a list, Latin hypercube')
    end subroutine test_spread_values
 
    !> A scene has the same bits in chunks of any size, and alone.
@@ -289,7 +185,7 @@ contains
       call plan_table([21, 22], values, plan)
       call checks%check(plan%size == 3_int64 .and. .not. allocated(values), 'a table moves into its plan')
       call scene_values(plan, 3_int64, scene)
-      call checks%check(all(same(scene, [5.0_dp, 6.0_dp])), 'scene of a table')
+      call checks%check(all(same_bits(scene, [5.0_dp, 6.0_dp])), 'scene of a table')
    end subroutine test_table
 
    !> What is refused, and in which words.
@@ -395,12 +291,5 @@ contains
          axes(i) = range_axis(i, scale_linear, 0.0_dp, 1.0_dp, point_count)
       end do
    end function many_axes
-
-   elemental logical function same(left, right)
-      real(dp), intent(in) :: left
-      real(dp), intent(in) :: right
-
-      same = abs(left - right) <= 0.0_dp
-   end function same
 
 end module test_sampling

@@ -2,7 +2,7 @@
 !> method and reference values; equal bits in any lane; repetition; motions carried on; failures.
 module test_taylor_lanes
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use checks, only: check_list_t
+   use checks, only: check_list_t, same_bits
    use constants, only: standard_gravity, two_pi
    use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast
    use kinds, only: dp
@@ -257,21 +257,13 @@ contains
             film = 0.0_dp
             velocity = 0.0_dp
             call solve_motions(mixed(i:i), request, film, velocity, alone)
-            equal = equal .and. all(same(film(:, 1), films(:, i))) .and. all(same(velocity(:, 1), &
+            equal = equal .and. all(same_bits(film(:, 1), films(:, i))) .and. all(same_bits(velocity(:, 1), &
                velocities(:, i))) &
-               .and. same(alone(1)%momentum, endings(i)%momentum) .and. alone(1)%steps == endings(i)%steps
+               .and. same_bits(alone(1)%momentum, endings(i)%momentum) .and. alone(1)%steps == endings(i)%steps
          end do
          call checks%check(equal, 'equal bits alone and in company')
       end do
    end subroutine test_equal_bits
-
-   !> Equal to the last bit.
-   elemental logical function same(x, y)
-      real(dp), intent(in) :: x
-      real(dp), intent(in) :: y
-
-      same = .not. (x < y .or. x > y)
-   end function same
 
    !> Motions that repeat, after one period and after two, and one that never does.
    subroutine test_repetition(checks)
@@ -345,7 +337,7 @@ contains
          request%sampled_periods = 12
          films = 0.0_dp
          call solve_motions([rest], request, films, velocities, second)
-         call checks%check(all(same(films, whole)) .and. same(long(1)%momentum, second(1)%momentum), &
+         call checks%check(all(same_bits(films, whole)) .and. same_bits(long(1)%momentum, second(1)%momentum), &
             'carried on, bit for bit')
       end do
    end subroutine test_carrying_on

@@ -29,36 +29,34 @@ contains
    subroutine test_real_text(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call spelt(real_text(0.0_dp), '0.0')
-      call spelt(real_text(1.0_dp), '1.0')
-      call spelt(real_text(-0.5_dp), '-0.5')
-      call spelt(real_text(0.1_dp), '0.1')
-      call spelt(real_text(0.001_dp), '0.001')
-      call spelt(real_text(199.2_dp), '199.2')
-      call spelt(real_text(9.80665_dp), '9.80665')
-      call spelt(real_text(999999.0_dp), '999999.0')
-      call spelt(real_text(1.0e6_dp), '1.0E6')
-      call spelt(real_text(2.0e-8_dp), '2.0E-8')
-      call spelt(real_text(205.66e9_dp), '2.0566E11')
-      call spelt(real_text(1.0_dp/3.0_dp), '0.3333333333333333')
-      call spelt(real_text(8.889224234368e-07_dp), '8.889224234368E-7')
-      call spelt(integer_text(-42), '-42')
-      call spelt(integer_text(9000000000_int64), '9000000000')
-      call spelt(logical_text(.true.), '.true.')
-      call spelt(logical_text(.false.), '.false.')
-
-   contains
-
-      !> Text as expected, length included.
-      subroutine spelt(actual, expected)
-         character(*), intent(in) :: actual    !> Text under test
-         character(*), intent(in) :: expected  !> What it should be
-
-         call checks%check(actual == expected .and. len(actual) == len(expected), &
-            "'"//actual//"' instead of '"//expected//"'")
-      end subroutine spelt
-
+      call spelt(checks, real_text(0.0_dp), '0.0')
+      call spelt(checks, real_text(1.0_dp), '1.0')
+      call spelt(checks, real_text(-0.5_dp), '-0.5')
+      call spelt(checks, real_text(0.1_dp), '0.1')
+      call spelt(checks, real_text(0.001_dp), '0.001')
+      call spelt(checks, real_text(199.2_dp), '199.2')
+      call spelt(checks, real_text(9.80665_dp), '9.80665')
+      call spelt(checks, real_text(999999.0_dp), '999999.0')
+      call spelt(checks, real_text(1.0e6_dp), '1.0E6')
+      call spelt(checks, real_text(2.0e-8_dp), '2.0E-8')
+      call spelt(checks, real_text(205.66e9_dp), '2.0566E11')
+      call spelt(checks, real_text(1.0_dp/3.0_dp), '0.3333333333333333')
+      call spelt(checks, real_text(8.889224234368e-07_dp), '8.889224234368E-7')
+      call spelt(checks, integer_text(-42), '-42')
+      call spelt(checks, integer_text(9000000000_int64), '9000000000')
+      call spelt(checks, logical_text(.true.), '.true.')
+      call spelt(checks, logical_text(.false.), '.false.')
    end subroutine test_real_text
+
+   !> Text as expected, length included.
+   subroutine spelt(checks, actual, expected)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      character(*), intent(in) :: actual           !> Text under test
+      character(*), intent(in) :: expected         !> What it should be
+
+      call checks%check(actual == expected .and. len(actual) == len(expected), &
+         "'"//actual//"' instead of '"//expected//"'")
+   end subroutine spelt
 
    !> Any bit pattern that is a finite number reads back to itself, extremes of the range included.
    subroutine test_random_reals(checks)
@@ -127,25 +125,13 @@ contains
    subroutine test_short_text(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call spelt(short_text(0.0_dp, 3), '0')
-      call spelt(short_text(1.6542_dp, 3), '1.65')
-      call spelt(short_text(-1.6542_dp, 2), '-1.7')
-      call spelt(short_text(199.2_dp, 3), '199')
-      call spelt(short_text(0.012345_dp, 2), '0.012')
-      call spelt(short_text(8.889e-7_dp, 3), '8.89E-7')
-      call spelt(short_text(2.5e11_dp, 2), '2.5E11')
-
-   contains
-
-      !> Text as expected, length included.
-      subroutine spelt(actual, expected)
-         character(*), intent(in) :: actual    !> Text under test
-         character(*), intent(in) :: expected  !> What it should be
-
-         call checks%check(actual == expected .and. len(actual) == len(expected), &
-            "'"//actual//"' instead of '"//expected//"'")
-      end subroutine spelt
-
+      call spelt(checks, short_text(0.0_dp, 3), '0')
+      call spelt(checks, short_text(1.6542_dp, 3), '1.65')
+      call spelt(checks, short_text(-1.6542_dp, 2), '-1.7')
+      call spelt(checks, short_text(199.2_dp, 3), '199')
+      call spelt(checks, short_text(0.012345_dp, 2), '0.012')
+      call spelt(checks, short_text(8.889e-7_dp, 3), '8.89E-7')
+      call spelt(checks, short_text(2.5e11_dp, 2), '2.5E11')
    end subroutine test_short_text
 
    !> Lower case, quotes, characters of words.

@@ -34,8 +34,10 @@ program unit_tests
    use test_checksum, only: run_checksum_tests
    use test_random_numbers, only: run_random_numbers_tests
    use test_sampling, only: run_sampling_tests
+   use test_spread_points, only: run_spread_points_tests
    use test_csv_samples, only: run_csv_samples_tests
    use test_campaign_file, only: run_campaign_file_tests
+   use test_campaign_refusals, only: run_campaign_refusals_tests
    use test_schedule, only: run_schedule_tests
    use test_newmark_lanes, only: run_newmark_lanes_tests
    use test_newmark_extrapolated, only: run_newmark_extrapolated_tests
@@ -77,9 +79,11 @@ program unit_tests
    call run_taylor_lanes_tests(checks)
    call run_checksum_tests(checks)
    call run_random_numbers_tests(checks)
+   call run_spread_points_tests(checks)
    call run_sampling_tests(checks)
    call run_csv_samples_tests(checks)
    call run_campaign_file_tests(checks)
+   call run_campaign_refusals_tests(checks)
    call run_schedule_tests(checks)
    call run_newmark_lanes_tests(checks)
    call run_newmark_extrapolated_tests(checks)
