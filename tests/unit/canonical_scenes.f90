@@ -6,6 +6,7 @@ module canonical_scenes
    use film_law, only: film_t, new_film, steady_film
    use integrate_motion, only: motion_end_t, motion_watcher_t, solve_motion
    use kinds, only: dp
+   use newmark, only: newmark_t
    use sample_recorder, only: sample_recorder_t
    use scene_types, only: scene_t
    implicit none(type, external)
@@ -19,7 +20,11 @@ module canonical_scenes
       procedure :: period_done
    end type counting_watcher_t
 
-   public :: canonical_scene, run_window
+   !> Static load Q + m g [N], and the published iso-viscous film that carries it [m].
+   real(dp), parameter, public :: static_load = 199.2_dp + 3.0_dp*9.80665_dp
+   real(dp), parameter, public :: idle_steady_film = 8.889224234368e-7_dp
+
+   public :: canonical_scene, canonical_method, run_window
 
 contains
 
@@ -51,6 +56,19 @@ contains
       scene%spectrum%periods = 1
       scene%output%series = .false.
    end function canonical_scene
+
+   !> Newmark's method for the canonical scenes.
+   function canonical_method() result(method)
+      type(newmark_t) :: method
+
+      method%mass = 3.0_dp
+      method%weight = 3.0_dp*9.80665_dp
+      method%steady_force = 199.2_dp
+      method%force_amplitude = 205.7_dp
+      method%frequency = 600.0_dp
+      method%tolerance = 1.0e-14_dp
+      method%iteration_limit = 100
+   end function canonical_method
 
    !> Solve a scene; the recorder then holds its window.
    subroutine run_window(scene, recorder, ending, watcher)

@@ -1,6 +1,6 @@
 !> Tests of the film of a scene: coefficients, choice of the kernel, steady film.
 module test_film_law
-   use canonical_scenes, only: canonical_scene
+   use canonical_scenes, only: canonical_scene, static_load
    use checks, only: check_list_t
    use film_law, only: film_load, film_t, kernel_half_pi, kernel_piezo, kernel_solved_fast, &
       kernel_solved_successive, &
@@ -11,9 +11,6 @@ module test_film_law
       rupture_solver_successive, scene_t
    implicit none(type, external)
    private
-
-   !> Static load Q + m g of the canonical scenes [N].
-   real(dp), parameter :: static_load = 199.2_dp + 3.0_dp*9.80665_dp
 
    public :: run_film_law_tests
 

@@ -1,6 +1,6 @@
 !> Tests of the regime of a motion by its exact pressure.
 module test_regime_check
-   use canonical_scenes, only: canonical_scene
+   use canonical_scenes, only: canonical_scene, static_load
    use checks, only: check_list_t
    use film_law, only: film_t, new_film, steady_film
    use kinds, only: dp
@@ -13,7 +13,6 @@ module test_regime_check
    !> Critical pressure groups of films at rest, A = 0, and falling with A = -1.
    real(dp), parameter :: critical_at_rest = 7.889828622697975_dp, critical_falling = 3.299920163085864_dp
    real(dp), parameter :: rounding = 64.0_dp*epsilon(1.0_dp)
-   real(dp), parameter :: static_load = 199.2_dp + 3.0_dp*9.80665_dp
 
    public :: run_regime_check_tests
 

@@ -11,6 +11,8 @@ program unit_tests
    use test_key_table, only: run_key_table_tests
    use test_namelist_text, only: run_namelist_text_tests
    use test_newmark, only: run_newmark_tests
+   use test_newmark_by_hand, only: run_newmark_by_hand_tests
+   use test_newmark_cuts, only: run_newmark_cuts_tests
    use test_numerical_artefacts, only: run_numerical_artefacts_tests
    use test_published_iso_viscous, only: run_published_iso_viscous_tests
    use test_published_piezo_viscous, only: run_published_piezo_viscous_tests
@@ -68,6 +70,8 @@ program unit_tests
    call run_reynolds_film_tests(checks)
    call run_reynolds_load_tests(checks)
    call run_newmark_tests(checks)
+   call run_newmark_by_hand_tests(checks)
+   call run_newmark_cuts_tests(checks)
    call run_integrate_motion_tests(checks)
    call run_fourier_tests(checks)
    call run_spectral_lines_tests(checks)
