@@ -2,8 +2,8 @@
 !> that cannot be written, full disks.
 module test_campaign_refusals
    use campaign_file, only: campaign_file_t, campaign_layout_t
-   use campaign_file_cases, only: chunks, close_file, compute, content_of, create, expect, input, layout_of, line_feed, path, &
-      rows_of
+   use campaign_file_cases, only: chunks, close_file, compute, content_of, create, expect, input, layout_of, line_feed, &
+      overwrite_bytes, path, rows_of
    use checks, only: check_list_t
    use errors, only: error_t, exit_bad_input, exit_system
    use file_system, only: delete_file, path_exists
@@ -31,6 +31,7 @@ contains
       call delete_file(other_path)
       call test_lock(checks)
       call test_changes(checks)
+      call test_foreign_headers(checks)
       call test_foreign_files(checks)
       call test_full_disk(checks)
       call delete_file(path)
@@ -85,6 +86,10 @@ contains
       allocate (layout%names, source=[character(32) :: 'mass'])
       call file%resume(path, layout, spoilt, error)
       call expect(checks, error, exit_bad_input, 'other columns')
+      layout = layout_of(input)
+      layout%units(1) = 'g'
+      call file%resume(path, layout, spoilt, error)
+      call expect(checks, error, exit_bad_input, 'other columns')
       call checks%check(content_of(path) == before, 'nothing is changed')
       layout = layout_of(input)
       layout%chunk_rows = 100
@@ -95,7 +100,33 @@ contains
       layout%scene_count = 2000
       call file%resume(path, layout, spoilt, error)
       call expect(checks, error, exit_bad_input, 'damaged table of chunks')
+      call checks%check(content_of(path) == before, 'nothing is changed by later refusals')
    end subroutine test_changes
+
+   !> A file of another version of the program, and one whose table of chunks is none, are left alone.
+   subroutine test_foreign_headers(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer(int64), parameter :: version_place = 40_int64
+      type(campaign_file_t) :: file
+      type(error_t), allocatable :: error
+      integer(int64) :: spoilt
+      character(:), allocatable :: before
+
+      call create(checks, file, .true.)
+      call close_file(checks, file, .false.)
+      call overwrite_bytes(version_place, '9.8.7   ')
+      before = content_of(path)
+      call file%resume(path, layout_of(input), spoilt, error)
+      call expect(checks, error, exit_bad_input, 'was begun by version 9.8.7 of the program')
+      call checks%check(content_of(path) == before, 'another version: nothing is changed')
+      call create(checks, file, .true.)
+      call close_file(checks, file, .false.)
+      call overwrite_bytes(int(index(content_of(path), 'CHUNKTAB'), int64) - 1_int64, 'CHUNKTAP')
+      before = content_of(path)
+      call file%resume(path, layout_of(input), spoilt, error)
+      call expect(checks, error, exit_bad_input, 'it has no table of chunks')
+      call checks%check(content_of(path) == before, 'no table: nothing is changed')
+   end subroutine test_foreign_headers
 
    subroutine test_difference(checks)
       type(check_list_t), intent(inout) :: checks
@@ -158,7 +189,7 @@ contains
       type(random_access_file_t) :: file
       type(error_t), allocatable :: error
 
-      if (.not. path_exists('/dev/full')) return
+      call checks%check(path_exists('/dev/full'), 'there is a device that is always full')
       call file%open('/dev/full', .false., error)
       call checks%check(.not. allocated(error), 'open the full device')
       call file%write_at(0_int64, rows_of(1_int64, 5_int64), error)

@@ -36,6 +36,9 @@ contains
 
       peak = film_peak(contact, new_film_point(contact, 70.0e-6_dp, 0.0_dp, 0.9e-6_dp))
       call checks%check_close(peak%alpha_p, 1.65_dp, 0.005_dp, 'alpha p as printed')
+      call checks%check(ieee_is_nan(peak%pressure), 'no pressure as printed')
+      call checks%check_close(peak%deflection/deflection_at(peak%alpha_p/contact%pressure_viscosity), 1.0_dp, 1.0e-14_dp, &
+         'deflection at p where q does not exist')
       call checks%check(peak%regime == film_elastohydrodynamic, 'no rigid film as printed')
       response = piezo_viscous_response(contact, new_film_point(contact, 70.0e-6_dp, 0.0_dp, 0.9e-6_dp))
       call checks%check(ieee_is_nan(response%load), 'its load is not a number')
@@ -44,6 +47,17 @@ contains
       call checks%check(peak%regime == film_piezo_viscous, 'a rigid film with p halved')
       peak = film_peak(contact, new_film_point(contact, 70.0e-6_dp, -5.0e-4_dp, 0.45e-6_dp))
       call checks%check_close(peak%pressure, 201.0e6_dp, 0.5e6_dp, 'highest pressure of figure 5')
+      call checks%check_close(peak%deflection/deflection_at(peak%pressure), 1.0_dp, 1.0e-14_dp, 'deflection at q where it exists')
+
+   contains
+
+      !> (4) as printed [m].
+      pure real(dp) function deflection_at(pressure)
+         real(dp), intent(in) :: pressure  !> Pressure [Pa]
+
+         deflection_at = 4.0_dp*contact%radius*(pressure/contact%modulus)**2
+      end function deflection_at
+
    end subroutine test_figure_5
 
    !> (27) and (28) are the slopes of (24) at fixed x_e: recomputed from loads of the printed form.

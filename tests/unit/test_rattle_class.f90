@@ -48,6 +48,7 @@ contains
       amplitudes(1:30) = 1.0_dp
       call expect(amplitudes, 2.0_dp, class_irregular, 'irregular before idle')
 
+      call test_own_limits(checks)
       call test_reversals_per_period(checks)
       call checks%check(class_name(class_quiet) == 'quiet' .and. class_name(class_creep) == 'creep' .and. &
          class_name(class_idle) == 'idle' .and. class_name(class_irregular) == 'irregular', 'words')
@@ -82,6 +83,40 @@ contains
          samples = samples + harmonics(n)*sin([(two_pi*real(n*i, dp)/real(steps, dp), i=1, periods*steps)])
       end do
    end function signal
+
+   !> Every limit is that of the scene, not the default one.
+   subroutine test_own_limits(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp) :: amplitudes(60)
+
+      amplitudes = 0.0_dp
+      amplitudes(1:3) = [1.0_dp, 0.5_dp, 0.03_dp]
+      call expect(spectrum_choice_t(periods=periods), 0.0_dp, class_creep, 'default limits')
+      call expect(spectrum_choice_t(periods=periods, quiet_limit=0.6_dp), 0.0_dp, class_quiet, 'quiet limit 0.6')
+      call expect(spectrum_choice_t(periods=periods, idle_lines=3), 0.0_dp, class_idle, '3 lines are idle')
+      call expect(spectrum_choice_t(periods=periods, idle_lines=3, line_threshold=0.04_dp), 0.0_dp, class_creep, &
+         'line threshold 0.04')
+      ! 0.2^2/(1 + 0.5^2 + 0.2^2) is a share of 0.031.
+      call expect(spectrum_choice_t(periods=periods), 0.2_dp, class_irregular, 'irregular share 0.031')
+      call expect(spectrum_choice_t(periods=periods, irregular_limit=0.04_dp), 0.2_dp, class_creep, 'irregular limit 0.04')
+
+   contains
+
+      !> The signal under other limits, and its class.
+      subroutine expect(choice, half_line, class, message)
+         type(spectrum_choice_t), intent(in) :: choice  !> Limits
+         real(dp), intent(in) :: half_line              !> Amplitude at half the forcing frequency
+         integer, intent(in) :: class                   !> Its class
+         character(*), intent(in) :: message            !> Name of the limits
+
+         type(rattle_verdict_t) :: verdict
+
+         call classify(signal(amplitudes, half_line), choice, noise_floor, verdict)
+         call checks%check(verdict%class == class, 'own limits: '//message)
+      end subroutine expect
+
+   end subroutine test_own_limits
 
    !> Reversals are counted over the window and given for a period.
    subroutine test_reversals_per_period(checks)

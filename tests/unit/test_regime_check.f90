@@ -6,7 +6,7 @@ module test_regime_check
    use kinds, only: dp
    use regime, only: film_elastohydrodynamic, film_iso_viscous, film_piezo_viscous
    use regime_check, only: check_regime, regime_verdict_t, steady_alpha_p
-   use scene_types, only: law_iso_viscous, law_piezo_viscous
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, scene_t
    implicit none(type, external)
    private
 
@@ -27,6 +27,7 @@ contains
       call test_canonical(checks)
       call test_largest(checks)
       call test_regimes(checks)
+      call test_exact_piezo_viscous(checks)
       call test_deep(checks)
    end subroutine run_regime_check_tests
 
@@ -171,6 +172,28 @@ contains
       end subroutine expect
 
    end subroutine test_regimes
+
+   !> The exact piezo-viscous film holds for thin oil as well, though not beyond alpha p = 1.
+   subroutine test_exact_piezo_viscous(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: alpha_p(3) = [0.09_dp, 0.11_dp, 1.01_dp]
+      integer, parameter :: regimes(3) = [film_iso_viscous, film_piezo_viscous, film_elastohydrodynamic]
+      type(scene_t) :: scene
+      type(film_t) :: film
+      type(regime_verdict_t) :: verdict
+      integer :: i
+
+      scene = canonical_scene(law_piezo_viscous, 512)
+      scene%film%model = model_reynolds
+      film = new_film(scene)
+      film%modulus = 1.0e15_dp
+      do i = 1, 3
+         verdict = check_regime(film, law_piezo_viscous, [film_of_group(film, alpha_p(i)*critical_at_rest)], [0.0_dp])
+         call checks%check(verdict%regime == regimes(i), 'exact piezo-viscous film: regime')
+         call checks%check(verdict%law_contradicted .eqv. alpha_p(i) > 1.0_dp, 'exact piezo-viscous film: contradiction')
+      end do
+   end subroutine test_exact_piezo_viscous
 
    !> Soft flanks give way by more than a tenth of the film long before alpha p = 1.
    subroutine test_deep(checks)

@@ -55,7 +55,7 @@ contains
 
    end subroutine test_plain
 
-   !> Ripple counts from the threshold on: a dip of 0.9 % and one of 1.1 % of the range.
+   !> Ripple counts from the threshold on: a dip, or upside down a bump, of a little less and a little more.
    subroutine test_prominence(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -68,6 +68,12 @@ contains
          'ripple above the threshold')
       call checks%check(count_reversals([0.0_dp, 50.0_dp, 48.9_dp, 100.0_dp], 0.02_dp) == 2, &
          'another threshold')
+      do i = -1, 1, 2
+         call checks%check(count_reversals(real(i, dp)*[0.0_dp, 50.0_dp, 49.001_dp, 100.0_dp], 0.01_dp) == 2, &
+            'ripple just below the threshold')
+         call checks%check(count_reversals(real(i, dp)*[0.0_dp, 50.0_dp, 48.999_dp, 100.0_dp], 0.01_dp) == 4, &
+            'ripple just above the threshold')
+      end do
       signal = [(sin(two_pi*real(i, dp)/200.0_dp) + 0.008_dp*sin(real(7*i*i, dp)), i=1, 200)]
       call checks%check(count_reversals(signal, 0.01_dp) == 2, 'noise below the threshold')
       call checks%check(count_reversals(signal, 0.001_dp) > 20, 'noise above it')

@@ -95,6 +95,11 @@ contains
       type(check_list_t), intent(inout) :: checks
 
       call checks%check(chunk_rows_for(1_int64) == 256, 'one scene')
+      ! 512 chunks of 256, 512 and so on, and their next larger campaign that 512 chunks cannot hold.
+      call checks%check(chunk_rows_for(257_int64*512_int64 - 1_int64) == 256, 'the most scenes for 256')
+      call checks%check(chunk_rows_for(257_int64*512_int64) == 512, 'the fewest scenes for 512')
+      call checks%check(chunk_rows_for(4097_int64*512_int64 - 1_int64) == 4096, 'the most scenes for 4096')
+      call checks%check(chunk_rows_for(4097_int64*512_int64) == 8192, 'the fewest scenes for 8192')
       call checks%check(chunk_rows_for(1000000_int64) == 2048, 'a million scenes')
       call checks%check(chunk_rows_for(huge(1_int64)) == 8192, 'beyond any size')
    end subroutine test_chunk_rows

@@ -38,6 +38,9 @@ program unit_tests
    use test_sampling, only: run_sampling_tests
    use test_spread_points, only: run_spread_points_tests
    use test_csv_samples, only: run_csv_samples_tests
+   use test_certificate, only: run_certificate_tests
+   use test_floquet, only: run_floquet_tests
+   use test_period_repetition, only: run_period_repetition_tests
    use test_campaign_file, only: run_campaign_file_tests
    use test_campaign_refusals, only: run_campaign_refusals_tests
    use test_schedule, only: run_schedule_tests
@@ -78,6 +81,9 @@ program unit_tests
    call run_reversals_tests(checks)
    call run_rattle_class_tests(checks)
    call run_regime_check_tests(checks)
+   call run_certificate_tests(checks)
+   call run_period_repetition_tests(checks)
+   call run_floquet_tests(checks)
    call run_numerical_artefacts_tests(checks)
    call run_result_writer_tests(checks)
    call run_taylor_lanes_tests(checks)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from outcomes import digest, summary_of
+from outcomes import contents, digest, summary_of
 from result_writer import write_result
 
 import rattle as package
@@ -118,6 +118,29 @@ def test_one_long_run_equals_three_chained(method: str, model: str, run, scene_t
         assert "carried on from period 4" in told
         assert run("--output", "long", "scene.nml", cwd=folder).returncode == 0
         same(folder)
+
+
+@pytest.mark.parametrize(
+    ("method", "setting", "carried"),
+    [
+        ("newmark", "load.mass=3", "steps"),
+        ("newmark", "film.initial_velocity=-0.08", "cuts"),
+        ("taylor", "load.mass=3", "momentum"),
+        ("taylor", "load.mass=1e-3", "implicit"),
+    ],
+    ids=lambda word: word,
+)
+def test_nothing_that_is_carried_over_is_lost(
+    method: str, setting: str, carried: str, run, scene_text, tmp_path: Path
+) -> None:
+    """What is carried over is not zero in the state, so that losing it would show."""
+    (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver_of(method)))
+    for periods in (17, 20, 60):
+        told = carry_on(run, tmp_path, "--set", setting, "--set", f"solver.periods={periods}")
+    assert "carried on from period 4" in told
+    assert run("--output", "long", "--set", setting, "scene.nml", cwd=tmp_path).returncode == 0
+    assert package.read(tmp_path / "long" / "scene.state")[carried][0] != 0.0
+    same(tmp_path)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -256,16 +279,47 @@ def test_steady_run_goes_on_beyond_its_orbit(method: str, run, scene_text, tmp_p
 # --- states that are refused -----------------------------------------------------------------------------
 
 
-def test_resume_refuses_another_scene(run, scene_text, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "setting",
+    [
+        "load.mass=4",
+        "solver.accuracy=1e-7",
+        "film.initial_film=1e-6",
+        "output.stride=2",
+        "film.law=piezo-viscous",
+    ],
+)
+def test_resume_refuses_another_scene(setting: str, run, scene_text, tmp_path: Path) -> None:
     """The key that changed is named, and nothing of the earlier run is touched."""
-    (tmp_path / "scene.nml").write_text(canonical(scene_text))
-    assert run("scene.nml", cwd=tmp_path).returncode == 0
-    results = tmp_path / "results"
-    before = {path.name: digest(path) for path in results.iterdir()}
-    ended = run("--resume", "--set", "load.mass=4", "scene.nml", cwd=tmp_path)
+    results = solved(run, tmp_path, canonical(scene_text))
+    assert_resume_is_refused(run, results, "--set", setting, word=setting.partition("=")[0])
+
+
+def test_resume_refuses_a_scene_that_lost_a_key(run, scene_text, tmp_path: Path) -> None:
+    results = solved(run, tmp_path, canonical(scene_text), "--set", "film.initial_film=1e-6")
+    assert_resume_is_refused(run, results, word="film.initial_film")
+
+
+def test_resume_refuses_a_window_that_began_before_the_state(run, scene_text, tmp_path: Path) -> None:
+    """The state stands at period 44, where the window of 60 periods began; that of 59 began at 43."""
+    results = solved(run, tmp_path, canonical(scene_text))
+    assert_resume_is_refused(run, results, "--set", "solver.periods=59", word="is at period 44")
+
+
+def solved(run, folder: Path, text: str, *options: str) -> Path:
+    """Results of a scene."""
+    (folder / "scene.nml").write_text(text)
+    assert run(*options, "scene.nml", cwd=folder).returncode == 0
+    return folder / "results"
+
+
+def assert_resume_is_refused(run, results: Path, *options: str, word: str) -> None:
+    """The reason holds the word, and the files of the earlier run stay as they are."""
+    before = contents(results)
+    ended = run("--resume", *options, "scene.nml", cwd=results.parent)
     assert ended.returncode == 2
-    assert "load.mass" in ended.stderr
-    assert {path.name: digest(path) for path in results.iterdir()} == before
+    assert word in ended.stderr
+    assert contents(results) == before
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -1,0 +1,185 @@
+!> Tests of the certificate: what a tighter solution must share with a scene for its class to stand.
+module test_certificate
+   use certificate, only: certificate_t, compare_windows, no_certificate
+   use checks, only: check_list_t
+   use kinds, only: dp
+   use rattle_class, only: class_creep, class_idle, class_irregular, class_quiet, rattle_verdict_t
+   use scene_types, only: spectrum_choice_t
+   implicit none(type, external)
+   private
+
+   real(dp), parameter :: films(3) = [1.0e-6_dp, 2.0e-6_dp, 4.0e-6_dp], values(3) = [-100.0_dp, 20.0_dp, 30.0_dp]
+   real(dp), parameter :: tolerance = 0.01_dp
+   character(*), parameter :: stands = 'The class stands'
+
+   public :: run_certificate_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_certificate_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('certificate')
+      call test_errors(checks)
+      call test_film(checks)
+      call test_irregular(checks)
+      call test_quiet_limit(checks)
+      call test_line_count(checks)
+      call test_first_harmonic(checks)
+      call test_none(checks)
+   end subroutine run_certificate_tests
+
+   !> Verdict on given harmonics, with the default limits but those of `choice`.
+   pure function verdict_of(class, harmonics, choice) result(verdict)
+      integer, intent(in) :: class                  !> Class
+      real(dp), intent(in) :: harmonics(:)          !> a_1, a_2, ...
+      type(spectrum_choice_t), intent(in) :: choice !> Limits
+      type(rattle_verdict_t) :: verdict
+
+      verdict%class = class
+      allocate (verdict%lines%harmonics, source=harmonics)
+      verdict%lines%line_count = count(harmonics > choice%line_threshold*harmonics(1))
+      verdict%lines%harmonic_distortion = norm2(harmonics(2:))/harmonics(1)
+   end function verdict_of
+
+   !> Certificate of the same window with other harmonics, expected to stand or to name its doubt.
+   subroutine expect(checks, class, harmonics, tight_harmonics, choice, words)
+      type(check_list_t), intent(inout) :: checks   !> Collects the results
+      integer, intent(in) :: class                  !> Class of both
+      real(dp), intent(in) :: harmonics(:)          !> Of the scene
+      real(dp), intent(in) :: tight_harmonics(:)    !> Of its tighter solution
+      type(spectrum_choice_t), intent(in) :: choice !> Limits
+      character(*), intent(in) :: words             !> In its reason
+
+      type(certificate_t) :: certificate
+
+      call compare_windows(films, films, values, values, verdict_of(class, harmonics, choice), &
+         verdict_of(class, tight_harmonics, choice), choice, tolerance, certificate)
+      call checks%check(certificate%exists .and. (certificate%certified .eqv. words == stands), 'certified or not: '//words)
+      call checks%check(index(certificate%reason, words) > 0, words//' (got: '//certificate%reason//')')
+   end subroutine expect
+
+   !> The errors themselves.
+   subroutine test_errors(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(certificate_t) :: certificate
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: verdict, tight
+
+      verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp, 0.2_dp], choice)
+      tight = verdict_of(class_creep, [1.001_dp, 0.498_dp], choice)
+      call compare_windows(films*[1.0_dp, 0.997_dp, 1.001_dp], films, 0.9_dp*values, values, verdict, tight, choice, tolerance, &
+         certificate)
+      call checks%check_close(certificate%film_error, 0.003_dp, 1.0e-15_dp, 'film error: the largest, either way')
+      call checks%check_close(certificate%acceleration_error, 0.1_dp, 1.0e-15_dp, 'acceleration error: of the peaks')
+      call checks%check(size(certificate%harmonic_errors) == 2, 'harmonic errors: those that both have')
+      call checks%check_close(maxval(abs(certificate%harmonic_errors - [0.001_dp, 0.002_dp])), 0.0_dp, 1.0e-15_dp, &
+         'harmonic errors')
+      call checks%check(certificate%certified, 'small errors far from the limits')
+      tight%class = class_idle
+      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the class is idle') > 0, 'another class')
+   end subroutine test_errors
+
+   !> A regular motion stands up to the tolerance of its film.
+   subroutine test_film(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(certificate_t) :: certificate
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: verdict
+
+      verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
+      call compare_windows(1.009_dp*films, films, values, values, verdict, verdict, choice, tolerance, certificate)
+      call checks%check(certificate%certified, 'film: within the tolerance')
+      call compare_windows(1.011_dp*films, films, values, values, verdict, verdict, choice, tolerance, certificate)
+      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the film differs by 1.1 %') > 0, &
+         'film: beyond the tolerance')
+      ! A scene at rest has no lines to doubt.
+      verdict = verdict_of(class_quiet, [1.0e-20_dp, 0.35e-20_dp], choice)
+      verdict%lines%moving = .false.
+      call compare_windows(films, films, 0.0_dp*values, 0.0_dp*values, verdict, verdict, choice, tolerance, certificate)
+      call checks%check(certificate%certified, 'film: at rest')
+   end subroutine test_film
+
+   !> Irregular motions part from each other; their class stands if both fractions are twice the limit or more.
+   subroutine test_irregular(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(certificate_t) :: certificate
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: clear, close_by
+
+      clear = verdict_of(class_irregular, [1.0_dp, 0.5_dp], choice)
+      clear%lines%irregular_fraction = 0.021_dp
+      close_by = clear
+      close_by%lines%irregular_fraction = 0.019_dp
+      call compare_windows(2.0_dp*films, films, values, values, clear, clear, choice, tolerance, certificate)
+      call checks%check(certificate%certified, 'irregular: clear of the limit, whatever the film')
+      call compare_windows(films, films, values, values, clear, close_by, choice, tolerance, certificate)
+      call checks%check(.not. certificate%certified, 'irregular: the tighter one is close to the limit')
+      call compare_windows(films, films, values, values, close_by, clear, choice, tolerance, certificate)
+      call checks%check(.not. certificate%certified, 'irregular: the scene is close to the limit')
+   end subroutine test_irregular
+
+   !> The distortion a_2/a_1 on either side of its limit, with errors that reach it or do not.
+   subroutine test_quiet_limit(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      character(*), parameter :: doubt = 'within its error of the quiet limit'
+      type(spectrum_choice_t) :: choice
+
+      call expect(checks, class_creep, [1.0_dp, 0.36_dp], [1.0_dp, 0.371_dp], choice, doubt)
+      call expect(checks, class_creep, [1.0_dp, 0.36_dp], [1.0_dp, 0.369_dp], choice, stands)
+      call expect(checks, class_quiet, [1.0_dp, 0.34_dp], [1.0_dp, 0.329_dp], choice, doubt)
+      call expect(checks, class_quiet, [1.0_dp, 0.34_dp], [1.0_dp, 0.331_dp], choice, stands)
+      ! An error of the first harmonic alone: 0.36 0.03/0.97 = 0.011.
+      call expect(checks, class_creep, [1.0_dp, 0.36_dp], [1.03_dp, 0.36_dp], choice, doubt)
+      call expect(checks, class_creep, [1.0_dp, 0.36_dp], [1.02_dp, 0.36_dp], choice, stands)
+      choice%quiet_limit = 0.5_dp
+      call expect(checks, class_quiet, [1.0_dp, 0.36_dp], [1.0_dp, 0.371_dp], choice, stands)
+   end subroutine test_quiet_limit
+
+   !> A third line close to the threshold matters where three lines make the class.
+   subroutine test_line_count(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      character(*), parameter :: doubt = 'there are 2 to 3 lines'
+      type(spectrum_choice_t) :: choice
+
+      choice%idle_lines = 3
+      call expect(checks, class_idle, [1.0_dp, 0.5_dp, 0.011_dp], [1.0_dp, 0.5_dp, 0.0125_dp], choice, doubt)
+      call expect(checks, class_idle, [1.0_dp, 0.5_dp, 0.011_dp], [1.0_dp, 0.5_dp, 0.0115_dp], choice, stands)
+      call expect(checks, class_creep, [1.0_dp, 0.5_dp, 0.009_dp], [1.0_dp, 0.5_dp, 0.0075_dp], choice, doubt)
+      call expect(checks, class_creep, [1.0_dp, 0.5_dp, 0.009_dp], [1.0_dp, 0.5_dp, 0.0085_dp], choice, stands)
+      choice%idle_lines = 4
+      call expect(checks, class_creep, [1.0_dp, 0.5_dp, 0.011_dp], [1.0_dp, 0.5_dp, 0.0125_dp], choice, stands)
+      ! A quiet motion is quiet with any number of lines.
+      choice%idle_lines = 3
+      call expect(checks, class_quiet, [1.0_dp, 0.1_dp, 0.011_dp], [1.0_dp, 0.1_dp, 0.0125_dp], choice, stands)
+   end subroutine test_line_count
+
+   !> No share of the first harmonic means anything while its error is as large.
+   subroutine test_first_harmonic(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(spectrum_choice_t) :: choice
+
+      call expect(checks, class_creep, [1.0_dp, 50.0_dp], [2.0_dp, 50.0_dp], choice, 'The first harmonic is as small as its error')
+      call expect(checks, class_creep, [1.0_dp, 50.0_dp], [1.9_dp, 50.0_dp], choice, 'within its error of the quiet limit')
+   end subroutine test_first_harmonic
+
+   !> Without a tighter solution nothing is certified.
+   subroutine test_none(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(certificate_t) :: certificate
+
+      certificate = no_certificate('It overflowed.')
+      call checks%check(certificate%exists .and. .not. certificate%certified, 'none: not certified')
+      call checks%check(certificate%reason == 'It overflowed.' .and. size(certificate%harmonic_errors) == 0, 'none: its reason')
+   end subroutine test_none
+
+end module test_certificate

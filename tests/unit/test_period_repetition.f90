@@ -1,0 +1,161 @@
+!> Tests of the watcher that tells when a motion repeats, on states that approach known motions at known rates.
+!> The film stays near one, where its weight is a half.
+module test_period_repetition
+   use checks, only: check_list_t
+   use kinds, only: dp
+   use period_repetition, only: note_state, orbit_watch_t, watch_from
+   implicit none(type, external)
+   private
+
+   real(dp), parameter :: film_weight_at_one = 0.5_dp
+
+   public :: run_period_repetition_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_period_repetition_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('period_repetition')
+      call test_rest(checks)
+      call test_bound(checks)
+      call test_slow(checks)
+      call test_chance(checks)
+      call test_orbits(checks)
+      call test_half_still(checks)
+   end subroutine run_period_repetition_tests
+
+   !> Note films one after another, with momenta if given; the first that repeats ends it.
+   pure subroutine note_all(films, momenta, momentum_weight, tolerance, place, orbit, distance)
+      real(dp), intent(in) :: films(0:)         !> States from the start on [-]
+      real(dp), intent(in) :: momenta(0:)       !> Momenta [-]
+      real(dp), intent(in) :: momentum_weight   !> Film that a momentum of one counts as [-]
+      real(dp), intent(in) :: tolerance         !> Distance that is small enough [-]
+      integer, intent(out) :: place             !> State at which the motion was found to repeat; none: the last
+      integer, intent(out) :: orbit             !> Its periods, 0: not found
+      real(dp), intent(out) :: distance         !> Bound of its distance [-]
+
+      type(orbit_watch_t) :: watch
+
+      watch = watch_from(films(0), momenta(0))
+      orbit = 0
+      distance = huge(1.0_dp)
+      do place = 1, ubound(films, 1)
+         call note_state(watch, films(place), momenta(place), momentum_weight, tolerance, orbit, distance)
+         if (orbit > 0) return
+      end do
+      place = ubound(films, 1)
+   end subroutine note_all
+
+   !> A state that stays repeats as soon as there are four of them, and only if the momentum stays as well.
+   subroutine test_rest(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp) :: films(0:40), momenta(0:40), distance
+      integer :: place, orbit, i
+
+      films = 1.0_dp
+      momenta = 0.3_dp
+      call note_all(films, momenta, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
+      call checks%check(orbit == 1 .and. place == 3, 'rest: found with the fourth state')
+      call checks%check_close(distance, 0.0_dp, 0.0_dp, 'rest: distance')
+      momenta = [(real(i, dp), i=0, 40)]
+      call note_all(films, momenta, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
+      call checks%check(orbit == 0, 'a momentum that grows does not repeat')
+      call note_all(films, momenta, 1.0e-30_dp, 1.0e-6_dp, place, orbit, distance)
+      call checks%check(orbit == 1, 'a momentum without weight does not count')
+   end subroutine test_rest
+
+   !> x_n = 1 + c q^n is c q^n away from where it goes, and that is the bound: found at the first state within.
+   subroutine test_bound(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: start = 1.0e-3_dp, tolerance = 1.0e-7_dp, ratios(4) = [0.05_dp, 0.5_dp, 0.9_dp, 0.98_dp]
+      real(dp) :: films(0:600), momenta(0:600), distance
+      integer :: place, orbit, i, k
+
+      momenta = 0.0_dp
+      do k = 1, size(ratios)
+         films = [(1.0_dp + start*ratios(k)**i, i=0, 600)]
+         call note_all(films, momenta, 1.0_dp, tolerance, place, orbit, distance)
+         call checks%check(orbit == 1, 'bound: found')
+         call checks%check_close(distance, start*ratios(k)**place/film_weight_at_one, 1.0e-3_dp*tolerance, &
+            'bound: the distance that is left')
+         call checks%check(start*ratios(k)**(place - 1) > 0.99_dp*tolerance*film_weight_at_one, 'bound: not later than it holds')
+         ! The same in the momentum, which weighs three times as much.
+         call note_all([(1.0_dp, i=0, 600)], (films - 1.0_dp)/3.0_dp, 3.0_dp, tolerance, i, orbit, distance)
+         call checks%check(orbit == 1 .and. i == place, 'bound: the momentum counts by its weight')
+      end do
+   end subroutine test_bound
+
+   !> Creeping so slowly that even eight periods hardly change anything proves nothing.
+   subroutine test_slow(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp) :: films(0:1200), momenta(0:1200), distance
+      integer :: place, orbit, i
+
+      momenta = 0.0_dp
+      films = [(1.0_dp + 0.01_dp*0.999_dp**i, i=0, 1200)]
+      call note_all(films, momenta, 1.0_dp, 1.0e-2_dp, place, orbit, distance)
+      call checks%check(orbit == 0, 'slow: a ratio near one is not trusted')
+   end subroutine test_slow
+
+   !> One small ratio among large ones, the newest or the oldest, does not make the bound small.
+   subroutine test_chance(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: unit = 1.0e-4_dp*film_weight_at_one
+      real(dp) :: films(0:4), momenta(0:4), distance
+      integer :: place, orbit
+
+      momenta = 0.0_dp
+      ! Distances 1, 0.05, 0.04, 0.032 units: 0.128 are left, not 0.0017.
+      films = 1.0_dp + unit*[0.0_dp, 1.0_dp, 1.05_dp, 1.09_dp, 1.122_dp]
+      call note_all(films, momenta, 1.0_dp, 0.01e-4_dp, place, orbit, distance)
+      call checks%check(orbit == 0, 'chance: the oldest ratio is small')
+      call note_all(films, momenta, 1.0_dp, 0.13e-4_dp, place, orbit, distance)
+      call checks%check(orbit == 1 .and. place == 4, 'chance: found within its bound')
+      call checks%check_close(distance, 0.128e-4_dp, 1.0e-8_dp, 'chance: bound by the largest ratio')
+      ! Distances 1, 0.8, 0.64, 0.001 units: 0.004 are left, not 1.6e-6.
+      films = 1.0_dp + unit*[0.0_dp, 1.0_dp, 1.8_dp, 2.44_dp, 2.441_dp]
+      call note_all(films, momenta, 1.0_dp, 0.003e-4_dp, place, orbit, distance)
+      call checks%check(orbit == 0, 'chance: the newest ratio is small')
+      call note_all(films, momenta, 1.0_dp, 0.005e-4_dp, place, orbit, distance)
+      call checks%check(orbit == 1, 'chance: found within the bound of the older ratio')
+   end subroutine test_chance
+
+   !> Motions of one to eight periods are found with the shortest of their periods, one of nine is not.
+   subroutine test_orbits(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp) :: films(0:200), momenta(0:200), distance
+      integer :: place, orbit, period, i
+
+      momenta = 0.0_dp
+      do period = 1, 9
+         films = [(1.0_dp + 0.01_dp*real(modulo(i, period)**2, dp) + 0.01_dp*0.8_dp**i, i=0, 200)]
+         call note_all(films, momenta, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
+         call checks%check(orbit == merge(period, 0, period <= 8), 'orbits: their periods')
+         if (orbit > 0) call checks%check(0.01_dp*0.8_dp**place <= 1.01e-6_dp*film_weight_at_one, 'orbits: not too early')
+      end do
+   end subroutine test_orbits
+
+   !> Every other state stands still while those between still move: nothing repeats before all of them do.
+   subroutine test_half_still(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp) :: films(0:400), momenta(0:400), distance
+      integer :: place, orbit, still, i
+
+      momenta = 0.0_dp
+      do still = 0, 1
+         films = [(merge(1.02_dp, 0.98_dp + 0.1_dp*0.9_dp**shiftr(i, 1), modulo(i, 2) == still), i=0, 400)]
+         call note_all(films, momenta, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
+         call checks%check(orbit == 2, 'half still: period two')
+         call checks%check(0.1_dp*0.9_dp**shiftr(place, 1) <= 1.05e-6_dp*film_weight_at_one, 'half still: not too early')
+      end do
+   end subroutine test_half_still
+
+end module test_period_repetition
