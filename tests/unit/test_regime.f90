@@ -125,6 +125,8 @@ contains
       call checks%check(film_regime(0.5_dp, deep, film) == film_elastohydrodynamic, 'film: deep')
       call checks%check(film_regime(0.05_dp, 0.1_dp, 1.0_dp) == film_iso_viscous, &
          'film: at the deflection limit')
+      call checks%check(film_regime(0.05_dp, 0.1001_dp, 1.0_dp) == film_elastohydrodynamic, &
+         'film: just beyond the deflection limit')
       call checks%check(film_regime(nan, shallow, film) == film_regime_unknown, 'film: pressure no number')
       call checks%check(film_regime(0.5_dp, nan, film) == film_regime_unknown, 'film: deflection no number')
       call checks%check(film_regime(0.5_dp, shallow, nan) == film_regime_unknown, 'film: film no number')

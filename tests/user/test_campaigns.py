@@ -76,6 +76,26 @@ def test_a_scene_of_a_campaign_is_the_single_scene(
     assert single["natural_frequency"] == result["natural_frequency"][row]
 
 
+def test_recorded_quantities_hang_together(run, scene_text, tmp_path: Path) -> None:
+    """Pressures exist below alpha p = 1 only; only a motion that repeats has a period."""
+    record = "'periods_solved', 'orbit_period', 'alpha_p_maximum', 'pressure_maximum', 'deflection'"
+    changes = {"campaign": {"record": record}, "solver": {**BASE["solver"], "periods": "14"}}
+    text = grid(scene_text, 10, 10, film={"law": "'piezo-viscous'"}, **changes)
+    (tmp_path / "scene.nml").write_text(text)
+    result = package.read(solve(run, tmp_path))
+    alpha_p, pressure = result["alpha_p_maximum"], result["pressure_maximum"]
+    rigid = alpha_p < 1.0
+    assert 0 < rigid.sum() < 100
+    # Eq. (31), q = -ln(1 - alpha p)/alpha.
+    np.testing.assert_allclose(1.0 - np.exp(-2e-8 * pressure[rigid]), alpha_p[rigid], rtol=1e-13)
+    assert np.isnan(pressure[~rigid]).all() and np.isfinite(result["deflection"]).all()
+    steady = result["status"] == 1.0
+    assert 0 < steady.sum() < 100
+    periods, orbit = result["periods_solved"], result["orbit_period"]
+    assert (periods[steady] > orbit[steady]).all() and (orbit[steady] >= 1).all()
+    assert (periods[~steady] == 14).all() and (orbit[~steady] == 0).all()
+
+
 def test_certified_scene_is_the_certified_single_scene(run, scene_text, tmp_path: Path) -> None:
     """Solved loosely, not every class stands: row by row what the certificate of a single scene says."""
     loose = {**BASE["solver"], "accuracy": "1e-2", "periods": "200"}

@@ -170,6 +170,18 @@ def test_period_two_is_found(run, repository: Path, tmp_path: Path) -> None:
     assert two["harmonics"][0] == pytest.approx(54.14, abs=0.01)
 
 
+@pytest.mark.parametrize(("periods", "status"), [(26, "steady"), (25, "complete")])
+def test_steady_newmark_run_never_exceeds_its_periods(
+    periods: int, status: str, run, repository: Path, tmp_path: Path
+) -> None:
+    """A motion of two periods, known to repeat after 24: its window fits into 26 periods, not into 25."""
+    text = (repository / "input" / "creep_period_two.nml").read_text()
+    options = ["--set", "solver.until=steady", "--set", "solver.steps_per_period=256"]
+    options += ["--set", f"solver.periods={periods}", "--set", "output.series=.false."]
+    ended = summary(solve(run, tmp_path, text, *options, name="two"), "two")
+    assert (ended["status"], ended["periods_solved"]) == (status, periods)
+
+
 # --- sweeps ----------------------------------------------------------------------------------------------
 
 
