@@ -154,6 +154,20 @@ def test_newmark_error_is_that_of_its_certificate(run, scene_text, tmp_path: Pat
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
 
 
+@pytest.mark.parametrize("method", ["newmark", "newmark-extrapolated", "taylor"])
+def test_motion_that_has_died_out_is_quiet(method: str, run, scene_text, tmp_path: Path) -> None:
+    """Without a varying force only rounding is left, and no line is read into it."""
+    text = canonical(scene_text, method=f"'{method}'")
+    options = ["--set", "load.force_amplitude=0", "--set", "film.initial_velocity=1e-3"]
+    rest = summary(solve(run, tmp_path, text, *options))
+    assert (rest["rattle_class"], rest["certificate"], rest["reversals_per_period"]) == (
+        "quiet",
+        "certified",
+        0.0,
+    )
+    assert "line_count" not in rest and "irregular_fraction" not in rest
+
+
 def test_forged_line_is_not_certified(run, repository: Path, tmp_path: Path) -> None:
     """The artefact of a loose tolerance changes its class when solved tighter, and says so."""
     solve(run, tmp_path, (repository / "input" / "creep_forged_line.nml").read_text(), name="forged")
@@ -193,8 +207,33 @@ def test_sweep_goes_there_and_back(run, repository: Path, tmp_path: Path) -> Non
     count = int(result.input["sweep"]["count"])
     assert result.row_count == 2 * count - 1
     assert (result["status"] == 1).all() and (result["floquet_modulus"] < 1.0).all()
+    assert list(result["direction"]) == [1.0] * count + [-1.0] * (count - 1)
+    np.testing.assert_array_equal(result["value"][:count], result["value"][count - 1 :][::-1])
     there = result["film_maximum"][:count]
     back = result["film_maximum"][count - 1 :][::-1]
     differs = np.abs(back / there - 1.0)
     assert differs.max() > 0.5
     assert differs[[0, -1]] == pytest.approx([0.0, 0.0], abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("key", "group", "value"),
+    [
+        ("frequency", "load", 450.0),
+        ("force_amplitude", "load", 150.0),
+        ("steady_force", "load", 250.0),
+        ("entrainment_speed", "kinematics", 2.5),
+    ],
+)
+def test_every_swept_key_changes_its_own_scene(
+    key: str, group: str, value: float, run, scene_text, tmp_path: Path
+) -> None:
+    """The first motion of a sweep is that of a steady run with this value."""
+    steady = canonical(scene_text, until="'steady'")
+    single = solve(run, tmp_path, steady, "--set", f"{group}.{key}={value}", name="single")
+    sweep = {"key": f"'{key}'", "first": repr(value), "last": repr(1.1 * value), "count": "2"}
+    text = scene_text(scene={"task": "'sweep'"}, solver=None, spectrum=None, sweep=sweep)
+    result = package.read(solve(run, tmp_path, text, name="sweep") / "sweep.rattle")
+    for quantity in ("film_minimum", "film_maximum"):
+        assert result[quantity][0] == pytest.approx(summary(single, "single")[quantity], rel=1e-4)
+    assert result["film_maximum"][1] != pytest.approx(result["film_maximum"][0], rel=1e-3)
