@@ -20,6 +20,7 @@ contains
    subroutine run_film_fit_tests(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
 
+      call checks%start('film_fit')
       call test_made_points(checks)
       call test_disturbed_points(checks)
       call test_inversion(checks)

@@ -47,6 +47,7 @@ contains
    subroutine run_numerical_reynolds_tests(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
 
+      call checks%start('numerical_reynolds')
       call test_iso_viscous(checks)
       call test_barus(checks)
       call test_order(checks)

@@ -24,6 +24,7 @@ contains
    subroutine run_regime_tests(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
 
+      call checks%start('regime')
       call test_contact(checks)
       call test_map(checks)
       call test_exact_limits(checks)
