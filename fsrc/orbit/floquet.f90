@@ -4,7 +4,7 @@ module floquet
    implicit none(type, external)
    private
 
-   integer, parameter :: orbit_stable = 1, orbit_doubling_near = 2, orbit_fold_near = 3, orbit_torus_near = 4, &
+   integer, parameter, public :: orbit_stable = 1, orbit_doubling_near = 2, orbit_fold_near = 3, orbit_torus_near = 4, &
                          orbit_unstable = 5
 
    !> A multiplier beyond this is near the unit circle.

@@ -6,6 +6,7 @@ module key_table
    use input_key, only: integer_kind, key_t, list_kind, logical_kind, range_t, real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
    use text, only: edit_distance
+   use word_list, only: split_words, word_t
    implicit none(type, external)
    private
 
@@ -218,7 +219,7 @@ module key_table
             'Whether output files of an earlier run may be replaced; files of any other kind never are.') &
       ]
 
-   public :: find_key, known_group, starts_group, nearest_key, nearest_group
+   public :: choice_word, find_key, known_group, starts_group, nearest_key, nearest_group
 
 contains
 
@@ -234,6 +235,21 @@ contains
       end do
       find_key = 0
    end function find_key
+
+   !> The word of a choice, from its code: its position among the choices of the key.
+   pure function choice_word(group, name, code) result(word)
+      !> Namelist group
+      character(*), intent(in) :: group
+      !> Key in the group
+      character(*), intent(in) :: name
+      !> Position, from 1
+      integer, intent(in) :: code
+      character(:), allocatable :: word
+      type(word_t), allocatable :: words(:)
+
+      allocate (words, source=split_words(keys(find_key(group, name))%choices))
+      word = words(code)%text
+   end function choice_word
 
    !> Whether any key lives in this group.
    pure logical function known_group(group)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from outcomes import digest, summary_of
+from outcomes import summary_of
 
 import rattle as package
 
