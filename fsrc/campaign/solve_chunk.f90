@@ -1,9 +1,7 @@
 !> Solves and judges the scenes of a chunk: the kernels of the single scene, eight scenes to a register.
 module solve_chunk
+   use campaign_certificate, only: class_stands
    use campaign_record, only: judged_scene_t, record_row
-   use certificate, only: certificate_t
-   use certify_scene, only: certify
-   use fine_window, only: window_t
    use kinds, only: dp, int64
    use lane_motions, only: accelerations, solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
@@ -104,7 +102,7 @@ contains
          resolved(i) = resolve(scene)
          lanes(i) = lane_of_scene(scene, resolved(i)%film, resolved(i)%initial_film, scene%film%initial_velocity)
          costs(i) = -likely_cost(scene, resolved(i))
-         requests(i) = request_of(scene, needed)
+         requests(i) = request_of(scene)
       end do
       call cost_order(costs, order)
       together = alike(requests(order(:solved)))
@@ -158,10 +156,8 @@ contains
    end function alike
 
    !> What is asked of the engine.
-   pure function request_of(scene, needed) result(request)
+   pure function request_of(scene) result(request)
       type(scene_t), intent(in) :: scene
-      !> What the columns need
-      logical, intent(in) :: needed(:)
       type(lane_request_t) :: request
 
       request%accuracy = scene%solver%accuracy
@@ -170,8 +166,7 @@ contains
       request%sampled_periods = scene%spectrum%periods
       request%until_steady = scene%solver%until == until_steady
       if (request%until_steady) request%sampled_periods = max(scene%spectrum%periods, longest_orbit)
-      ! A certificate solves the same periods from the start again.
-      request%forecast = request%until_steady .and. .not. needed(needs_certificate)
+      request%forecast = request%until_steady
    end function request_of
 
    !> Work that a scene is likely to be: stiff ones take short steps, lightly damped ones many periods.
@@ -215,21 +210,8 @@ contains
             call classify(values, choice, judged%resolved%noise_floor, judged%rattle)
          if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, scene%film%law, films, velocities)
          if (needed(needs_certificate)) judged%certified = &
-            is_certified(scene, lane, judged, window_t(choice%periods, scene%campaign%samples_per_period, films, velocities, &
-                                                       values))
+            class_stands(scene, judged%resolved, lane, request_of(scene), judged%rattle)
       end associate
    end subroutine judge_scene
-
-   !> Whether the class of a scene stands: the certificate of the single scene.
-   logical function is_certified(scene, lane, judged, window)
-      type(scene_t), intent(in) :: scene
-      type(lane_scene_t), intent(in) :: lane
-      type(judged_scene_t), intent(in) :: judged
-      type(window_t), intent(in) :: window
-      type(certificate_t) :: verdict
-
-      call certify(scene, judged%resolved, lane, judged%ending%periods, window, judged%rattle, verdict)
-      is_certified = verdict%certified
-   end function is_certified
 
 end module solve_chunk

@@ -29,8 +29,17 @@ module lane_integration
    !> Share of the accuracy within which a motion counts as repeating.
    real(dp), parameter :: repetition_share = 0.3_dp
 
-   !> Forecasts of where a motion settles: more of them show that it does not.
-   integer, parameter :: most_forecasts = 8
+   !> Excursions to where a motion is forecast to settle, forecasts in one of them, and periods since the last one, once
+   !> and for every period of the orbit, after which it has failed: more of them show that the motion does not settle.
+   integer, parameter :: most_excursions = 3, most_forecasts = 6, excursion_once = 6, excursion_per_period = 5
+
+   !> Where a motion was left for an excursion.
+   type :: departure_t
+      !> Period 0: it is on its own way
+      integer :: period = 0
+      real(dp) :: film = 0.0_dp, momentum = 0.0_dp
+      type(orbit_watch_t) :: states
+   end type departure_t
 
    !> What happened to the scene of a lane.
    type :: lane_watch_t
@@ -42,8 +51,9 @@ module lane_integration
       real(dp) :: film = 0.0_dp, momentum = 0.0_dp
       !> Looks for repetition
       type(orbit_watch_t) :: states
-      !> Forecasts made
-      integer :: forecasts = 0
+      !> Excursion under way, the period at which it has failed, its forecasts, and excursions made
+      type(departure_t) :: departure
+      integer :: back_at = 0, forecasts = 0, excursions = 0
       type(lane_ending_t) :: ending
    end type lane_watch_t
 
@@ -126,6 +136,10 @@ contains
             end if
             if (run%block%remaining(l) <= 0.0_dp) then
                call end_period(l, request, run)
+            else if (in_trouble(l, run) .and. run%watches(l)%departure%period > 0) then
+               run%watches(l)%ending%steps = run%watches(l)%ending%steps + nint(run%block%period_steps(l), int64)
+               call start_period(l, run%block)
+               call go_back(l, run)
             else if (in_trouble(l, run)) then
                call give_up(l, run)
             end if
@@ -172,7 +186,8 @@ contains
             watch%film = run%block%film(lane, 0)
             watch%momentum = run%block%momentum(lane, 0)
             watch%states = watch_from(watch%film, watch%momentum)
-            watch%forecasts = 0
+            watch%departure%period = 0
+            watch%excursions = 0
             if (present(watches) .and. scenes(scene)%carried_on) watch%states = watches(scene)
          end associate
          run%samples%written(lane) = samples_before(run%watches(lane), run%samples)
@@ -198,9 +213,8 @@ contains
       integer, intent(in) :: lane
       type(lane_request_t), intent(in) :: request
       type(lane_run_t), intent(inout) :: run
-      real(dp) :: weight, distance, film, momentum
+      real(dp) :: weight, distance
       integer :: orbit
-      logical :: found
 
       associate (watch => run%watches(lane), block => run%block)
          watch%ending%steps = watch%ending%steps + nint(block%period_steps(lane), int64)
@@ -219,9 +233,8 @@ contains
                watch%ending%status = status_steady
                watch%sample_from = watch%period
                watch%last_period = watch%period + min(orbit, request%sampled_periods)
-            else if (request%forecast .and. watch%forecasts < most_forecasts) then
-               call forecast_rest(watch%states, weight, found, film, momentum)
-               if (found) call go_on_from(film, momentum, lane, run)
+            else if (request%forecast) then
+               call look_ahead(weight, lane, run)
             end if
          end if
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
@@ -229,8 +242,56 @@ contains
       end associate
    end subroutine end_period
 
-   !> Go on from another state at the start of a period.
-   pure subroutine go_on_from(film, momentum, lane, run)
+   !> Set out to where the motion is forecast to settle, or go back where an excursion has failed. A motion that does not
+   !> repeat is so the one that follows from its start, to the last bit.
+   pure subroutine look_ahead(weight, lane, run)
+      !> Film that a momentum of one counts as [-]
+      real(dp), intent(in) :: weight
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(inout) :: run
+      real(dp) :: film, momentum
+      integer :: orbit, back_at
+
+      associate (watch => run%watches(lane))
+         if (watch%departure%period == 0) then
+            if (watch%excursions == most_excursions) return
+            watch%forecasts = 0
+         end if
+         orbit = 0
+         if (watch%forecasts < most_forecasts) call forecast_rest(watch%states, weight, orbit, film, momentum)
+         back_at = watch%period + excursion_once + excursion_per_period*orbit
+         if (orbit > 0 .and. back_at < watch%sample_from) then
+            if (watch%departure%period == 0) then
+               watch%excursions = watch%excursions + 1
+               watch%departure = departure_t(watch%period, watch%film, watch%momentum, watch%states)
+            end if
+            watch%back_at = back_at
+            watch%forecasts = watch%forecasts + 1
+            watch%states = watch_from(film, momentum)
+            call place(film, momentum, lane, run)
+         else if (watch%departure%period > 0 .and. watch%period >= watch%back_at) then
+            call go_back(lane, run)
+         end if
+      end associate
+   end subroutine look_ahead
+
+   !> Back to where an excursion began.
+   pure subroutine go_back(lane, run)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(inout) :: run
+
+      associate (watch => run%watches(lane))
+         watch%period = watch%departure%period
+         watch%states = watch%departure%states
+         watch%departure%period = 0
+         call place(watch%departure%film, watch%departure%momentum, lane, run)
+      end associate
+   end subroutine go_back
+
+   !> Let a period start from a state.
+   pure subroutine place(film, momentum, lane, run)
       !> Scaled film and momentum [-]
       real(dp), intent(in) :: film
       real(dp), intent(in) :: momentum
@@ -240,13 +301,9 @@ contains
 
       run%block%film(lane, 0) = film
       run%block%momentum(lane, 0) = momentum
-      associate (watch => run%watches(lane))
-         watch%film = film
-         watch%momentum = momentum
-         watch%states = watch_from(film, momentum)
-         watch%forecasts = watch%forecasts + 1
-      end associate
-   end subroutine go_on_from
+      run%watches(lane)%film = film
+      run%watches(lane)%momentum = momentum
+   end subroutine place
 
    !> The scene of a lane goes no further; its state is that at the start of the period.
    pure subroutine give_up(lane, run)

@@ -53,8 +53,8 @@ module lane_scenes
       integer :: sampled_periods = 0
       !> Stop when the motion is known to repeat
       logical :: until_steady = .false.
-      !> Go on from where a slowly settling motion will come to rest: the periods before the samples are then no longer
-      !> those that follow from the start
+      !> Set out to where a slowly settling motion is forecast to come to rest. If it then repeats, the periods before the
+      !> samples are fewer than those that follow from the start
       logical :: forecast = .false.
    end type lane_request_t
 

@@ -6,9 +6,10 @@
 !> beta), minimal polynomial extrapolation (Cabay and Jackson 1976). Where the differences are parallel, because the motion
 !> forgets all but one direction at once, lambda alone does (Aitken). It costs no period more.
 !>
-!> A forecast is no proof: the motion goes on from there, and repeats or not by its own states (module period_repetition).
-!> It is made only where it is safe: multipliers inside the unit circle, the same in two successive estimates, and a place
-!> that is near. So a motion that leaves an unstable one is not led back to it.
+!> A forecast is no proof: the motion goes on from there, and repeats or not by its own states (module period_repetition);
+!> if not, it goes back to where it was (module lane_integration). A forecast is made only where it is safe: multipliers inside
+!> the unit circle, the same in two successive estimates, and a place that is near. So a motion that leaves an unstable one
+!> is not led back to it.
 module settling_forecast
    use kinds, only: dp
    use period_repetition, only: longest_orbit, orbit_watch_t, state_of_age
@@ -30,33 +31,33 @@ module settling_forecast
 contains
 
    !> The state in which the motion will come to rest.
-   pure subroutine forecast_rest(watch, momentum_weight, found, film, momentum)
+   pure subroutine forecast_rest(watch, momentum_weight, orbit, film, momentum)
       !> The last states of the motion
       type(orbit_watch_t), intent(in) :: watch
       !> Film that a momentum of one counts as [-]
       real(dp), intent(in) :: momentum_weight
-      !> Whether there is a forecast to be trusted
-      logical, intent(out) :: found
+      !> Periods after which it will repeat; 0: there is no forecast to be trusted
+      integer, intent(out) :: orbit
       !> Scaled film H and momentum V there [-]
       real(dp), intent(out) :: film
       real(dp), intent(out) :: momentum
       real(dp) :: older(2), rest(2), multiplier, older_multiplier, state(2), weight(2)
-      integer :: orbit
+      integer :: periods
 
-      found = .false.
+      orbit = 0
       film = 0.0_dp
       momentum = 0.0_dp
       state = state_of_age(watch, 0)
       weight = [1.0_dp, momentum_weight]/film_weight(state(1))
-      do orbit = 1, longest_orbit
-         if (watch%count < 3*orbit + 2) return
-         call settle(watch, weight, orbit, 0, multiplier, rest)
+      do periods = 1, longest_orbit
+         if (watch%count < 3*periods + 2) return
+         call settle(watch, weight, periods, 0, multiplier, rest)
          if (.not. (multiplier > fast .and. multiplier < slowest .and. maxval(abs(rest)) < near)) cycle
-         call settle(watch, weight, orbit, 1, older_multiplier, older)
+         call settle(watch, weight, periods, 1, older_multiplier, older)
          if (.not. abs(older_multiplier - multiplier) < agreement*(1.0_dp - multiplier)) cycle
          film = state(1) + rest(1)/weight(1)
          momentum = state(2) + rest(2)/weight(2)
-         found = film > 0.0_dp
+         if (film > 0.0_dp) orbit = periods
          return
       end do
    end subroutine forecast_rest

@@ -51,7 +51,8 @@ contains
          away = matmul(map, away)
          call note_state(watch, rest(1) + away(1), rest(2) + away(2), weight, 0.0_dp, orbit, distance)
       end do
-      call forecast_rest(watch, weight, found, film, momentum)
+      call forecast_rest(watch, weight, orbit, film, momentum)
+      found = orbit > 0
    end subroutine follow
 
    !> Real, alternating and complex multipliers: the fixed point is hit up to the rounding of the differences.

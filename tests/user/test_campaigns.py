@@ -50,14 +50,17 @@ def test_threads_and_parts_give_the_same_bytes(run, folder: Path) -> None:
     assert digest(folder / "joined.rattle") == digest(whole)
 
 
-@pytest.mark.parametrize(("row", "samples"), [(464, 512), (110, 64), (629, 64), (899, 64)])
+@pytest.mark.parametrize(
+    ("row", "samples", "tolerance"), [(464, 512, 0.0), (110, 64, 0.0), (629, 64, 1e-6), (899, 64, 0.0)]
+)
 def test_a_scene_of_a_campaign_is_the_single_scene(
-    row: int, samples: int, run, folder: Path, scene_text
+    row: int, samples: int, tolerance: float, run, folder: Path, scene_text
 ) -> None:
     """The same kernels: film range and harmonics of a row come out of a single run.
 
     Idle, creep, and two irregular scenes. A single steady scene takes as many samples as its lines need, a
-    campaign those that it was given, so the idle one has more lines to show alone.
+    campaign those that it was given, so the idle one has more lines to show alone. One settles slowly; the
+    campaign forecasts where, and comes to the same motion within the accuracy.
     """
     result = package.read(solve(run, folder))
     changes = {
@@ -71,8 +74,9 @@ def test_a_scene_of_a_campaign_is_the_single_scene(
     single = summary_of(folder / "results" / "single.summary.nml")
     assert single["samples_per_period"] == samples
     if samples == 64:
-        assert single["film_minimum"] == result["film_minimum"][row]
-        assert single["harmonics"][:8] == [result[f"harmonic_{n}"][row] for n in range(1, 9)]
+        harmonics = [result[f"harmonic_{n}"][row] for n in range(1, 9)]
+        assert single["film_minimum"] == pytest.approx(result["film_minimum"][row], rel=tolerance, abs=0.0)
+        assert single["harmonics"][:8] == pytest.approx(harmonics, rel=0.0, abs=tolerance * max(harmonics))
     assert single["natural_frequency"] == result["natural_frequency"][row]
 
 

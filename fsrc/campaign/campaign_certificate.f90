@@ -1,0 +1,61 @@
+!> Whether the class of a scene of a campaign stands: the certificate of the single scene.
+module campaign_certificate
+   use certificate, only: certificate_t
+   use certify_scene, only: certify
+   use fine_window, only: classify_window, window_t
+   use kinds, only: dp
+   use lane_motions, only: accelerations, solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use rattle_class, only: rattle_verdict_t
+   use resolved_scene, only: resolved_scene_t
+   use scene_status, only: is_success
+   use scene_types, only: scene_t
+   implicit none(type, external)
+   private
+
+   public :: class_stands
+
+contains
+
+   !> The certificate holds the motion that follows from its start against the same periods solved tighter. So the periods
+   !> that a forecast has saved in the campaign are solved here.
+   logical function class_stands(scene, resolved, lane, request, verdict)
+      !> The scene with its varied keys set
+      type(scene_t), intent(in) :: scene
+      !> What follows from it
+      type(resolved_scene_t), intent(in) :: resolved
+      !> Its lane
+      type(lane_scene_t), intent(in) :: lane
+      !> What the campaign asked of the engine
+      type(lane_request_t), intent(in) :: request
+      !> Verdict to be tested
+      type(rattle_verdict_t), intent(in) :: verdict
+      type(lane_request_t) :: from_start
+      type(lane_ending_t) :: endings(1)
+      type(rattle_verdict_t) :: own_verdict
+      type(certificate_t) :: certificate
+      type(window_t) :: window
+      real(dp), allocatable :: films(:, :), velocities(:, :)
+      integer :: samples
+
+      class_stands = .false.
+      from_start = request
+      from_start%forecast = .false.
+      samples = request%sampled_periods*request%samples_per_period
+      allocate (films(samples, 1), velocities(samples, 1))
+      call solve_motions([lane], from_start, films, velocities, endings)
+      if (.not. is_success(endings(1)%status)) return
+      samples = endings(1)%samples
+      window%periods = samples/request%samples_per_period
+      window%samples_per_period = request%samples_per_period
+      allocate (window%films, source=films(:samples, 1))
+      allocate (window%velocities, source=velocities(:samples, 1))
+      allocate (window%accelerations(samples))
+      call accelerations(lane, request%samples_per_period, window%films, window%velocities, window%accelerations)
+      call classify_window(scene, window, resolved%noise_floor, own_verdict)
+      if (own_verdict%class /= verdict%class) return
+      call certify(scene, resolved, lane, endings(1)%periods, window, own_verdict, certificate)
+      class_stands = certificate%certified
+   end function class_stands
+
+end module campaign_certificate
