@@ -75,7 +75,7 @@ module film_law
       end subroutine film_kernel
    end interface
 
-   public :: new_film, contact_radius, film_load, steady_film, film_kernel
+   public :: new_film, contact_radius, film_load, film_loads, steady_film, film_kernel
    public :: load_half_pi, load_solved_fast, load_solved_successive, load_piezo, load_reynolds_iso, load_reynolds_piezo
 
 contains
@@ -155,6 +155,39 @@ contains
          call load_reynolds_piezo(film, thickness, velocity, load, load_by_film, load_by_velocity)
       end select
    end subroutine film_load
+
+   !> Loads of many states of one film: which law it is, is asked once, and the published ones run in full registers.
+   pure subroutine film_loads(film, thicknesses, velocities, loads)
+      !> The film
+      type(film_t), intent(in) :: film
+      !> Film thicknesses h > 0 [m]
+      real(dp), intent(in) :: thicknesses(:)
+      !> Film velocities w = dh/dt [m/s], as many
+      real(dp), intent(in) :: velocities(:)
+      !> Loads W [N], as many
+      real(dp), intent(out) :: loads(:)
+      real(dp) :: load_by_film, load_by_velocity
+      integer :: i
+
+      select case (film%kernel)
+      case (kernel_half_pi)
+         !$omp simd private(load_by_film, load_by_velocity)
+         do i = 1, size(loads)
+            call half_pi_rupture_load(film%rolling, film%squeeze, thicknesses(i), velocities(i), loads(i), load_by_film, &
+                                      load_by_velocity)
+         end do
+      case (kernel_piezo)
+         !$omp simd private(load_by_film, load_by_velocity)
+         do i = 1, size(loads)
+            call piezo_viscous_load(film%piezo, film%rate, thicknesses(i), velocities(i), loads(i), load_by_film, &
+                                    load_by_velocity)
+         end do
+      case default
+         do i = 1, size(loads)
+            call film_load(film, thicknesses(i), velocities(i), loads(i), load_by_film, load_by_velocity)
+         end do
+      end select
+   end subroutine film_loads
 
    !> Film that carries a static load without squeeze [m]: (23), (37) or the exact load, solved for h.
    !> 0 where no rigid piezo-viscous film carries it.

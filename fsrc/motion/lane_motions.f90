@@ -1,7 +1,7 @@
 !> Motions of any number of scenes, error-controlled: Taylor series for the published film laws, collocation
 !> for all other laws and for scenes too stiff for explicit steps.
 module lane_motions
-   use film_law, only: film_load
+   use film_law, only: film_loads
    use kinds, only: dp
    use lane_integration, only: has_series, integrate_lanes
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
@@ -83,13 +83,14 @@ contains
       real(dp), intent(in) :: velocities(:)
       !> z'' [m/s2]
       real(dp), intent(out) :: values(:)
-      real(dp) :: force(samples_per_period), load, load_by_film, load_by_velocity
-      integer :: i
+      real(dp) :: force(samples_per_period)
+      integer :: before, count
 
       call force_of_period(scene%steady_force, scene%force_amplitude, force)
-      do i = 1, size(films)
-         call film_load(scene%film, films(i), velocities(i), load, load_by_film, load_by_velocity)
-         values(i) = (load - scene%weight - force(modulo(i - 1, samples_per_period) + 1))/scene%mass
+      call film_loads(scene%film, films, velocities, values)
+      do before = 0, size(films) - 1, samples_per_period
+         count = min(samples_per_period, size(films) - before)
+         values(before + 1:before + count) = (values(before + 1:before + count) - scene%weight - force(:count))/scene%mass
       end do
    end subroutine accelerations
 

@@ -2,10 +2,10 @@
 
     bench_campaign.py PROGRAM [--side N] [--sample N]
 
-This program solves the whole map; the others a random sample of its scenes, over 200 periods, as their
-users would run them: heyoka with eight different scenes in a batch, CVODE one after the other with its
-analytic Jacobian. One core, processor time, at settings that give the film an error of about 1e-6. Prints
-a Markdown table.
+This program solves the whole map, each scene until its motion repeats, at most 200 periods; the others a
+random sample of its scenes over 200 periods, as their users would run them: heyoka with eight different
+scenes in a batch, CVODE one after the other with its analytic Jacobian. One core, processor time, at settings
+that give the film an error of about 1e-6. Prints a Markdown table.
 """
 
 from __future__ import annotations
@@ -82,7 +82,8 @@ def own_seconds(program: str, side: int, threads: int, *options: str) -> tuple[f
     """Processor and wall seconds a scene of the map, and peak memory [MB]."""
     with tempfile.TemporaryDirectory() as place:
         command = [program, "--quiet", "--threads", str(threads), "--output", place]
-        command += ["--set", f"campaign.count={side}, {side}", *options, "input/map.nml"]
+        command += ["--set", f"campaign.count={side}, {side}", "--set", f"solver.periods={scenes.PERIODS}"]
+        command += [*options, "input/map.nml"]
         begin = time.perf_counter()
         process = subprocess.Popen(command)
         _, status, usage = os.wait4(process.pid, 0)
