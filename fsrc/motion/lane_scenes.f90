@@ -211,6 +211,8 @@ contains
       block%film(lane, 0) = 1.0_dp
       block%damping_rate(lane) = 0.0_dp
       call start_period(lane, block)
+      ! Far from the end of a period, so that nobody has to look after it.
+      block%phase(lane) = -1.0e6_dp
    end subroutine rest_lane
 
    !> Start of a period: film and momentum alone decide all that follows, nothing else of the period before.
