@@ -36,6 +36,8 @@ module collocation_step
    integer, parameter :: most_passes = 10
    !> Share of the accuracy for the last coefficient of the polynomial, and for the first one left out.
    real(dp), parameter :: last_share = 40.0_dp, next_share = 2.0_dp
+   !> Largest integral of w, of the header, and of that integral.
+   real(dp), parameter :: once_between = 1.7400e-2_dp, twice_between = 1.2320e-3_dp
    !> Longest step [periods]
    real(dp), parameter :: longest_step = 0.25_dp
    !> Step over the one before, least and most, and the most for which the polynomial is carried on.
@@ -110,7 +112,8 @@ contains
    pure subroutine first_iterate(films, occupied, block, k)
       type(film_t), intent(in) :: films(lanes)
       logical, intent(in) :: occupied(lanes)
-      type(lane_block_t), intent(in) :: block
+      !> The acceleration at the start of a first step is set
+      type(lane_block_t), intent(inout) :: block
       !> Accelerations at the nodes [-]
       real(dp), intent(out) :: k(lanes, stages)
       real(dp) :: ratio, place, load, by_film, by_momentum
@@ -119,6 +122,10 @@ contains
       k = 0.0_dp
       do l = 1, lanes
          if (.not. occupied(l)) cycle
+         if (.not. block%last_step(l) > 0.0_dp) then
+            call scaled_load(films(l), block, l, block%film(l, 0), block%momentum(l, 0), load, by_film, by_momentum)
+            block%acceleration(l) = load - block%load(l) - block%amplitude(l)*cos(two_pi*block%phase(l))
+         end if
          if (block%last_step(l) > 0.0_dp .and. block%step(l) < most_extrapolation*block%last_step(l)) then
             ratio = block%step(l)/block%last_step(l)
             do i = 1, stages
@@ -128,9 +135,7 @@ contains
                end do
             end do
          else
-            call scaled_load(films(l), block, l, block%film(l, 0), block%momentum(l, 0), load, by_film, &
-               by_momentum)
-            k(l, :) = load - block%load(l) - block%amplitude(l)*cos(two_pi*block%phase(l))
+            k(l, :) = block%acceleration(l)
          end if
       end do
    end subroutine first_iterate
@@ -142,7 +147,7 @@ contains
       real(dp), intent(in) :: film(lanes, stages)
       real(dp), intent(in) :: momentum(lanes, stages)
       type(lane_block_t), intent(inout) :: block
-      real(dp) :: polynomial(stages), top, next, error, growth
+      real(dp) :: polynomial(stages), weight, top, next, between, error, growth
       integer :: l
 
       block%next_film = block%film(:, 0)
@@ -153,11 +158,12 @@ contains
          if (block%trust(l) > 0.0_dp) then
             polynomial = matmul(power, k(l, :))
             call highest_terms(polynomial, top, next)
-            top = top*block%step(l)
-            next = next*block%step(l)
-            error = max(top/last_share, next/next_share)*max(block%step(l)/real(4*stages**2, dp), &
-                        momentum_weight(block%film(l, 0), block%damping_rate(l), block%force(l)) &
-                           /real(2*stages, dp)) &
+            weight = momentum_weight(block%film(l, 0), block%damping_rate(l), block%force(l))
+            error = max(top/last_share, next/next_share)*block%step(l) &
+               *max(block%step(l)/real(4*stages**2, dp), weight/real(2*stages, dp))
+            between = abs(at_start(polynomial) - block%acceleration(l))*block%step(l) &
+               *max(block%step(l)*twice_between, weight*once_between)
+            error = max(error, between) &
                /min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
                     allowed(maxval(film(l, :)), l, block))
             growth = max(least_growth, min(most_growth, 0.9_dp/sqrt(sqrt(sqrt(max(error, tiny(1.0_dp)))))))
@@ -168,11 +174,20 @@ contains
             block%next_film(l) = film(l, stages)
             block%next_momentum(l) = momentum(l, stages)
             block%polynomial(l, :) = polynomial
+            block%acceleration(l) = k(l, stages)
             block%last_step(l) = block%step(l)
             call series_of_step(l, block)
          end if
       end do
    end subroutine judge
+
+   !> Value at the start of the step, 2c - 1 = -1.
+   pure real(dp) function at_start(polynomial)
+      !> Coefficients of the powers of 2c - 1
+      real(dp), intent(in) :: polynomial(stages)
+
+      at_start = sum(polynomial(1::2)) - sum(polynomial(2::2))
+   end function at_start
 
    !> Size of the highest Legendre coefficient of the acceleration, and what the first one left out may be:
    !> the coefficients are taken to fall as they did over the last ones.

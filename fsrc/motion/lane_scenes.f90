@@ -106,6 +106,8 @@ module lane_scenes
       !> Collocation: next step proposed, last step taken [periods], polynomial of the acceleration in that
       !> step, and whether the last try met a film that has no load
       real(dp) :: proposed(lanes), last_step(lanes), polynomial(lanes, stages)
+      !> H'' at the start of the step
+      real(dp) :: acceleration(lanes)
       logical :: no_load(lanes)
       !> Steps of this period
       real(dp) :: period_steps(lanes)
@@ -229,6 +231,7 @@ contains
       block%proposed(lane) = first_step
       block%last_step(lane) = 0.0_dp
       block%polynomial(lane, :) = 0.0_dp
+      block%acceleration(lane) = 0.0_dp
       block%no_load(lane) = .false.
    end subroutine start_period
 
