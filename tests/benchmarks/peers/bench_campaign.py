@@ -78,11 +78,13 @@ def cvode_seconds(sample: list[scenes.Scene]) -> float:
     return float(np.mean([cvode_peer.prepare(scene, CVODE_TOLERANCE)()[1] for scene in sample]))
 
 
-def own_seconds(program: str, side: int, threads: int, *options: str) -> tuple[float, float, float]:
+def own_seconds(
+    program: str, side: int, threads: int, *options: str, periods: int = int(scenes.PERIODS)
+) -> tuple[float, float, float]:
     """Processor and wall seconds a scene of the map, and peak memory [MB]."""
     with tempfile.TemporaryDirectory() as place:
         command = [program, "--quiet", "--threads", str(threads), "--output", place]
-        command += ["--set", f"campaign.count={side}, {side}", "--set", f"solver.periods={scenes.PERIODS}"]
+        command += ["--set", f"campaign.count={side}, {side}", "--set", f"solver.periods={periods}"]
         command += [*options, "input/map.nml"]
         begin = time.perf_counter()
         process = subprocess.Popen(command)
@@ -106,6 +108,18 @@ def main() -> None:
     lean, _, _ = own_seconds(options.program, small, 1, "--set", "campaign.record=film_minimum,film_maximum")
     scrambled_options = ["--set", "campaign.sample=latin-hypercube", "--set", f"campaign.size={small**2}"]
     scrambled, _, _ = own_seconds(options.program, small, 1, *scrambled_options)
+    bare = [
+        "--set",
+        "solver.until=periods",
+        "--set",
+        "spectrum.periods=1",
+        "--set",
+        "campaign.samples_per_period=32",
+    ]
+    bare += ["--set", "campaign.record=film_minimum,film_maximum,steady_film,natural_frequency,damping_ratio"]
+    one_period, _, _ = own_seconds(options.program, options.side, 1, *bare, periods=1)
+    two_periods, _, _ = own_seconds(options.program, options.side, 1, *bare, periods=2)
+    driver = 2 * one_period - two_periods
     sample = random_scenes(options.sample)
     print("| what | a scene [us], one core | ratio |")
     print("|---|---|---|")
@@ -117,6 +131,7 @@ def main() -> None:
     print(
         f"| scenes in random order, over the grid | {1e6 * scrambled:.1f} | {scrambled / sorted_cost:.2f} |"
     )
+    print(f"| driver and output: one period less the second | {1e6 * driver:.1f} | {driver / one:.2f} |")
     for name, measure, part in (
         ("heyoka, 8 lanes, 200 periods", heyoka_seconds, sample),
         ("CVODE, 200 periods", cvode_seconds, sample[:24]),
