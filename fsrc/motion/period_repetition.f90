@@ -21,7 +21,8 @@ module period_repetition
    !> Four orbits: three distances, two ratios.
    integer, parameter :: kept = 4*longest_orbit
    !> Longer orbits are looked for from here on, and then now and again: most motions do not have them.
-   integer, parameter :: longer_from = 12, longer_every = 4
+   integer, parameter :: longer_from = 12
+   integer, parameter, public :: longer_every = 4
    !> Ratio above which the bound is not trusted.
    real(dp), parameter :: largest_ratio = 0.99_dp
 

@@ -12,7 +12,7 @@
 !> is not led back to it.
 module settling_forecast
    use kinds, only: dp
-   use period_repetition, only: longest_orbit, orbit_watch_t, state_of_age
+   use period_repetition, only: longer_every, longest_orbit, orbit_watch_t, state_of_age
    use taylor_step_control, only: film_weight
    implicit none(type, external)
    private
@@ -42,14 +42,16 @@ contains
       real(dp), intent(out) :: film
       real(dp), intent(out) :: momentum
       real(dp) :: older(2), rest(2), multiplier, older_multiplier, state(2), weight(2)
-      integer :: periods
+      integer :: periods, longest
 
       orbit = 0
       film = 0.0_dp
       momentum = 0.0_dp
       state = state_of_age(watch, 0)
       weight = [1.0_dp, momentum_weight]/film_weight(state(1))
-      do periods = 1, longest_orbit
+      ! Longer orbits are looked for now and again: most motions do not have them.
+      longest = merge(longest_orbit, 1, modulo(watch%count, longer_every) == 0)
+      do periods = 1, longest
          if (watch%count < 3*periods + 2) return
          call settle(watch, weight, periods, 0, multiplier, rest)
          if (.not. (multiplier > fast .and. multiplier < slowest .and. maxval(abs(rest)) < near)) cycle
