@@ -5,7 +5,7 @@
 !> ENGINE: taylor (full run), taylor-steady (until the motion repeats) or newmark-extrapolated. Prints the CPU seconds of one scene, then h/h0 at 64 points of each of the last ten periods.
 program bench_engine
    use film_law, only: film_t, new_film
-   use kinds, only: dp, int64
+   use kinds, only: dp
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use newmark, only: newmark_t
