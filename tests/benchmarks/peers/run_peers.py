@@ -5,7 +5,8 @@
 Each contender solves each scene with a series of tolerances. A first solution compiles, measures the error
 against the reference and the time; then come N rounds, each timing every setting once in turn, so that a
 slow spell of the machine meets all contenders alike. The CSV has the median over the rounds of the CPU
-seconds of one solution. A series ends where a solution takes longer than --limit seconds. --own adds a
+seconds of one solution. A series ends where a solution takes longer than --limit seconds, or a call, which
+may fill many lanes, longer than ten times that. --own adds a
 contender that is a command (protocol: command.py), run side by side with the peers; it may be given several
 times. A contender that is not installed, or that fails on a setting, is reported and left out.
 """
@@ -20,6 +21,7 @@ import shlex
 import statistics
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
@@ -32,6 +34,8 @@ PEERS = ("cvode_peer", "scipy_peer", "numbalsoda_peer", "heyoka_peer")
 OWN_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12)
 QUICK_TOLERANCES = (1e-4, 1e-6, 1e-8)
 LEAST_SECONDS = 0.01
+# A call may take so many times the limit of a solution.
+CALL_LIMIT = 10
 COLUMNS = ("contender", "version", "scene", "film", "tolerance", "error", "cpu_seconds_median", "rounds")
 
 Solve = Callable[[], tuple]
@@ -115,7 +119,9 @@ def first_solutions(
         for tolerance in QUICK_TOLERANCES if quick else contender.tolerances:
             try:
                 solve = contender.prepare(scene, tolerance)
+                begin = time.perf_counter()
                 film, seconds = solve()
+                wall = time.perf_counter() - begin
             except Exception as failure:  # whatever a peer raises costs this setting only
                 report(f"left out: {contender.name}, {scene.name}, tolerance {tolerance:g}: {failure}")
                 continue
@@ -124,7 +130,7 @@ def first_solutions(
                 settings.append(Setting(contender, scene, tolerance, solve, error))
             else:
                 report(f"left out: {contender.name}, {scene.name}, tolerance {tolerance:g}: no finite motion")
-            if seconds > limit:
+            if max(seconds, wall / CALL_LIMIT) > limit:
                 report(
                     f"series ends: {contender.name}, {scene.name}, tolerance {tolerance:g}: {seconds:.1f} s"
                 )
