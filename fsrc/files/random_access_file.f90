@@ -123,7 +123,7 @@ contains
 
       self%path = path
       self%descriptor = open_existing(path, read_only)
-      if (self%descriptor < 0) call self%fail('opened', error)
+      if (self%descriptor < 0) call self%fail('read', error)
    end subroutine open_to_read
 
    !> Whether there is an open file.
