@@ -2,6 +2,7 @@
 module fourier
    use, intrinsic :: iso_c_binding
    use kinds, only: dp
+   use value_range, only: binary_unit
    implicit none(type, external)
    private
 
@@ -34,17 +35,19 @@ contains
       real(dp), intent(in) :: samples(:)
       !> a_0 to a_(n/2), unit of the samples
       real(dp), allocatable, intent(out) :: amplitudes(:)
+      real(dp) :: unit
       integer :: n, i
 
       n = size(samples)
       i = findloc(kept%length, n, dim=1)
       if (i == 0) call prepare(n, i)
       allocate (amplitudes(0:n/2))
+      unit = binary_unit(samples)
       associate (transform => kept(i))
-         transform%samples(:) = samples
+         transform%samples(:) = samples*(1.0_dp/unit)
          call fftw_execute_dft_r2c(transform%plan, transform%samples, transform%lines)
-         ! Not abs: amplitudes are far from overflow, and hypot would be the dearest part.
-         amplitudes(:) = 2.0_dp*sqrt(real(transform%lines, dp)**2 + aimag(transform%lines)**2)/real(n, dp)
+         ! Not abs: in this unit no square overflows, and hypot would be the dearest part.
+         amplitudes(:) = 2.0_dp*sqrt(real(transform%lines, dp)**2 + aimag(transform%lines)**2)/real(n, dp)*unit
       end associate
       amplitudes(0) = 0.5_dp*amplitudes(0)
       if (mod(n, 2) == 0) amplitudes(n/2) = 0.5_dp*amplitudes(n/2)

@@ -2,6 +2,7 @@
 module spectral_lines
    use fourier, only: amplitude_spectrum
    use kinds, only: dp
+   use value_range, only: binary_unit
    implicit none(type, external)
    private
 
@@ -42,28 +43,33 @@ contains
       !> The lines
       type(spectral_lines_t), intent(out) :: lines
       real(dp), allocatable :: amplitudes(:)
-      real(dp) :: power, harmonic_power
+      real(dp) :: unit, power, harmonic_power, least
       integer :: resolved, highest
 
       call amplitude_spectrum(acceleration, amplitudes)
       highest = ubound(amplitudes, 1)
       resolved = (size(acceleration)/periods - 1)/2
+      ! All that follows is in a unit in which no square overflows or vanishes.
+      unit = binary_unit(amplitudes)
+      amplitudes(:) = amplitudes*(1.0_dp/unit)
+      least = noise_floor*(1.0_dp/unit)
       allocate (lines%harmonics(resolved))
       lines%harmonics(:) = amplitudes(periods:resolved*periods:periods)
       ! A line stands for two bins of the transform; that at half the samples is one bin, whose square counts twice.
       power = sum(amplitudes(1:)**2)
       if (mod(size(acceleration), 2) == 0) power = power + amplitudes(highest)**2
       harmonic_power = sum(lines%harmonics**2)
-      lines%moving = sqrt(power) > noise_floor
-      if (.not. lines%moving) return
-
-      lines%irregular_fraction = max(0.0_dp, 1.0_dp - harmonic_power/power)
-      lines%line_count = count(lines%harmonics > line_threshold*lines%harmonics(1))
-      lines%harmonic_distortion = huge(1.0_dp)
-      if (lines%harmonics(1) > noise_floor) &
-         lines%harmonic_distortion = sqrt(sum(lines%harmonics(2:)**2))/lines%harmonics(1)
-      lines%sampling_sufficient = maxval(amplitudes((3*highest)/4 + 1:)) <= &
-                                  max(noise_floor, sampling_tolerance*line_threshold*lines%harmonics(1))
+      lines%moving = sqrt(power) > least
+      if (lines%moving) then
+         lines%irregular_fraction = max(0.0_dp, 1.0_dp - harmonic_power/power)
+         lines%line_count = count(lines%harmonics > line_threshold*lines%harmonics(1))
+         lines%harmonic_distortion = huge(1.0_dp)
+         if (lines%harmonics(1) > least) &
+            lines%harmonic_distortion = sqrt(sum(lines%harmonics(2:)**2))/lines%harmonics(1)
+         lines%sampling_sufficient = maxval(amplitudes((3*highest)/4 + 1:)) <= &
+                                     max(least, sampling_tolerance*line_threshold*lines%harmonics(1))
+      end if
+      lines%harmonics(:) = lines%harmonics*unit
    end subroutine find_lines
 
 end module spectral_lines

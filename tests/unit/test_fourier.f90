@@ -26,6 +26,7 @@ contains
       do i = 1, size(counts)
          call test_lines(checks, counts(i))
          call test_power(checks, counts(i))
+         call test_size(checks, counts(i))
       end do
    end subroutine run_fourier_tests
 
@@ -72,5 +73,27 @@ contains
       write (digits, '(i4)') n
       call checks%check_close(power*real(n, dp)/sum(samples**2), 1.0_dp, rounding, 'power, n ='//digits)
    end subroutine test_power
+
+   !> Samples of any size have amplitudes of their size, with the same digits where a power of two lies between them.
+   subroutine test_size(checks, n)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      integer, intent(in) :: n                     !> Number of samples
+
+      integer, parameter :: exponents(4) = [-1000, -540, 512, 1015]
+      real(dp), allocatable :: amplitudes(:), expected(:)
+      real(dp) :: samples(n)
+      character(4) :: digits
+      integer :: i
+
+      write (digits, '(i4)') n
+      samples = [(sin(real(i*i, dp)) + 0.3_dp*modulo(real(i, dp), 7.0_dp), i=1, n)]
+      call amplitude_spectrum(samples, expected)
+      do i = 1, size(exponents)
+         call amplitude_spectrum(scale(samples, exponents(i)), amplitudes)
+         ! At the border of what is normal a weak line loses digits.
+         call checks%check(all(abs(scale(amplitudes, -exponents(i)) - expected) <= merge(1.0e-6_dp, 0.0_dp, i == 1)), &
+            'amplitudes of any size, n ='//digits)
+      end do
+   end subroutine test_size
 
 end module test_fourier

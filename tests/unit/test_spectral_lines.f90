@@ -24,6 +24,7 @@ contains
       call test_odd_counts(checks)
       call test_invariance(checks)
       call test_rest(checks)
+      call test_size(checks)
       call test_sampling(checks)
    end subroutine run_spectral_lines_tests
 
@@ -145,6 +146,25 @@ contains
       call find_lines(signal(4, 16, [0.0_dp, 1.1e-9_dp], 0), 4, 0.01_dp, 1.0e-9_dp, lines)
       call checks%check(lines%moving, 'above the noise')
    end subroutine test_rest
+
+   !> Lines of any size have the ratios of lines of ordinary size, to the last bit.
+   subroutine test_size(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer, parameter :: exponents(3) = [-900, 512, 1000]
+      type(spectral_lines_t) :: lines, scaled
+      integer :: i
+
+      call find_lines(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), 16, 0.01_dp, 1.0e-9_dp, lines)
+      do i = 1, size(exponents)
+         call find_lines(scale(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), exponents(i)), 16, 0.01_dp, &
+            scale(1.0e-9_dp, exponents(i)), scaled)
+         call checks%check(scaled%moving .and. scaled%line_count == lines%line_count, 'size: lines')
+         call checks%check_close(scaled%irregular_fraction, lines%irregular_fraction, 0.0_dp, 'size: irregular share')
+         call checks%check_close(scaled%harmonic_distortion, lines%harmonic_distortion, 0.0_dp, 'size: distortion')
+         call checks%check(scaled%sampling_sufficient .eqv. lines%sampling_sufficient, 'size: sampling')
+      end do
+   end subroutine test_size
 
    !> A line near half the samples says that there are too few of them.
    subroutine test_sampling(checks)
