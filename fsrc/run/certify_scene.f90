@@ -50,7 +50,7 @@ contains
       if (scene%solver%method /= method_newmark) accuracy = min(accuracy, max(tightest_accuracy, 0.01_dp*scene%solver%accuracy))
       tight%periods = window%periods
       tight%samples_per_period = window%samples_per_period
-      call solve_fine_window(scene, lane, accuracy, periods, resolved%noise_floor, tight, tight_verdict, ending)
+      call solve_fine_window(scene, lane, accuracy, periods, resolved%noise_floor_at(accuracy), tight, tight_verdict, ending)
       if (.not. is_success(ending%status)) then
          certificate = no_certificate('The tighter solution ended as '//status_name(ending%status)//'.')
          return

@@ -35,7 +35,7 @@ contains
       real(dp), intent(in) :: accuracy
       !> Periods to solve
       integer, intent(in) :: periods
-      !> Amplitude that rounding alone explains [m/s2]
+      !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> On entry periods and fewest samples, on return the window
       type(window_t), intent(inout) :: window
@@ -61,7 +61,7 @@ contains
       type(scene_t), intent(in) :: scene
       !> The window
       type(window_t), intent(in) :: window
-      !> Amplitude that rounding alone explains [m/s2]
+      !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> Verdict on it
       type(rattle_verdict_t), intent(out) :: verdict

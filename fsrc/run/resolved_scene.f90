@@ -6,7 +6,8 @@ module resolved_scene
    use kinds, only: dp
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
-   use scene_types, only: scene_t
+   use scene_types, only: method_newmark, scene_t
+   use taylor_step_control, only: film_weight, momentum_weight
    implicit none(type, external)
    private
 
@@ -26,8 +27,12 @@ module resolved_scene
       real(dp) :: pressure_group = 0.0_dp
       !> Largest alpha p at the steady film, exact [-]
       real(dp) :: alpha_p = 0.0_dp
-      !> Amplitude of acceleration that rounding explains [m/s2]
+      !> Amplitude of acceleration that rounding and the accuracy of the scene's own method explain [m/s2]
       real(dp) :: noise_floor = 0.0_dp
+      !> What of it rounding explains, and what an accuracy of one would [m/s2]
+      real(dp), private :: rounding_noise = 0.0_dp, noise_by_accuracy = 0.0_dp
+   contains
+      procedure :: noise_floor_at
    end type resolved_scene_t
 
    public :: resolve
@@ -49,15 +54,54 @@ contains
          if (scene%film%initial_film > 0.0_dp) resolved%initial_film = scene%film%initial_film
          if (resolved%initial_film > 0.0_dp) resolved%initial_squeeze_group = &
             squeeze_group(film%radius, film%speed, resolved%initial_film, scene%film%initial_velocity)
-         resolved%noise_floor = 1.0e-12_dp*(static_load + scene%load%force_amplitude)/mass
+         resolved%rounding_noise = 1.0e-12_dp*(static_load + scene%load%force_amplitude)/mass
+         resolved%noise_floor = resolved%rounding_noise
          if (.not. resolved%steady_film > 0.0_dp) return
          call film_load(film, resolved%steady_film, 0.0_dp, load, load_by_film, load_by_velocity)
          resolved%natural_frequency = sqrt(-load_by_film/mass)/two_pi
          resolved%damping_ratio = -load_by_velocity/(2.0_dp*sqrt(-load_by_film*mass))
+         resolved%noise_by_accuracy = noise_of_steps(resolved%steady_film, -load_by_film/mass, -load_by_velocity/mass, &
+                                                     static_load/mass, scene%load%frequency)
+         ! Newmark's steps are not chosen by an accuracy, and at rest they stand still. What a loose tolerance makes of them
+         ! is a motion that the certificate doubts.
+         if (scene%solver%method /= method_newmark) resolved%noise_floor = resolved%noise_floor_at(scene%solver%accuracy)
          resolved%pressure_group = film%pressure_viscosity* &
                                    pressure_scale(film%radius, film%speed, film%viscosity, resolved%steady_film)
          resolved%alpha_p = steady_alpha_p(film, resolved%steady_film)
       end associate
    end function resolve
+
+   !> Amplitude of acceleration that rounding and the accuracy of a solution of the error-controlled engine explain [m/s2].
+   elemental real(dp) function noise_floor_at(self, accuracy)
+      !> A resolved scene
+      class(resolved_scene_t), intent(in) :: self
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy
+
+      noise_floor_at = max(self%rounding_noise, accuracy*self%noise_by_accuracy)
+   end function noise_floor_at
+
+   !> Acceleration by which the error-controlled engine may be off at the steady film, by an accuracy of one [m/s2]. Its
+   !> step control holds errors of film and momentum against one measure, that of the film as it is, that of the
+   !> momentum by its weight; the film error moves the load by the stiffness, the other by the damping.
+   pure real(dp) function noise_of_steps(film, stiffness, damping, load, frequency)
+      !> Steady film [m]
+      real(dp), intent(in) :: film
+      !> Stiffness [1/s2], damping [1/s] and static load [m/s2] by mass
+      real(dp), intent(in) :: stiffness
+      real(dp), intent(in) :: damping
+      real(dp), intent(in) :: load
+      !> Frequency of the force [Hz], whose period is the unit of time of the step control
+      real(dp), intent(in) :: frequency
+      !> A step is held to the accuracy times its length and a share, 4 to 40 a period, and may be a quarter of one long:
+      !> up to ten times the accuracy. So much may be there of the film errors, which add up over many steps, and of the
+      !> load, which a long step of much damping changes; a momentum is forgotten sooner.
+      real(dp), parameter :: most_share = 10.0_dp
+      real(dp) :: film_error, momentum_error
+
+      film_error = film_weight(1.0_dp)
+      momentum_error = film_error/momentum_weight(1.0_dp, damping/frequency, most_share*load/(film*frequency**2))
+      noise_of_steps = film*(most_share*stiffness*film_error + damping*frequency*momentum_error)
+   end function noise_of_steps
 
 end module resolved_scene

@@ -38,7 +38,7 @@ contains
       integer, intent(in) :: periods
       !> A harmonic above this share of the first is a line [-]
       real(dp), intent(in) :: line_threshold
-      !> Amplitude that rounding alone explains [m/s2]
+      !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> The lines
       type(spectral_lines_t), intent(out) :: lines

@@ -26,7 +26,7 @@ contains
       real(dp), intent(in) :: acceleration(:)
       !> Periods and limits
       type(spectrum_choice_t), intent(in) :: choice
-      !> Amplitude that rounding alone explains [m/s2]
+      !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> The verdict
       type(rattle_verdict_t), intent(out) :: verdict
