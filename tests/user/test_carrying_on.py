@@ -159,7 +159,7 @@ def test_interrupted_run_is_carried_on(method: str, rattle: Path, run, scene_tex
 
 @pytest.mark.parametrize("method", METHODS)
 def test_interrupted_series_is_completed(method: str, rattle: Path, run, scene_text, tmp_path: Path) -> None:
-    # Each runs for some tenths of a second where a fast machine solves it: the signal must come before its end.
+    # Each takes a fast machine some tenths of a second: the signal must come before its end.
     periods = {"newmark": 50000, "newmark-extrapolated": 2000, "taylor": 10000}[method]
     text = canonical(scene_text, **solver_of(method, periods=str(periods)))
     (tmp_path / "scene.nml").write_text(text.replace("&spectrum", "&spectrum\n   certify = .false."))
@@ -172,7 +172,7 @@ def test_interrupted_series_is_completed(method: str, rattle: Path, run, scene_t
 
 @pytest.mark.parametrize("method", METHODS)
 def test_series_that_was_not_closed_is_carried_on(method: str, run, scene_text, tmp_path: Path) -> None:
-    """A killed run leaves a series whose rows are not counted, and maybe more of them than the state knows of."""
+    """A killed run leaves a series with its rows uncounted, maybe more than the state knows of."""
     (tmp_path / "scene.nml").write_text(canonical(scene_text, **solver_of(method)))
     carry_on(run, tmp_path)
     series = tmp_path / "chained" / "scene.rattle"

@@ -9,8 +9,6 @@ import pytest
 from figure_files import call, stems
 from result_writer import write_motion, write_result
 
-pytest.importorskip("rattle.kernels", reason="'make python' builds the kernels", exc_type=ImportError)
-
 import rattle
 from rattle.figures import film_regimes
 
