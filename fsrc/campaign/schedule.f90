@@ -1,4 +1,4 @@
-!> Which chunk of scenes comes next, and in which order the scenes of a chunk are computed.
+!> How many scenes make a chunk, and in which order the scenes of a chunk are computed.
 module schedule
    use kinds, only: dp, int64
    implicit none(type, external)
@@ -8,19 +8,7 @@ module schedule
    !> Chunks that a large campaign is cut into, at least
    integer(int64), parameter :: wanted_chunks = 512_int64
 
-   !> Chunks that are still to be computed. One list is shared by all threads.
-   type, public :: chunk_schedule_t
-      private
-      integer(int64), allocatable :: chunks(:)
-      !> How many are handed out
-      integer(int64) :: taken = 0_int64
-   contains
-      procedure :: take => take_chunk
-      procedure :: count => count_chunks
-      procedure :: left => chunks_left
-   end type chunk_schedule_t
-
-   public :: new_chunk_schedule, chunk_rows_for, cost_order
+   public :: chunk_rows_for, cost_order
 
 contains
 
@@ -36,62 +24,6 @@ contains
          chunk_rows_for = 2*chunk_rows_for
       end do
    end function chunk_rows_for
-
-   !> Schedule of all chunks that are not done, dear ones first if their costs are given: the last to
-   !> finish are then cheap, and no worker waits long for another.
-   pure function new_chunk_schedule(done, costs) result(plan)
-      !> Whether each chunk is done
-      logical, intent(in) :: done(:)
-      !> Cost of each chunk, in any unit, finite
-      real(dp), intent(in), optional :: costs(:)
-      type(chunk_schedule_t) :: plan
-      integer(int64) :: i, left
-      integer, allocatable :: order(:)
-
-      left = 0_int64
-      allocate (plan%chunks(count(.not. done, kind=int64)))
-      do i = 1_int64, size(done, kind=int64)
-         if (done(i)) cycle
-         left = left + 1_int64
-         plan%chunks(left) = i
-      end do
-      if (.not. present(costs)) return
-      allocate (order(left))
-      call cost_order(-costs(plan%chunks), order)
-      plan%chunks = plan%chunks(order)
-   end function new_chunk_schedule
-
-   !> Take the next chunk; any thread may ask at any time, and no chunk is handed out twice.
-   subroutine take_chunk(self, chunk)
-      class(chunk_schedule_t), intent(inout) :: self
-      !> The chunk from 1; 0: none is left
-      integer(int64), intent(out) :: chunk
-      integer(int64) :: place
-
-      !$omp atomic capture
-      self%taken = self%taken + 1_int64
-      place = self%taken
-      !$omp end atomic
-      chunk = 0_int64
-      if (place <= size(self%chunks, kind=int64)) chunk = self%chunks(place)
-   end subroutine take_chunk
-
-   !> Chunks of the schedule, handed out or not.
-   pure integer(int64) function count_chunks(self)
-      class(chunk_schedule_t), intent(in) :: self
-
-      count_chunks = size(self%chunks, kind=int64)
-   end function count_chunks
-
-   !> Chunks that are not handed out yet.
-   integer(int64) function chunks_left(self)
-      class(chunk_schedule_t), intent(in) :: self
-      integer(int64) :: taken
-
-      !$omp atomic read
-      taken = self%taken
-      chunks_left = max(0_int64, size(self%chunks, kind=int64) - taken)
-   end function chunks_left
 
    !> Order by rising cost, equal costs in their old order (merge sort). Scene order(k) is computed as the
    !> k-th; its result goes back to place order(k).

@@ -1,8 +1,8 @@
-!> Tests of the schedule: every chunk once, dear ones first, stable order of costs.
+!> Tests of the schedule: stable order of costs, size of chunks.
 module test_schedule
    use checks, only: check_list_t
    use kinds, only: dp, int64
-   use schedule, only: chunk_rows_for, chunk_schedule_t, cost_order, new_chunk_schedule
+   use schedule, only: chunk_rows_for, cost_order
    implicit none(type, external)
    private
 
@@ -16,62 +16,9 @@ contains
       type(check_list_t), intent(inout) :: checks
 
       call checks%start('schedule')
-      call test_take(checks)
-      call test_threads(checks)
       call test_cost_order(checks)
       call test_chunk_rows(checks)
    end subroutine run_schedule_tests
-
-   subroutine test_take(checks)
-      type(check_list_t), intent(inout) :: checks
-      logical, parameter :: done(6) = [.false., .true., .false., .false., .true., .false.]
-      real(dp), parameter :: costs(6) = [1.0_dp, 9.0_dp, 3.0_dp, 2.0_dp, 8.0_dp, 3.0_dp]
-      type(chunk_schedule_t) :: plan
-      integer(int64) :: taken(6)
-      integer :: i
-
-      plan = new_chunk_schedule(done)
-      call checks%check(plan%count() == 4_int64, 'count of chunks')
-      call checks%check(plan%left() == 4_int64, 'count of what is left')
-      do i = 1, 6
-         call plan%take(taken(i))
-      end do
-      call checks%check(all(taken == [1_int64, 3_int64, 4_int64, 6_int64, 0_int64, 0_int64]), &
-                        'those not done, in order')
-      call checks%check(plan%left() == 0_int64, 'nothing is left')
-      plan = new_chunk_schedule(done, costs)
-      do i = 1, 6
-         call plan%take(taken(i))
-      end do
-      call checks%check(all(taken == [3_int64, 6_int64, 4_int64, 1_int64, 0_int64, 0_int64]), &
-                        'dear ones first')
-      plan = new_chunk_schedule([.true., .true.])
-      call plan%take(taken(1))
-      call checks%check(taken(1) == 0_int64, 'all done')
-   end subroutine test_take
-
-   !> Threads never get the same chunk, and all chunks are taken.
-   subroutine test_threads(checks)
-      type(check_list_t), intent(inout) :: checks
-      integer, parameter :: chunks = 5000
-      type(chunk_schedule_t) :: plan
-      logical :: done(chunks)
-      integer :: times(chunks)
-      integer(int64) :: chunk
-
-      done = .false.
-      times = 0
-      plan = new_chunk_schedule(done)
-      !$omp parallel num_threads(4) default(none) shared(plan, times) private(chunk)
-      do
-         call plan%take(chunk)
-         if (chunk == 0_int64) exit
-         !$omp atomic
-         times(chunk) = times(chunk) + 1
-      end do
-      !$omp end parallel
-      call checks%check(all(times == 1), 'every chunk once')
-   end subroutine test_threads
 
    subroutine test_cost_order(checks)
       type(check_list_t), intent(inout) :: checks
