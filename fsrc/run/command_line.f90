@@ -5,17 +5,14 @@ module command_line
    use key_table, only: find_key, keys
    use scene_reader, only: override_t
    use text, only: lower, quoted, quoted_words
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
-   !> A text of its own length.
-   type, public :: argument_t
-      character(:), allocatable :: text
-   end type argument_t
-
    !> What the arguments ask for.
    type, public :: command_t
-      type(argument_t), allocatable :: files(:)
+      !> Names of the input files
+      type(word_t), allocatable :: files(:)
       type(override_t), allocatable :: overrides(:)
       logical :: check = .false., template = .false., page = .false., resume = .false., quiet = .false.
       logical :: version = .false., help = .false.
@@ -49,7 +46,7 @@ contains
          if (len(argument) == 0) then
             call faults%add("''", 0, '', '', 'the name of an input file is empty')
          else if (options_over .or. argument == '-' .or. argument(1:1) /= '-') then
-            command%files = [command%files, argument_t(argument)]
+            command%files = [command%files, word_t(argument)]
          else
             select case (argument)
             case ('--')
