@@ -11,11 +11,13 @@ module input_difference
 contains
 
    !> A sentence that names the first key that differs, with both values; empty if no key differs.
-   function first_difference(stored, current) result(sentence)
+   function first_difference(stored, current, free) result(sentence)
       !> Resolved input of an earlier run
       character(*), intent(in) :: stored
       !> Resolved input of this run
       character(*), intent(in) :: current
+      !> Keys that may differ, as group.key
+      character(*), optional, intent(in) :: free(:)
       character(:), allocatable :: sentence
       type(assignment_t), allocatable :: old(:), new(:)
       type(fault_list_t) :: ignored
@@ -25,7 +27,7 @@ contains
       call scan_namelists(current, '', 1, new, ignored)
       sentence = ''
       do i = 1, size(new)
-         if (len(new(i)%key) == 0) cycle
+         if (len(new(i)%key) == 0 .or. may_differ(new(i), free)) cycle
          place = find(old, new(i))
          if (place == 0) then
             sentence = key_name(new(i))//' is '//values_text(new(i))//' now and was not set'
@@ -35,11 +37,21 @@ contains
          if (len(sentence) > 0) return
       end do
       do i = 1, size(old)
-         if (len(old(i)%key) == 0 .or. find(new, old(i)) > 0) cycle
+         if (len(old(i)%key) == 0 .or. may_differ(old(i), free)) cycle
+         if (find(new, old(i)) > 0) cycle
          sentence = key_name(old(i))//' was '//values_text(old(i))//' and is not set now'
          return
       end do
    end function first_difference
+
+   !> Whether a key is one of those that may differ.
+   pure logical function may_differ(assignment, free)
+      type(assignment_t), intent(in) :: assignment
+      character(*), optional, intent(in) :: free(:)
+
+      may_differ = .false.
+      if (present(free)) may_differ = any(free == assignment%group//'.'//assignment%key)
+   end function may_differ
 
    !> Place of the assignment to the same key, 0 if there is none.
    pure integer function find(assignments, sought)

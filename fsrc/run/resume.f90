@@ -8,6 +8,7 @@ module resume
    use checkpoint, only: checkpoint_t
    use errors, only: error_t, exit_bad_input, raise
    use file_system, only: path_exists
+   use input_difference, only: first_difference
    use integrate_controlled, only: last_search_period
    use kinds, only: dp, int64
    use newmark_extrapolated, only: extrapolation_t, new_extrapolation
@@ -29,8 +30,10 @@ module resume
                                                  '-', '-', '-', '-']
 
    !> Keys that may change when a run is carried on: they do not touch what has been solved.
-   character(*), parameter :: free_keys(9) = [character(24) :: 'periods', 'time_limit', 'line_threshold', 'idle_lines', &
-                                              'quiet_limit', 'irregular_limit', 'certify', 'certificate_tolerance', 'until']
+   character(*), parameter :: free_keys(10) = [character(30) :: 'solver.periods', 'solver.time_limit', 'solver.until', &
+                                               'spectrum.periods', 'spectrum.line_threshold', 'spectrum.idle_lines', &
+                                               'spectrum.quiet_limit', 'spectrum.irregular_limit', 'spectrum.certify', &
+                                               'spectrum.certificate_tolerance']
 
    !> What to do with a state that cannot be carried on.
    character(*), parameter :: begin_anew = '; --overwrite instead of --resume begins the run anew'
@@ -115,12 +118,12 @@ contains
       type(result_reader_t), intent(out) :: reader
       !> Set if it cannot be read or belongs to another scene
       type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: changed
+      character(:), allocatable :: difference
 
       call reader%open(path, error)
       if (allocated(error)) return
-      changed = changed_key(reader%input_text, scene%resolved_input)
-      if (len(changed) > 0) call raise(error, exit_bad_input, path//' belongs to another scene: '//changed//' was different')
+      difference = first_difference(reader%input_text, scene%resolved_input, free_keys)
+      if (len(difference) > 0) call raise(error, exit_bad_input, path//' belongs to another scene: '//difference)
    end subroutine open_earlier
 
    !> Last period at which a run can take up a state and go on as if it had come there itself.
@@ -222,42 +225,5 @@ contains
       place = place + size(state%watch%momentum)
       if (size(row) > place) state%bases = nint(row(place + 1:))
    end function state_of
-
-   !> First key, as group.key, whose line differs between two resolved inputs; empty if none does.
-   pure function changed_key(old, new) result(key)
-      character(*), intent(in) :: old
-      character(*), intent(in) :: new
-      character(:), allocatable :: key
-
-      key = missing_in(new, old)
-      if (len(key) == 0) key = missing_in(old, new)
-
-   contains
-
-      !> First line of a text that is not in the other one.
-      pure function missing_in(text, other) result(found)
-         character(*), intent(in) :: text
-         character(*), intent(in) :: other
-         character(:), allocatable :: found
-         character(:), allocatable :: group, line
-         integer :: from, length
-
-         found = ''
-         group = ''
-         from = 1
-         do while (from <= len(text))
-            length = index(text(from:)//new_line('a'), new_line('a')) - 1
-            line = text(from:from + length - 1)
-            from = from + length + 1
-            if (line(1:1) == '&') group = line(2:)
-            if (index(line, '=') == 0) cycle
-            if (any(free_keys == adjustl(line(:index(line, '=') - 1)))) cycle
-            if (index(other, line//new_line('a')) > 0) cycle
-            found = group//'.'//trim(adjustl(line(:index(line, '=') - 1)))
-            return
-         end do
-      end function missing_in
-
-   end function changed_key
 
 end module resume

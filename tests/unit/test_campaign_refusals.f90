@@ -145,6 +145,10 @@ contains
       call checks%check(first_difference('&a v(1) = 1 v(2) = 1 /', &
                                          '&a v(1) = 1 v(2) = 2 /') == 'a.v(2) is 2 now and was 1', &
                         'element')
+      call checks%check(first_difference('&a b = 1 / &d b = 1 /', '&a b = 2 / &d b = 2 /', ['a.b']) == &
+                        'd.b is 2 now and was 1', 'a key of another group than the one that may differ')
+      call checks%check(first_difference('&a b = 1 c = 1 /', '&a b = 2 d = 1 /', [character(3) :: 'a.b', 'a.d', 'a.c']) == '', &
+                        'keys that may differ, come or go')
    end subroutine test_difference
 
    !> Files of another kind are neither resumed nor replaced; a place that is none is told.
