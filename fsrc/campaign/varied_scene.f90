@@ -120,8 +120,8 @@ contains
       real(dp), intent(in) :: values(:)
       integer :: i
 
-      is_valid_scene = scene%load%steady_force + scene%load%mass*scene%load%gravity > 0.0_dp .and. &
-                       scene%kinematics%entrainment_speed > 0.0_dp .and. scene%solver%periods >= scene%spectrum%periods
+      is_valid_scene = scene%load%static_load() > 0.0_dp .and. scene%kinematics%entrainment_speed > 0.0_dp .and. &
+                       scene%solver%periods >= scene%spectrum%periods
       do i = 1, size(positions)
          is_valid_scene = is_valid_scene .and. in_range(keys(positions(i)), values(i))
       end do

@@ -251,7 +251,7 @@ contains
       type(newmark_t) :: method
 
       method%mass = scene%load%mass
-      method%weight = scene%load%mass*scene%load%gravity
+      method%weight = scene%load%weight()
       method%steady_force = scene%load%steady_force
       method%force_amplitude = scene%load%force_amplitude
       method%frequency = scene%load%frequency

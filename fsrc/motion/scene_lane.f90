@@ -25,7 +25,7 @@ contains
 
       lane%film = film
       lane%mass = scene%load%mass
-      lane%weight = scene%load%mass*scene%load%gravity
+      lane%weight = scene%load%weight()
       lane%steady_force = scene%load%steady_force
       lane%force_amplitude = scene%load%force_amplitude
       lane%frequency = scene%load%frequency

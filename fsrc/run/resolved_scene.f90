@@ -48,7 +48,7 @@ contains
 
       associate (film => resolved%film, mass => scene%load%mass)
          film = new_film(scene)
-         static_load = scene%load%steady_force + mass*scene%load%gravity
+         static_load = scene%load%static_load()
          resolved%steady_film = steady_film(film, static_load)
          resolved%initial_film = resolved%steady_film
          if (scene%film%initial_film > 0.0_dp) resolved%initial_film = scene%film%initial_film

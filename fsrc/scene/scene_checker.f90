@@ -6,6 +6,7 @@ module scene_checker
    use keys_in_use, only: in_use
    use kinds, only: dp
    use scene_input, only: scene_input_t
+   use scene_types, only: load_t
    use text, only: integer_text
    use word_list, only: split_words, word_t
    implicit none(type, external)
@@ -135,10 +136,22 @@ contains
             if (.not. input%entries(places(i))%present .or. input%entries(places(i))%faulty) return
          end do
       end associate
-      if (.not. input%number('load', 'steady_force') + &
-          input%number('load', 'mass')*input%number('load', 'gravity') > 0.0_dp) &
+      if (.not. static_load_under(input, input%number('load', 'steady_force')) > 0.0_dp) &
          call input%add_fault('load', 'steady_force', 'the static load steady_force + mass*gravity must be positive', faults)
    end subroutine check_static_load
+
+   !> Static load under a steady force [N].
+   pure real(dp) function static_load_under(input, steady_force)
+      type(scene_input_t), intent(in) :: input
+      !> [N]
+      real(dp), intent(in) :: steady_force
+      type(load_t) :: load
+
+      load%mass = input%number('load', 'mass')
+      load%gravity = input%number('load', 'gravity')
+      load%steady_force = steady_force
+      static_load_under = load%static_load()
+   end function static_load_under
 
    !> The window fits into the run.
    subroutine check_window(input, faults)
@@ -226,7 +239,7 @@ contains
                                  'not allowed for '//key//'; allowed: '//allowed_text(keys(position))// &
                                  ', and above zero where the spacing is logarithmic', faults)
       end do
-      if (key == 'steady_force' .and. .not. minval(ends) + input%number('load', 'mass')*input%number('load', 'gravity') > 0.0_dp) &
+      if (key == 'steady_force' .and. .not. static_load_under(input, minval(ends)) > 0.0_dp) &
          call input%add_fault('sweep', 'first', 'the static load steady_force + mass*gravity must stay positive', faults)
    end subroutine check_sweep
 

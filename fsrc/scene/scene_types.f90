@@ -88,6 +88,9 @@ module scene_types
       real(dp) :: frequency = 0.0_dp
       !> Acceleration of free fall g [m/s2]
       real(dp) :: gravity = 0.0_dp
+   contains
+      procedure :: weight
+      procedure :: static_load
    end type load_t
 
    !> &film
@@ -230,6 +233,20 @@ module scene_types
    end type scene_t
 
 contains
+
+   !> Weight m g of the tooth pair [N].
+   elemental real(dp) function weight(self)
+      class(load_t), intent(in) :: self
+
+      weight = self%mass*self%gravity
+   end function weight
+
+   !> Static load Q + m g [N], which the steady film carries.
+   elemental real(dp) function static_load(self)
+      class(load_t), intent(in) :: self
+
+      static_load = self%steady_force + weight(self)
+   end function static_load
 
    !> Samples of a period, whichever way the method makes them.
    elemental integer function samples_per_period(self)
