@@ -24,6 +24,8 @@ contains
       call test_chance(checks)
       call test_orbits(checks)
       call test_half_still(checks)
+      call test_turns(checks)
+      call test_pairs(checks)
    end subroutine run_period_repetition_tests
 
    !> Note films one after another, with momenta if given; the first that repeats ends it.
@@ -157,5 +159,59 @@ contains
          call checks%check(0.1_dp*0.9_dp**shiftr(place, 1) <= 1.05e-6_dp*film_weight_at_one, 'half still: not too early')
       end do
    end subroutine test_half_still
+
+   !> A spiral into one point, round in the measure of the watch, has the period of the force whatever its turn a period,
+   !> though its states come close to each other after the periods of a full turn first.
+   subroutine test_turns(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: rates(4) = [0.5_dp, 0.9_dp, 0.98_dp, 0.995_dp]
+      real(dp), parameter :: degree = atan(1.0_dp)/45.0_dp, start = 1.0e-3_dp, tolerance = 1.0e-6_dp
+      real(dp) :: films(0:3000), momenta(0:3000), angle, distance, left
+      integer :: place, orbit, rate, turn, i
+      logical :: single, near
+
+      do rate = 1, size(rates)
+         single = .true.
+         near = .true.
+         ! In half degrees; 180 degrees are a negative multiplier.
+         do turn = 0, 360
+            do i = 0, ubound(films, 1)
+               angle = degree*(0.5_dp*real(turn, dp)*real(i, dp) + 23.0_dp)
+               films(i) = 1.0_dp + start*rates(rate)**i*cos(angle)
+               momenta(i) = start*rates(rate)**i*sin(angle)
+            end do
+            call note_all(films, momenta, 1.0_dp, tolerance, place, orbit, distance)
+            left = start*rates(rate)**place/film_weight_at_one
+            single = single .and. orbit == 1
+            near = near .and. left <= 2.0_dp*tolerance
+         end do
+         call checks%check(single, 'turns: one period')
+         call checks%check(near, 'turns: not too early')
+      end do
+   end subroutine test_turns
+
+   !> The same with two real multipliers, of either sign.
+   subroutine test_pairs(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: multipliers(6) = [-0.998_dp, -0.995_dp, -0.5_dp, 0.5_dp, 0.995_dp, 0.998_dp]
+      real(dp), parameter :: start = 1.0e-3_dp, tolerance = 1.0e-6_dp
+      real(dp) :: films(0:6000), momenta(0:6000), distance
+      integer :: place, orbit, first, second, i
+
+      do first = 1, size(multipliers)
+         do second = 1, size(multipliers)
+            do i = 0, ubound(films, 1)
+               films(i) = 1.0_dp + start*(multipliers(first)**i + 0.3_dp*multipliers(second)**i)
+               momenta(i) = start*(0.5_dp*multipliers(first)**i - multipliers(second)**i)
+            end do
+            call note_all(films, momenta, 1.0_dp, tolerance, place, orbit, distance)
+            call checks%check(orbit == 1, 'pairs: one period')
+            call checks%check(max(abs(films(place) - 1.0_dp), abs(momenta(place)))/film_weight_at_one <= 1.5_dp*tolerance, &
+               'pairs: not too early')
+         end do
+      end do
+   end subroutine test_pairs
 
 end module test_period_repetition
