@@ -43,7 +43,7 @@ program bench_engine
    newmark_scenes%film = lanes%film
    newmark_scenes%thickness = lanes%initial_film
    newmark_scenes%velocity = 0.0_dp
-   newmark_scenes%method = newmark_t(mass=scene%load%mass, weight=scene%load%mass*scene%load%gravity, &
+   newmark_scenes%method = newmark_t(mass=scene%load%mass, weight=scene%load%weight(), &
                                     steady_force=scene%load%steady_force, force_amplitude=scene%load%force_amplitude, &
                                     frequency=scene%load%frequency)
    request%accuracy = accuracy

@@ -89,7 +89,7 @@ contains
       film = new_film(scene)
       initial_film = scene%film%initial_film
       if (.not. initial_film > 0.0_dp) initial_film = &
-         steady_film(film, scene%load%steady_force + scene%load%mass*scene%load%gravity)
+         steady_film(film, scene%load%static_load())
       call recorder%open(scene, '', 0, error)
       if (present(watcher)) then
          call solve_motion(scene, film, initial_film, checkpoint_t(), recorder, watcher, ending, error)

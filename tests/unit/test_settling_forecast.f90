@@ -123,8 +123,7 @@ contains
          scene%kinematics%entrainment_speed = speeds(i)
          scene%load%force_amplitude = 150.0_dp
          film = new_film(scene)
-         lanes(i) = lane_of_scene(scene, film, steady_film(film, scene%load%steady_force + &
-                                                           scene%load%mass*scene%load%gravity), 0.0_dp)
+         lanes(i) = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), 0.0_dp)
       end do
       request%accuracy = accuracy
       request%periods = 400
