@@ -6,7 +6,8 @@ module lane_advance
    use lane_scenes, only: lane_block_t
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
-   use taylor_rupture, only: exact_load, published_load, rupture_load_t, rupture_series
+   use taylor_rupture, only: distrust_load_unforeseen, evaluate_rupture_series, exact_load, published_load, rupture_load_t, &
+                             rupture_series
    use taylor_step_control, only: evaluate_series, lane_steps
    implicit none(type, external)
    private
@@ -32,15 +33,17 @@ contains
       integer, intent(in) :: last_order
       real(dp), intent(in) :: share
       type(lane_block_t), intent(inout) :: block
-      real(dp) :: cosine(lanes), sine(lanes)
+      real(dp), dimension(lanes) :: cosine, sine, end_phase, end_cosine, end_sine, next_rise
+      logical :: rupture
       type(rupture_load_t) :: form
       integer :: l
 
-      call lane_cosine_sine(block%phase, cosine, sine)
+      rupture = .not. (kernel == kernel_piezo .or. kernel == kernel_half_pi)
+      if (.not. rupture) call lane_cosine_sine(block%phase, block%cosine, block%sine)
       !$omp simd
       do l = 1, lanes
-         cosine(l) = block%amplitude(l)*cosine(l)
-         sine(l) = block%amplitude(l)*sine(l)
+         cosine(l) = block%amplitude(l)*block%cosine(l)
+         sine(l) = block%amplitude(l)*block%sine(l)
          block%remaining(l) = 1.0_dp - block%phase(l)
       end do
       select case (kernel)
@@ -54,11 +57,15 @@ contains
          form = published_load
          if (kernel == kernel_reynolds_iso) form = exact_load
          call rupture_series(form, block%strength, block%damping, block%load, cosine, sine, block%film, &
-                             block%momentum, block%damping_rate)
+                             block%momentum, block%damping_rate, block%rupture)
       end select
       call lane_steps(last_order, share, block%accuracy, block%force, block%film, block%momentum, block%damping_rate, &
                       block%remaining, block%limit, block%step)
-      call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
+      if (rupture) then
+         call evaluate_rupture_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum, next_rise)
+      else
+         call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
+      end if
       !$omp simd
       do l = 1, lanes
          block%trust(l) = merge(1.0_dp, 0.0_dp, block%next_film(l) > smallest_film_ratio*block%film(l, 0)) &
@@ -69,6 +76,20 @@ contains
       if (kernel == kernel_piezo) call distrust_load_from_nothing( &
          block%strength, block%damping, block%force, block%accuracy, block%film, block%momentum, &
          block%next_film, block%next_momentum, block%trust)
+      if (.not. rupture) return
+      !$omp simd
+      do l = 1, lanes
+         end_phase(l) = block%phase(l) + block%step(l)
+      end do
+      call lane_cosine_sine(end_phase, end_cosine, end_sine)
+      call distrust_load_unforeseen(form, share, block%strength, block%damping, block%load, block%amplitude, end_cosine, &
+                                    block%force, block%accuracy, block%film(:, 0), block%momentum(:, 0), block%next_film, &
+                                    block%next_momentum, next_rise, block%trust, block%rupture)
+      !$omp simd
+      do l = 1, lanes
+         block%cosine(l) = merge(end_cosine(l), block%cosine(l), block%trust(l) > 0.0_dp)
+         block%sine(l) = merge(end_sine(l), block%sine(l), block%trust(l) > 0.0_dp)
+      end do
    end subroutine take_series_step
 
    !> Advance all lanes whose step is to be trusted; the others try again with a shorter one.

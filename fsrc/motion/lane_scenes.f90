@@ -11,6 +11,7 @@ module lane_scenes
    use kinds, only: dp, int64
    use lane_functions, only: lanes
    use radau_nodes, only: stages
+   use rupture_lookup, only: rupture_state_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -111,6 +112,9 @@ module lane_scenes
       logical :: no_load(lanes)
       !> Steps of this period
       real(dp) :: period_steps(lanes)
+      !> Of films with rupture: cos and sin of 2 pi phase, and the rupture looked up last
+      real(dp) :: cosine(lanes), sine(lanes)
+      type(rupture_state_t) :: rupture
    end type lane_block_t
 
    !> First step of a period by collocation [periods]
@@ -225,6 +229,8 @@ contains
       type(lane_block_t), intent(inout) :: block
 
       block%phase(lane) = 0.0_dp
+      block%cosine(lane) = 1.0_dp
+      block%sine(lane) = 0.0_dp
       block%remaining(lane) = 1.0_dp
       block%limit(lane) = 1.0_dp
       block%period_steps(lane) = 0.0_dp

@@ -9,6 +9,12 @@
 !> small d_n alone proves nothing: a film that rises ever more slowly for hundreds of periods has q near one,
 !> and its bound stays large. q is the largest ratio of several; a single small one may be chance, as a state
 !> computed with one step more than the one before is off by up to the accuracy.
+!>
+!> The plane of film and momentum has two directions, and the motion may settle along one of them at once while it creeps
+!> along the other: the distances fall by the fast ratio until the slow direction is all that is left of them. Three
+!> differences of successive states, a, b and c, tell the second ratio. Where the map is linear it turns a, b into b, c and
+!> the area of their parallelogram shrinks by the product of both ratios; what of c stands across b belongs to the slow
+!> direction, and has its own sum to come.
 module period_repetition
    use kinds, only: dp
    use taylor_step_control, only: film_weight
@@ -94,7 +100,7 @@ contains
       orbit = 0
       do periods = 1, last
          if (watch%count < 4*periods) exit
-         distance = orbit_distance(watch, periods, momentum_weight)
+         distance = orbit_distance(watch, periods, momentum_weight, tolerance)
          if (distance > tolerance) cycle
          orbit = periods
          call shorten(watch, momentum_weight, tolerance, orbit)
@@ -122,11 +128,13 @@ contains
    end subroutine shorten
 
    !> Bound of the distance from a motion that repeats after `orbit` periods, huge where there is none.
-   pure real(dp) function orbit_distance(watch, orbit, momentum_weight)
+   pure real(dp) function orbit_distance(watch, orbit, momentum_weight, tolerance)
       type(orbit_watch_t), intent(in) :: watch
       integer, intent(in) :: orbit
       !> Film that a momentum of one counts as [-]
       real(dp), intent(in) :: momentum_weight
+      !> Distance that is small enough [-]
+      real(dp), intent(in) :: tolerance
       !> Ratio below which a motion settles fast enough for two ratios to do
       real(dp), parameter :: fast = 0.1_dp
       real(dp) :: last, newer, older, ratio
@@ -147,8 +155,43 @@ contains
          ratio = max(ratio, newer/older)
          newer = older
       end do
-      orbit_distance = last*ratio/(1.0_dp - ratio)
+      orbit_distance = max(last*ratio/(1.0_dp - ratio), distance_across(watch, orbit, momentum_weight, tolerance, ratio))
    end function orbit_distance
+
+   !> Bound of the distance in the direction along which the motion does not settle by the ratio of its distances, huge where
+   !> there is none.
+   pure real(dp) function distance_across(watch, orbit, momentum_weight, tolerance, ratio)
+      type(orbit_watch_t), intent(in) :: watch
+      integer, intent(in) :: orbit
+      !> Film that a momentum of one counts as [-]
+      real(dp), intent(in) :: momentum_weight
+      !> Distance that is small enough [-]
+      real(dp), intent(in) :: tolerance
+      !> Of the distances
+      real(dp), intent(in) :: ratio
+      !> Share of the tolerance that the errors of the states leave across
+      real(dp), parameter :: negligible = 0.3_dp
+      real(dp) :: states(2, 0:3), a(2), b(2), c(2), area, older_area, across, other
+
+      states(:, 0) = state_of_age(watch, 0)
+      states(:, 1) = state_of_age(watch, orbit)
+      states(:, 2) = state_of_age(watch, 2*orbit)
+      states(:, 3) = state_of_age(watch, 3*orbit)
+      states(2, :) = states(2, :)*momentum_weight
+      states = states/film_weight(states(1, 0))
+      a = states(:, 2) - states(:, 3)
+      b = states(:, 1) - states(:, 2)
+      c = states(:, 0) - states(:, 1)
+      distance_across = 0.0_dp
+      area = abs(b(1)*c(2) - b(2)*c(1))
+      if (area <= negligible*tolerance*norm2(b)) return
+      across = area/norm2(b)
+      older_area = abs(a(1)*b(2) - a(2)*b(1))
+      distance_across = huge(1.0_dp)
+      if (area >= largest_ratio*ratio*older_area) return
+      other = area/(ratio*older_area)
+      distance_across = across*other/(1.0_dp - other)
+   end function distance_across
 
    !> Largest distance of the states of an orbit, `age` orbits back, from those one orbit before.
    pure real(dp) function cycle_distance(watch, orbit, age, momentum_weight)

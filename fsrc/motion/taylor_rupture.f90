@@ -30,10 +30,9 @@ module taylor_rupture
    use constants, only: two_pi
    use kinds, only: dp
    use lane_functions, only: lanes
-   use iso_viscous_coefficients, only: coordinate_scale, load_slope_table, tangent_slope_table, tangent_table
-   use iso_viscous_sums, only: locate_block, sum_block
    use published_iso_viscous, only: squeeze_share
-   use taylor_step_control, only: order
+   use rupture_lookup, only: look_up, rupture_state_t
+   use taylor_step_control, only: free_rate, load_error, order, rounding
    implicit none(type, external)
    private
 
@@ -48,6 +47,9 @@ module taylor_rupture
    !> Order of this series: its coefficients are dearer than those of the published films, so a lower one is
    !> best.
    integer, parameter, public :: rupture_order = 12
+
+   !> Local error over that of the step control above which a step is not trusted, and rounding of the equation of motion.
+   real(dp), parameter :: most_defect = 2.0_dp, equation_rounding = 64.0_dp*epsilon(1.0_dp)
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
    !> Names as above; u = m + t, y = m u, w = P, sine = t s, load = (Phi - s)/A, square = (o**2)'/A', slope: times k, turn: X',
@@ -67,41 +69,13 @@ module taylor_rupture
    type(rupture_load_t), parameter, public :: exact_load = rupture_load_t(cosine=0.25_dp, width=-0.125_dp)
    type(rupture_load_t), parameter, public :: published_load = rupture_load_t(constant=1.0_dp, angle=-squeeze_share)
 
-   public :: rupture_series
+   public :: rupture_series, evaluate_rupture_series, distrust_load_unforeseen
 
 contains
 
-   !> t, m and P of the films of a block, from their tables.
-   pure subroutine rupture_states(group, tangent, share, width)
-      !> A [-]
-      real(dp), intent(in) :: group(lanes)
-      !> t [-]
-      real(dp), intent(out) :: tangent(lanes)
-      !> m [-]
-      real(dp), intent(out) :: share(lanes)
-      !> P [-]
-      real(dp), intent(out) :: width(lanes)
-      real(dp), dimension(lanes) :: v, lead, fall, half, tangent_sum, slope, load_slope
-      real(dp) :: s
-      integer :: l
-
-      call locate_block(lanes, group, v, lead, fall, half)
-      call sum_block(lanes, tangent_table, group, v, tangent_sum)
-      call sum_block(lanes, tangent_slope_table, group, v, slope)
-      call sum_block(lanes, load_slope_table, group, v, load_slope)
-      !$omp simd private(s)
-      do l = 1, lanes
-         tangent(l) = tangent_sum(l)*sqrt(group(l)*group(l) + coordinate_scale*coordinate_scale)
-         share(l) = -tangent(l) - (2.0_dp*tangent(l) + group(l))*slope(l)
-         s = 1.0_dp/(1.0_dp + tangent(l)*tangent(l))
-         load_slope(l) = (fall(l)*half(l))*(fall(l)*half(l))*(fall(l)*half(l))*load_slope(l)
-         width(l) = 2.0_dp*s*s*(share(l) + tangent(l)) - 8.0_dp*load_slope(l)
-      end do
-   end subroutine rupture_states
-
    !> Coefficients 1 to `rupture_order` of H and V, and the damping rate.
    pure subroutine rupture_series(form, strength, rate, load, force_cosine, force_sine, film, momentum, &
-      damping_rate)
+      damping_rate, state)
       !> Load of the film
       type(rupture_load_t), intent(in) :: form
       !> a [-]
@@ -119,34 +93,34 @@ contains
       real(dp), intent(inout) :: momentum(lanes, 0:order)
       !> -dV'/dV [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
+      !> Films looked up last, those at the point of expansion afterwards
+      type(rupture_state_t), intent(inout) :: state
       real(dp) :: c(lanes, series, 0:rupture_order)
-      real(dp), dimension(lanes) :: half_p, half_root, half_o, t_0, m_0, w_0
+      real(dp), dimension(lanes) :: half_p, half_root, half_o, t_0
       real(dp) :: of_p, of_r, of_a, of_square, of_o, of_turn, of_s, of_m, of_w, of_y, of_load, of_force, force, t_k, turning, slope
       integer :: k, j, l
 
+      call look_up(film(:, 0), momentum(:, 0), rate, state)
       !$omp simd
       do l = 1, lanes
          c(l, h, 0) = film(l, 0)
          c(l, v, 0) = momentum(l, 0)
-         c(l, p, 0) = 1.0_dp/c(l, h, 0)
-         c(l, r, 0) = sqrt(c(l, p, 0))
+         c(l, p, 0) = state%pressure(l)
+         c(l, r, 0) = state%root(l)
          half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
          half_p(l) = -c(l, p, 0)*half_root(l)
-         c(l, a, 0) = rate(l)*c(l, v, 0)*c(l, r, 0)
-      end do
-      call rupture_states(c(:, a, 0), t_0, m_0, w_0)
-      !$omp simd
-      do l = 1, lanes
-         c(l, m, 0) = m_0(l)
-         c(l, w, 0) = w_0(l)
+         c(l, a, 0) = state%group(l)
+         t_0(l) = state%tangent(l)
+         c(l, m, 0) = state%share(l)
+         c(l, w, 0) = state%width(l)
          c(l, o, 0) = 2.0_dp*t_0(l) + c(l, a, 0)
-         half_o(l) = 0.5_dp/c(l, o, 0)
+         half_o(l) = state%half_o(l)
          c(l, square, 0) = 2.0_dp*c(l, a, 0) - 4.0_dp*c(l, m, 0)
-         c(l, s, 0) = 1.0_dp/(1.0_dp + t_0(l)*t_0(l))
+         c(l, s, 0) = state%cosine(l)
          c(l, sine, 0) = t_0(l)*c(l, s, 0)
          c(l, u, 0) = c(l, m, 0) + t_0(l)
          c(l, y, 0) = c(l, m, 0)*c(l, u, 0)
-         c(l, width_part, 0) = form%width*w_0(l) + form%angle*(w_0(l) - c(l, sine, 0))
+         c(l, width_part, 0) = form%width*c(l, w, 0) + form%angle*(c(l, w, 0) - c(l, sine, 0))
          c(l, phi, 0) = form%constant + form%cosine*c(l, s, 0) + c(l, a, 0)*c(l, width_part, 0)
          c(l, h, 1) = c(l, v, 0)
          c(l, v, 1) = strength(l)*c(l, p, 0)*c(l, phi, 0) - load(l) - force_cosine(l)
@@ -231,5 +205,112 @@ contains
       film(:, 1:rupture_order) = c(:, h, 1:)
       momentum(:, 1:rupture_order) = c(:, v, 1:)
    end subroutine rupture_series
+
+   !> Sums of the series of H, V and V', as evaluate_series takes them.
+   pure subroutine evaluate_rupture_series(film, momentum, x, film_sum, momentum_sum, rise_sum)
+      !> Series of H [-]
+      real(dp), intent(in) :: film(lanes, 0:order)
+      !> Series of V [-]
+      real(dp), intent(in) :: momentum(lanes, 0:order)
+      !> Distance from the point of expansion [periods]
+      real(dp), intent(in) :: x(lanes)
+      !> H there [-]
+      real(dp), intent(out) :: film_sum(lanes)
+      !> V there [-]
+      real(dp), intent(out) :: momentum_sum(lanes)
+      !> V' there [-]
+      real(dp), intent(out) :: rise_sum(lanes)
+      integer, parameter :: last = rupture_order
+      real(dp) :: square, film_odd, film_even, momentum_odd, momentum_even, rise_odd, rise_even
+      integer :: l, k
+
+      !$omp simd private(square, film_odd, film_even, momentum_odd, momentum_even, rise_odd, rise_even, k)
+      do l = 1, lanes
+         square = x(l)*x(l)
+         film_even = film(l, last)
+         momentum_even = momentum(l, last)
+         rise_odd = real(last, dp)*momentum(l, last)
+         film_odd = film(l, last - 1)
+         momentum_odd = momentum(l, last - 1)
+         rise_even = real(last - 1, dp)*momentum(l, last - 1)
+         do k = last - 2, 2, -2
+            film_even = film_even*square + film(l, k)
+            momentum_even = momentum_even*square + momentum(l, k)
+            rise_odd = rise_odd*square + real(k, dp)*momentum(l, k)
+            film_odd = film_odd*square + film(l, k - 1)
+            momentum_odd = momentum_odd*square + momentum(l, k - 1)
+            rise_even = rise_even*square + real(k - 1, dp)*momentum(l, k - 1)
+         end do
+         film_sum(l) = film(l, 0) + (film_even*square + film_odd*x(l))
+         momentum_sum(l) = momentum(l, 0) + (momentum_even*square + momentum_odd*x(l))
+         rise_sum(l) = rise_even + rise_odd*x(l)
+      end do
+   end subroutine evaluate_rupture_series
+
+   !> Take back the trust in steps at whose end the series of V misses the forces that the film and the gear have there.
+   !>
+   !> The last terms of a series tell its error only where the terms before them have begun to fall. A tooth in free flight
+   !> with A >> 1 has a load of next to nothing, and so are its coefficients: those of the force alone, which fall at once, are
+   !> seen. Where V goes through zero the load is back, up to a million times the one at the start. Or the load is some, but
+   !> its series is near the border of its convergence: term after term is as large as the last. Neither of them can
+   !> hide from the equation of motion at the end of the step. What the sum of the forces is off there, D, is that of the
+   !> first terms left out, so D x/(n + 1) stands for the local error of V; it is held against twice what the step control
+   !> grants (there the terms left out are less than the last). The measure is that of module taylor_step_control at the end of the
+   !> step, without its quotients; rounding is not held against a step.
+   pure subroutine distrust_load_unforeseen(form, error_share, strength, rate, load, amplitude, cosine, force, accuracy, film, &
+                                            momentum, next_film, next_momentum, next_rise, trust, state)
+      !> Load of the film
+      type(rupture_load_t), intent(in) :: form
+      !> Share of the accuracy that a step may use up, over its length [1/periods]
+      real(dp), intent(in) :: error_share
+      !> a [-]
+      real(dp), intent(in) :: strength(lanes)
+      !> c [periods]
+      real(dp), intent(in) :: rate(lanes)
+      !> q, f, cos(2 pi x) at the end of the step, and P = q + f [-]
+      real(dp), intent(in) :: load(lanes)
+      real(dp), intent(in) :: amplitude(lanes)
+      real(dp), intent(in) :: cosine(lanes)
+      real(dp), intent(in) :: force(lanes)
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy(lanes)
+      !> H and V at the start of the step [-]
+      real(dp), intent(in) :: film(lanes)
+      real(dp), intent(in) :: momentum(lanes)
+      !> H, V and V' of the series at its end [-]
+      real(dp), intent(in) :: next_film(lanes)
+      real(dp), intent(in) :: next_momentum(lanes)
+      real(dp), intent(in) :: next_rise(lanes)
+      !> 1 where the step is trusted, set to 0 where it is not
+      real(dp), intent(inout) :: trust(lanes)
+      !> Films looked up last, those at the end of trusted steps afterwards
+      type(rupture_state_t), intent(inout) :: state
+      real(dp), dimension(lanes) :: end_film, end_momentum
+      real(dp) :: sine_0, part, slope, carried, rate_of_damping, defect, square_film, granted
+      integer :: l
+
+      !$omp simd
+      do l = 1, lanes
+         end_film(l) = merge(next_film(l), film(l), trust(l) > 0.0_dp)
+         end_momentum(l) = merge(next_momentum(l), momentum(l), trust(l) > 0.0_dp)
+      end do
+      call look_up(end_film, end_momentum, rate, state)
+      !$omp simd private(sine_0, part, slope, carried, rate_of_damping, defect, square_film, granted)
+      do l = 1, lanes
+         sine_0 = state%tangent(l)*state%cosine(l)
+         part = form%width*state%width(l) + form%angle*(state%width(l) - sine_0)
+         slope = part - 2.0_dp*state%half_o(l)*state%cosine(l)*(state%share(l) + state%tangent(l)) &
+            *(state%group(l)*(2.0_dp*form%width*state%cosine(l) + form%angle) - 2.0_dp*form%cosine*sine_0)
+         rate_of_damping = -strength(l)*state%pressure(l)*rate(l)*state%root(l)*slope
+         carried = strength(l)*state%pressure(l)*(form%constant + form%cosine*state%cosine(l) + state%group(l)*part)
+         defect = abs(carried - load(l) - amplitude(l)*cosine(l) - next_rise(l)) &
+            - equation_rounding*(abs(carried) + force(l) + abs(rate_of_damping*end_momentum(l)))
+         ! 1 + H**2, and w (1 + H**2) times the accuracy.
+         square_film = 1.0_dp + end_film(l)*end_film(l)
+         granted = (most_defect*real(rupture_order + 1, dp))*error_share*end_film(l)*max(accuracy(l), rounding*square_film)
+         trust(l) = trust(l)*merge(1.0_dp, 0.0_dp, defect*square_film <= granted*(free_rate + rate_of_damping)) &
+            *merge(1.0_dp, 0.0_dp, defect*rate_of_damping*end_film(l) <= granted*load_error*force(l))
+      end do
+   end subroutine distrust_load_unforeseen
 
 end module taylor_rupture

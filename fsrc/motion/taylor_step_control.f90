@@ -32,14 +32,14 @@ module taylor_step_control
    !> films without rupture and those with it [1/periods].
    real(dp), parameter, public :: share_rate = 4.0_dp, rupture_share_rate = 12.0_dp
    !> Error that is rounding alone.
-   real(dp), parameter :: rounding = 2.0_dp*epsilon(1.0_dp)
+   real(dp), parameter, public :: rounding = 2.0_dp*epsilon(1.0_dp)
    !> Longest step [periods]
    real(dp), parameter :: longest_step = 0.25_dp
    !> g of the header, one over the time a momentum acts where nothing damps [1/periods]
-   real(dp), parameter :: free_rate = 2.0_dp
+   real(dp), parameter, public :: free_rate = 2.0_dp
 
    !> Relative error of the load that counts like one of the film
-   real(dp), parameter :: load_error = 100.0_dp
+   real(dp), parameter, public :: load_error = 100.0_dp
 
    public :: lane_steps, evaluate_series, film_weight, momentum_weight
 

@@ -33,6 +33,7 @@ program unit_tests
    use test_reynolds_film, only: run_reynolds_film_tests
    use test_reynolds_load, only: run_reynolds_load_tests
    use test_taylor_lanes, only: run_taylor_lanes_tests
+   use test_taylor_surprises, only: run_taylor_surprises_tests
    use test_checksum, only: run_checksum_tests
    use test_random_numbers, only: run_random_numbers_tests
    use test_sampling, only: run_sampling_tests
@@ -87,6 +88,7 @@ program unit_tests
    call run_numerical_artefacts_tests(checks)
    call run_result_writer_tests(checks)
    call run_taylor_lanes_tests(checks)
+   call run_taylor_surprises_tests(checks)
    call run_checksum_tests(checks)
    call run_random_numbers_tests(checks)
    call run_spread_points_tests(checks)

@@ -1,0 +1,133 @@
+!> Tests of the error-controlled engine where its series do not see what comes, and where a motion only seems to repeat.
+!> The scenes are such on which random trials had found a wrong motion that ended as if it were right.
+module test_taylor_surprises
+   use checks, only: check_list_t
+   use film_law, only: kernel_half_pi, kernel_reynolds_iso
+   use kinds, only: dp
+   use lane_motions, only: solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use scene_status, only: status_complete
+   implicit none(type, external)
+   private
+
+   public :: run_taylor_surprises_tests
+
+contains
+
+   !> Run all tests of this module.
+   subroutine run_taylor_surprises_tests(checks)
+      !> Outcome so far
+      type(check_list_t), intent(inout) :: checks
+
+      call checks%start('taylor surprises')
+      call test_slow_terms(checks)
+      call test_load_after_flight(checks)
+      call test_slow_direction(checks)
+   end subroutine run_taylor_surprises_tests
+
+   !> Largest relative error of the film over the last periods, against a far tighter solution.
+   subroutine largest_error(scene, accuracy, periods, until_steady, error, ending)
+      type(lane_scene_t), intent(in) :: scene
+      !> Accuracy asked for [-]
+      real(dp), intent(in) :: accuracy
+      !> Periods to solve
+      integer, intent(in) :: periods
+      !> Stop when the motion repeats
+      logical, intent(in) :: until_steady
+      !> [-]
+      real(dp), intent(out) :: error
+      !> How it ended
+      type(lane_ending_t), intent(out) :: ending
+      integer, parameter :: per_period = 16, sampled = 8
+      real(dp), dimension(sampled*per_period, 1) :: films, exact, velocities
+      type(lane_ending_t) :: endings(1)
+      type(lane_request_t) :: request
+
+      films = 0.0_dp
+      velocities = 0.0_dp
+      request = lane_request_t(accuracy=1.0e-11_dp, periods=periods, samples_per_period=per_period, sampled_periods=sampled)
+      call solve_motions([scene], request, films, velocities, endings)
+      exact = films
+      request%accuracy = accuracy
+      request%until_steady = until_steady
+      call solve_motions([scene], request, films, velocities, endings)
+      ending = endings(1)
+      error = maxval(abs(films/exact - 1.0_dp))
+   end subroutine largest_error
+
+   !> Light damping and slow surfaces: half-way through a period the terms of the series are all alike, and the last of them
+   !> is no measure of those left out.
+   subroutine test_slow_terms(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(lane_scene_t) :: scene
+      type(lane_ending_t) :: ending
+      real(dp) :: error
+
+      scene%film%kernel = kernel_reynolds_iso
+      scene%film%radius = 2.3876495360356676e-3_dp
+      scene%film%speed = 5.7905602267840174e-2_dp
+      scene%film%scale = 1.3773074987286440e-4_dp
+      scene%film%squeeze_rate = 2.3867652204519580_dp
+      scene%mass = 1.1847070022232703e-1_dp
+      scene%weight = 1.1618006923352833_dp
+      scene%steady_force = 8.5248996137767730e-1_dp
+      scene%force_amplitude = 1.1335863523156863e1_dp
+      scene%frequency = 3.3377924443537181e3_dp
+      scene%initial_film = 1.3945928475863152e-5_dp
+      call largest_error(scene, 1.0e-4_dp, 14, .false., error, ending)
+      call checks%check(.not. ending%implicit, 'slow terms: by series')
+      call checks%check(error < 20.0e-4_dp, 'slow terms: error')
+   end subroutine test_slow_terms
+
+   !> A tooth thrown up: its film carries nothing, until it comes down within one step of free flight.
+   subroutine test_load_after_flight(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(lane_scene_t) :: scene
+      type(lane_ending_t) :: ending
+      real(dp) :: error
+      integer :: digits
+
+      scene%film%kernel = kernel_reynolds_iso
+      scene%film%radius = 8.3212234704100108e-2_dp
+      scene%film%speed = 5.0148848203949430e-2_dp
+      scene%film%scale = 3.6059898361908885e-2_dp
+      scene%film%squeeze_rate = 1.6269628012664370e1_dp
+      scene%mass = 2.0489868142673440_dp
+      scene%weight = 2.0093696542134847e1_dp
+      scene%steady_force = 2.5718992217975565e3_dp
+      scene%force_amplitude = 8.5688727383669557e3_dp
+      scene%frequency = 3.2351430272900971e3_dp
+      scene%initial_film = 3.5893279803907646e-6_dp
+      do digits = 3, 6
+         call largest_error(scene, 10.0_dp**(-digits), 12, .false., error, ending)
+         call checks%check(.not. ending%implicit, 'load after flight: by series')
+         call checks%check(error < 4.0_dp*10.0_dp**(-digits), 'load after flight: error')
+      end do
+   end subroutine test_load_after_flight
+
+   !> The film settles at once, the momentum by one per cent a period: two ratios of the distance are small before the slow
+   !> direction is all that is left.
+   subroutine test_slow_direction(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(lane_scene_t) :: scene
+      type(lane_ending_t) :: ending
+      real(dp) :: error
+
+      scene%film%kernel = kernel_half_pi
+      scene%film%radius = 3.0260019130531328e-2_dp
+      scene%film%speed = 5.7712742755697308e-2_dp
+      scene%film%rolling = 3.1349266025364127e-4_dp
+      scene%film%squeeze = 7.1587712878562091e-4_dp
+      scene%film%squeeze_rate = 8.5252648189720279_dp
+      scene%mass = 2.0946522249044204_dp
+      scene%weight = 2.0541521241358932e1_dp
+      scene%steady_force = 2.5606598107152614_dp
+      scene%force_amplitude = 2.2477053946577504e2_dp
+      scene%frequency = 3.7803949891367083e3_dp
+      scene%initial_film = 1.3569829599508520e-5_dp
+      call largest_error(scene, 1.0e-8_dp, 14, .true., error, ending)
+      call checks%check(ending%status == status_complete, 'a slow direction is not at rest')
+      call checks%check(error < 30.0e-8_dp, 'slow direction: error')
+   end subroutine test_slow_direction
+
+end module test_taylor_surprises
