@@ -35,16 +35,15 @@ contains
       !> The films
       type(rupture_state_t), intent(inout) :: state
       real(dp), dimension(lanes) :: coordinate, lead, fall, half, tangent_sum, slope, load_slope
-      real(dp) :: same
+      real(dp) :: changed
       integer :: l
 
-      same = 0.0_dp
-      !$omp simd reduction(+: same)
+      changed = 0.0_dp
+      !$omp simd reduction(max: changed)
       do l = 1, lanes
-         same = same + merge(1.0_dp, 0.0_dp, film(l) == state%film(l))*merge(1.0_dp, 0.0_dp, momentum(l) == state%momentum(l)) &
-            *merge(1.0_dp, 0.0_dp, rate(l) == state%rate(l))
+         changed = max(changed, abs(film(l) - state%film(l)), abs(momentum(l) - state%momentum(l)), abs(rate(l) - state%rate(l)))
       end do
-      if (nint(same) == lanes) return
+      if (.not. changed > 0.0_dp) return
       !$omp simd
       do l = 1, lanes
          state%film(l) = film(l)
