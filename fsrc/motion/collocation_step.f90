@@ -36,8 +36,8 @@ module collocation_step
    integer, parameter :: most_passes = 10
    !> Share of the accuracy for the last coefficient of the polynomial, and for the first one left out.
    real(dp), parameter :: last_share = 40.0_dp, next_share = 2.0_dp
-   !> Largest integral of w, of the header, and of that integral.
-   real(dp), parameter :: once_between = 1.7400e-2_dp, twice_between = 1.2320e-3_dp
+   !> Largest of the integrals of the integral of w, of the header.
+   real(dp), parameter :: twice_between = 1.2320e-3_dp
    !> Longest step [periods]
    real(dp), parameter :: longest_step = 0.25_dp
    !> Step over the one before, least and most, and the most for which the polynomial is carried on.
@@ -161,8 +161,7 @@ contains
             weight = momentum_weight(block%film(l, 0), block%damping_rate(l), block%force(l))
             error = max(top/last_share, next/next_share)*block%step(l) &
                *max(block%step(l)/real(4*stages**2, dp), weight/real(2*stages, dp))
-            between = abs(at_start(polynomial) - block%acceleration(l))*block%step(l) &
-               *max(block%step(l)*twice_between, weight*once_between)
+            between = abs(at_start(polynomial) - block%acceleration(l))*twice_between*block%step(l)**2
             error = max(error, between) &
                /min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
                     allowed(maxval(film(l, :)), l, block))
