@@ -6,11 +6,11 @@
 !> the last two columns agree; then the extrapolated state is where the next interval starts. So the steps are
 !> fine only where the motion needs it.
 module newmark_extrapolated
-   use film_law, only: film_kernel, film_t
+   use film_law, only: film_kernel, film_t, overflow_load
    use forcing, only: applied_force
    use kinds, only: dp
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t
-   use richardson, only: extrapolate, most_rows, multiples
+   use richardson, only: doubt, extrapolate, most_rows, multiples
    use scene_status, only: status_complete, status_not_converged
    implicit none(type, external)
    private
@@ -28,6 +28,9 @@ module newmark_extrapolated
    !> Share of the accuracy that an interval may spend, by the error of the last column but one: errors of
    !> earlier intervals add until the film has damped them.
    real(dp), parameter :: interval_share = 0.1_dp
+   !> Most credit of an interval's last column. The share above is a margin of its own, so only the longest rows
+   !> are held to it.
+   real(dp), parameter :: most_credit = 36.0_dp
 
    !> Intervals of a period, and what they needed last time.
    type, public :: extrapolation_t
@@ -201,13 +204,14 @@ contains
       real(dp), dimension(size(films), row_limit) :: film_table, velocity_table
       real(dp), allocatable, dimension(:) :: force, row_films, row_velocities, row_accelerations
       type(motion_state_t) :: moving
-      real(dp) :: last_estimate
+      real(dp) :: change, last_change, factor
       integer :: row, steps, i, stride, done
       type(motion_count_t) :: before
 
       steps = base*multiples(row_limit)
       allocate (force(steps), row_films(steps), row_velocities(steps), row_accelerations(steps))
       estimate = huge(estimate)
+      change = huge(change)
       do row = 1, row_limit
          steps = base*multiples(row)
          do i = 1, steps
@@ -225,17 +229,46 @@ contains
          call extrapolate(row, row_velocities(stride:steps:stride), velocity_table)
          rows = row
          if (row == 1) cycle
-         last_estimate = estimate
-         estimate = maxval(max(abs(film_table(:, 1) - film_table(:, 2)), &
+         last_change = change
+         change = maxval(max(abs(film_table(:, 1) - film_table(:, 2)), &
             abs(velocity_table(:, 1) - velocity_table(:, 2))/stretch%frequency)/abs(film_table(:, 1)))
-         if (estimate <= tolerance) exit
+         factor = doubt(row, change, last_change, most_credit)
+         estimate = factor*change
+         if (estimate <= tolerance) then
+            count%evaluations = count%evaluations + 1
+            estimate = max(estimate, factor*carried_error(kernel, film, stretch, width, film_table(size(films), :2), &
+                                                          velocity_table(size(films), :2)))
+            if (estimate <= tolerance) exit
+         end if
          ! The expansion has not set in: longer rows would be in vain.
-         if (tolerance > 0.0_dp .and. row > few_rows .and. estimate > last_estimate) exit
+         if (tolerance > 0.0_dp .and. row > few_rows .and. change > last_change) exit
       end do
       films = film_table(:, 1)
       velocities = velocity_table(:, 1)
       if (tolerance > 0.0_dp .and. .not. (estimate <= tolerance .and. all(films > 0.0_dp))) &
          status = status_not_converged
    end subroutine extrapolate_interval
+
+   !> Relative error of the film to which the error of the velocity at the end of an interval grows afterwards:
+   !> it moves the film until the film has damped it or turned it round, in free flight for a whole period.
+   real(dp) function carried_error(kernel, film, stretch, width, films, velocities) result(error)
+      procedure(film_kernel) :: kernel
+      type(film_t), intent(in) :: film
+      type(newmark_t), intent(in) :: stretch
+      !> Length of the interval in phase [-]
+      real(dp), intent(in) :: width
+      !> h [m] and z' [m/s] there: the last column, and the one before
+      real(dp), intent(in) :: films(2)
+      real(dp), intent(in) :: velocities(2)
+      real(dp) :: load, load_by_film, load_by_velocity, rate
+
+      error = huge(error)
+      if (.not. films(1) > 0.0_dp) return
+      call kernel(film, films(1), velocities(1), load, load_by_film, load_by_velocity)
+      if (.not. load < overflow_load) return
+      rate = stretch%frequency*width + max(0.0_dp, -load_by_velocity)/stretch%mass + &
+             sqrt(max(0.0_dp, -load_by_film)/stretch%mass)
+      error = abs(velocities(1) - velocities(2))/(rate*films(1))
+   end function carried_error
 
 end module newmark_extrapolated

@@ -8,7 +8,7 @@ module newmark_lanes_extrapolated
    use kinds, only: dp, int64
    use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, &
       solve_newmark_lanes
-   use richardson, only: extrapolate, most_rows, multiples
+   use richardson, only: doubt, extrapolate, most_rows, multiples
    use scene_status, only: status_complete, status_not_converged
    implicit none(type, external)
    private
@@ -19,6 +19,9 @@ module newmark_lanes_extrapolated
    real(dp), parameter :: iteration_share = 1.0e-9_dp
    !> Passes in a step. More are a sign of too long a step.
    integer, parameter :: pass_limit = 20
+   !> Most credit of the last column, that of the third row: a row runs through the whole motion, also where its
+   !> steps are far too coarse.
+   real(dp), parameter :: most_credit = 9.0_dp
 
    !> How a scene ended.
    type, public :: extrapolated_ending_t
@@ -57,6 +60,7 @@ contains
       type(newmark_lane_ending_t), allocatable :: row_endings(:)
       real(dp), allocatable :: film_tables(:, :, :), velocity_tables(:, :, :), row_films(:, :), &
                                            row_velocities(:, :), row_accelerations(:, :)
+      real(dp) :: changes(size(scenes))
       logical, allocatable :: pending(:)
       integer, allocatable :: queue(:)
       integer :: table, row, steps, i
@@ -71,6 +75,7 @@ contains
       allocate (pending(size(scenes)))
       do table = 0, tables - 1
          pending = endings%status /= status_complete
+         changes = huge(changes)
          do row = 1, rows
             queue = pack([(i, i=1, size(scenes))], pending)
             if (size(queue) == 0) exit
@@ -93,8 +98,8 @@ contains
                   call extrapolate(row, row_velocities(:, i), velocity_tables(:, :, scene))
                   endings(scene)%status = status_not_converged
                   if (row == 1) cycle
-                  call judge(film_tables(:, :, scene), velocity_tables(:, :, scene), scenes(scene), &
-                             samples_per_period, endings(scene)%estimate)
+                  call judge(row, film_tables(:, :, scene), velocity_tables(:, :, scene), scenes(scene), &
+                             samples_per_period, changes(scene), endings(scene)%estimate)
                   if (.not. endings(scene)%estimate <= accuracy) cycle
                   endings(scene)%status = status_complete
                   pending(scene) = .false.
@@ -111,19 +116,26 @@ contains
 
    !> Estimate of the relative error of the film from the last two columns. A velocity counts by the film that
    !> it moves between two samples.
-   pure subroutine judge(film_table, velocity_table, scene, samples_per_period, estimate)
+   pure subroutine judge(row, film_table, velocity_table, scene, samples_per_period, change, estimate)
+      !> Number of the row
+      integer, intent(in) :: row
       real(dp), intent(in) :: film_table(:, :)
       real(dp), intent(in) :: velocity_table(:, :)
       type(newmark_lane_scene_t), intent(in) :: scene
       integer, intent(in) :: samples_per_period
+      !> Largest difference of the last two columns: on entry that of the row before
+      real(dp), intent(inout) :: change
       real(dp), intent(out) :: estimate
-      real(dp) :: time
+      real(dp) :: time, last_change
 
       estimate = huge(estimate)
+      last_change = change
+      change = huge(change)
       if (.not. all(film_table(:, 1) > 0.0_dp)) return
       time = 1.0_dp/(scene%method%frequency*real(samples_per_period, dp))
-      estimate = maxval(max(abs(film_table(:, 1) - film_table(:, 2)), &
+      change = maxval(max(abs(film_table(:, 1) - film_table(:, 2)), &
          time*abs(velocity_table(:, 1) - velocity_table(:, 2)))/film_table(:, 1))
+      estimate = change*doubt(row, change, last_change, most_credit)
    end subroutine judge
 
    !> z'' at the samples from the equation of motion.

@@ -3,7 +3,7 @@
 module test_newmark_extrapolated
    use checks, only: check_list_t
    use constants, only: standard_gravity
-   use film_law, only: film_load, film_t, kernel_half_pi, kernel_piezo
+   use film_law, only: film_load, film_t, kernel_half_pi, kernel_piezo, kernel_solved_successive
    use kinds, only: dp
    use newmark, only: motion_count_t, motion_state_t, newmark_t, start_motion
    use newmark_extrapolated, only: advance_extrapolated, extrapolate_interval, extrapolation_t, &
@@ -12,7 +12,7 @@ module test_newmark_extrapolated
    use newmark_lanes_extrapolated, only: extrapolated_ending_t, solve_lanes_extrapolated
    use published_iso_viscous, only: rolling_coefficient, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, squeeze_exponent_rate
-   use richardson, only: extrapolate, most_rows, multiples
+   use richardson, only: doubt, extrapolate, most_rows, multiples
    use scene_status, only: status_complete, status_film_lost
    implicit none(type, external)
    private
@@ -34,12 +34,15 @@ contains
 
       call checks%start('newmark_extrapolated')
       call test_table(checks)
+      call test_doubt(checks)
       call test_order(checks)
       call test_accuracy(checks)
       call test_samples(checks)
       call test_landing(checks)
       call test_lost(checks)
       call test_lanes(checks)
+      call test_take_off(checks)
+      call test_coarse_first_rows(checks)
    end subroutine run_newmark_extrapolated_tests
 
    !> A scene of the bench.
@@ -83,6 +86,20 @@ contains
       end do
       call checks%check_close(table(1, 1), 3.0_dp, 64.0_dp*epsilon(1.0_dp), 'table: eight rows')
    end subroutine test_table
+
+   !> Doubt is 1 in the regime of the expansion; elsewhere it takes back what is not proven.
+   subroutine test_doubt(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: change = 1.0e-9_dp
+
+      call checks%check_close(doubt(2, change, huge(1.0_dp), 9.0_dp), 1.0_dp, 0.0_dp, 'doubt: second row')
+      call checks%check_close(doubt(3, change, 1.0e-6_dp, 9.0_dp), 1.0_dp, 0.0_dp, 'doubt: a promise held')
+      call checks%check_close(doubt(5, change, 1.0e-6_dp, 9.0_dp), 4.0_dp, 0.0_dp, 'doubt: credit of six squared')
+      call checks%check_close(doubt(4, change, 2.0_dp*change, 36.0_dp), 8.0_dp, 1.0e-3_dp, &
+                              'doubt: a promise broken')
+      call checks%check_close(doubt(8, 0.0_dp, 0.0_dp, 256.0_dp), 1.0_dp, 0.0_dp, 'doubt: nothing left')
+   end subroutine test_doubt
 
    !> Column k has the order 2 k: half the steps, 4^k times the error.
    subroutine test_order(checks)
@@ -244,6 +261,70 @@ contains
                            'lanes: the same bits alone')
       end do
    end subroutine test_lanes
+
+   !> Two teeth that a load of hundreds of powers of e throws off, period after period. What the velocity is wrong
+   !> by at the take-off moves the film all through the flight. Expected: by collocation, to 1e-11.
+   subroutine test_take_off(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: expected_films(2) = [1.0845656139681317e5_dp, 1.7837683266450525e6_dp], &
+         accuracies(2) = [1.0e-6_dp, 1.0e-8_dp]
+      integer, parameter :: periods(2) = [17, 23]
+      type(newmark_lane_scene_t) :: scenes(2)
+      real(dp) :: films(8), unused(8), accuracy
+      type(extrapolation_t) :: extrapolation
+      type(motion_state_t) :: state
+      type(motion_count_t) :: count
+      integer :: i, k, status
+
+      scenes%film%kernel = kernel_piezo
+      scenes%film%rate = [1.8377589123316420e2_dp, 5.4715612691820127e2_dp]
+      scenes%film%piezo = [4.3613949057659782e-13_dp, 1.5081770729847392e-16_dp]
+      scenes%method%mass = [4.9204676870851324e-2_dp, 2.7519206500784343e-1_dp]
+      scenes%method%weight = scenes%method%mass*standard_gravity
+      scenes%method%steady_force = [1.2690040761500127e3_dp, 1.9962142539491315e3_dp]
+      scenes%method%force_amplitude = [8.0518800274726427e3_dp, 1.0234195113647511e4_dp]
+      scenes%method%frequency = [2.6218604884070351e2_dp, 1.1318248085446500e2_dp]
+      scenes%thickness = [3.8169239835835829e-5_dp, 3.4393299584999886e-6_dp]
+      do i = 1, 2
+         do k = -1, 2
+            accuracy = accuracies(i)*2.0_dp**k
+            call run(scenes(i), accuracy, periods(i), films, unused, extrapolation, state, count, status)
+            call checks%check(status == status_complete, 'take-off: status')
+            call checks%check_close(films(8)/(scenes(i)%thickness*expected_films(i)), 1.0_dp, 12.0_dp*accuracy, &
+                                    'take-off: after many flights')
+         end do
+      end do
+   end subroutine test_take_off
+
+   !> A film so stiff that the first rows of the tables miss its motion. Expected: by collocation, to 1e-11.
+   subroutine test_coarse_first_rows(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer, parameter :: samples = 64
+      real(dp), parameter :: accuracy = 1.0e-8_dp
+      type(newmark_lane_scene_t) :: scene(1)
+      type(extrapolated_ending_t) :: ending(1)
+      real(dp), dimension(samples, 1) :: films, fine, velocities, accelerations
+
+      scene%film = film_t(kernel=kernel_solved_successive, radius=5.5205099770970732e-3_dp, &
+         speed=2.6972097000677209e-2_dp, rolling=3.2910011714875696e-2_dp, squeeze=6.8683299326774222e-2_dp, &
+         squeeze_rate=7.7914785640763959_dp)
+      scene%method%mass = 3.4301344326117311e-1_dp
+      scene%method%weight = scene%method%mass*standard_gravity
+      scene%method%steady_force = 1.8977740374403620e3_dp
+      scene%method%force_amplitude = 5.7436384159352691e1_dp
+      scene%method%frequency = 3.8345039962363485e3_dp
+      scene%thickness = 1.7310691968498213e-5_dp
+      scene%velocity = -1.6033249754995399e-2_dp
+      call solve_lanes_extrapolated(scene, accuracy, 20, 8, 8, films, velocities, accelerations, ending)
+      call checks%check(ending(1)%status == status_complete .and. ending(1)%estimate <= accuracy, &
+                        'coarse first rows: status')
+      call solve_lanes_extrapolated(scene, 1.0e-11_dp, 20, 8, 8, fine, velocities, accelerations, ending)
+      call checks%check_close(maxval(abs(films/fine - 1.0_dp)), 0.0_dp, accuracy, 'coarse first rows: accuracy')
+      call checks%check_close(fine(samples, 1)/scene(1)%thickness, 9.9997787120303150e-1_dp, 1.0e-10_dp, &
+                              'coarse first rows: expected film')
+   end subroutine test_coarse_first_rows
 
    !> Run a scene and keep the samples of its last period.
    subroutine run(scene, accuracy, periods, films, accelerations, extrapolation, state, count, status)
