@@ -17,20 +17,12 @@
 !> V stays well-conditioned however heavy the damping: there H' is the small difference of V and -2 b r, but
 !> the film depends on V alone.
 module taylor_iso_viscous
-   use constants, only: two_pi
    use kinds, only: dp
    use lane_functions, only: lanes
+   use series_factors, only: inverse, wave
    use taylor_step_control, only: order
    implicit none(type, external)
    private
-
-   integer :: i
-   !> 1/k
-   real(dp), parameter :: inverse(order) = [(1.0_dp/real(i, dp), i=1, order)]
-   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2
-   !> pi x0.
-   real(dp), parameter :: wave(order) = &
-      [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
 
    public :: iso_viscous_series
 

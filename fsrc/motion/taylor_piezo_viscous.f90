@@ -15,20 +15,12 @@
 !>     (k+1) V_(k+1) = S_k - q - f cos_k       g_k = -7/2 y_k - c (k+1) V_(k+1)
 !>                                             (k+1) S_(k+1) = sum of g_j S_(k-j), j = 0..k
 module taylor_piezo_viscous
-   use constants, only: two_pi
    use kinds, only: dp
    use lane_functions, only: coarse_log, lane_exponential, lanes, log_of_one, octave
+   use series_factors, only: inverse, wave
    use taylor_step_control, only: order
    implicit none(type, external)
    private
-
-   integer :: i
-   !> 1/k
-   real(dp), parameter :: inverse(order) = [(1.0_dp/real(i, dp), i=1, order)]
-   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2
-   !> pi x0.
-   real(dp), parameter :: wave(order) = &
-      [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
 
    !> Growth of the load in one step that the series resolves, and share of the accuracy below which a load is
    !> nothing [octaves]

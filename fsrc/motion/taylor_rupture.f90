@@ -27,22 +27,14 @@
 !> None of the formulas cancels, on approach (A -> -inf: t ~ -A, m -> 0) or separation
 !> (A -> +inf: t ~ -3 A/8, m ~ 15 A/32, Phi ~ 16/(81 A**2)).
 module taylor_rupture
-   use constants, only: two_pi
    use kinds, only: dp
    use lane_functions, only: lanes
    use published_iso_viscous, only: squeeze_share
    use rupture_lookup, only: look_up, rupture_state_t
+   use series_factors, only: inverse, wave
    use taylor_step_control, only: free_rate, load_error, order, rounding
    implicit none(type, external)
    private
-
-   integer :: i
-   !> 1/k
-   real(dp), parameter :: inverse(order) = [(1.0_dp/real(i, dp), i=1, order)]
-   !> Coefficient k-1 of cos(2 pi x) about any x0, over k, is wave(k) times cos (k odd) or sin (k even) of 2
-   !> pi x0.
-   real(dp), parameter :: wave(order) = &
-      [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
 
    !> Order of this series: its coefficients are dearer than those of the published films, so a lower one is
    !> best.
