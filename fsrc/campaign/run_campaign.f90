@@ -202,7 +202,9 @@ contains
             if (.not. allocated(error)) call move_alloc(own_error, error)
             !$omp end critical (campaign_error)
          end if
-         if (omp_get_thread_num() == 0 .and. this_rank() == 0) call progress%tell(log)
+         if (this_rank() == 0) then
+            if (omp_get_thread_num() == 0) call progress%tell(log)
+         end if
       end do
       !$omp end parallel
    end subroutine solve_chunks

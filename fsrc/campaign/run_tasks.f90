@@ -70,9 +70,9 @@ contains
          if (faults%count() > 0) exit_code = exit_bad_input
       else
          call run_one_campaign(scene, file, command%resume, command%quiet, faults, exit_code, error)
-         if (allocated(error) .and. this_rank() == 0) write (error_unit, '(a)') error%message
+         if (this_rank() == 0 .and. allocated(error)) write (error_unit, '(a)') error%message
       end if
-      if (faults%count() > 0 .and. this_rank() == 0) call print_faults(faults)
+      if (this_rank() == 0 .and. faults%count() > 0) call print_faults(faults)
       call end_ranks()
    end subroutine run_campaign_task
 
