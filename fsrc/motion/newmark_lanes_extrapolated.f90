@@ -21,7 +21,7 @@ module newmark_lanes_extrapolated
    integer, parameter :: pass_limit = 20
    !> Most credit of the last column, that of the third row: a row runs through the whole motion, also where its
    !> steps are far too coarse.
-   real(dp), parameter :: most_credit = 9.0_dp
+   real(dp), parameter :: most_credit = 4.0_dp
 
    !> How a scene ended.
    type, public :: extrapolated_ending_t
@@ -100,7 +100,8 @@ contains
                   if (row == 1) cycle
                   call judge(row, film_tables(:, :, scene), velocity_tables(:, :, scene), scenes(scene), &
                              samples_per_period, changes(scene), endings(scene)%estimate)
-                  if (.not. endings(scene)%estimate <= accuracy) cycle
+                  ! The first estimate has no row before to hold it against.
+                  if (row == 2 .or. .not. endings(scene)%estimate <= accuracy) cycle
                   endings(scene)%status = status_complete
                   pending(scene) = .false.
                   films(:, scene) = film_tables(:, 1, scene)

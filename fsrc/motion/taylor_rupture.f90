@@ -41,7 +41,7 @@ module taylor_rupture
    integer, parameter, public :: rupture_order = 12
 
    !> Local error over that of the step control above which a step is not trusted, and rounding of the equation of motion.
-   real(dp), parameter :: most_defect = 2.0_dp, equation_rounding = 64.0_dp*epsilon(1.0_dp)
+   real(dp), parameter :: most_defect = 1.0_dp, equation_rounding = 64.0_dp*epsilon(1.0_dp)
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
    !> Names as above; u = m + t, y = m u, w = P, sine = t s, load = (Phi - s)/A, square = (o**2)'/A', slope: times k, turn: X',
@@ -246,8 +246,8 @@ contains
    !> seen. Where V goes through zero the load is back, up to a million times the one at the start. Or the load is some, but
    !> its series is near the border of its convergence: term after term is as large as the last. Neither of them can
    !> hide from the equation of motion at the end of the step. What the sum of the forces is off there, D, is that of the
-   !> first terms left out, so D x/(n + 1) stands for the local error of V; it is held against twice what the step control
-   !> grants (there the terms left out are less than the last). The measure is that of module taylor_step_control at the end of the
+   !> first terms left out, so D x/(n + 1) stands for the local error of V; it is held against what the step control
+   !> grants the last term. The measure is that of module taylor_step_control at the end of the
    !> step, without its quotients; rounding is not held against a step.
    pure subroutine distrust_load_unforeseen(form, error_share, strength, rate, load, amplitude, cosine, force, accuracy, film, &
                                             momentum, next_film, next_momentum, next_rise, trust, state)

@@ -2,11 +2,14 @@
 !> The scenes are such on which random trials had found a wrong motion that ended as if it were right.
 module test_taylor_surprises
    use checks, only: check_list_t
-   use film_law, only: kernel_half_pi, kernel_reynolds_iso
+   use constants, only: standard_gravity
+   use film_law, only: film_t, kernel_half_pi, kernel_reynolds_iso, new_film, steady_film
    use kinds, only: dp
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use scene_lane, only: lane_of_scene
    use scene_status, only: status_complete
+   use scene_types, only: law_iso_viscous, rupture_solved, rupture_solver_fast, scene_t
    implicit none(type, external)
    private
 
@@ -23,6 +26,7 @@ contains
       call test_slow_terms(checks)
       call test_load_after_flight(checks)
       call test_slow_direction(checks)
+      call test_solved_rupture(checks)
    end subroutine run_taylor_surprises_tests
 
    !> Largest relative error of the film over the last periods, against a far tighter solution.
@@ -129,5 +133,37 @@ contains
       call checks%check(ending%status == status_complete, 'a slow direction is not at rest')
       call checks%check(error < 30.0e-8_dp, 'slow direction: error')
    end subroutine test_slow_direction
+
+   !> The published film with rupture solved, thrown up by forces of several static loads; a disturbance of the first grows by
+   !> 1.7, and 30 times that is what the errors of its periods may add up to.
+   subroutine test_solved_rupture(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: accuracy(2) = [1.0e-4_dp, 1.0e-6_dp]
+      integer, parameter :: periods(2) = [21, 19]
+      type(scene_t) :: scenes(2)
+      type(film_t) :: film
+      type(lane_ending_t) :: ending
+      real(dp) :: error
+      integer :: i
+
+      scenes%film%law = law_iso_viscous
+      scenes%film%rupture = rupture_solved
+      scenes%film%rupture_solver = rupture_solver_fast
+      scenes%contact%radius = [5.481505246044251e-2_dp, 4.110801607969542e-3_dp]
+      scenes%contact%length = [2.482650588895104_dp, 1.3145276388388247e1_dp]
+      scenes%lubricant%viscosity = [1.4116535368984156e-3_dp, 2.2617399322324586e-1_dp]
+      scenes%kinematics%entrainment_speed = [1.4556216504284314e-1_dp, 2.6123350837128096e-2_dp]
+      scenes%load%mass = [3.0481749918051043e-1_dp, 1.9599910303633315e1_dp]
+      scenes%load%steady_force = [2.6476179534595015_dp, 2.0093811269988987e2_dp]
+      scenes%load%force_amplitude = [1.3731101564097994e1_dp, 3.12891527894301e2_dp]
+      scenes%load%frequency = [3.3203726876730893e3_dp, 4.565151742131865e3_dp]
+      scenes%load%gravity = standard_gravity
+      do i = 1, 2
+         film = new_film(scenes(i))
+         call largest_error(lane_of_scene(scenes(i), film, steady_film(film, scenes(i)%load%static_load()), 0.0_dp), &
+                            accuracy(i), periods(i), .false., error, ending)
+         call checks%check(error < 50.0_dp*accuracy(i), 'solved rupture: error')
+      end do
+   end subroutine test_solved_rupture
 
 end module test_taylor_surprises
