@@ -258,8 +258,8 @@ contains
       !> Length of the interval in phase [-]
       real(dp), intent(in) :: width
       !> h [m] and z' [m/s] there: the last column, and the one before
-      real(dp), intent(in) :: films(2)
-      real(dp), intent(in) :: velocities(2)
+      real(dp), intent(in) :: films(:)
+      real(dp), intent(in) :: velocities(:)
       real(dp) :: load, load_by_film, load_by_velocity, rate
 
       error = huge(error)
