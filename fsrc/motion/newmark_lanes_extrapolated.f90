@@ -19,9 +19,9 @@ module newmark_lanes_extrapolated
    real(dp), parameter :: iteration_share = 1.0e-9_dp
    !> Passes in a step. More are a sign of too long a step.
    integer, parameter :: pass_limit = 20
-   !> Most credit of the last column, that of the third row: a row runs through the whole motion, also where its
-   !> steps are far too coarse.
-   real(dp), parameter :: most_credit = 4.0_dp
+   !> Most credit of the last column. A row runs through the whole motion, also where its steps are far too coarse, and its
+   !> best value may rest for a row far from the truth: its last move counts four times, and no order is credited.
+   real(dp), parameter :: most_credit = 0.25_dp
 
    !> How a scene ended.
    type, public :: extrapolated_ending_t
