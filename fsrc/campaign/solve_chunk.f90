@@ -2,10 +2,10 @@
 module solve_chunk
    use campaign_certificate, only: class_stands
    use campaign_record, only: judged_scene_t, record_row
+   use integrate_controlled, only: reserved_periods
    use kinds, only: dp, int64
    use lane_motions, only: accelerations, solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use period_repetition, only: longest_orbit
    use rattle_class, only: classify
    use recorded_quantities, only: need_count, needs_acceleration_range, needs_certificate, needs_film_range, needs_regime, &
                                   needs_spectrum, quantities
@@ -165,7 +165,7 @@ contains
       request%samples_per_period = scene%campaign%samples_per_period
       request%sampled_periods = scene%spectrum%periods
       request%until_steady = scene%solver%until == until_steady
-      if (request%until_steady) request%sampled_periods = max(scene%spectrum%periods, longest_orbit)
+      if (request%until_steady) request%sampled_periods = reserved_periods(scene%spectrum%periods)
       request%forecast = request%until_steady
    end function request_of
 
@@ -182,7 +182,7 @@ contains
       if (.not. resolved%steady_film > 0.0_dp) return
       oscillations = resolved%natural_frequency/scene%load%frequency
       settling = 1.0_dp/max(resolved%damping_ratio*oscillations, 1.0e-3_dp)
-      ratio = min(abs(scene%load%force_amplitude)/(scene%load%steady_force + scene%load%mass*scene%load%gravity), largest_ratio)
+      ratio = min(abs(scene%load%force_amplitude)/scene%load%static_load(), largest_ratio)
       likely_cost = (1.0_dp + oscillations*(1.0_dp + resolved%damping_ratio))* &
                     (4.0_dp + settling + irregular_share*ratio**5*settling**2)
    end function likely_cost

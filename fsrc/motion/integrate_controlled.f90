@@ -26,7 +26,7 @@ module integrate_controlled
    !> Periods of a block without samples.
    integer, parameter :: block_periods = 256
 
-   public :: solve_controlled, solve_window, find_steady_motion, last_search_period
+   public :: solve_controlled, solve_window, find_steady_motion, last_search_period, reserved_periods
 
 contains
 
@@ -96,6 +96,7 @@ contains
 
    !> Periods at the end of a run until steady of which each may belong to the window.
    pure integer function reserved_periods(window)
+      !> Periods of the window
       integer, intent(in) :: window
 
       reserved_periods = max(window, longest_orbit)

@@ -38,10 +38,12 @@ contains
       real(dp) :: changed
       integer :: l
 
+      ! A film that is no number has changed: with max it would count as the same, and a lane would hang on its neighbours.
       changed = 0.0_dp
-      !$omp simd reduction(max: changed)
+      !$omp simd reduction(+: changed)
       do l = 1, lanes
-         changed = max(changed, abs(film(l) - state%film(l)), abs(momentum(l) - state%momentum(l)), abs(rate(l) - state%rate(l)))
+         changed = changed + merge(0.0_dp, 1.0_dp, abs(film(l) - state%film(l)) + abs(momentum(l) - state%momentum(l)) &
+                                   + abs(rate(l) - state%rate(l)) <= 0.0_dp)
       end do
       if (.not. changed > 0.0_dp) return
       !$omp simd
