@@ -122,21 +122,21 @@ contains
                                                 - 2.0_dp*form%cosine*c(l, sine, 0))
          damping_rate(l) = -strength(l)*c(l, p, 0)*rate(l)*c(l, r, 0)*slope
       end do
-      ! All products of earlier coefficients first, twelve sums side by side; those with the newest ones, of which each
-      ! waits for the one before, come after.
+      ! Products of old coefficients first, twelve sums side by side, then those with the coefficients of the order before;
+      ! those of this order, of which each waits for the one before, come last.
       !GCC$ unroll 24
       do k = 1, rupture_order - 1
          !$omp simd private(of_p, of_r, of_a, of_square, of_o, of_turn, of_s, of_m, of_w, of_y, of_load, of_force, force, t_k)
          do l = 1, lanes
             of_p = 0.0_dp
             of_force = 0.0_dp
-            do j = 1, k - 1
+            do j = 2, k - 2
                of_p = of_p + c(l, p, k - j)*c(l, h, j)
                of_force = of_force + c(l, p, k - j)*c(l, phi, j)
             end do
             of_r = 0.0_dp
             of_a = 0.0_dp
-            do j = 1, k - 1
+            do j = 2, k - 2
                of_r = of_r + c(l, r, k - j)*c(l, r, j)
                of_a = of_a + c(l, r, k - j)*c(l, v, j)
             end do
@@ -144,26 +144,40 @@ contains
             of_w = 0.0_dp
             of_s = 0.0_dp
             of_m = 0.0_dp
-            do j = 1, k - 1
+            do j = 2, k - 2
                of_turn = of_turn + c(l, s, k - j)*c(l, t_slope, j)
                of_w = of_w + c(l, s, k - j)*c(l, turn, j)
                of_s = of_s + c(l, sine, k - j)*c(l, turn, j)
                of_m = of_m + c(l, y, k - j)*c(l, turn, j)
             end do
             of_square = 0.0_dp
-            do j = 1, k - 1
+            do j = 2, k - 2
                of_square = of_square + c(l, square, k - j)*c(l, a_slope, j)
             end do
             of_o = 0.0_dp
-            do j = 1, k - 1
+            do j = 2, k - 2
                of_o = of_o + c(l, o, k - j)*c(l, o, j)
             end do
             of_y = 0.0_dp
-            do j = 1, k - 1
+            do j = 2, k - 2
                of_y = of_y + c(l, u, k - j)*c(l, m, j)
             end do
             of_load = 0.0_dp
-            do j = 1, k - 1
+            do j = 2, k - 2
+               of_load = of_load + c(l, width_part, k - j)*c(l, a, j)
+            end do
+            do j = 1, k - 1, max(1, k - 2)
+               of_p = of_p + c(l, p, k - j)*c(l, h, j)
+               of_force = of_force + c(l, p, k - j)*c(l, phi, j)
+               of_r = of_r + c(l, r, k - j)*c(l, r, j)
+               of_a = of_a + c(l, r, k - j)*c(l, v, j)
+               of_turn = of_turn + c(l, s, k - j)*c(l, t_slope, j)
+               of_w = of_w + c(l, s, k - j)*c(l, turn, j)
+               of_s = of_s + c(l, sine, k - j)*c(l, turn, j)
+               of_m = of_m + c(l, y, k - j)*c(l, turn, j)
+               of_square = of_square + c(l, square, k - j)*c(l, a_slope, j)
+               of_o = of_o + c(l, o, k - j)*c(l, o, j)
+               of_y = of_y + c(l, u, k - j)*c(l, m, j)
                of_load = of_load + c(l, width_part, k - j)*c(l, a, j)
             end do
             ! p H = 1, r**2 = p, A = c V r
