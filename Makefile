@@ -172,9 +172,10 @@ bench: $(PYTHON_ENV)/installed
 	@$(NATIVE_BUILD)/bench_newmark_lanes
 	@sh $(PEERS)/setup.sh $(PEER_ENV)
 	@$(PEER_ENV)/bin/python $(PEERS)/run_peers.py --output $(BUILD)/work_precision.csv --rounds $(ROUNDS) --limit $(LIMIT) \
-	  --own 'rattle=$(ENGINE) taylor' --own 'rattle until steady=$(ENGINE) taylor-steady' \
+	  --own 'rattle=$(ENGINE) taylor' --own 'rattle, every period=$(ENGINE) taylor-every-period' \
+	  --own 'rattle until steady=$(ENGINE) taylor-steady' \
 	  --own 'rattle Newmark extrapolated=$(ENGINE) newmark-extrapolated'
-	@$(PEER_ENV)/bin/python $(PEERS)/plot_work_precision.py $(BUILD)/work_precision.csv --base rattle \
+	@$(PEER_ENV)/bin/python $(PEERS)/plot_work_precision.py $(BUILD)/work_precision.csv --base 'rattle, every period' \
 	  --figure $(BUILD)/work_precision.png --table $(BUILD)/work_precision.md
 	@cat $(BUILD)/work_precision.md
 	@$(PYTHON) tests/benchmarks/bench_skips.py $(NATIVE_BUILD)/rattle

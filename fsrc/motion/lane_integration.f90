@@ -13,10 +13,11 @@ module lane_integration
    use kinds, only: dp, int64
    use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
    use lane_functions, only: lanes
-   use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
+   use lane_sampling, only: begin_samples, end_samples, lane_samples_t, repeat_samples, take_samples
    use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, load_scene, rest_lane, &
                           start_period, start_status, state_of_lane
    use period_repetition, only: note_state, orbit_watch_t, watch_from
+   use recurrence, only: look_back, recurrence_t
    use settling_forecast, only: forecast_rest
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
    use taylor_rupture, only: rupture_order
@@ -26,6 +27,8 @@ module lane_integration
 
    !> More Taylor steps in a period cost more than collocation; more steps of collocation lead nowhere.
    real(dp), parameter :: most_series_steps = 3000.0_dp, most_implicit_steps = 1.0e5_dp
+   !> Longest step after a Taylor step that failed, as a share of it. Collocation proposes its steps itself.
+   real(dp), parameter :: series_retry_share = 0.25_dp
    !> Share of the accuracy within which a motion counts as repeating.
    real(dp), parameter :: repetition_share = 0.3_dp
 
@@ -49,8 +52,9 @@ module lane_integration
       integer :: period = 0, last_period = 0, sample_from = 0
       !> Start of the present period: scaled film and momentum
       real(dp) :: film = 0.0_dp, momentum = 0.0_dp
-      !> Looks for repetition
+      !> Looks for repetition, and for return to the last bit
       type(orbit_watch_t) :: states
+      type(recurrence_t) :: past
       !> Excursion under way, the period at which it has failed, its forecasts, and excursions made
       type(departure_t) :: departure
       integer :: back_at = 0, forecasts = 0, excursions = 0
@@ -67,6 +71,8 @@ module lane_integration
       real(dp) :: share = share_rate
       !> Most steps in a period, and largest damping rate [1/periods]
       real(dp) :: most_steps = 0.0_dp, largest_rate = 0.0_dp
+      !> Longest step after one that failed, as a share of it
+      real(dp) :: retry_share = 1.0_dp
       !> Film laws of the lanes
       type(film_t) :: films(lanes)
       !> Scenes of the queue taken, lanes with a scene
@@ -115,6 +121,7 @@ contains
          run%share = rupture_share_rate
       end if
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
+      run%retry_share = merge(series_retry_share, 1.0_dp, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
       do l = 1, lanes
@@ -127,7 +134,7 @@ contains
             call take_collocation_step(run%films, run%watches%scene > 0, run%block)
          end if
          if (run%samples%sampled_lanes > 0) call take_samples(run%block, run%samples, films, velocities)
-         call advance(run%most_steps, run%largest_rate, run%block, events)
+         call advance(run%most_steps, run%largest_rate, run%retry_share, run%block, events)
          if (events == 0) cycle
          do l = 1, lanes
             if (run%watches(l)%scene == 0) then
@@ -135,7 +142,7 @@ contains
                cycle
             end if
             if (run%block%remaining(l) <= 0.0_dp) then
-               call end_period(l, request, run)
+               call end_period(l, request, films, velocities, run)
             else if (in_trouble(l, run) .and. run%watches(l)%departure%period > 0) then
                run%watches(l)%ending%steps = run%watches(l)%ending%steps + nint(run%block%period_steps(l), int64)
                call start_period(l, run%block)
@@ -208,10 +215,12 @@ contains
    end function samples_before
 
    !> A period has ended: does the motion repeat, are samples due?
-   pure subroutine end_period(lane, request, run)
+   pure subroutine end_period(lane, request, films, velocities, run)
       !> Lane
       integer, intent(in) :: lane
       type(lane_request_t), intent(in) :: request
+      real(dp), contiguous, intent(inout) :: films(:, :)
+      real(dp), contiguous, intent(inout) :: velocities(:, :)
       type(lane_run_t), intent(inout) :: run
       real(dp) :: weight, distance
       integer :: orbit
@@ -236,11 +245,41 @@ contains
             else if (request%forecast) then
                call look_ahead(weight, lane, run)
             end if
+         else if (.not. (request%until_steady .or. request%every_period)) then
+            call skip_returns(lane, films, velocities, run)
          end if
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_samples(run%samples, lane)
       end associate
    end subroutine end_period
+
+   !> Skip the periods in which the motion only returns to the state it is in, to the last bit: whole cycles up to where
+   !> sampling begins, and at the end those whose samples are the ones of the cycle before. Their steps count like the others.
+   pure subroutine skip_returns(lane, films, velocities, run)
+      !> Lane
+      integer, intent(in) :: lane
+      real(dp), contiguous, intent(inout) :: films(:, :)
+      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      type(lane_run_t), intent(inout) :: run
+      integer(int64) :: cycle_steps
+      integer :: cycle_periods, cycles
+
+      associate (watch => run%watches(lane))
+         call look_back(watch%past, watch%period, watch%film, watch%momentum, watch%ending%steps, cycle_periods, cycle_steps)
+         if (cycle_periods == 0) return
+         cycles = 0
+         if (watch%period < watch%sample_from) then
+            cycles = (watch%sample_from - watch%period)/cycle_periods
+         else if (watch%period - cycle_periods >= watch%sample_from) then
+            cycles = (watch%last_period - watch%period)/cycle_periods
+            call repeat_samples(cycle_periods, cycles, lane, run%samples, films, velocities)
+         end if
+         if (cycles == 0) return
+         watch%period = watch%period + cycles*cycle_periods
+         watch%ending%steps = watch%ending%steps + int(cycles, int64)*cycle_steps
+         watch%past = recurrence_t()
+      end associate
+   end subroutine skip_returns
 
    !> Set out to where the motion is forecast to settle, or go back where an excursion has failed. A motion that does not
    !> repeat is so the one that follows from its start, to the last bit.

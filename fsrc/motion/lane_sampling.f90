@@ -27,7 +27,7 @@ module lane_sampling
    !> Samples of a lane that are evaluated together.
    integer, parameter :: together = 32
 
-   public :: begin_samples, end_samples, take_samples
+   public :: begin_samples, end_samples, repeat_samples, take_samples
 
 contains
 
@@ -89,6 +89,29 @@ contains
          end do
       end do
    end subroutine take_samples
+
+   !> Write the samples of the last periods once more, and again.
+   pure subroutine repeat_samples(cycle_periods, cycles, lane, samples, films, velocities)
+      !> The last periods that count
+      integer, intent(in) :: cycle_periods
+      !> How often
+      integer, intent(in) :: cycles
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_samples_t), intent(inout) :: samples
+      !> h [m] and z' [m/s] of all scenes: sample, scene
+      real(dp), contiguous, intent(inout) :: films(:, :)
+      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      integer :: distance, i, column
+
+      distance = cycle_periods*samples%per_period
+      column = samples%column(lane)
+      do i = samples%written(lane) + 1, samples%written(lane) + cycles*distance
+         films(i, column) = films(i - distance, column)
+         velocities(i, column) = velocities(i - distance, column)
+      end do
+      samples%written(lane) = samples%written(lane) + cycles*distance
+   end subroutine repeat_samples
 
    !> The last sample at or before a phase.
    pure integer function last_sample(phase, per_period)

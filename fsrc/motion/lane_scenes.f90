@@ -54,6 +54,8 @@ module lane_scenes
       integer :: sampled_periods = 0
       !> Stop when the motion is known to repeat
       logical :: until_steady = .false.
+      !> Compute every period, those too that return to the last bit
+      logical :: every_period = .false.
       !> Set out to where a slowly settling motion is forecast to come to rest. If it then repeats, the periods before the
       !> samples are fewer than those that follow from the start
       logical :: forecast = .false.
@@ -78,7 +80,7 @@ module lane_scenes
       real(dp) :: distance = 0.0_dp
       !> Samples written
       integer :: samples = 0
-      !> Steps taken
+      !> Steps of the motion, those of returning periods too
       integer(int64) :: steps = 0
       !> Whether the motion went on by the implicit method
       logical :: implicit = .false.

@@ -2,7 +2,9 @@
 !>
 !>    bench_engine ENGINE SCENE_FILE ACCURACY
 !>
-!> ENGINE: taylor (full run), taylor-steady (until the motion repeats) or newmark-extrapolated. Prints the CPU seconds of one scene, then h/h0 at 64 points of each of the last ten periods.
+!> ENGINE: taylor (full run), taylor-every-period (the same, no period skipped that returns to the last bit), taylor-steady
+!> (until the motion repeats) or newmark-extrapolated. Prints the CPU seconds of one scene, then h/h0 at 64 points of each of
+!> the last ten periods.
 program bench_engine
    use film_law, only: film_t, new_film
    use kinds, only: dp
@@ -51,6 +53,7 @@ program bench_engine
    request%samples_per_period = points
    request%sampled_periods = sampled
    request%until_steady = engine == 'taylor-steady'
+   request%every_period = engine == 'taylor-every-period'
    allocate (films(sampled*points, copies), velocities(sampled*points, copies), source=0.0_dp)
    allocate (accelerations(merge(sampled*points, 0, engine == 'newmark-extrapolated'), copies))
 

@@ -45,6 +45,7 @@ contains
       call test_search_in_pieces(checks)
       call test_steady(checks)
       call test_company(checks)
+      call test_returning_periods(checks)
    end subroutine run_lane_motions_tests
 
    !> Canonical scene of a kernel, started from its steady film. The exact films have u_r = 1.905 m/s. For the
@@ -256,6 +257,40 @@ contains
          call checks%check_close(error, 0.0_dp, 3.0e-8_dp, trim(names(i))//': steady motion')
       end do
    end subroutine test_steady
+
+   !> Periods that return to the last bit are not computed again, and nobody can tell: films, velocities, states, steps.
+   subroutine test_returning_periods(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer, parameter :: sampled(4) = [0, 1, 9, 80], most_periods = 1000000007
+      type(lane_scene_t) :: lanes(2*size(kernels))
+      type(lane_request_t) :: request
+      type(motions_t) :: whole, skipped
+      integer :: i, j
+
+      lanes(:size(kernels)) = all_lanes()
+      lanes(size(kernels) + 1:) = lanes(:size(kernels))
+      lanes(size(kernels) + 1:)%implicit = .true.
+      do j = 1, size(sampled)
+         request = lane_request_t(accuracy=1.0e-6_dp, periods=80, samples_per_period=16, sampled_periods=sampled(j))
+         skipped = motions_of(lanes, request)
+         request%every_period = .true.
+         whole = motions_of(lanes, request)
+         do i = 1, size(lanes)
+            call checks%check(same(whole, i, skipped, i) .and. skipped%endings(i)%steps == whole%endings(i)%steps .and. &
+                              skipped%endings(i)%samples == 16*sampled(j), &
+                              trim(names(1 + modulo(i - 1, size(kernels))))//': periods that return')
+         end do
+      end do
+      ! Computed one by one, these would take days.
+      skipped = motions_of(lanes, lane_request_t(accuracy=1.0e-6_dp, periods=most_periods, samples_per_period=16, &
+                                                 sampled_periods=2))
+      do i = 1, size(lanes)
+         call checks%check(skipped%endings(i)%periods == most_periods .and. &
+                           skipped%endings(i)%steps > most_periods .and. skipped%endings(i)%samples == 32, &
+                           trim(names(1 + modulo(i - 1, size(kernels))))//': a thousand million periods')
+      end do
+   end subroutine test_returning_periods
 
    !> A dozen scenes, one of which cannot start, have the same bits together, in other lanes, and alone.
    subroutine test_company(checks)

@@ -29,6 +29,7 @@ program unit_tests
    use test_film_fit, only: run_film_fit_tests
    use test_film_point, only: run_film_point_tests
    use test_numerical_reynolds, only: run_numerical_reynolds_tests
+   use test_recurrence, only: run_recurrence_tests
    use test_regime, only: run_regime_tests
    use test_reynolds_film, only: run_reynolds_film_tests
    use test_reynolds_load, only: run_reynolds_load_tests
@@ -70,6 +71,7 @@ program unit_tests
    call run_film_fit_tests(checks)
    call run_film_point_tests(checks)
    call run_numerical_reynolds_tests(checks)
+   call run_recurrence_tests(checks)
    call run_regime_tests(checks)
    call run_reynolds_film_tests(checks)
    call run_reynolds_load_tests(checks)

@@ -57,6 +57,24 @@ def test_not_converged(run, scene_text, tmp_path: Path) -> None:
     assert summary["film_at_status_time"] > 0
 
 
+@pytest.mark.parametrize("model", ["published", "reynolds"])
+def test_periods_that_return_to_the_last_bit(model: str, run, scene_text, tmp_path: Path) -> None:
+    """Ten million periods, computed one by one, would take minutes; the summary is that of three hundred."""
+    summaries = []
+    for name, periods in (("short", "300"), ("long", "10000000")):
+        solver = {"method": "'taylor'", "periods": periods, "steps_per_period": None, "tolerance": None}
+        text = scene_text(solver=solver, film={"model": f"'{model}'"}, output={"series": ".false."})
+        (tmp_path / f"{name}.nml").write_text(text)
+        ended = run(f"{name}.nml", cwd=tmp_path)
+        assert (ended.returncode, ended.stderr) == (0, "")
+        summaries.append(summary_of(tmp_path / "results" / f"{name}.summary.nml"))
+        assert summaries[-1]["periods_solved"] == int(periods)
+        assert summaries[-1]["steps"] > 5 * int(periods)
+    own = {"name", "status_time", "periods_solved", "evaluations", "steps", "wall_seconds", "input_file"}
+    short, long = ({key: each[key] for key in each if key not in own} for each in summaries)
+    assert short == long
+
+
 def long_scene(scene_text: Callable[..., str], **output: str) -> str:
     """Would take many minutes and hundreds of gigabytes."""
     return scene_text(solver={"steps_per_period": "512", "periods": "100000000"}, output=output)
