@@ -40,9 +40,8 @@ module collocation_step
    real(dp), parameter :: twice_between = 1.2320e-3_dp
    !> Longest step [periods]
    real(dp), parameter :: longest_step = 0.25_dp
-   !> Step over the one before: least, most, after passes that led nowhere, and the most for which the polynomial is
-   !> carried on.
-   real(dp), parameter :: least_growth = 0.1_dp, most_growth = 4.0_dp, failed_growth = 0.25_dp, most_extrapolation = 2.0_dp
+   !> Step over the one before, least and most, and the most for which the polynomial is carried on.
+   real(dp), parameter :: least_growth = 0.1_dp, most_growth = 4.0_dp, most_extrapolation = 2.0_dp
 
    public :: take_collocation_step
 
@@ -155,7 +154,7 @@ contains
       block%next_momentum = block%momentum(:, 0)
       do l = 1, lanes
          if (.not. occupied(l)) cycle
-         growth = failed_growth
+         growth = least_growth
          if (block%trust(l) > 0.0_dp) then
             polynomial = matmul(power, k(l, :))
             call highest_terms(polynomial, top, next)
@@ -167,13 +166,7 @@ contains
                /min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
                     allowed(maxval(film(l, :)), l, block))
             growth = max(least_growth, min(most_growth, 0.9_dp/sqrt(sqrt(sqrt(max(error, tiny(1.0_dp)))))))
-            ! What was too long once is so for the next step too: else long steps fail and short ones follow in turn.
-            if (block%limit(l) < 1.0_dp) growth = min(growth, 1.0_dp)
-            if (.not. error <= 1.0_dp) block%trust(l) = 0.0_dp
-            if (.not. (error < huge(1.0_dp) .and. minval(film(l, :)) > 0.0_dp)) then
-               block%trust(l) = 0.0_dp
-               growth = failed_growth
-            end if
+            if (.not. error <= 1.0_dp .or. minval(film(l, :)) <= 0.0_dp) block%trust(l) = 0.0_dp
          end if
          block%proposed(l) = growth*block%step(l)
          if (block%trust(l) > 0.0_dp) then

@@ -93,13 +93,11 @@ contains
    end subroutine take_series_step
 
    !> Advance all lanes whose step is to be trusted; the others try again with a shorter one.
-   pure subroutine advance(most_steps, largest_rate, retry_share, block, events)
+   pure subroutine advance(most_steps, largest_rate, block, events)
       !> Most steps in a period
       real(dp), intent(in) :: most_steps
       !> Largest damping rate [1/periods]
       real(dp), intent(in) :: largest_rate
-      !> Longest step after one that failed, as a share of it
-      real(dp), intent(in) :: retry_share
       type(lane_block_t), intent(inout) :: block
       !> Lanes that need attention: period ended, or trouble
       integer, intent(out) :: events
@@ -111,7 +109,7 @@ contains
       do l = 1, lanes
          block%film(l, 0) = merge(block%next_film(l), block%film(l, 0), block%trust(l) > 0.0_dp)
          block%momentum(l, 0) = merge(block%next_momentum(l), block%momentum(l, 0), block%trust(l) > 0.0_dp)
-         block%limit(l) = merge(1.0_dp, retry_share*block%step(l), block%trust(l) > 0.0_dp)
+         block%limit(l) = merge(1.0_dp, 0.25_dp*block%step(l), block%trust(l) > 0.0_dp)
          block%remaining(l) = merge(block%remaining(l) - block%step(l), 1.0_dp, block%trust(l) > 0.0_dp)
          block%phase(l) = block%phase(l) + block%trust(l)*block%step(l)
          block%period_steps(l) = block%period_steps(l) + 1.0_dp

@@ -27,8 +27,6 @@ module lane_integration
 
    !> More Taylor steps in a period cost more than collocation; more steps of collocation lead nowhere.
    real(dp), parameter :: most_series_steps = 3000.0_dp, most_implicit_steps = 1.0e5_dp
-   !> Longest step after a Taylor step that failed, as a share of it. Collocation proposes its steps itself.
-   real(dp), parameter :: series_retry_share = 0.25_dp
    !> Share of the accuracy within which a motion counts as repeating.
    real(dp), parameter :: repetition_share = 0.3_dp
 
@@ -71,8 +69,6 @@ module lane_integration
       real(dp) :: share = share_rate
       !> Most steps in a period, and largest damping rate [1/periods]
       real(dp) :: most_steps = 0.0_dp, largest_rate = 0.0_dp
-      !> Longest step after one that failed, as a share of it
-      real(dp) :: retry_share = 1.0_dp
       !> Film laws of the lanes
       type(film_t) :: films(lanes)
       !> Scenes of the queue taken, lanes with a scene
@@ -121,7 +117,6 @@ contains
          run%share = rupture_share_rate
       end if
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
-      run%retry_share = merge(series_retry_share, 1.0_dp, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
       do l = 1, lanes
@@ -134,7 +129,7 @@ contains
             call take_collocation_step(run%films, run%watches%scene > 0, run%block)
          end if
          if (run%samples%sampled_lanes > 0) call take_samples(run%block, run%samples, films, velocities)
-         call advance(run%most_steps, run%largest_rate, run%retry_share, run%block, events)
+         call advance(run%most_steps, run%largest_rate, run%block, events)
          if (events == 0) cycle
          do l = 1, lanes
             if (run%watches(l)%scene == 0) then
