@@ -4,10 +4,10 @@ module lane_advance
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
    use lane_scenes, only: lane_block_t
+   use rupture_lookup, only: exact_load, published_load, rupture_load_t
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
-   use taylor_rupture, only: distrust_load_unforeseen, evaluate_rupture_series, exact_load, published_load, rupture_load_t, &
-                             rupture_series
+   use taylor_rupture, only: distrust_load_unforeseen, evaluate_rupture_series, rupture_series
    use taylor_step_control, only: evaluate_series, lane_steps
    implicit none(type, external)
    private

@@ -29,8 +29,7 @@
 module taylor_rupture
    use kinds, only: dp
    use lane_functions, only: lanes
-   use published_iso_viscous, only: squeeze_share
-   use rupture_lookup, only: look_up, rupture_state_t
+   use rupture_lookup, only: look_up, rupture_load_t, rupture_state_t
    use series_factors, only: inverse, wave
    use taylor_step_control, only: free_rate, load_error, order, rounding
    implicit none(type, external)
@@ -44,22 +43,10 @@ module taylor_rupture
    real(dp), parameter :: most_defect = 1.0_dp, equation_rounding = 64.0_dp*epsilon(1.0_dp)
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
-   !> Names as above; u = m + t, y = m u, w = P, sine = t s, load = (Phi - s)/A, square = (o**2)'/A', slope: times k, turn: X',
-   !> one place later.
+   !> Names as above; u = m + t, y = m u, w = P, sine = t s, width_part: what A is multiplied by in Phi, square = (o**2)'/A',
+   !> slope: times k, turn: X', one place later.
    integer, parameter :: h = 1, v = 2, p = 3, r = 4, a = 5, a_slope = 6, square = 7, o = 8, t_slope = 9, turn = 10, &
                          s = 11, sine = 12, m = 13, u = 14, y = 15, w = 16, width_part = 17, phi = 18, series = 18
-
-   !> Phi = constant + cosine s + A (width P + angle X) of a film.
-   type, public :: rupture_load_t
-      real(dp) :: constant = 0.0_dp
-      real(dp) :: cosine = 0.0_dp
-      real(dp) :: width = 0.0_dp
-      real(dp) :: angle = 0.0_dp
-   end type rupture_load_t
-
-   !> The exact film, and the published one.
-   type(rupture_load_t), parameter, public :: exact_load = rupture_load_t(cosine=0.25_dp, width=-0.125_dp)
-   type(rupture_load_t), parameter, public :: published_load = rupture_load_t(constant=1.0_dp, angle=-squeeze_share)
 
    public :: rupture_series, evaluate_rupture_series, distrust_load_unforeseen
 
@@ -88,11 +75,11 @@ contains
       !> Films looked up last, those at the point of expansion afterwards
       type(rupture_state_t), intent(inout) :: state
       real(dp) :: c(lanes, series, 0:rupture_order)
-      real(dp), dimension(lanes) :: half_p, half_root, half_o, t_0
-      real(dp) :: of_p, of_r, of_a, of_square, of_o, of_turn, of_s, of_m, of_w, of_y, of_load, of_force, force, t_k, turning, slope
+      real(dp), dimension(lanes) :: half_p, half_root, half_o
+      real(dp) :: of_p, of_r, of_a, of_square, of_o, of_turn, of_s, of_m, of_w, of_y, of_load, of_force, force, t_k
       integer :: k, j, l
 
-      call look_up(film(:, 0), momentum(:, 0), rate, state)
+      call look_up(form, film(:, 0), momentum(:, 0), rate, state)
       !$omp simd
       do l = 1, lanes
          c(l, h, 0) = film(l, 0)
@@ -102,25 +89,20 @@ contains
          half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
          half_p(l) = -c(l, p, 0)*half_root(l)
          c(l, a, 0) = state%group(l)
-         t_0(l) = state%tangent(l)
-         c(l, m, 0) = state%share(l)
+         c(l, m, 0) = state%end_ratio(l)
          c(l, w, 0) = state%width(l)
-         c(l, o, 0) = 2.0_dp*t_0(l) + c(l, a, 0)
+         c(l, o, 0) = 2.0_dp*state%tangent(l) + c(l, a, 0)
          half_o(l) = state%half_o(l)
          c(l, square, 0) = 2.0_dp*c(l, a, 0) - 4.0_dp*c(l, m, 0)
-         c(l, s, 0) = state%cosine(l)
-         c(l, sine, 0) = t_0(l)*c(l, s, 0)
-         c(l, u, 0) = c(l, m, 0) + t_0(l)
+         c(l, s, 0) = state%cosine_square(l)
+         c(l, sine, 0) = state%sine(l)
+         c(l, u, 0) = c(l, m, 0) + state%tangent(l)
          c(l, y, 0) = c(l, m, 0)*c(l, u, 0)
-         c(l, width_part, 0) = form%width*c(l, w, 0) + form%angle*(c(l, w, 0) - c(l, sine, 0))
-         c(l, phi, 0) = form%constant + form%cosine*c(l, s, 0) + c(l, a, 0)*c(l, width_part, 0)
+         c(l, width_part, 0) = state%width_part(l)
+         c(l, phi, 0) = state%load(l)
          c(l, h, 1) = c(l, v, 0)
          c(l, v, 1) = strength(l)*c(l, p, 0)*c(l, phi, 0) - load(l) - force_cosine(l)
-         ! dX/dA, dPhi/dA
-         turning = -c(l, s, 0)*c(l, u, 0)/c(l, o, 0)
-         slope = c(l, width_part, 0) + turning*(c(l, a, 0)*(2.0_dp*form%width*c(l, s, 0) + form%angle) &
-                                                - 2.0_dp*form%cosine*c(l, sine, 0))
-         damping_rate(l) = -strength(l)*c(l, p, 0)*rate(l)*c(l, r, 0)*slope
+         damping_rate(l) = -strength(l)*c(l, p, 0)*rate(l)*c(l, r, 0)*state%load_slope(l)
       end do
       ! Products of old coefficients first, twelve sums side by side, then those with the coefficients of the order before;
       ! those of this order, of which each waits for the one before, come last.
@@ -292,7 +274,7 @@ contains
       !> Films looked up last, those at the end of trusted steps afterwards
       type(rupture_state_t), intent(inout) :: state
       real(dp), dimension(lanes) :: end_film, end_momentum
-      real(dp) :: sine_0, part, slope, carried, rate_of_damping, defect, square_film, granted
+      real(dp) :: carried, rate_of_damping, defect, square_film, granted
       integer :: l
 
       !$omp simd
@@ -300,15 +282,11 @@ contains
          end_film(l) = merge(next_film(l), film(l), trust(l) > 0.0_dp)
          end_momentum(l) = merge(next_momentum(l), momentum(l), trust(l) > 0.0_dp)
       end do
-      call look_up(end_film, end_momentum, rate, state)
-      !$omp simd private(sine_0, part, slope, carried, rate_of_damping, defect, square_film, granted)
+      call look_up(form, end_film, end_momentum, rate, state)
+      !$omp simd private(carried, rate_of_damping, defect, square_film, granted)
       do l = 1, lanes
-         sine_0 = state%tangent(l)*state%cosine(l)
-         part = form%width*state%width(l) + form%angle*(state%width(l) - sine_0)
-         slope = part - 2.0_dp*state%half_o(l)*state%cosine(l)*(state%share(l) + state%tangent(l)) &
-            *(state%group(l)*(2.0_dp*form%width*state%cosine(l) + form%angle) - 2.0_dp*form%cosine*sine_0)
-         rate_of_damping = -strength(l)*state%pressure(l)*rate(l)*state%root(l)*slope
-         carried = strength(l)*state%pressure(l)*(form%constant + form%cosine*state%cosine(l) + state%group(l)*part)
+         rate_of_damping = -strength(l)*state%pressure(l)*rate(l)*state%root(l)*state%load_slope(l)
+         carried = strength(l)*state%pressure(l)*state%load(l)
          defect = abs(carried - load(l) - amplitude(l)*cosine(l) - next_rise(l)) &
             - equation_rounding*(abs(carried) + force(l) + abs(rate_of_damping*end_momentum(l)))
          ! 1 + H**2, and w (1 + H**2) times the accuracy.
