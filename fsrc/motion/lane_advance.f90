@@ -1,6 +1,6 @@
 !> One step of all lanes of a block by Taylor series, and the bookkeeping of a step by any method.
 module lane_advance
-   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso
+   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
    use lane_scenes, only: lane_block_t
@@ -19,9 +19,17 @@ module lane_advance
    !> Scaled film that is none any more, and step too short to go on with [periods].
    real(dp), parameter, public :: lost_film = 1.0e-9_dp, shortest_step = 1.0e-14_dp
 
-   public :: take_series_step, advance
+   public :: solves_rupture, take_series_step, advance
 
 contains
+
+   !> Whether the series of a film law is that of module taylor_rupture.
+   elemental logical function solves_rupture(kernel)
+      !> Its kernel
+      integer, intent(in) :: kernel
+
+      solves_rupture = kernel == kernel_reynolds_iso .or. kernel == kernel_solved_fast
+   end function solves_rupture
 
    !> Series and steps of all lanes, and the states they lead to. A film that changes by some powers of ten in
    !> one step is not trusted, nor is a series about a point of extreme damping. Conditions are numbers, 0 or
@@ -38,7 +46,7 @@ contains
       type(rupture_load_t) :: form
       integer :: l
 
-      rupture = .not. (kernel == kernel_piezo .or. kernel == kernel_half_pi)
+      rupture = solves_rupture(kernel)
       if (.not. rupture) call lane_cosine_sine(block%phase, block%cosine, block%sine)
       !$omp simd
       do l = 1, lanes

@@ -9,9 +9,9 @@
 !> status_not_converged at the start of that period, for collocation to go on.
 module lane_integration
    use collocation_step, only: take_collocation_step
-   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast
+   use film_law, only: film_t, kernel_half_pi, kernel_piezo
    use kinds, only: dp, int64
-   use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
+   use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, solves_rupture, take_series_step
    use lane_functions, only: lanes
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, repeat_samples, take_samples
    use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, load_scene, rest_lane, &
@@ -87,7 +87,7 @@ contains
       !> The film
       type(film_t), intent(in) :: film
 
-      has_series = any(film%kernel == [kernel_half_pi, kernel_solved_fast, kernel_piezo, kernel_reynolds_iso])
+      has_series = film%kernel == kernel_half_pi .or. film%kernel == kernel_piezo .or. solves_rupture(film%kernel)
    end function has_series
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
@@ -112,7 +112,7 @@ contains
 
       run%by_series = by_series
       if (size(queue) > 0) run%kernel = scenes(queue(1))%film%kernel
-      if (run%kernel == kernel_reynolds_iso .or. run%kernel == kernel_solved_fast) then
+      if (solves_rupture(run%kernel)) then
          run%last_order = rupture_order
          run%share = rupture_share_rate
       end if
