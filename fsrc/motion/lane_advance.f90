@@ -4,7 +4,7 @@ module lane_advance
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
    use lane_scenes, only: lane_block_t
-   use rupture_lookup, only: exact_load, published_load, rupture_load_t
+   use load_pieces, only: exact_load, published_load
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
    use taylor_rupture, only: distrust_load_unforeseen, evaluate_rupture_series, rupture_series
@@ -43,8 +43,7 @@ contains
       type(lane_block_t), intent(inout) :: block
       real(dp), dimension(lanes) :: cosine, sine, end_phase, end_cosine, end_sine, next_rise
       logical :: rupture
-      type(rupture_load_t) :: form
-      integer :: l
+      integer :: law, l
 
       rupture = solves_rupture(kernel)
       if (.not. rupture) call lane_cosine_sine(block%phase, block%cosine, block%sine)
@@ -62,10 +61,9 @@ contains
          call iso_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
                                  block%momentum, block%damping_rate)
       case default
-         form = published_load
-         if (kernel == kernel_reynolds_iso) form = exact_load
-         call rupture_series(form, block%strength, block%damping, block%load, cosine, sine, block%film, &
-                             block%momentum, block%damping_rate, block%rupture)
+         law = merge(exact_load, published_load, kernel == kernel_reynolds_iso)
+         call rupture_series(law, block%strength, block%damping, block%load, cosine, sine, block%film, &
+                             block%momentum, block%damping_rate, block%expansion)
       end select
       call lane_steps(last_order, share, block%accuracy, block%force, block%film, block%momentum, block%damping_rate, &
                       block%remaining, block%limit, block%step)
@@ -90,9 +88,9 @@ contains
          end_phase(l) = block%phase(l) + block%step(l)
       end do
       call lane_cosine_sine(end_phase, end_cosine, end_sine)
-      call distrust_load_unforeseen(form, share, block%strength, block%damping, block%load, block%amplitude, end_cosine, &
+      call distrust_load_unforeseen(law, share, block%strength, block%damping, block%load, block%amplitude, end_cosine, &
                                     block%force, block%accuracy, block%film(:, 0), block%momentum(:, 0), block%next_film, &
-                                    block%next_momentum, next_rise, block%trust, block%rupture)
+                                    block%next_momentum, next_rise, block%trust, block%expansion)
       !$omp simd
       do l = 1, lanes
          block%cosine(l) = merge(end_cosine(l), block%cosine(l), block%trust(l) > 0.0_dp)

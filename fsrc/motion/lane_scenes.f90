@@ -11,7 +11,7 @@ module lane_scenes
    use kinds, only: dp, int64
    use lane_functions, only: lanes
    use radau_nodes, only: stages
-   use rupture_lookup, only: rupture_state_t
+   use load_expansion, only: load_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -114,9 +114,9 @@ module lane_scenes
       logical :: no_load(lanes)
       !> Steps of this period
       real(dp) :: period_steps(lanes)
-      !> Of films with rupture: cos and sin of 2 pi phase, and the rupture looked up last
+      !> Of films with rupture: cos and sin of 2 pi phase, and the load expanded last
       real(dp) :: cosine(lanes), sine(lanes)
-      type(rupture_state_t) :: rupture
+      type(load_expansion_t) :: expansion
    end type lane_block_t
 
    !> First step of a period by collocation [periods]

@@ -5,58 +5,41 @@
 !>
 !>     H' = V ,   V' = a p Phi(A) - q - f cos(2 pi x) ,   p = 1/H ,   A = c V r ,   r = H^(-1/2) .
 !>
-!> With the rupture angle x_e, t = tan x_e, s = cos(x_e)**2, K = integral of cos**4 up to x_e, m = s**2/(4 K), X = x_e + pi/2,
-!> P = X + t s, the load is
+!> Phi has no closed form, but module load_expansion gives its Taylor series about any A. With z, the deviation of A from
+!> there over the unit e of the series, even and odd powers are nested in pairs,
 !>
-!>     Phi = s/4 - A P/8      exact film, eq (21) corrected
-!>     Phi = 1 - 3/11.2 A X   published film, eq (24), in units of its rolling term
+!>     Phi = T_0 ,   T_i = phi_2i + phi_(2i+1) z + z**2 T_(i+1) ,
 !>
-!> It has no closed form in A, but its parts obey simple equations along the motion:
-!>
-!>     (2 t + A) t' = -(m + t) A'                             eq (18) differentiated
-!>
-!> is (t**2 + A t)' = -m A'. With o = 2 t + A > 0 this becomes, and the rest follows by the chain rule,
-!>
-!>     (o**2)' = (2 A - 4 m) A' ,   t = (o - A)/2 ,   X' = s t' ,
-!>     s' = -2 (t s) X' ,   P' = 2 s X' ,   t s = P - X ,   m' = -4 X' m (m + t) .
-!>
-!> No root is sought: at the point of expansion t, dt/dA and dPhi/dA come from the film tables, and with them
-!>
-!>     m = -t - o dt/dA ,   P = 2 s**2 (m + t) - 8 dPhi/dA .
-!>
-!> None of the formulas cancels, on approach (A -> -inf: t ~ -A, m -> 0) or separation
-!> (A -> +inf: t ~ -3 A/8, m ~ 15 A/32, Phi ~ 16/(81 A**2)).
+!> and as z begins with the first power of x, T_i is needed up to order n - 1 - 2 i only: for n = 12 all of them together take
+!> as many products of coefficients as two products of whole series.
 module taylor_rupture
    use kinds, only: dp
    use lane_functions, only: lanes
-   use rupture_lookup, only: look_up, rupture_load_t, rupture_state_t
+   use load_expansion, only: expand_load, highest_power, load_expansion_t
    use series_factors, only: inverse, wave
    use taylor_step_control, only: free_rate, load_error, order, rounding
    implicit none(type, external)
    private
 
-   !> Order of this series: its coefficients are dearer than those of the published films, so a lower one is
-   !> best.
-   integer, parameter, public :: rupture_order = 12
+   !> Order n of this series: its coefficients are dearer than those of the published films, so a lower one is best.
+   integer, parameter, public :: rupture_order = highest_power + 1
 
    !> Local error over that of the step control above which a step is not trusted, and rounding of the equation of motion.
    real(dp), parameter :: most_defect = 1.0_dp, equation_rounding = 64.0_dp*epsilon(1.0_dp)
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
-   !> Names as above; u = m + t, y = m u, w = P, sine = t s, width_part: what A is multiplied by in Phi, square = (o**2)'/A',
-   !> slope: times k, turn: X', one place later.
-   integer, parameter :: h = 1, v = 2, p = 3, r = 4, a = 5, a_slope = 6, square = 7, o = 8, t_slope = 9, turn = 10, &
-                         s = 11, sine = 12, m = 13, u = 14, y = 15, w = 16, width_part = 17, phi = 18, series = 18
+   !> Names as above; square = z**2, nest + i: T_i.
+   integer, parameter :: last_pair = (rupture_order - 2)/2
+   integer, parameter :: h = 1, v = 2, p = 3, r = 4, z = 5, square = 6, nest = 7, series = nest + last_pair
 
    public :: rupture_series, evaluate_rupture_series, distrust_load_unforeseen
 
 contains
 
    !> Coefficients 1 to `rupture_order` of H and V, and the damping rate.
-   pure subroutine rupture_series(form, strength, rate, load, force_cosine, force_sine, film, momentum, &
-      damping_rate, state)
-      !> Load of the film
-      type(rupture_load_t), intent(in) :: form
+   pure subroutine rupture_series(law, strength, rate, load, force_cosine, force_sine, film, momentum, damping_rate, expansion)
+      !> Load, as module load_pieces numbers it
+      integer, intent(in) :: law
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
       !> c [periods]
@@ -73,121 +56,83 @@ contains
       !> -dV'/dV [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
       !> Films looked up last, those at the point of expansion afterwards
-      type(rupture_state_t), intent(inout) :: state
+      type(load_expansion_t), intent(inout) :: expansion
       real(dp) :: c(lanes, series, 0:rupture_order)
-      real(dp), dimension(lanes) :: half_p, half_root, half_o
-      real(dp) :: of_p, of_r, of_a, of_square, of_o, of_turn, of_s, of_m, of_w, of_y, of_load, of_force, force, t_k
-      integer :: k, j, l
+      real(dp), dimension(lanes) :: half_root, unit_rate
+      real(dp) :: of_p, of_r, of_z, of_square, of_nest, of_force, force
+      integer :: k, j, i, l
 
-      call look_up(form, film(:, 0), momentum(:, 0), rate, state)
+      call expand_load(law, film(:, 0), momentum(:, 0), rate, expansion)
       !$omp simd
       do l = 1, lanes
          c(l, h, 0) = film(l, 0)
          c(l, v, 0) = momentum(l, 0)
-         c(l, p, 0) = state%pressure(l)
-         c(l, r, 0) = state%root(l)
+         c(l, p, 0) = expansion%pressure(l)
+         c(l, r, 0) = expansion%root(l)
          half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
-         half_p(l) = -c(l, p, 0)*half_root(l)
-         c(l, a, 0) = state%group(l)
-         c(l, m, 0) = state%end_ratio(l)
-         c(l, w, 0) = state%width(l)
-         c(l, o, 0) = 2.0_dp*state%tangent(l) + c(l, a, 0)
-         half_o(l) = state%half_o(l)
-         c(l, square, 0) = 2.0_dp*c(l, a, 0) - 4.0_dp*c(l, m, 0)
-         c(l, s, 0) = state%cosine_square(l)
-         c(l, sine, 0) = state%sine(l)
-         c(l, u, 0) = c(l, m, 0) + state%tangent(l)
-         c(l, y, 0) = c(l, m, 0)*c(l, u, 0)
-         c(l, width_part, 0) = state%width_part(l)
-         c(l, phi, 0) = state%load(l)
+         unit_rate(l) = rate(l)*expansion%inverse_unit(l)
          c(l, h, 1) = c(l, v, 0)
-         c(l, v, 1) = strength(l)*c(l, p, 0)*c(l, phi, 0) - load(l) - force_cosine(l)
-         damping_rate(l) = -strength(l)*c(l, p, 0)*rate(l)*c(l, r, 0)*state%load_slope(l)
+         c(l, v, 1) = strength(l)*c(l, p, 0)*expansion%terms(l, 0) - load(l) - force_cosine(l)
+         damping_rate(l) = -strength(l)*c(l, p, 0)*rate(l)*c(l, r, 0)*expansion%load_slope(l)
       end do
-      ! Products of old coefficients first, twelve sums side by side, then those with the coefficients of the order before;
-      ! those of this order, of which each waits for the one before, come last.
+      do i = 0, last_pair
+         c(:, nest + i, 0) = expansion%terms(:, 2*i)
+      end do
+      ! The products with the newest coefficients come last: all others can be summed while those are still under way.
+      ! Unrolled, all coefficients of a lane live in registers.
       !GCC$ unroll 24
       do k = 1, rupture_order - 1
-         !$omp simd private(of_p, of_r, of_a, of_square, of_o, of_turn, of_s, of_m, of_w, of_y, of_load, of_force, force, t_k)
+         !$omp simd private(of_p, of_r, of_z, of_square)
          do l = 1, lanes
             of_p = 0.0_dp
-            of_force = 0.0_dp
-            do j = 2, k - 2
+            of_z = 0.0_dp
+            do j = 2, k - 1
                of_p = of_p + c(l, p, k - j)*c(l, h, j)
-               of_force = of_force + c(l, p, k - j)*c(l, phi, j)
+               of_z = of_z + c(l, r, k - j)*c(l, v, j)
             end do
             of_r = 0.0_dp
-            of_a = 0.0_dp
-            do j = 2, k - 2
-               of_r = of_r + c(l, r, k - j)*c(l, r, j)
-               of_a = of_a + c(l, r, k - j)*c(l, v, j)
-            end do
-            of_turn = 0.0_dp
-            of_w = 0.0_dp
-            of_s = 0.0_dp
-            of_m = 0.0_dp
-            do j = 2, k - 2
-               of_turn = of_turn + c(l, s, k - j)*c(l, t_slope, j)
-               of_w = of_w + c(l, s, k - j)*c(l, turn, j)
-               of_s = of_s + c(l, sine, k - j)*c(l, turn, j)
-               of_m = of_m + c(l, y, k - j)*c(l, turn, j)
-            end do
             of_square = 0.0_dp
-            do j = 2, k - 2
-               of_square = of_square + c(l, square, k - j)*c(l, a_slope, j)
+            do j = 1, (k - 1)/2
+               of_r = of_r + c(l, r, j)*c(l, r, k - j)
+               of_square = of_square + c(l, z, j)*c(l, z, k - j)
             end do
-            of_o = 0.0_dp
-            do j = 2, k - 2
-               of_o = of_o + c(l, o, k - j)*c(l, o, j)
+            of_r = 2.0_dp*of_r
+            of_square = 2.0_dp*of_square
+            if (mod(k, 2) == 0) then
+               of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
+               of_square = of_square + c(l, z, shiftr(k, 1))*c(l, z, shiftr(k, 1))
+            end if
+            if (k > 1) then
+               of_p = of_p + c(l, p, k - 1)*c(l, h, 1)
+               of_z = of_z + c(l, r, k - 1)*c(l, v, 1)
+            end if
+            ! p H = 1, r**2 = p, z e = c V r less its value at the start
+            c(l, p, k) = -c(l, p, 0)*(of_p + c(l, p, 0)*c(l, h, k))
+            c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
+            c(l, z, k) = unit_rate(l)*(of_z + c(l, r, 0)*c(l, v, k) + c(l, r, k)*c(l, v, 0))
+            c(l, square, k) = of_square
+         end do
+         !GCC$ unroll 8
+         do i = min(last_pair, (rupture_order - 1 - k)/2), 0, -1
+            !$omp simd private(of_nest)
+            do l = 1, lanes
+               of_nest = expansion%terms(l, 2*i + 1)*c(l, z, k)
+               do j = max(2, k - (rupture_order - 1 - 2*(i + 1))), merge(k, 0, i < last_pair)
+                  of_nest = of_nest + c(l, square, j)*c(l, nest + i + 1, k - j)
+               end do
+               c(l, nest + i, k) = of_nest
             end do
-            of_y = 0.0_dp
-            do j = 2, k - 2
-               of_y = of_y + c(l, u, k - j)*c(l, m, j)
+         end do
+         !$omp simd private(of_force, force)
+         do l = 1, lanes
+            of_force = 0.0_dp
+            do j = 1, k - 1
+               of_force = of_force + c(l, p, k - j)*c(l, nest, j)
             end do
-            of_load = 0.0_dp
-            do j = 2, k - 2
-               of_load = of_load + c(l, width_part, k - j)*c(l, a, j)
-            end do
-            do j = 1, k - 1, max(1, k - 2)
-               of_p = of_p + c(l, p, k - j)*c(l, h, j)
-               of_force = of_force + c(l, p, k - j)*c(l, phi, j)
-               of_r = of_r + c(l, r, k - j)*c(l, r, j)
-               of_a = of_a + c(l, r, k - j)*c(l, v, j)
-               of_turn = of_turn + c(l, s, k - j)*c(l, t_slope, j)
-               of_w = of_w + c(l, s, k - j)*c(l, turn, j)
-               of_s = of_s + c(l, sine, k - j)*c(l, turn, j)
-               of_m = of_m + c(l, y, k - j)*c(l, turn, j)
-               of_square = of_square + c(l, square, k - j)*c(l, a_slope, j)
-               of_o = of_o + c(l, o, k - j)*c(l, o, j)
-               of_y = of_y + c(l, u, k - j)*c(l, m, j)
-               of_load = of_load + c(l, width_part, k - j)*c(l, a, j)
-            end do
-            ! p H = 1, r**2 = p, A = c V r
-            of_p = of_p + c(l, p, 0)*c(l, h, k)
-            c(l, p, k) = -c(l, p, 0)*of_p
-            c(l, r, k) = half_p(l)*of_p - half_root(l)*of_r
-            c(l, a, k) = rate(l)*(of_a + c(l, v, k)*c(l, r, 0) + c(l, v, 0)*c(l, r, k))
-            c(l, a_slope, k) = real(k, dp)*c(l, a, k)
-            ! o**2, o, t, x_e'
-            c(l, o, k) = half_o(l)*(inverse(k)*(of_square + c(l, square, 0)*c(l, a_slope, k)) - of_o)
-            t_k = 0.5_dp*(c(l, o, k) - c(l, a, k))
-            c(l, t_slope, k) = real(k, dp)*t_k
-            c(l, turn, k) = of_turn + c(l, s, 0)*c(l, t_slope, k)
-            ! s, P, t s, m
-            c(l, s, k) = -(2.0_dp*inverse(k))*(of_s + c(l, sine, 0)*c(l, turn, k))
-            c(l, w, k) = (2.0_dp*inverse(k))*(of_w + c(l, s, 0)*c(l, turn, k))
-            c(l, sine, k) = c(l, w, k) - inverse(k)*c(l, turn, k)
-            c(l, m, k) = -(4.0_dp*inverse(k))*(of_m + c(l, y, 0)*c(l, turn, k))
-            c(l, square, k) = 2.0_dp*c(l, a, k) - 4.0_dp*c(l, m, k)
-            c(l, u, k) = c(l, m, k) + t_k
-            c(l, y, k) = of_y + c(l, m, 0)*c(l, u, k) + c(l, m, k)*c(l, u, 0)
-            ! Phi, H, V
-            c(l, width_part, k) = form%width*c(l, w, k) + (inverse(k)*form%angle)*c(l, turn, k)
-            c(l, phi, k) = form%cosine*c(l, s, k) + (of_load + c(l, a, 0)*c(l, width_part, k) &
-                                                     + c(l, a, k)*c(l, width_part, 0))
+            of_force = of_force + c(l, p, k)*c(l, nest, 0) + c(l, p, 0)*c(l, nest, k)
             force = wave(k + 1)*merge(force_cosine(l), force_sine(l), mod(k, 2) == 0)
             c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
-            c(l, v, k + 1) = (inverse(k + 1)*strength(l))*(of_force + c(l, p, 0)*c(l, phi, k) + c(l, p, k)*c(l, phi, 0)) - force
+            c(l, v, k + 1) = (inverse(k + 1)*strength(l))*of_force - force
          end do
       end do
       film(:, 1:rupture_order) = c(:, h, 1:)
@@ -245,10 +190,10 @@ contains
    !> first terms left out, so D x/(n + 1) stands for the local error of V; it is held against what the step control
    !> grants the last term. The measure is that of module taylor_step_control at the end of the
    !> step, without its quotients; rounding is not held against a step.
-   pure subroutine distrust_load_unforeseen(form, error_share, strength, rate, load, amplitude, cosine, force, accuracy, film, &
-                                            momentum, next_film, next_momentum, next_rise, trust, state)
-      !> Load of the film
-      type(rupture_load_t), intent(in) :: form
+   pure subroutine distrust_load_unforeseen(law, error_share, strength, rate, load, amplitude, cosine, force, accuracy, film, &
+                                            momentum, next_film, next_momentum, next_rise, trust, expansion)
+      !> Load, as module load_pieces numbers it
+      integer, intent(in) :: law
       !> Share of the accuracy that a step may use up, over its length [1/periods]
       real(dp), intent(in) :: error_share
       !> a [-]
@@ -272,7 +217,7 @@ contains
       !> 1 where the step is trusted, set to 0 where it is not
       real(dp), intent(inout) :: trust(lanes)
       !> Films looked up last, those at the end of trusted steps afterwards
-      type(rupture_state_t), intent(inout) :: state
+      type(load_expansion_t), intent(inout) :: expansion
       real(dp), dimension(lanes) :: end_film, end_momentum
       real(dp) :: carried, rate_of_damping, defect, square_film, granted
       integer :: l
@@ -282,11 +227,11 @@ contains
          end_film(l) = merge(next_film(l), film(l), trust(l) > 0.0_dp)
          end_momentum(l) = merge(next_momentum(l), momentum(l), trust(l) > 0.0_dp)
       end do
-      call look_up(form, end_film, end_momentum, rate, state)
+      call expand_load(law, end_film, end_momentum, rate, expansion)
       !$omp simd private(carried, rate_of_damping, defect, square_film, granted)
       do l = 1, lanes
-         rate_of_damping = -strength(l)*state%pressure(l)*rate(l)*state%root(l)*state%load_slope(l)
-         carried = strength(l)*state%pressure(l)*state%load(l)
+         rate_of_damping = -strength(l)*expansion%pressure(l)*rate(l)*expansion%root(l)*expansion%load_slope(l)
+         carried = strength(l)*expansion%pressure(l)*expansion%terms(l, 0)
          defect = abs(carried - load(l) - amplitude(l)*cosine(l) - next_rise(l)) &
             - equation_rounding*(abs(carried) + force(l) + abs(rate_of_damping*end_momentum(l)))
          ! 1 + H**2, and w (1 + H**2) times the accuracy.

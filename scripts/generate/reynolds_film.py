@@ -3,7 +3,7 @@
 Write:  python scripts/generate/reynolds_film.py
 Check:  python scripts/generate/reynolds_film.py --check
 
-The check recomputes both modules and compares them byte for byte with the files in fsrc/film/coefficients.
+The check recomputes the modules and compares them byte for byte with the files in fsrc/film/coefficients.
 
 Method. The film depends on A = 4 w*/sqrt(2 h*) alone. All its quantities are analytic on the whole real line
 of A and at both its ends, in powers of 1/A; they are singular at A = +-2i (tan x_e = +-i). The coordinate
@@ -25,6 +25,12 @@ linear map.
 Integration by parts frees Psi of the logarithm and of cancellation:
 
     Psi = integral of (t - t_m)**2 (t_e - t) cos(x)**4/(1 - B p*) dx,   t = tan(x), t_m = -t_e - A.
+
+Taylor series of the motion need the derivatives of Phi(A), which no coordinate but A itself gives away. Phi,
+and the load of the published film with its rupture solved, are therefore tabulated once more, as polynomials
+in A on pieces of the line, four from each 2 + |A| = 2**n to the next. No piece is longer than a quarter of its
+distance from +-2i, so a term of its Chebyshev series is worth a factor of 17, and the polynomial can be
+followed well beyond its piece, as a step of the motion does.
 """
 
 import argparse
@@ -44,6 +50,11 @@ NODES = 56
 PIEZO_NODES = (44, 28)
 PIEZO_TERMS = (24, 16)
 PIEZO_ROWS = [24] * 5 + [16] * 5 + [8] * 6
+PIECE_DEGREE = 12
+PIECE_NODES = 18
+OCTAVE_PIECES = 4
+OCTAVES = 24
+ARRAY_OCTAVES = 8
 
 
 def moments(x):
@@ -227,10 +238,10 @@ def literal(value):
     return next(word for word in words if float(word) == number) + "_dp"
 
 
-def array_text(values):
-    """Comma separated literals, three a line, continued."""
+def array_text(values, a_line=3):
+    """Comma separated literals, some a line, continued."""
     words = [literal(v) for v in values]
-    lines = [", ".join(words[i : i + 3]) for i in range(0, len(words), 3)]
+    lines = [", ".join(words[i : i + a_line]) for i in range(0, len(words), a_line)]
     return ", &\n      ".join(lines)
 
 
@@ -307,6 +318,94 @@ def piezo_module():
     return "\n".join([*text, "", "end module piezo_viscous_coefficients", ""])
 
 
+def exact_load(a):
+    """Phi of the exact film, eq (21) corrected."""
+    return Film(a).phi
+
+
+def published_load(a):
+    """Load of the published film (24), rupture solved, over its rolling term."""
+    return 1 - 3 / (4 * mpf("2.8")) * a * (Film(a).x + mp.pi / 2)
+
+
+def piece_row(load, side, octave, piece):
+    """Centre, inverse unit and coefficients of ascending powers of (A - centre)/unit on one piece."""
+    low, high = (mpf(2) ** (octave + 1) * (1 + mpf(piece + i) / OCTAVE_PIECES) - 2 for i in (0, 1))
+    centre, half, unit = (low + high) / 2, (high - low) / 2, mpf(2) ** octave
+    values = [load(side * (centre + half * node)) for node in chebyshev_nodes(PIECE_NODES)]
+    factors = powers(chebyshev_coefficients(values, PIECE_DEGREE + 1))
+    return [side * centre, 1 / unit, *(f * (side * unit / half) ** j for j, f in enumerate(factors))]
+
+
+def end_row(load, side):
+    """The straight line beyond the last piece: the limit of a load on separation is a constant."""
+    start = side * (mpf(2) ** (OCTAVES + 1) - 2)
+    slope = 0 if side > 0 else (load(2 * start) - load(start)) / start
+    return [start, mpf(1), load(start), slope] + [mpf(0)] * (PIECE_DEGREE - 1)
+
+
+def piece_arrays(name, load):
+    """Arrays of the pieces of one load, and their names."""
+    text, names = [], []
+    for side, word in ((1, "separation"), (-1, "approach")):
+        for first in range(0, OCTAVES, ARRAY_OCTAVES):
+            rows = [
+                piece_row(load, side, octave, piece)
+                for octave in range(first, first + ARRAY_OCTAVES)
+                for piece in range(OCTAVE_PIECES)
+            ]
+            names.append(f"{name}_{word}_{first // ARRAY_OCTAVES + 1}")
+            text += piece_array(names[-1], rows)
+        names.append(f"{name}_{word}_end")
+        text += piece_array(names[-1], [end_row(load, side)])
+    return text, names
+
+
+def piece_array(name, rows):
+    """One array of rows."""
+    body = array_text([v for row in rows for v in row], 4)
+    return ["", f"   real(dp), parameter :: {name}({len(rows) * len(rows[0])}) = [ &", f"      {body}]"]
+
+
+def pieces_module():
+    """Text of module load_pieces."""
+    text = [
+        "!> Generated pieces of the load of films with rupture, for their Taylor series. Do not edit.",
+        f"!> Made by: {COMMAND}",
+        "!>",
+        "!> A piece: its centre, one over its unit, and the load in ascending powers of (A - centre)/unit.",
+        "!> From each 2 + |A| = 2**n on, octave_pieces of equal length up to the next. First the pieces of",
+        "!> A >= 0, from 0 on; the last one is a straight line without end. Then those of A < 0, from -0 on.",
+        "module load_pieces",
+        "   use kinds, only: dp",
+        "   implicit none (type, external)",
+        "   private",
+        "",
+        "   !> Loads: Phi of the exact film, eq (21) corrected; the published one, eq (24) with its rupture",
+        "   !> from (18), over its rolling term.",
+        "   integer, parameter, public :: exact_load = 1, published_load = 2",
+        "   !> Highest power in a piece.",
+        f"   integer, parameter, public :: piece_degree = {PIECE_DEGREE}",
+        "   !> Pieces in an octave of 2 + |A|, and number of the last one, counted from 0.",
+        f"   integer, parameter, public :: octave_pieces = {OCTAVE_PIECES}",
+        f"   integer, parameter, public :: last_piece = {OCTAVES * OCTAVE_PIECES}",
+    ]
+    names = []
+    for name, load in (("exact", exact_load), ("published", published_load)):
+        arrays, parts = piece_arrays(name, load)
+        text += arrays
+        names += parts
+    body = ", &\n      ".join(", ".join(names[i : i + 4]) for i in range(0, len(names), 4))
+    text += [
+        "",
+        "   !> Centre, one over unit and coefficients; piece; load.",
+        "   real(dp), parameter, public :: pieces(-2:piece_degree, 0:2*last_piece + 1, 2) = reshape([ &",
+        f"      {body}], &",
+        "      [piece_degree + 3, 2*last_piece + 2, 2])",
+    ]
+    return "\n".join([*text, "", "end module load_pieces", ""])
+
+
 def main() -> int:
     """Write the modules, or compare them with the files."""
     parser = argparse.ArgumentParser(description="Coefficient tables of the exact film.")
@@ -314,8 +413,12 @@ def main() -> int:
     arguments = parser.parse_args()
     mp.dps = DIGITS
     status = 0
-    for name, make in (("iso_viscous", iso_module), ("piezo_viscous", piezo_module)):
-        path = TARGET / f"{name}_coefficients.f90"
+    for name, make in (
+        ("iso_viscous_coefficients", iso_module),
+        ("piezo_viscous_coefficients", piezo_module),
+        ("load_pieces", pieces_module),
+    ):
+        path = TARGET / f"{name}.f90"
         text = make()
         if not arguments.check:
             path.write_text(text)
