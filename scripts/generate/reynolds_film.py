@@ -28,8 +28,8 @@ Integration by parts frees Psi of the logarithm and of cancellation:
 
 Taylor series of the motion need the derivatives of Phi(A), which no coordinate but A itself gives away. Phi,
 and the load of the published film with its rupture solved, are therefore tabulated once more, as polynomials
-in A on pieces of the line, four from each 2 + |A| = 2**n to the next. No piece is longer than a quarter of its
-distance from +-2i, so a term of its Chebyshev series is worth a factor of 17, and the polynomial can be
+in A on pieces of the line, four from each 2 + |A| = 2**n to the next. No piece is longer than a quarter of
+its distance from +-2i, so a term of its Chebyshev series is worth a factor of 17, and the polynomial can be
 followed well beyond its piece, as a step of the motion does.
 """
 
