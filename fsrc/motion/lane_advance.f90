@@ -1,12 +1,15 @@
 !> One step of all lanes of a block by Taylor series, and the bookkeeping of a step by any method.
 module lane_advance
-   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast
+   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
    use lane_scenes, only: lane_block_t
+   use load_expansion, only: expand_load
    use load_pieces, only: exact_load, published_load
+   use reynolds_piezo_expansion, only: expand_reynolds_piezo
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
+   use taylor_reynolds_piezo, only: reynolds_piezo_series
    use taylor_rupture, only: distrust_load_unforeseen, evaluate_rupture_series, rupture_series
    use taylor_step_control, only: evaluate_series, lane_steps
    implicit none(type, external)
@@ -23,12 +26,12 @@ module lane_advance
 
 contains
 
-   !> Whether the series of a film law is that of module taylor_rupture.
+   !> Whether the rupture of a film law follows from (18): its series is that of module taylor_rupture or taylor_reynolds_piezo.
    elemental logical function solves_rupture(kernel)
       !> Its kernel
       integer, intent(in) :: kernel
 
-      solves_rupture = kernel == kernel_reynolds_iso .or. kernel == kernel_solved_fast
+      solves_rupture = kernel == kernel_reynolds_iso .or. kernel == kernel_solved_fast .or. kernel == kernel_reynolds_piezo
    end function solves_rupture
 
    !> Series and steps of all lanes, and the states they lead to. A film that changes by some powers of ten in
@@ -41,7 +44,7 @@ contains
       integer, intent(in) :: last_order
       real(dp), intent(in) :: share
       type(lane_block_t), intent(inout) :: block
-      real(dp), dimension(lanes) :: cosine, sine, end_phase, end_cosine, end_sine, next_rise
+      real(dp), dimension(lanes) :: cosine, sine, end_phase, end_cosine, end_sine, end_film, end_momentum, next_rise
       logical :: rupture
       integer :: law, l
 
@@ -60,6 +63,9 @@ contains
       case (kernel_half_pi)
          call iso_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
                                  block%momentum, block%damping_rate)
+      case (kernel_reynolds_piezo)
+         call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%load, cosine, sine, block%film, &
+                                    block%momentum, block%damping_rate, block%piezo_expansion)
       case default
          law = merge(exact_load, published_load, kernel == kernel_reynolds_iso)
          call rupture_series(law, block%strength, block%damping, block%load, cosine, sine, block%film, &
@@ -88,9 +94,27 @@ contains
          end_phase(l) = block%phase(l) + block%step(l)
       end do
       call lane_cosine_sine(end_phase, end_cosine, end_sine)
-      call distrust_load_unforeseen(law, share, block%strength, block%damping, block%load, block%amplitude, end_cosine, &
-                                    block%force, block%accuracy, block%film(:, 0), block%momentum(:, 0), block%next_film, &
-                                    block%next_momentum, next_rise, block%trust, block%expansion)
+      !$omp simd
+      do l = 1, lanes
+         end_film(l) = merge(block%next_film(l), block%film(l, 0), block%trust(l) > 0.0_dp)
+         end_momentum(l) = merge(block%next_momentum(l), block%momentum(l, 0), block%trust(l) > 0.0_dp)
+      end do
+      if (kernel == kernel_reynolds_piezo) then
+         call expand_reynolds_piezo(end_film, end_momentum, block%damping, block%pressing, block%piezo_expansion)
+         associate (end => block%piezo_expansion)
+            block%trust = block%trust*end%inside
+            call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, end_cosine, &
+                                          block%force, block%accuracy, end%pressure, end%root, end%terms(:, 0), end%load_slope, &
+                                          end_film, end_momentum, next_rise, block%trust)
+         end associate
+      else
+         call expand_load(law, end_film, end_momentum, block%damping, block%expansion)
+         associate (end => block%expansion)
+            call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, end_cosine, &
+                                          block%force, block%accuracy, end%pressure, end%root, end%terms(:, 0), end%load_slope, &
+                                          end_film, end_momentum, next_rise, block%trust)
+         end associate
+      end if
       !$omp simd
       do l = 1, lanes
          block%cosine(l) = merge(end_cosine(l), block%cosine(l), block%trust(l) > 0.0_dp)

@@ -9,7 +9,7 @@
 !> status_not_converged at the start of that period, for collocation to go on.
 module lane_integration
    use collocation_step, only: take_collocation_step
-   use film_law, only: film_t, kernel_half_pi, kernel_piezo
+   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_piezo
    use kinds, only: dp, int64
    use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, solves_rupture, take_series_step
    use lane_functions, only: lanes
@@ -27,6 +27,8 @@ module lane_integration
 
    !> More Taylor steps in a period cost more than collocation; more steps of collocation lead nowhere.
    real(dp), parameter :: most_series_steps = 3000.0_dp, most_implicit_steps = 1.0e5_dp
+   !> Best accuracy of a motion by the cells of the exact piezo-viscous film, whose loads are good to 6e-12.
+   real(dp), parameter :: best_cell_accuracy = 1.0e-10_dp
    !> Share of the accuracy within which a motion counts as repeating.
    real(dp), parameter :: repetition_share = 0.3_dp
 
@@ -82,12 +84,15 @@ module lane_integration
 
 contains
 
-   !> Whether the film law has a Taylor series here.
-   elemental logical function has_series(film)
+   !> Whether the film law has a Taylor series here that is good enough.
+   elemental logical function has_series(film, accuracy)
       !> The film
       type(film_t), intent(in) :: film
+      !> Relative accuracy of the film asked for [-]
+      real(dp), intent(in) :: accuracy
 
       has_series = film%kernel == kernel_half_pi .or. film%kernel == kernel_piezo .or. solves_rupture(film%kernel)
+      if (film%kernel == kernel_reynolds_piezo) has_series = accuracy >= best_cell_accuracy
    end function has_series
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.

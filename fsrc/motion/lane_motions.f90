@@ -36,7 +36,7 @@ contains
       allocate (rest, source=scenes)
       allocate (explicit(size(scenes)), left(size(scenes)), number(size(scenes)))
       number(:) = [(i, i=1, size(scenes))]
-      explicit(:) = has_series(scenes%film) .and. .not. scenes%implicit
+      explicit(:) = has_series(scenes%film, request%accuracy) .and. .not. scenes%implicit
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)

@@ -7,11 +7,13 @@
 module lane_scenes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use constants, only: pi
-   use film_law, only: film_load, film_t, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast, overflow_load, steady_film
+   use film_law, only: film_load, film_t, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast, &
+      overflow_load, steady_film
    use kinds, only: dp, int64
    use lane_functions, only: lanes
    use radau_nodes, only: stages
    use load_expansion, only: load_expansion_t
+   use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -117,6 +119,9 @@ module lane_scenes
       !> Of films with rupture: cos and sin of 2 pi phase, and the load expanded last
       real(dp) :: cosine(lanes), sine(lanes)
       type(load_expansion_t) :: expansion
+      !> Of the exact piezo-viscous film: b, where the pressure group is b H^(-3/2), and its load expanded last
+      real(dp) :: pressing(lanes)
+      type(reynolds_piezo_expansion_t) :: piezo_expansion
    end type lane_block_t
 
    !> First step of a period by collocation [periods]
@@ -184,6 +189,10 @@ contains
       else if (by_series .and. scene%film%kernel == kernel_reynolds_iso) then
          block%strength(lane) = scene%film%scale/film_scale/force_scale
          block%damping(lane) = scene%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
+      else if (by_series .and. scene%film%kernel == kernel_reynolds_piezo) then
+         block%strength(lane) = scene%film%scale/film_scale/force_scale
+         block%damping(lane) = scene%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
+         block%pressing(lane) = scene%film%pressure_rate/(film_scale*sqrt(film_scale))
       else if (by_series .and. scene%film%kernel == kernel_solved_fast) then
          block%strength(lane) = scene%film%rolling/film_scale/force_scale
          block%damping(lane) = scene%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
@@ -210,6 +219,7 @@ contains
       block%strength(lane) = 1.0_dp
       block%damping(lane) = 1.0_dp
       block%slip(lane) = 0.0_dp
+      block%pressing(lane) = 0.0_dp
       block%load(lane) = 1.0_dp
       block%amplitude(lane) = 0.0_dp
       block%force(lane) = 1.0_dp

@@ -190,10 +190,8 @@ contains
    !> first terms left out, so D x/(n + 1) stands for the local error of V; it is held against what the step control
    !> grants the last term. The measure is that of module taylor_step_control at the end of the
    !> step, without its quotients; rounding is not held against a step.
-   pure subroutine distrust_load_unforeseen(law, error_share, strength, rate, load, amplitude, cosine, force, accuracy, film, &
-                                            momentum, next_film, next_momentum, next_rise, trust, expansion)
-      !> Load, as module load_pieces numbers it
-      integer, intent(in) :: law
+   pure subroutine distrust_load_unforeseen(error_share, strength, rate, load, amplitude, cosine, force, accuracy, pressure, root, &
+                                            carried_load, load_slope, film, momentum, rise, trust)
       !> Share of the accuracy that a step may use up, over its length [1/periods]
       real(dp), intent(in) :: error_share
       !> a [-]
@@ -207,38 +205,31 @@ contains
       real(dp), intent(in) :: force(lanes)
       !> Relative accuracy of the film [-]
       real(dp), intent(in) :: accuracy(lanes)
-      !> H and V at the start of the step [-]
+      !> p, r, Phi and dPhi/dA at the end of the step, by the film law [-]
+      real(dp), intent(in) :: pressure(lanes)
+      real(dp), intent(in) :: root(lanes)
+      real(dp), intent(in) :: carried_load(lanes)
+      real(dp), intent(in) :: load_slope(lanes)
+      !> H, V and V' there, by the series [-]
       real(dp), intent(in) :: film(lanes)
       real(dp), intent(in) :: momentum(lanes)
-      !> H, V and V' of the series at its end [-]
-      real(dp), intent(in) :: next_film(lanes)
-      real(dp), intent(in) :: next_momentum(lanes)
-      real(dp), intent(in) :: next_rise(lanes)
+      real(dp), intent(in) :: rise(lanes)
       !> 1 where the step is trusted, set to 0 where it is not
       real(dp), intent(inout) :: trust(lanes)
-      !> Films looked up last, those at the end of trusted steps afterwards
-      type(load_expansion_t), intent(inout) :: expansion
-      real(dp), dimension(lanes) :: end_film, end_momentum
       real(dp) :: carried, rate_of_damping, defect, square_film, granted
       integer :: l
 
-      !$omp simd
-      do l = 1, lanes
-         end_film(l) = merge(next_film(l), film(l), trust(l) > 0.0_dp)
-         end_momentum(l) = merge(next_momentum(l), momentum(l), trust(l) > 0.0_dp)
-      end do
-      call expand_load(law, end_film, end_momentum, rate, expansion)
       !$omp simd private(carried, rate_of_damping, defect, square_film, granted)
       do l = 1, lanes
-         rate_of_damping = -strength(l)*expansion%pressure(l)*rate(l)*expansion%root(l)*expansion%load_slope(l)
-         carried = strength(l)*expansion%pressure(l)*expansion%terms(l, 0)
-         defect = abs(carried - load(l) - amplitude(l)*cosine(l) - next_rise(l)) &
-            - equation_rounding*(abs(carried) + force(l) + abs(rate_of_damping*end_momentum(l)))
+         rate_of_damping = -strength(l)*pressure(l)*rate(l)*root(l)*load_slope(l)
+         carried = strength(l)*pressure(l)*carried_load(l)
+         defect = abs(carried - load(l) - amplitude(l)*cosine(l) - rise(l)) &
+            - equation_rounding*(abs(carried) + force(l) + abs(rate_of_damping*momentum(l)))
          ! 1 + H**2, and w (1 + H**2) times the accuracy.
-         square_film = 1.0_dp + end_film(l)*end_film(l)
-         granted = (most_defect*real(rupture_order + 1, dp))*error_share*end_film(l)*max(accuracy(l), rounding*square_film)
+         square_film = 1.0_dp + film(l)*film(l)
+         granted = (most_defect*real(rupture_order + 1, dp))*error_share*film(l)*max(accuracy(l), rounding*square_film)
          trust(l) = trust(l)*merge(1.0_dp, 0.0_dp, defect*square_film <= granted*(free_rate + rate_of_damping)) &
-            *merge(1.0_dp, 0.0_dp, defect*rate_of_damping*end_film(l) <= granted*load_error*force(l))
+            *merge(1.0_dp, 0.0_dp, defect*rate_of_damping*film(l) <= granted*load_error*force(l))
       end do
    end subroutine distrust_load_unforeseen
 

@@ -30,7 +30,7 @@ module taylor_step_control
 
    !> Share of the accuracy that a step of length x may use up is x times this; found by trial, for the
    !> films without rupture and those with it [1/periods].
-   real(dp), parameter, public :: share_rate = 4.0_dp, rupture_share_rate = 12.0_dp
+   real(dp), parameter, public :: share_rate = 4.0_dp, rupture_share_rate = 8.0_dp
    !> Error that is rounding alone.
    real(dp), parameter, public :: rounding = 2.0_dp*epsilon(1.0_dp)
    !> Longest step [periods]

@@ -34,6 +34,7 @@ program unit_tests
    use test_reynolds_film, only: run_reynolds_film_tests
    use test_reynolds_load, only: run_reynolds_load_tests
    use test_load_expansion, only: run_load_expansion_tests
+   use test_reynolds_piezo_expansion, only: run_reynolds_piezo_expansion_tests
    use test_taylor_lanes, only: run_taylor_lanes_tests
    use test_taylor_surprises, only: run_taylor_surprises_tests
    use test_checksum, only: run_checksum_tests
@@ -91,6 +92,7 @@ program unit_tests
    call run_numerical_artefacts_tests(checks)
    call run_result_writer_tests(checks)
    call run_load_expansion_tests(checks)
+   call run_reynolds_piezo_expansion_tests(checks)
    call run_taylor_lanes_tests(checks)
    call run_taylor_surprises_tests(checks)
    call run_checksum_tests(checks)

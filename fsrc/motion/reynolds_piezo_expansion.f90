@@ -1,0 +1,167 @@
+!> Load of the exact piezo-viscous film about the states of a block of lanes, in powers of the squeeze group A and of
+!> sigma = sqrt(1 - B max p*(A)): what the Taylor series of module taylor_reynolds_piezo starts from.
+!>
+!> The polynomials of module piezo_viscous_cells, moved to where the films are. They end at |A| = 14; beyond, and where no
+!> rigid film exists, there is no expansion.
+module reynolds_piezo_expansion
+   use kinds, only: dp
+   use lane_functions, only: coarse_log, lanes, log_of_one, octave
+   use piezo_viscous_cells, only: cell_degree, cell_size, cells, octave_pieces, peak_pieces, side_pieces, sigma_cells
+   implicit none(type, external)
+   private
+
+   integer :: i
+   !> Highest power of A in the expansion of max p*, and in that of the load with each power of sigma: with more of them the
+   !> steps of a motion are hardly longer.
+   integer, parameter, public :: highest_peak_power = 7, highest_sigma_power = 6
+   integer, parameter, public :: highest_power(0:highest_sigma_power) = [8, 7, 6, 4, 3, 2, 0]
+   !> Terms of the load: ascending powers of A, for each power of sigma from its first term on.
+   integer, parameter, public :: load_terms = sum(highest_power + 1)
+   integer, parameter, public :: first_term(0:highest_sigma_power) = [0, 9, 17, 24, 29, 33, 36]
+   !> The same in a cell.
+   integer, parameter :: first_coefficient(0:cell_degree) = [(i*(cell_degree + 1) - i*(i - 1)/2 + 1, i=0, cell_degree)]
+
+   !> Films of a block, in the names of module taylor_reynolds_piezo.
+   type, public :: reynolds_piezo_expansion_t
+      !> H, V, c and b: what all else follows from. A film is positive: none has been looked up yet
+      real(dp), dimension(lanes) :: film = 0.0_dp, momentum = 0.0_dp, rate = 0.0_dp, pressing = 0.0_dp
+      !> 1 where there is an expansion, else 0
+      real(dp) :: inside(lanes) = 0.0_dp
+      !> p, r, A, B, sigma
+      real(dp), dimension(lanes) :: pressure = 0.0_dp, root = 0.0_dp, group = 0.0_dp, pressure_group = 0.0_dp, sigma = 0.0_dp
+      !> 1/e: deviations of A are counted in units e of its piece
+      real(dp) :: inverse_unit(lanes) = 1.0_dp
+      !> max p* in powers of the deviation
+      real(dp) :: peak(lanes, 0:highest_peak_power) = 0.0_dp
+      !> Psi in powers of the deviations of A and sigma
+      real(dp) :: terms(lanes, 0:load_terms - 1) = 0.0_dp
+      !> dPsi/dA at constant B
+      real(dp) :: load_slope(lanes) = 0.0_dp
+   end type reynolds_piezo_expansion_t
+
+   public :: expand_reynolds_piezo
+
+contains
+
+   !> Expand the load about the films of a block, unless they are what it was last expanded about.
+   pure subroutine expand_reynolds_piezo(film, momentum, rate, pressing, expansion)
+      !> H [-]
+      real(dp), intent(in) :: film(lanes)
+      !> V [-]
+      real(dp), intent(in) :: momentum(lanes)
+      !> c [periods]
+      real(dp), intent(in) :: rate(lanes)
+      !> b [-]
+      real(dp), intent(in) :: pressing(lanes)
+      !> The films
+      type(reynolds_piezo_expansion_t), intent(inout) :: expansion
+      !> Pieces by `coarse_log` of 2 + |A|, which is straight between powers of two, as the ends of the pieces are
+      real(dp), parameter :: pieces_per_log = real(octave_pieces, dp)/octave, first_log = log_of_one + octave
+      real(dp), parameter :: last_piece = real(side_pieces - 1, dp), last_cell = real(sigma_cells - 1, dp)
+      real(dp) :: peak(lanes, 0:cell_degree), c(lanes, cell_size)
+      real(dp), dimension(lanes) :: deviation, offset
+      real(dp) :: changed, place, gap
+      integer :: row(lanes), cell(lanes), l, k, j, m
+
+      ! A film that is no number has changed: with max it would count as the same, and a lane would hang on its neighbours.
+      changed = 0.0_dp
+      !$omp simd reduction(+: changed)
+      do l = 1, lanes
+         changed = changed + merge(0.0_dp, 1.0_dp, abs(film(l) - expansion%film(l)) + abs(momentum(l) - expansion%momentum(l)) &
+                                   + abs(rate(l) - expansion%rate(l)) + abs(pressing(l) - expansion%pressing(l)) <= 0.0_dp)
+      end do
+      if (.not. changed > 0.0_dp) return
+      !$omp simd private(place)
+      do l = 1, lanes
+         expansion%film(l) = film(l)
+         expansion%momentum(l) = momentum(l)
+         expansion%rate(l) = rate(l)
+         expansion%pressing(l) = pressing(l)
+         expansion%pressure(l) = 1.0_dp/film(l)
+         expansion%root(l) = sqrt(expansion%pressure(l))
+         expansion%group(l) = rate(l)*momentum(l)*expansion%root(l)
+         expansion%pressure_group(l) = pressing(l)*expansion%pressure(l)*expansion%root(l)
+         ! The coarse log of what is no number is one, a large one.
+         place = (coarse_log(2.0_dp + abs(expansion%group(l))) - first_log)*pieces_per_log
+         expansion%inside(l) = merge(1.0_dp, 0.0_dp, place < real(side_pieces, dp))
+         row(l) = int(min(place, last_piece) + merge(real(side_pieces, dp), 0.0_dp, expansion%group(l) < 0.0_dp))
+      end do
+      !$omp simd
+      do l = 1, lanes
+         deviation(l) = (expansion%group(l) - peak_pieces(-2, row(l)))*peak_pieces(-1, row(l))
+         expansion%inverse_unit(l) = peak_pieces(-1, row(l))
+      end do
+      !GCC$ unroll 24
+      do k = 0, cell_degree
+         !$omp simd
+         do l = 1, lanes
+            peak(l, k) = peak_pieces(k, row(l))
+         end do
+      end do
+      !GCC$ unroll 24
+      do m = 0, highest_peak_power
+         !GCC$ unroll 24
+         do k = cell_degree - 1, m, -1
+            !$omp simd
+            do l = 1, lanes
+               peak(l, k) = peak(l, k) + deviation(l)*peak(l, k + 1)
+            end do
+         end do
+      end do
+      !$omp simd private(gap, place)
+      do l = 1, lanes
+         gap = 1.0_dp - expansion%pressure_group(l)*peak(l, 0)
+         expansion%inside(l) = expansion%inside(l)*merge(1.0_dp, 0.0_dp, gap > 0.0_dp .and. gap <= 1.0_dp)
+         expansion%sigma(l) = sqrt(merge(gap, 1.0_dp, expansion%inside(l) > 0.0_dp))
+         place = real(sigma_cells, dp)*expansion%sigma(l)
+         cell(l) = int(min(place, last_cell))
+         offset(l) = expansion%sigma(l) - (real(cell(l), dp) + 0.5_dp)/real(sigma_cells, dp)
+      end do
+      !GCC$ unroll 99
+      do k = 1, cell_size
+         !$omp simd
+         do l = 1, lanes
+            c(l, k) = cells(k, cell(l), row(l))
+         end do
+      end do
+      ! Division by what deviates, again and again: the remainders are the terms. First by that of A, for each power of sigma.
+      !GCC$ unroll 24
+      do j = 0, cell_degree - 1
+         !GCC$ unroll 24
+         do m = 0, min(highest_power(0), cell_degree - j - 1)
+            !GCC$ unroll 24
+            do k = cell_degree - j - 1, m, -1
+               !$omp simd
+               do l = 1, lanes
+                  c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) + deviation(l)*c(l, first_coefficient(j) + k + 1)
+               end do
+            end do
+         end do
+      end do
+      !GCC$ unroll 24
+      do k = 0, highest_power(0)
+         !GCC$ unroll 24
+         do m = 0, count(highest_power >= k) - 1
+            !GCC$ unroll 24
+            do j = cell_degree - k - 1, m, -1
+               !$omp simd
+               do l = 1, lanes
+                  c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) + offset(l)*c(l, first_coefficient(j + 1) + k)
+               end do
+            end do
+         end do
+      end do
+      !GCC$ unroll 24
+      do j = 0, highest_sigma_power
+         expansion%terms(:, first_term(j):first_term(j) + highest_power(j)) = &
+            c(:, first_coefficient(j):first_coefficient(j) + highest_power(j))
+      end do
+      expansion%peak = peak(:, :highest_peak_power)
+      !$omp simd
+      do l = 1, lanes
+         expansion%load_slope(l) = expansion%inverse_unit(l)*(expansion%terms(l, 1) &
+            - expansion%terms(l, first_term(1))*expansion%pressure_group(l)*peak(l, 1)/(2.0_dp*expansion%sigma(l)))
+      end do
+   end subroutine expand_reynolds_piezo
+
+end module reynolds_piezo_expansion
