@@ -12,6 +12,9 @@ module lane_functions
    !> Scenes in a block. A register holds 8 at most; two registers, interleaved, hide the latency of the
    !> arithmetic.
    integer, parameter, public :: lanes = 16
+   !> Those of one register. What needs so many numbers a lane that those of a whole block leave the first-level cache takes one
+   !> half after the other.
+   integer, parameter, public :: half_block = lanes/2
 
    !> 2^52 + 2^51: added and subtracted, it rounds to an integer, whose bits stand at the end of the sum.
    real(dp), parameter :: rounder = 6755399441055744.0_dp

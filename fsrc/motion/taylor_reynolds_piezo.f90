@@ -15,7 +15,7 @@
 !> that is lower by their number.
 module taylor_reynolds_piezo
    use kinds, only: dp
-   use lane_functions, only: lanes
+   use lane_functions, only: half_block, lanes
    use reynolds_piezo_expansion, only: expand_reynolds_piezo, first_term, highest_peak_power, highest_power, &
       highest_sigma_power, reynolds_piezo_expansion_t
    use series_factors, only: inverse, wave
@@ -60,140 +60,144 @@ contains
       real(dp), intent(out) :: damping_rate(lanes)
       !> Films looked up last, those at the point of expansion afterwards
       type(reynolds_piezo_expansion_t), intent(inout) :: expansion
-      real(dp) :: c(lanes, series, 0:rupture_order)
-      real(dp), dimension(lanes) :: half_root, unit_rate, half_sigma, nest
+      real(dp) :: c(half_block, series, 0:rupture_order)
+      real(dp), dimension(half_block) :: half_root, unit_rate, half_sigma, nest
       real(dp) :: of_p, of_r, of_z, of_square, of_group, of_s, of_nest, of_force, force
-      integer :: k, i, j, m, l
+      integer :: before, k, i, j, m, l
 
       call expand_reynolds_piezo(film(:, 0), momentum(:, 0), rate, pressing, expansion)
-      !$omp simd
-      do l = 1, lanes
-         c(l, h, 0) = film(l, 0)
-         c(l, v, 0) = momentum(l, 0)
-         c(l, p, 0) = expansion%pressure(l)
-         c(l, r, 0) = expansion%root(l)
-         c(l, group, 0) = expansion%pressure_group(l)
-         half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
-         half_sigma(l) = 0.5_dp/expansion%sigma(l)
-         unit_rate(l) = rate(l)*expansion%inverse_unit(l)
-         c(l, h, 1) = c(l, v, 0)
-         c(l, v, 1) = strength(l)*c(l, p, 0)*expansion%terms(l, 0) - load(l) - force_cosine(l)
-         damping_rate(l) = merge(-strength(l)*c(l, p, 0)*rate(l)*c(l, r, 0)*expansion%load_slope(l), no_expansion, &
-                                 expansion%inside(l) > 0.0_dp)
-      end do
-      do i = 0, last_peak_pair
-         c(:, peak + i, 0) = expansion%peak(:, 2*i)
-      end do
-      do j = 0, highest_sigma_power
-         c(:, power + j, 0) = expansion%terms(:, first_term(j))
-         do i = 1, highest_power(j)/2
-            c(:, pair + i - 1 + pairs*j, 0) = expansion%terms(:, first_term(j) + 2*i)
+      do before = 0, lanes - 1, half_block
+         !$omp simd
+         do l = 1, half_block
+            c(l, h, 0) = film(before + l, 0)
+            c(l, v, 0) = momentum(before + l, 0)
+            c(l, p, 0) = expansion%pressure(before + l)
+            c(l, r, 0) = expansion%root(before + l)
+            c(l, group, 0) = expansion%pressure_group(before + l)
+            half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
+            half_sigma(l) = 0.5_dp/expansion%sigma(before + l)
+            unit_rate(l) = rate(before + l)*expansion%inverse_unit(before + l)
+            c(l, h, 1) = c(l, v, 0)
+            c(l, v, 1) = strength(before + l)*c(l, p, 0)*expansion%terms(before + l, 0) &
+               - load(before + l) - force_cosine(before + l)
+            damping_rate(before + l) = merge( &
+               -strength(before + l)*c(l, p, 0)*rate(before + l)*c(l, r, 0)*expansion%load_slope(before + l), no_expansion, &
+               expansion%inside(before + l) > 0.0_dp)
          end do
-      end do
-      !GCC$ unroll 24
-      do k = 1, rupture_order - 1
-         !$omp simd private(of_p, of_r, of_z, of_square, of_group)
-         do l = 1, lanes
-            of_p = 0.0_dp
-            of_z = 0.0_dp
-            do j = 2, k - 1
-               of_p = of_p + c(l, p, k - j)*c(l, h, j)
-               of_z = of_z + c(l, r, k - j)*c(l, v, j)
-            end do
-            of_group = 0.0_dp
-            do j = 1, k - 1
-               of_group = of_group + c(l, r, k - j)*c(l, p, j)
-            end do
-            of_r = 0.0_dp
-            of_square = 0.0_dp
-            do j = 1, (k - 1)/2
-               of_r = of_r + c(l, r, j)*c(l, r, k - j)
-               of_square = of_square + c(l, z, j)*c(l, z, k - j)
-            end do
-            of_r = 2.0_dp*of_r
-            of_square = 2.0_dp*of_square
-            if (mod(k, 2) == 0) then
-               of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
-               of_square = of_square + c(l, z, shiftr(k, 1))*c(l, z, shiftr(k, 1))
-            end if
-            if (k > 1) then
-               of_p = of_p + c(l, p, k - 1)*c(l, h, 1)
-               of_z = of_z + c(l, r, k - 1)*c(l, v, 1)
-            end if
-            ! p H = 1, r**2 = p, z e = c V r less its value at the start, B = b p r
-            c(l, p, k) = -c(l, p, 0)*(of_p + c(l, p, 0)*c(l, h, k))
-            c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
-            c(l, z, k) = unit_rate(l)*(of_z + c(l, r, 0)*c(l, v, k) + c(l, r, k)*c(l, v, 0))
-            c(l, square, k) = of_square
-            c(l, group, k) = pressing(l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
+         do i = 0, last_peak_pair
+            c(:, peak + i, 0) = expansion%peak(before + 1:before + half_block, 2*i)
          end do
-         !GCC$ unroll 8
-         do i = min(last_peak_pair, (rupture_order - 1 - k)/2), 0, -1
-            !$omp simd private(of_nest)
-            do l = 1, lanes
-               of_nest = expansion%peak(l, 2*i + 1)*c(l, z, k)
-               do j = 2, merge(k, 0, i < last_peak_pair)
-                  of_nest = of_nest + c(l, square, j)*c(l, peak + i + 1, k - j)
+         do j = 0, highest_sigma_power
+            c(:, power + j, 0) = expansion%terms(before + 1:before + half_block, first_term(j))
+            do i = 1, highest_power(j)/2
+               c(:, pair + i - 1 + pairs*j, 0) = expansion%terms(before + 1:before + half_block, first_term(j) + 2*i)
+            end do
+         end do
+         !GCC$ unroll 24
+         do k = 1, rupture_order - 1
+            !$omp simd private(of_p, of_r, of_z, of_square, of_group)
+            do l = 1, half_block
+               of_p = 0.0_dp
+               of_z = 0.0_dp
+               do j = 2, k - 1
+                  of_p = of_p + c(l, p, k - j)*c(l, h, j)
+                  of_z = of_z + c(l, r, k - j)*c(l, v, j)
                end do
-               c(l, peak + i, k) = of_nest
+               of_group = 0.0_dp
+               do j = 1, k - 1
+                  of_group = of_group + c(l, r, k - j)*c(l, p, j)
+               end do
+               of_r = 0.0_dp
+               of_square = 0.0_dp
+               do j = 1, (k - 1)/2
+                  of_r = of_r + c(l, r, j)*c(l, r, k - j)
+                  of_square = of_square + c(l, z, j)*c(l, z, k - j)
+               end do
+               of_r = 2.0_dp*of_r
+               of_square = 2.0_dp*of_square
+               if (mod(k, 2) == 0) then
+                  of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
+                  of_square = of_square + c(l, z, shiftr(k, 1))*c(l, z, shiftr(k, 1))
+               end if
+               if (k > 1) then
+                  of_p = of_p + c(l, p, k - 1)*c(l, h, 1)
+                  of_z = of_z + c(l, r, k - 1)*c(l, v, 1)
+               end if
+               ! p H = 1, r**2 = p, z e = c V r less its value at the start, B = b p r
+               c(l, p, k) = -c(l, p, 0)*(of_p + c(l, p, 0)*c(l, h, k))
+               c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
+               c(l, z, k) = unit_rate(l)*(of_z + c(l, r, 0)*c(l, v, k) + c(l, r, k)*c(l, v, 0))
+               c(l, square, k) = of_square
+               c(l, group, k) = pressing(before + l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
             end do
-         end do
-         ! s**2 = 1 - B max p*
-         !$omp simd private(of_s, of_group)
-         do l = 1, lanes
-            of_s = 0.0_dp
-            do j = 1, (k - 1)/2
-               of_s = of_s + c(l, s, j)*c(l, s, k - j)
-            end do
-            of_s = 2.0_dp*of_s
-            if (mod(k, 2) == 0) of_s = of_s + c(l, s, shiftr(k, 1))*c(l, s, shiftr(k, 1))
-            of_group = 0.0_dp
-            do j = 0, k
-               of_group = of_group + c(l, group, k - j)*c(l, peak, j)
-            end do
-            c(l, s, k) = -half_sigma(l)*(of_group + of_s)
-         end do
-         !GCC$ unroll 8
-         do j = min(highest_sigma_power - 1, rupture_order - 1 - k), 0, -1
             !GCC$ unroll 8
-            do i = min((highest_power(j) - 1)/2, (rupture_order - 1 - j - k)/2), 0, -1
-               !$omp simd
-               do l = 1, lanes
-                  nest(l) = expansion%terms(l, first_term(j) + 2*i + 1)*c(l, z, k)
+            do i = min(last_peak_pair, (rupture_order - 1 - k)/2), 0, -1
+               !$omp simd private(of_nest)
+               do l = 1, half_block
+                  of_nest = expansion%peak(before + l, 2*i + 1)*c(l, z, k)
+                  do j = 2, merge(k, 0, i < last_peak_pair)
+                     of_nest = of_nest + c(l, square, j)*c(l, peak + i + 1, k - j)
+                  end do
+                  c(l, peak + i, k) = of_nest
                end do
-               ! The next pair of powers of z: none, one power alone, or two
-               !GCC$ unroll 24
-               do m = merge(2, max(2, k), 2*i + 2 < highest_power(j)), merge(k, 0, 2*i + 2 <= highest_power(j))
+            end do
+            ! s**2 = 1 - B max p*
+            !$omp simd private(of_s, of_group)
+            do l = 1, half_block
+               of_s = 0.0_dp
+               do j = 1, (k - 1)/2
+                  of_s = of_s + c(l, s, j)*c(l, s, k - j)
+               end do
+               of_s = 2.0_dp*of_s
+               if (mod(k, 2) == 0) of_s = of_s + c(l, s, shiftr(k, 1))*c(l, s, shiftr(k, 1))
+               of_group = 0.0_dp
+               do j = 0, k
+                  of_group = of_group + c(l, group, k - j)*c(l, peak, j)
+               end do
+               c(l, s, k) = -half_sigma(l)*(of_group + of_s)
+            end do
+            !GCC$ unroll 8
+            do j = min(highest_sigma_power - 1, rupture_order - 1 - k), 0, -1
+               !GCC$ unroll 8
+               do i = min((highest_power(j) - 1)/2, (rupture_order - 1 - j - k)/2), 0, -1
                   !$omp simd
-                  do l = 1, lanes
-                     nest(l) = nest(l) + c(l, square, m)*c(l, pair + i + pairs*j, k - m)
+                  do l = 1, half_block
+                     nest(l) = expansion%terms(before + l, first_term(j) + 2*i + 1)*c(l, z, k)
+                  end do
+                  ! The next pair of powers of z: none, one power alone, or two
+                  !GCC$ unroll 24
+                  do m = merge(2, max(2, k), 2*i + 2 < highest_power(j)), merge(k, 0, 2*i + 2 <= highest_power(j))
+                     !$omp simd
+                     do l = 1, half_block
+                        nest(l) = nest(l) + c(l, square, m)*c(l, pair + i + pairs*j, k - m)
+                     end do
+                  end do
+                  if (i > 0) c(:, pair + i - 1 + pairs*j, k) = nest
+               end do
+               !GCC$ unroll 24
+               do m = merge(1, k, j + 1 < highest_sigma_power), k
+                  !$omp simd
+                  do l = 1, half_block
+                     nest(l) = nest(l) + c(l, s, m)*c(l, power + j + 1, k - m)
                   end do
                end do
-               if (i > 0) c(:, pair + i - 1 + pairs*j, k) = nest
+               c(:, power + j, k) = nest
             end do
-            !GCC$ unroll 24
-            do m = merge(1, k, j + 1 < highest_sigma_power), k
-               !$omp simd
-               do l = 1, lanes
-                  nest(l) = nest(l) + c(l, s, m)*c(l, power + j + 1, k - m)
+            !$omp simd private(of_force, force)
+            do l = 1, half_block
+               of_force = 0.0_dp
+               do j = 1, k - 1
+                  of_force = of_force + c(l, p, k - j)*c(l, power, j)
                end do
+               of_force = of_force + c(l, p, k)*c(l, power, 0) + c(l, p, 0)*c(l, power, k)
+               force = wave(k + 1)*merge(force_cosine(before + l), force_sine(before + l), mod(k, 2) == 0)
+               c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
+               c(l, v, k + 1) = (inverse(k + 1)*strength(before + l))*of_force - force
             end do
-            c(:, power + j, k) = nest
          end do
-         !$omp simd private(of_force, force)
-         do l = 1, lanes
-            of_force = 0.0_dp
-            do j = 1, k - 1
-               of_force = of_force + c(l, p, k - j)*c(l, power, j)
-            end do
-            of_force = of_force + c(l, p, k)*c(l, power, 0) + c(l, p, 0)*c(l, power, k)
-            force = wave(k + 1)*merge(force_cosine(l), force_sine(l), mod(k, 2) == 0)
-            c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
-            c(l, v, k + 1) = (inverse(k + 1)*strength(l))*of_force - force
-         end do
+         film(before + 1:before + half_block, 1:rupture_order) = c(:, h, 1:)
+         momentum(before + 1:before + half_block, 1:rupture_order) = c(:, v, 1:)
       end do
-      film(:, 1:rupture_order) = c(:, h, 1:)
-      momentum(:, 1:rupture_order) = c(:, v, 1:)
    end subroutine reynolds_piezo_series
 
 end module taylor_reynolds_piezo
