@@ -55,13 +55,8 @@ contains
       real(dp), intent(in) :: pressing(lanes)
       !> The films
       type(reynolds_piezo_expansion_t), intent(inout) :: expansion
-      !> Pieces by `coarse_log` of 2 + |A|, which is straight between powers of two, as the ends of the pieces are
-      real(dp), parameter :: pieces_per_log = real(octave_pieces, dp)/octave, first_log = log_of_one + octave
-      real(dp), parameter :: last_piece = real(side_pieces - 1, dp), last_cell = real(sigma_cells - 1, dp)
-      real(dp) :: peak(half_block, 0:cell_degree), c(half_block, cell_size)
-      real(dp), dimension(half_block) :: deviation, offset
-      real(dp) :: changed, place, gap
-      integer :: row(half_block), cell(half_block), before, l, k, j, m
+      real(dp) :: changed
+      integer :: l
 
       ! A film that is no number has changed: with max it would count as the same, and a lane would hang on its neighbours.
       changed = 0.0_dp
@@ -71,99 +66,125 @@ contains
                                    + abs(rate(l) - expansion%rate(l)) + abs(pressing(l) - expansion%pressing(l)) <= 0.0_dp)
       end do
       if (.not. changed > 0.0_dp) return
-      do before = 0, lanes - 1, half_block
-         !$omp simd private(place)
-         do l = 1, half_block
-            expansion%film(before + l) = film(before + l)
-            expansion%momentum(before + l) = momentum(before + l)
-            expansion%rate(before + l) = rate(before + l)
-            expansion%pressing(before + l) = pressing(before + l)
-            expansion%pressure(before + l) = 1.0_dp/film(before + l)
-            expansion%root(before + l) = sqrt(expansion%pressure(before + l))
-            expansion%group(before + l) = rate(before + l)*momentum(before + l)*expansion%root(before + l)
-            expansion%pressure_group(before + l) = pressing(before + l)*expansion%pressure(before + l)*expansion%root(before + l)
-            ! The coarse log of what is no number is one, a large one.
-            place = (coarse_log(2.0_dp + abs(expansion%group(before + l))) - first_log)*pieces_per_log
-            expansion%inside(before + l) = merge(1.0_dp, 0.0_dp, place < real(side_pieces, dp))
-            row(l) = int(min(place, last_piece) + merge(real(side_pieces, dp), 0.0_dp, expansion%group(before + l) < 0.0_dp))
-         end do
-         !$omp simd
-         do l = 1, half_block
-            deviation(l) = (expansion%group(before + l) - peak_pieces(-2, row(l)))*peak_pieces(-1, row(l))
-            expansion%inverse_unit(before + l) = peak_pieces(-1, row(l))
-         end do
-         !GCC$ unroll 24
-         do k = 0, cell_degree
-            !$omp simd
-            do l = 1, half_block
-               peak(l, k) = peak_pieces(k, row(l))
-            end do
-         end do
-         !GCC$ unroll 24
-         do m = 0, highest_peak_power
-            !GCC$ unroll 24
-            do k = cell_degree - 1, m, -1
-               !$omp simd
-               do l = 1, half_block
-                  peak(l, k) = peak(l, k) + deviation(l)*peak(l, k + 1)
-               end do
-            end do
-         end do
-         !$omp simd private(gap, place)
-         do l = 1, half_block
-            gap = 1.0_dp - expansion%pressure_group(before + l)*peak(l, 0)
-            expansion%inside(before + l) = expansion%inside(before + l)*merge(1.0_dp, 0.0_dp, gap > 0.0_dp .and. gap <= 1.0_dp)
-            expansion%sigma(before + l) = sqrt(merge(gap, 1.0_dp, expansion%inside(before + l) > 0.0_dp))
-            place = real(sigma_cells, dp)*expansion%sigma(before + l)
-            cell(l) = int(min(place, last_cell))
-            offset(l) = expansion%sigma(before + l) - (real(cell(l), dp) + 0.5_dp)/real(sigma_cells, dp)
-         end do
-         !GCC$ unroll 99
-         do k = 1, cell_size
-            !$omp simd
-            do l = 1, half_block
-               c(l, k) = cells(k, cell(l), row(l))
-            end do
-         end do
-         ! Division by what deviates, again and again: the remainders are the terms. First by that of A, for each power of sigma.
-         !GCC$ unroll 24
-         do j = 0, cell_degree - 1
-            !GCC$ unroll 24
-            do m = 0, min(highest_power(0), cell_degree - j - 1)
-               !GCC$ unroll 24
-               do k = cell_degree - j - 1, m, -1
-                  !$omp simd
-                  do l = 1, half_block
-                   c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) + deviation(l)*c(l, first_coefficient(j) + k + 1)
-                  end do
-               end do
-            end do
-         end do
-         !GCC$ unroll 24
-         do k = 0, highest_power(0)
-            !GCC$ unroll 24
-            do m = 0, count(highest_power >= k) - 1
-               !GCC$ unroll 24
-               do j = cell_degree - k - 1, m, -1
-                  !$omp simd
-                  do l = 1, half_block
-                     c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) + offset(l)*c(l, first_coefficient(j + 1) + k)
-                  end do
-               end do
-            end do
-         end do
-         !GCC$ unroll 24
-         do j = 0, highest_sigma_power
-            expansion%terms(before + 1:before + half_block, first_term(j):first_term(j) + highest_power(j)) = &
-               c(:, first_coefficient(j):first_coefficient(j) + highest_power(j))
-         end do
-         expansion%peak(before + 1:before + half_block, :) = peak(:, :highest_peak_power)
-         !$omp simd
-         do l = 1, half_block
-            expansion%load_slope(before + l) = expansion%inverse_unit(before + l)*(expansion%terms(before + l, 1) &
-  - expansion%terms(before + l, first_term(1))*expansion%pressure_group(before + l)*peak(l, 1)/(2.0_dp*expansion%sigma(before + l)))
-         end do
+      !$omp simd
+      do l = 1, lanes
+         expansion%film(l) = film(l)
+         expansion%momentum(l) = momentum(l)
+         expansion%rate(l) = rate(l)
+         expansion%pressing(l) = pressing(l)
+         expansion%pressure(l) = 1.0_dp/film(l)
+         expansion%root(l) = sqrt(expansion%pressure(l))
+         expansion%group(l) = rate(l)*momentum(l)*expansion%root(l)
+         expansion%pressure_group(l) = pressing(l)*expansion%pressure(l)*expansion%root(l)
+      end do
+      do l = 1, lanes, half_block
+         call expand_half(l, l + half_block - 1, expansion)
       end do
    end subroutine expand_reynolds_piezo
+
+   !> Expand the load about the films of half a block.
+   pure subroutine expand_half(first, last, expansion)
+      !> Its lanes
+      integer, intent(in) :: first
+      integer, intent(in) :: last
+      !> The films, A and B known
+      type(reynolds_piezo_expansion_t), intent(inout) :: expansion
+      !> Pieces by `coarse_log` of 2 + |A|, which is straight between powers of two, as the ends of the pieces are
+      real(dp), parameter :: pieces_per_log = real(octave_pieces, dp)/octave, first_log = log_of_one + octave
+      real(dp), parameter :: last_piece = real(side_pieces - 1, dp), last_cell = real(sigma_cells - 1, dp)
+      real(dp) :: peak(half_block, 0:cell_degree), c(half_block, cell_size)
+      real(dp), dimension(half_block) :: group, pressure_group, inside, sigma, inverse_unit, deviation, offset
+      real(dp) :: place, gap
+      integer :: row(half_block), cell(half_block), l, k, j, m
+
+      group = expansion%group(first:last)
+      pressure_group = expansion%pressure_group(first:last)
+      !$omp simd private(place)
+      do l = 1, half_block
+         ! The coarse log of what is no number is one, a large one.
+         place = (coarse_log(2.0_dp + abs(group(l))) - first_log)*pieces_per_log
+         inside(l) = merge(1.0_dp, 0.0_dp, place < real(side_pieces, dp))
+         row(l) = int(min(place, last_piece) + merge(real(side_pieces, dp), 0.0_dp, group(l) < 0.0_dp))
+      end do
+      !$omp simd
+      do l = 1, half_block
+         deviation(l) = (group(l) - peak_pieces(-2, row(l)))*peak_pieces(-1, row(l))
+         inverse_unit(l) = peak_pieces(-1, row(l))
+      end do
+      !GCC$ unroll 24
+      do k = 0, cell_degree
+         !$omp simd
+         do l = 1, half_block
+            peak(l, k) = peak_pieces(k, row(l))
+         end do
+      end do
+      ! Division by z - deviation, again and again: the remainders are the terms.
+      !GCC$ unroll 24
+      do m = 0, highest_peak_power
+         !GCC$ unroll 24
+         do k = cell_degree - 1, m, -1
+            !$omp simd
+            do l = 1, half_block
+               peak(l, k) = peak(l, k) + deviation(l)*peak(l, k + 1)
+            end do
+         end do
+      end do
+      !$omp simd private(gap, place)
+      do l = 1, half_block
+         gap = 1.0_dp - pressure_group(l)*peak(l, 0)
+         inside(l) = inside(l)*merge(1.0_dp, 0.0_dp, gap > 0.0_dp .and. gap <= 1.0_dp)
+         sigma(l) = sqrt(merge(gap, 1.0_dp, inside(l) > 0.0_dp))
+         place = real(sigma_cells, dp)*sigma(l)
+         cell(l) = int(min(place, last_cell))
+         offset(l) = sigma(l) - (real(cell(l), dp) + 0.5_dp)/real(sigma_cells, dp)
+      end do
+      !GCC$ unroll 99
+      do k = 1, cell_size
+         !$omp simd
+         do l = 1, half_block
+            c(l, k) = cells(k, cell(l), row(l))
+         end do
+      end do
+      ! The same for powers of A, with each power of sigma, then for powers of sigma.
+      !GCC$ unroll 24
+      do j = 0, cell_degree - 1
+         !GCC$ unroll 24
+         do m = 0, min(highest_power(0), cell_degree - j - 1)
+            !GCC$ unroll 24
+            do k = first_coefficient(j) + cell_degree - j - 1, first_coefficient(j) + m, -1
+               !$omp simd
+               do l = 1, half_block
+                  c(l, k) = c(l, k) + deviation(l)*c(l, k + 1)
+               end do
+            end do
+         end do
+      end do
+      !GCC$ unroll 24
+      do k = 0, highest_power(0)
+         !GCC$ unroll 24
+         do m = 0, count(highest_power >= k) - 1
+            !GCC$ unroll 24
+            do j = cell_degree - k - 1, m, -1
+               !$omp simd
+               do l = 1, half_block
+                  c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) &
+                     + offset(l)*c(l, first_coefficient(j + 1) + k)
+               end do
+            end do
+         end do
+      end do
+      expansion%inside(first:last) = inside
+      expansion%sigma(first:last) = sigma
+      expansion%inverse_unit(first:last) = inverse_unit
+      expansion%peak(first:last, :) = peak(:, :highest_peak_power)
+      !GCC$ unroll 24
+      do j = 0, highest_sigma_power
+         expansion%terms(first:last, first_term(j):first_term(j) + highest_power(j)) = &
+            c(:, first_coefficient(j):first_coefficient(j) + highest_power(j))
+      end do
+      ! dPsi/dA at constant sigma, and what sigma changes by
+      expansion%load_slope(first:last) = inverse_unit*(c(:, first_coefficient(0) + 1) &
+         - c(:, first_coefficient(1))*pressure_group*peak(:, 1)/(2.0_dp*sigma))
+   end subroutine expand_half
 
 end module reynolds_piezo_expansion
