@@ -44,33 +44,14 @@ contains
       integer, intent(in) :: last_order
       real(dp), intent(in) :: share
       type(lane_block_t), intent(inout) :: block
-      real(dp), dimension(lanes) :: cosine, sine, end_phase, end_cosine, end_sine, end_film, end_momentum, next_rise
+      real(dp) :: next_rise(lanes)
       logical :: rupture
-      integer :: law, l
+      integer :: l
 
       rupture = solves_rupture(kernel)
       if (.not. rupture) call lane_cosine_sine(block%phase, block%cosine, block%sine)
-      !$omp simd
-      do l = 1, lanes
-         cosine(l) = block%amplitude(l)*block%cosine(l)
-         sine(l) = block%amplitude(l)*block%sine(l)
-         block%remaining(l) = 1.0_dp - block%phase(l)
-      end do
-      select case (kernel)
-      case (kernel_piezo)
-         call piezo_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
-                                   block%momentum, block%damping_rate)
-      case (kernel_half_pi)
-         call iso_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
-                                 block%momentum, block%damping_rate)
-      case (kernel_reynolds_piezo)
-         call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%load, cosine, sine, block%film, &
-                                    block%momentum, block%damping_rate, block%piezo_expansion)
-      case default
-         law = merge(exact_load, published_load, kernel == kernel_reynolds_iso)
-         call rupture_series(law, block%strength, block%damping, block%load, cosine, sine, block%film, &
-                             block%momentum, block%damping_rate, block%expansion)
-      end select
+      block%remaining = 1.0_dp - block%phase
+      call find_series(kernel, block)
       call lane_steps(last_order, share, block%accuracy, block%force, block%film, block%momentum, block%damping_rate, &
                       block%remaining, block%limit, block%step)
       if (rupture) then
@@ -88,39 +69,77 @@ contains
       if (kernel == kernel_piezo) call distrust_load_from_nothing( &
          block%strength, block%damping, block%force, block%accuracy, block%film, block%momentum, &
          block%next_film, block%next_momentum, block%trust)
-      if (.not. rupture) return
-      !$omp simd
-      do l = 1, lanes
-         end_phase(l) = block%phase(l) + block%step(l)
-      end do
-      call lane_cosine_sine(end_phase, end_cosine, end_sine)
-      !$omp simd
-      do l = 1, lanes
-         end_film(l) = merge(block%next_film(l), block%film(l, 0), block%trust(l) > 0.0_dp)
-         end_momentum(l) = merge(block%next_momentum(l), block%momentum(l, 0), block%trust(l) > 0.0_dp)
-      end do
+      if (rupture) call hold_against_forces(kernel, share, next_rise, block)
+   end subroutine take_series_step
+
+   !> Series of film and momentum about the states of a block.
+   pure subroutine find_series(kernel, block)
+      !> Whose series
+      integer, intent(in) :: kernel
+      type(lane_block_t), intent(inout) :: block
+      real(dp), dimension(lanes) :: cosine, sine
+
+      cosine = block%amplitude*block%cosine
+      sine = block%amplitude*block%sine
+      select case (kernel)
+      case (kernel_piezo)
+         call piezo_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+                                   block%momentum, block%damping_rate)
+      case (kernel_half_pi)
+         call iso_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+                                 block%momentum, block%damping_rate)
+      case (kernel_reynolds_piezo)
+         call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%load, cosine, sine, block%film, &
+                                    block%momentum, block%damping_rate, block%piezo_expansion)
+      case default
+         call rupture_series(law_of(kernel), block%strength, block%damping, block%load, cosine, sine, block%film, &
+                             block%momentum, block%damping_rate, block%expansion)
+      end select
+   end subroutine find_series
+
+   !> Number of the load of a film law in module load_pieces.
+   elemental integer function law_of(kernel)
+      !> Its kernel
+      integer, intent(in) :: kernel
+
+      law_of = merge(exact_load, published_load, kernel == kernel_reynolds_iso)
+   end function law_of
+
+   !> Hold the ends of the steps of films with rupture against film and force there; where a step is not trusted, its start is
+   !> looked at instead, for the next try.
+   pure subroutine hold_against_forces(kernel, share, rise, block)
+      !> Whose series
+      integer, intent(in) :: kernel
+      !> Share of the accuracy that a step may use up, over its length [1/periods]
+      real(dp), intent(in) :: share
+      !> V' at the ends, by the series [-]
+      real(dp), intent(in) :: rise(lanes)
+      type(lane_block_t), intent(inout) :: block
+      real(dp), dimension(lanes) :: phase, cosine, sine, film, momentum
+
+      phase = block%phase + block%step
+      call lane_cosine_sine(phase, cosine, sine)
+      film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
+      momentum = merge(block%next_momentum, block%momentum(:, 0), block%trust > 0.0_dp)
       if (kernel == kernel_reynolds_piezo) then
-         call expand_reynolds_piezo(end_film, end_momentum, block%damping, block%pressing, block%piezo_expansion)
-         associate (end => block%piezo_expansion)
-            block%trust = block%trust*end%inside
-            call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, end_cosine, &
-                                          block%force, block%accuracy, end%pressure, end%root, end%terms(:, 0), end%load_slope, &
-                                          end_film, end_momentum, next_rise, block%trust)
+         call expand_reynolds_piezo(film, momentum, block%damping, block%pressing, block%piezo_expansion)
+         block%trust = block%trust*block%piezo_expansion%inside
+         associate (there => block%piezo_expansion)
+            call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, cosine, &
+                                          block%force, block%accuracy, there%pressure, there%root, there%terms(:, 0), &
+                                          there%load_slope, film, momentum, rise, block%trust)
          end associate
       else
-         call expand_load(law, end_film, end_momentum, block%damping, block%expansion)
-         associate (end => block%expansion)
-            call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, end_cosine, &
-                                          block%force, block%accuracy, end%pressure, end%root, end%terms(:, 0), end%load_slope, &
-                                          end_film, end_momentum, next_rise, block%trust)
+         call expand_load(law_of(kernel), film, momentum, block%damping, block%expansion)
+         associate (there => block%expansion)
+            call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, cosine, &
+                                          block%force, block%accuracy, there%pressure, there%root, there%terms(:, 0), &
+                                          there%load_slope, film, momentum, rise, block%trust)
          end associate
       end if
-      !$omp simd
-      do l = 1, lanes
-         block%cosine(l) = merge(end_cosine(l), block%cosine(l), block%trust(l) > 0.0_dp)
-         block%sine(l) = merge(end_sine(l), block%sine(l), block%trust(l) > 0.0_dp)
-      end do
-   end subroutine take_series_step
+      block%cosine = merge(cosine, block%cosine, block%trust > 0.0_dp)
+      block%sine = merge(sine, block%sine, block%trust > 0.0_dp)
+   end subroutine hold_against_forces
 
    !> Advance all lanes whose step is to be trusted; the others try again with a shorter one.
    pure subroutine advance(most_steps, largest_rate, block, events)

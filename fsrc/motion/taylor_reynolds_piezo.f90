@@ -17,7 +17,7 @@ module taylor_reynolds_piezo
    use kinds, only: dp
    use lane_functions, only: half_block, lanes
    use reynolds_piezo_expansion, only: expand_reynolds_piezo, first_term, highest_peak_power, highest_power, &
-      highest_sigma_power, reynolds_piezo_expansion_t
+      highest_sigma_power, load_terms, reynolds_piezo_expansion_t
    use series_factors, only: inverse, wave
    use taylor_rupture, only: rupture_order
    use taylor_step_control, only: order
@@ -61,12 +61,18 @@ contains
       !> Films looked up last, those at the point of expansion afterwards
       type(reynolds_piezo_expansion_t), intent(inout) :: expansion
       real(dp) :: c(half_block, series, 0:rupture_order)
-      real(dp), dimension(half_block) :: half_root, unit_rate, half_sigma, nest
+      real(dp) :: peak_terms(half_block, 0:highest_peak_power), terms(half_block, 0:load_terms - 1)
+      real(dp), dimension(half_block) :: half_root, unit_rate, half_sigma, half_strength, half_pressing, nest
       real(dp) :: of_p, of_r, of_z, of_square, of_group, of_s, of_nest, of_force, force
       integer :: before, k, i, j, m, l
 
       call expand_reynolds_piezo(film(:, 0), momentum(:, 0), rate, pressing, expansion)
       do before = 0, lanes - 1, half_block
+         ! Copies, next to the coefficients: how fast memory elsewhere is depends on where it lies.
+         peak_terms = expansion%peak(before + 1:before + half_block, :)
+         terms = expansion%terms(before + 1:before + half_block, :)
+         half_strength = strength(before + 1:before + half_block)
+         half_pressing = pressing(before + 1:before + half_block)
          !$omp simd
          do l = 1, half_block
             c(l, h, 0) = film(before + l, 0)
@@ -78,19 +84,19 @@ contains
             half_sigma(l) = 0.5_dp/expansion%sigma(before + l)
             unit_rate(l) = rate(before + l)*expansion%inverse_unit(before + l)
             c(l, h, 1) = c(l, v, 0)
-            c(l, v, 1) = strength(before + l)*c(l, p, 0)*expansion%terms(before + l, 0) &
+            c(l, v, 1) = half_strength(l)*c(l, p, 0)*terms(l, 0) &
                - load(before + l) - force_cosine(before + l)
             damping_rate(before + l) = merge( &
-               -strength(before + l)*c(l, p, 0)*rate(before + l)*c(l, r, 0)*expansion%load_slope(before + l), no_expansion, &
+               -half_strength(l)*c(l, p, 0)*rate(before + l)*c(l, r, 0)*expansion%load_slope(before + l), no_expansion, &
                expansion%inside(before + l) > 0.0_dp)
          end do
          do i = 0, last_peak_pair
-            c(:, peak + i, 0) = expansion%peak(before + 1:before + half_block, 2*i)
+            c(:, peak + i, 0) = peak_terms(:, 2*i)
          end do
          do j = 0, highest_sigma_power
-            c(:, power + j, 0) = expansion%terms(before + 1:before + half_block, first_term(j))
+            c(:, power + j, 0) = terms(:, first_term(j))
             do i = 1, highest_power(j)/2
-               c(:, pair + i - 1 + pairs*j, 0) = expansion%terms(before + 1:before + half_block, first_term(j) + 2*i)
+               c(:, pair + i - 1 + pairs*j, 0) = terms(:, first_term(j) + 2*i)
             end do
          end do
          !GCC$ unroll 24
@@ -128,13 +134,13 @@ contains
                c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
                c(l, z, k) = unit_rate(l)*(of_z + c(l, r, 0)*c(l, v, k) + c(l, r, k)*c(l, v, 0))
                c(l, square, k) = of_square
-               c(l, group, k) = pressing(before + l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
+               c(l, group, k) = half_pressing(l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
             end do
             !GCC$ unroll 8
             do i = min(last_peak_pair, (rupture_order - 1 - k)/2), 0, -1
                !$omp simd private(of_nest)
                do l = 1, half_block
-                  of_nest = expansion%peak(before + l, 2*i + 1)*c(l, z, k)
+                  of_nest = peak_terms(l, 2*i + 1)*c(l, z, k)
                   do j = 2, merge(k, 0, i < last_peak_pair)
                      of_nest = of_nest + c(l, square, j)*c(l, peak + i + 1, k - j)
                   end do
@@ -162,7 +168,7 @@ contains
                do i = min((highest_power(j) - 1)/2, (rupture_order - 1 - j - k)/2), 0, -1
                   !$omp simd
                   do l = 1, half_block
-                     nest(l) = expansion%terms(before + l, first_term(j) + 2*i + 1)*c(l, z, k)
+                     nest(l) = terms(l, first_term(j) + 2*i + 1)*c(l, z, k)
                   end do
                   ! The next pair of powers of z: none, one power alone, or two
                   !GCC$ unroll 24
@@ -192,7 +198,7 @@ contains
                of_force = of_force + c(l, p, k)*c(l, power, 0) + c(l, p, 0)*c(l, power, k)
                force = wave(k + 1)*merge(force_cosine(before + l), force_sine(before + l), mod(k, 2) == 0)
                c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
-               c(l, v, k + 1) = (inverse(k + 1)*strength(before + l))*of_force - force
+               c(l, v, k + 1) = (inverse(k + 1)*half_strength(l))*of_force - force
             end do
          end do
          film(before + 1:before + half_block, 1:rupture_order) = c(:, h, 1:)
