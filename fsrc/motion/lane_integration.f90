@@ -21,7 +21,7 @@ module lane_integration
    use settling_forecast, only: forecast_rest
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
    use taylor_rupture, only: rupture_order
-   use taylor_step_control, only: momentum_weight, order, rupture_share_rate, share_rate
+   use taylor_step_control, only: momentum_weight, order, piezo_share_rate, rupture_share_rate, share_rate
    implicit none(type, external)
    private
 
@@ -119,7 +119,7 @@ contains
       if (size(queue) > 0) run%kernel = scenes(queue(1))%film%kernel
       if (solves_rupture(run%kernel)) then
          run%last_order = rupture_order
-         run%share = rupture_share_rate
+         run%share = merge(piezo_share_rate, rupture_share_rate, run%kernel == kernel_reynolds_piezo)
       end if
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
