@@ -9,7 +9,7 @@ module test_taylor_surprises
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: status_complete
-   use scene_types, only: law_iso_viscous, rupture_solved, rupture_solver_fast, scene_t
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, rupture_solver_fast, scene_t
    implicit none(type, external)
    private
 
@@ -27,6 +27,7 @@ contains
       call test_load_after_flight(checks)
       call test_slow_direction(checks)
       call test_solved_rupture(checks)
+      call test_slow_drift(checks)
    end subroutine run_taylor_surprises_tests
 
    !> Largest relative error of the film over the last periods, against a far tighter solution.
@@ -165,5 +166,38 @@ contains
          call checks%check(error < 50.0_dp*accuracy(i), 'solved rupture: error')
       end do
    end subroutine test_solved_rupture
+
+   !> Exact films that hardly damp and rise for hundreds of periods: the errors of long steps have one sign in every period, and
+   !> nothing takes them back.
+   subroutine test_slow_drift(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: accuracy = 1.0e-8_dp
+      integer, parameter :: periods(2) = [20, 19]
+      type(scene_t) :: scenes(2)
+      type(film_t) :: film
+      type(lane_ending_t) :: ending
+      real(dp) :: error
+      integer :: i
+
+      scenes%film%law = [law_iso_viscous, law_piezo_viscous]
+      scenes%film%model = model_reynolds
+      scenes%contact%radius = [1.93865446011907e-2_dp, 1.6020974452047476e-2_dp]
+      scenes%contact%length = [5.59338826537699e-2_dp, 1.0_dp]
+      scenes%lubricant%viscosity = [9.100549814564605e-2_dp, 2.466993085450881e-1_dp]
+      scenes%lubricant%pressure_viscosity = [1.0184313417353531e-9_dp, 2.389375542836103e-6_dp]
+      scenes%kinematics%entrainment_speed = [8.901207788764973e-2_dp, 1.0392731254470945e-1_dp]
+      scenes%load%mass = [4.658884809511463e-2_dp, 5.168492983542199e-1_dp]
+      scenes%load%steady_force = [9.791663787723879e-1_dp, 8.695342057114708e-2_dp]
+      scenes%load%force_amplitude = [1.8799435966339346_dp, 4.333756218537626e1_dp]
+      scenes%load%frequency = [2.3111980781663406e3_dp, 2.935898664916683e3_dp]
+      scenes%load%gravity = standard_gravity
+      do i = 1, 2
+         film = new_film(scenes(i))
+         call largest_error(lane_of_scene(scenes(i), film, steady_film(film, scenes(i)%load%static_load()), 0.0_dp), &
+                            accuracy, periods(i), .false., error, ending)
+         call checks%check(.not. ending%implicit, 'slow drift: by series')
+         call checks%check(error < 30.0_dp*accuracy, 'slow drift: error')
+      end do
+   end subroutine test_slow_drift
 
 end module test_taylor_surprises
