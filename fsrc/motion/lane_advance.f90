@@ -122,23 +122,36 @@ contains
       film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
       momentum = merge(block%next_momentum, block%momentum(:, 0), block%trust > 0.0_dp)
       if (kernel == kernel_reynolds_piezo) then
-         call expand_reynolds_piezo(film, momentum, block%damping, block%pressing, block%piezo_expansion)
-         block%trust = block%trust*block%piezo_expansion%inside
          associate (there => block%piezo_expansion)
-            call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, cosine, &
-                                          block%force, block%accuracy, there%pressure, there%root, there%terms(:, 0), &
-                                          there%load_slope, film, momentum, rise, block%trust)
+            call expand_reynolds_piezo(film, momentum, block%damping, block%pressing, there)
+            block%trust = block%trust*there%inside
+            call compare(there%pressure, there%root, there%terms(:, 0), there%load_slope, block%trust)
          end associate
       else
-         call expand_load(law_of(kernel), film, momentum, block%damping, block%expansion)
          associate (there => block%expansion)
-            call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, cosine, &
-                                          block%force, block%accuracy, there%pressure, there%root, there%terms(:, 0), &
-                                          there%load_slope, film, momentum, rise, block%trust)
+            call expand_load(law_of(kernel), film, momentum, block%damping, there)
+            call compare(there%pressure, there%root, there%terms(:, 0), there%load_slope, block%trust)
          end associate
       end if
       block%cosine = merge(cosine, block%cosine, block%trust > 0.0_dp)
       block%sine = merge(sine, block%sine, block%trust > 0.0_dp)
+
+   contains
+
+      !> Forces by the film law and by the series.
+      pure subroutine compare(pressure, root, load, load_slope, trust)
+         !> p, r, Phi and dPhi/dA by the film law [-]
+         real(dp), intent(in) :: pressure(lanes)
+         real(dp), intent(in) :: root(lanes)
+         real(dp), intent(in) :: load(lanes)
+         real(dp), intent(in) :: load_slope(lanes)
+         !> 1 where the step is trusted, set to 0 where they differ
+         real(dp), intent(inout) :: trust(lanes)
+
+         call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, cosine, block%force, &
+                                       block%accuracy, pressure, root, load, load_slope, film, momentum, rise, trust)
+      end subroutine compare
+
    end subroutine hold_against_forces
 
    !> Advance all lanes whose step is to be trusted; the others try again with a shorter one.

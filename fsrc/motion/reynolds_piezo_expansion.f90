@@ -10,14 +10,17 @@ module reynolds_piezo_expansion
    implicit none(type, external)
    private
 
-   integer :: i
+   integer :: i, k
    !> Highest power of A in the expansion of max p*, and in that of the load with each power of sigma: with more of them the
    !> steps of a motion are hardly longer.
    integer, parameter, public :: highest_peak_power = 7, highest_sigma_power = 6
    integer, parameter, public :: highest_power(0:highest_sigma_power) = [8, 7, 6, 4, 3, 2, 0]
    !> Terms of the load: ascending powers of A, for each power of sigma from its first term on.
    integer, parameter, public :: load_terms = sum(highest_power + 1)
-   integer, parameter, public :: first_term(0:highest_sigma_power) = [0, 9, 17, 24, 29, 33, 36]
+   integer, parameter :: earlier(0:highest_sigma_power, 0:highest_sigma_power) = reshape( &
+                         [((merge(1, 0, k < i), i=0, highest_sigma_power), k=0, highest_sigma_power)], &
+                         [highest_sigma_power + 1, highest_sigma_power + 1])
+   integer, parameter, public :: first_term(0:highest_sigma_power) = matmul(earlier, highest_power + 1)
    !> The same in a cell.
    integer, parameter :: first_coefficient(0:cell_degree) = [(i*(cell_degree + 1) - i*(i - 1)/2 + 1, i=0, cell_degree)]
 
