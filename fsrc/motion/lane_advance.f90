@@ -125,12 +125,12 @@ contains
          associate (there => block%piezo_expansion)
             call expand_reynolds_piezo(film, momentum, block%damping, block%pressing, there)
             block%trust = block%trust*there%inside
-            call compare(there%pressure, there%root, there%terms(:, 0), there%load_slope, block%trust)
+            call compare(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, block%trust)
          end associate
       else
          associate (there => block%expansion)
             call expand_load(law_of(kernel), film, momentum, block%damping, there)
-            call compare(there%pressure, there%root, there%terms(:, 0), there%load_slope, block%trust)
+            call compare(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, block%trust)
          end associate
       end if
       block%cosine = merge(cosine, block%cosine, block%trust > 0.0_dp)
@@ -139,9 +139,9 @@ contains
    contains
 
       !> Forces by the film law and by the series.
-      pure subroutine compare(pressure, root, load, load_slope, trust)
+      pure subroutine compare(inverse_film, root, load, load_slope, trust)
          !> p, r, Phi and dPhi/dA by the film law [-]
-         real(dp), intent(in) :: pressure(lanes)
+         real(dp), intent(in) :: inverse_film(lanes)
          real(dp), intent(in) :: root(lanes)
          real(dp), intent(in) :: load(lanes)
          real(dp), intent(in) :: load_slope(lanes)
@@ -149,7 +149,7 @@ contains
          real(dp), intent(inout) :: trust(lanes)
 
          call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, cosine, block%force, &
-                                       block%accuracy, pressure, root, load, load_slope, film, momentum, rise, trust)
+                                       block%accuracy, inverse_film, root, load, load_slope, film, momentum, rise, trust)
       end subroutine compare
 
    end subroutine hold_against_forces

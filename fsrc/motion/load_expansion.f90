@@ -18,7 +18,7 @@ module load_expansion
       !> H, V and c: what all else follows from. A film is positive: none has been looked up yet
       real(dp), dimension(lanes) :: film = 0.0_dp, momentum = 0.0_dp, rate = 0.0_dp
       !> p, r, A
-      real(dp), dimension(lanes) :: pressure = 0.0_dp, root = 0.0_dp, group = 0.0_dp
+      real(dp), dimension(lanes) :: inverse_film = 0.0_dp, root = 0.0_dp, group = 0.0_dp
       !> 1/e: deviations of A are counted in units e of its piece
       real(dp) :: inverse_unit(lanes) = 1.0_dp
       !> phi_i: Phi in powers of the deviation
@@ -61,8 +61,8 @@ contains
          expansion%film(l) = film(l)
          expansion%momentum(l) = momentum(l)
          expansion%rate(l) = rate(l)
-         expansion%pressure(l) = 1.0_dp/film(l)
-         expansion%root(l) = sqrt(expansion%pressure(l))
+         expansion%inverse_film(l) = 1.0_dp/film(l)
+         expansion%root(l) = sqrt(expansion%inverse_film(l))
          expansion%group(l) = rate(l)*momentum(l)*expansion%root(l)
          ! The coarse log of what is no number is one, a large one.
          piece = min((coarse_log(2.0_dp + abs(expansion%group(l))) - first_log)*pieces_per_log, real(last_piece, dp))

@@ -31,7 +31,8 @@ module reynolds_piezo_expansion
       !> 1 where there is an expansion, else 0
       real(dp) :: inside(lanes) = 0.0_dp
       !> p, r, A, B, sigma
-      real(dp), dimension(lanes) :: pressure = 0.0_dp, root = 0.0_dp, group = 0.0_dp, pressure_group = 0.0_dp, sigma = 0.0_dp
+      real(dp), dimension(lanes) :: inverse_film = 0.0_dp, root = 0.0_dp, group = 0.0_dp
+      real(dp), dimension(lanes) :: pressure_group = 0.0_dp, sigma = 0.0_dp
       !> 1/e: deviations of A are counted in units e of its piece
       real(dp) :: inverse_unit(lanes) = 1.0_dp
       !> max p* in powers of the deviation
@@ -75,10 +76,10 @@ contains
          expansion%momentum(l) = momentum(l)
          expansion%rate(l) = rate(l)
          expansion%pressing(l) = pressing(l)
-         expansion%pressure(l) = 1.0_dp/film(l)
-         expansion%root(l) = sqrt(expansion%pressure(l))
+         expansion%inverse_film(l) = 1.0_dp/film(l)
+         expansion%root(l) = sqrt(expansion%inverse_film(l))
          expansion%group(l) = rate(l)*momentum(l)*expansion%root(l)
-         expansion%pressure_group(l) = pressing(l)*expansion%pressure(l)*expansion%root(l)
+         expansion%pressure_group(l) = pressing(l)*expansion%inverse_film(l)*expansion%root(l)
       end do
       do l = 1, lanes, half_block
          call expand_half(l, l + half_block - 1, expansion)

@@ -77,7 +77,7 @@ contains
          do l = 1, half_block
             c(l, h, 0) = film(before + l, 0)
             c(l, v, 0) = momentum(before + l, 0)
-            c(l, p, 0) = expansion%pressure(before + l)
+            c(l, p, 0) = expansion%inverse_film(before + l)
             c(l, r, 0) = expansion%root(before + l)
             c(l, group, 0) = expansion%pressure_group(before + l)
             half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)

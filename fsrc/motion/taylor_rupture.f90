@@ -67,7 +67,7 @@ contains
       do l = 1, lanes
          c(l, h, 0) = film(l, 0)
          c(l, v, 0) = momentum(l, 0)
-         c(l, p, 0) = expansion%pressure(l)
+         c(l, p, 0) = expansion%inverse_film(l)
          c(l, r, 0) = expansion%root(l)
          half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
          unit_rate(l) = rate(l)*expansion%inverse_unit(l)
@@ -190,8 +190,8 @@ contains
    !> first terms left out, so D x/(n + 1) stands for the local error of V; it is held against what the step control
    !> grants the last term. The measure is that of module taylor_step_control at the end of the
    !> step, without its quotients; rounding is not held against a step.
-   pure subroutine distrust_load_unforeseen(error_share, strength, rate, load, amplitude, cosine, force, accuracy, pressure, root, &
-                                            carried_load, load_slope, film, momentum, rise, trust)
+   pure subroutine distrust_load_unforeseen(error_share, strength, rate, load, amplitude, cosine, force, accuracy, inverse_film, &
+                                            root, carried_load, load_slope, film, momentum, rise, trust)
       !> Share of the accuracy that a step may use up, over its length [1/periods]
       real(dp), intent(in) :: error_share
       !> a [-]
@@ -206,7 +206,7 @@ contains
       !> Relative accuracy of the film [-]
       real(dp), intent(in) :: accuracy(lanes)
       !> p, r, Phi and dPhi/dA at the end of the step, by the film law [-]
-      real(dp), intent(in) :: pressure(lanes)
+      real(dp), intent(in) :: inverse_film(lanes)
       real(dp), intent(in) :: root(lanes)
       real(dp), intent(in) :: carried_load(lanes)
       real(dp), intent(in) :: load_slope(lanes)
@@ -221,8 +221,8 @@ contains
 
       !$omp simd private(carried, rate_of_damping, defect, square_film, granted)
       do l = 1, lanes
-         rate_of_damping = -strength(l)*pressure(l)*rate(l)*root(l)*load_slope(l)
-         carried = strength(l)*pressure(l)*carried_load(l)
+         rate_of_damping = -strength(l)*inverse_film(l)*rate(l)*root(l)*load_slope(l)
+         carried = strength(l)*inverse_film(l)*carried_load(l)
          defect = abs(carried - load(l) - amplitude(l)*cosine(l) - rise(l)) &
             - equation_rounding*(abs(carried) + force(l) + abs(rate_of_damping*momentum(l)))
          ! 1 + H**2, and w (1 + H**2) times the accuracy.
