@@ -34,7 +34,7 @@ module lane_functions
    !> Largest argument, and its negative, of `lane_exponential`; beyond it the value at the border is given.
    real(dp), parameter, public :: largest_exponent = 300.0_dp
 
-   public :: lane_cosine_sine, lane_exponential, coarse_log, coarse_power
+   public :: lane_cosine_sine, lane_exponential, coarse_log, coarse_power, whole_below
 
 contains
 
@@ -113,5 +113,14 @@ contains
 
       coarse_power = transfer(shiftl(transfer(x + (log_of_one + integer_base), 1_int64), 32), 1.0_dp)
    end function coarse_power
+
+   !> Largest whole number below x, or x where that is whole. Of an odd whole x it is the one below: what takes this for
+   !> a place among cells finds one that ends there. A conversion to integer and back would be compiled lane by lane.
+   elemental real(dp) function whole_below(x)
+      !> From 0 to 2^51 [-]
+      real(dp), intent(in) :: x
+
+      whole_below = ((x - 0.5_dp) + rounder) - rounder
+   end function whole_below
 
 end module lane_functions

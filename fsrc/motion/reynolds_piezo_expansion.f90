@@ -5,7 +5,7 @@
 !> rigid film exists, there is no expansion.
 module reynolds_piezo_expansion
    use kinds, only: dp
-   use lane_functions, only: coarse_log, half_block, lanes, log_of_one, octave
+   use lane_functions, only: coarse_log, half_block, lanes, log_of_one, octave, whole_below
    use piezo_viscous_cells, only: cell_degree, cell_size, cells, octave_pieces, peak_pieces, side_pieces, sigma_cells
    implicit none(type, external)
    private
@@ -139,8 +139,9 @@ contains
          inside(l) = inside(l)*merge(1.0_dp, 0.0_dp, gap > 0.0_dp .and. gap <= 1.0_dp)
          sigma(l) = sqrt(merge(gap, 1.0_dp, inside(l) > 0.0_dp))
          place = real(sigma_cells, dp)*sigma(l)
-         cell(l) = int(min(place, last_cell))
-         offset(l) = sigma(l) - (real(cell(l), dp) + 0.5_dp)/real(sigma_cells, dp)
+         place = min(whole_below(place), last_cell)
+         offset(l) = sigma(l) - (place + 0.5_dp)*(1.0_dp/real(sigma_cells, dp))
+         cell(l) = int(place)
       end do
       !GCC$ unroll 99
       do k = 1, cell_size

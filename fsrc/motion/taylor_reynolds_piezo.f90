@@ -6,13 +6,12 @@
 !>
 !> Psi has infinite slope where the film ceases to exist, but not in s = sqrt(1 - B max p*(A)). Module
 !> reynolds_piezo_expansion gives max p* in powers of z, the deviation of A over the unit e, and Psi in powers of z and y, the
-!> deviation of s. They are nested, powers of z in pairs,
+!> deviation of s:
 !>
-!>     max p* = P_0 ,   P_i = pi_2i + pi_(2i+1) z + z**2 P_(i+1) ,
-!>     Psi = F_0 ,   F_j = G_0j + y F_(j+1) ,   G_ij = psi_(2i)j + psi_(2i+1)j z + z**2 G_(i+1)j ,
+!>     max p* = P = sum of pi_i z**i ,   Psi = F_0 ,   F_j = G_j + y F_(j+1) ,   G_j = sum of psi_ij z**i .
 !>
-!> and as z and y begin with the first power of x, what has to be multiplied with some powers of them is needed up to an order
-!> that is lower by their number.
+!> All these sums share the powers of z, series of their own, each the product of two lower ones. As z and y begin with the
+!> first power of x, F_j is needed up to order n - 1 - j only.
 module taylor_reynolds_piezo
    use kinds, only: dp
    use lane_functions, only: half_block, lanes
@@ -28,11 +27,9 @@ module taylor_reynolds_piezo
    real(dp), parameter :: no_expansion = 1.0e30_dp
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
-   !> Names as above; group = B, peak + i: P_i, power + j: F_j, pair + i + pairs*j: G_ij for i > 0.
-   integer, parameter :: last_peak_pair = (highest_peak_power - 1)/2, pairs = highest_power(0)/2
-   integer, parameter :: h = 1, v = 2, p = 3, r = 4, z = 5, square = 6, group = 7, s = 8, peak = 9, &
-                         power = peak + last_peak_pair + 1, pair = power + highest_sigma_power + 1, &
-                         series = pair + pairs*highest_sigma_power - 1
+   !> Names as above; group = B, peak = P, tail + j: F_j, z + i - 1: z**i.
+   integer, parameter :: h = 1, v = 2, p = 3, r = 4, group = 5, s = 6, peak = 7, tail = 8, &
+                         z = tail + highest_sigma_power + 1, series = z + highest_power(0) - 1
 
    public :: reynolds_piezo_series
 
@@ -62,17 +59,17 @@ contains
       type(reynolds_piezo_expansion_t), intent(inout) :: expansion
       real(dp) :: c(half_block, series, 0:rupture_order)
       real(dp) :: peak_terms(half_block, 0:highest_peak_power), terms(half_block, 0:load_terms - 1)
-      real(dp), dimension(half_block) :: half_root, unit_rate, half_sigma, half_strength, half_pressing, nest
-      real(dp) :: of_p, of_r, of_z, of_square, of_group, of_s, of_nest, of_force, force
-      integer :: before, k, i, j, m, l
+      real(dp), dimension(half_block) :: half_root, unit_rate, half_sigma, lane_strength, lane_pressing
+      real(dp) :: of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force, force
+      integer :: before, low, high, k, i, j, m, l
 
       call expand_reynolds_piezo(film(:, 0), momentum(:, 0), rate, pressing, expansion)
       do before = 0, lanes - 1, half_block
          ! Copies, next to the coefficients: how fast memory elsewhere is depends on where it lies.
          peak_terms = expansion%peak(before + 1:before + half_block, :)
          terms = expansion%terms(before + 1:before + half_block, :)
-         half_strength = strength(before + 1:before + half_block)
-         half_pressing = pressing(before + 1:before + half_block)
+         lane_strength = strength(before + 1:before + half_block)
+         lane_pressing = pressing(before + 1:before + half_block)
          !$omp simd
          do l = 1, half_block
             c(l, h, 0) = film(before + l, 0)
@@ -84,24 +81,35 @@ contains
             half_sigma(l) = 0.5_dp/expansion%sigma(before + l)
             unit_rate(l) = rate(before + l)*expansion%inverse_unit(before + l)
             c(l, h, 1) = c(l, v, 0)
-            c(l, v, 1) = half_strength(l)*c(l, p, 0)*terms(l, 0) &
+            c(l, v, 1) = lane_strength(l)*c(l, p, 0)*terms(l, 0) &
                - load(before + l) - force_cosine(before + l)
             damping_rate(before + l) = merge( &
-               -half_strength(l)*c(l, p, 0)*rate(before + l)*c(l, r, 0)*expansion%load_slope(before + l), no_expansion, &
+               -lane_strength(l)*c(l, p, 0)*rate(before + l)*c(l, r, 0)*expansion%load_slope(before + l), no_expansion, &
                expansion%inside(before + l) > 0.0_dp)
          end do
-         do i = 0, last_peak_pair
-            c(:, peak + i, 0) = peak_terms(:, 2*i)
-         end do
+         c(:, peak, 0) = peak_terms(:, 0)
          do j = 0, highest_sigma_power
-            c(:, power + j, 0) = terms(:, first_term(j))
-            do i = 1, highest_power(j)/2
-               c(:, pair + i - 1 + pairs*j, 0) = terms(:, first_term(j) + 2*i)
-            end do
+            c(:, tail + j, 0) = terms(:, first_term(j))
          end do
          !GCC$ unroll 24
          do k = 1, rupture_order - 1
-            !$omp simd private(of_p, of_r, of_z, of_square, of_group)
+            ! Powers of z: squares, and products of neighbours
+            !GCC$ unroll 24
+            do i = 2, min(highest_power(0), k)
+               low = z - 1 + i/2
+               high = z - 1 + (i + 1)/2
+               !$omp simd private(of_power)
+               do l = 1, half_block
+                  of_power = 0.0_dp
+                  do j = i/2, merge((k - 1)/2, k - (i + 1)/2, low == high)
+                     of_power = of_power + c(l, low, j)*c(l, high, k - j)
+                  end do
+                  if (low == high) of_power = 2.0_dp*of_power
+                  if (low == high .and. mod(k, 2) == 0) of_power = of_power + c(l, low, shiftr(k, 1))*c(l, low, shiftr(k, 1))
+                  c(l, z + i - 1, k) = of_power
+               end do
+            end do
+            !$omp simd private(of_p, of_r, of_z, of_group)
             do l = 1, half_block
                of_p = 0.0_dp
                of_z = 0.0_dp
@@ -114,17 +122,11 @@ contains
                   of_group = of_group + c(l, r, k - j)*c(l, p, j)
                end do
                of_r = 0.0_dp
-               of_square = 0.0_dp
                do j = 1, (k - 1)/2
                   of_r = of_r + c(l, r, j)*c(l, r, k - j)
-                  of_square = of_square + c(l, z, j)*c(l, z, k - j)
                end do
                of_r = 2.0_dp*of_r
-               of_square = 2.0_dp*of_square
-               if (mod(k, 2) == 0) then
-                  of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
-                  of_square = of_square + c(l, z, shiftr(k, 1))*c(l, z, shiftr(k, 1))
-               end if
+               if (mod(k, 2) == 0) of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
                if (k > 1) then
                   of_p = of_p + c(l, p, k - 1)*c(l, h, 1)
                   of_z = of_z + c(l, r, k - 1)*c(l, v, 1)
@@ -133,72 +135,54 @@ contains
                c(l, p, k) = -c(l, p, 0)*(of_p + c(l, p, 0)*c(l, h, k))
                c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
                c(l, z, k) = unit_rate(l)*(of_z + c(l, r, 0)*c(l, v, k) + c(l, r, k)*c(l, v, 0))
-               c(l, square, k) = of_square
-               c(l, group, k) = half_pressing(l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
+               c(l, group, k) = lane_pressing(l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
             end do
-            !GCC$ unroll 8
-            do i = min(last_peak_pair, (rupture_order - 1 - k)/2), 0, -1
-               !$omp simd private(of_nest)
-               do l = 1, half_block
-                  of_nest = peak_terms(l, 2*i + 1)*c(l, z, k)
-                  do j = 2, merge(k, 0, i < last_peak_pair)
-                     of_nest = of_nest + c(l, square, j)*c(l, peak + i + 1, k - j)
-                  end do
-                  c(l, peak + i, k) = of_nest
-               end do
-            end do
-            ! s**2 = 1 - B max p*
-            !$omp simd private(of_s, of_group)
+            ! s**2 = 1 - B P
+            !$omp simd private(of_peak, of_s)
             do l = 1, half_block
+               of_peak = 0.0_dp
+               do i = min(highest_peak_power, k), 1, -1
+                  of_peak = of_peak + peak_terms(l, i)*c(l, z + i - 1, k)
+               end do
+               c(l, peak, k) = of_peak
                of_s = 0.0_dp
                do j = 1, (k - 1)/2
                   of_s = of_s + c(l, s, j)*c(l, s, k - j)
                end do
                of_s = 2.0_dp*of_s
                if (mod(k, 2) == 0) of_s = of_s + c(l, s, shiftr(k, 1))*c(l, s, shiftr(k, 1))
-               of_group = 0.0_dp
-               do j = 0, k
-                  of_group = of_group + c(l, group, k - j)*c(l, peak, j)
+               do j = 1, k - 1
+                  of_s = of_s + c(l, group, k - j)*c(l, peak, j)
                end do
-               c(l, s, k) = -half_sigma(l)*(of_group + of_s)
+               of_s = of_s + c(l, group, k)*c(l, peak, 0)
+               c(l, s, k) = -half_sigma(l)*(of_s + c(l, group, 0)*c(l, peak, k))
             end do
             !GCC$ unroll 8
             do j = min(highest_sigma_power - 1, rupture_order - 1 - k), 0, -1
-               !GCC$ unroll 8
-               do i = min((highest_power(j) - 1)/2, (rupture_order - 1 - j - k)/2), 0, -1
-                  !$omp simd
-                  do l = 1, half_block
-                     nest(l) = terms(l, first_term(j) + 2*i + 1)*c(l, z, k)
+               !$omp simd private(of_tail)
+               do l = 1, half_block
+                  of_tail = 0.0_dp
+                  do i = min(highest_power(j), k), 2, -1
+                     of_tail = of_tail + terms(l, first_term(j) + i)*c(l, z + i - 1, k)
                   end do
-                  ! The next pair of powers of z: none, one power alone, or two
-                  !GCC$ unroll 24
-                  do m = merge(2, max(2, k), 2*i + 2 < highest_power(j)), merge(k, 0, 2*i + 2 <= highest_power(j))
-                     !$omp simd
-                     do l = 1, half_block
-                        nest(l) = nest(l) + c(l, square, m)*c(l, pair + i + pairs*j, k - m)
-                     end do
+                  ! The last F_j is a number.
+                  do m = 1, merge(k - 1, 0, j + 1 < highest_sigma_power)
+                     of_tail = of_tail + c(l, s, m)*c(l, tail + j + 1, k - m)
                   end do
-                  if (i > 0) c(:, pair + i - 1 + pairs*j, k) = nest
+                  of_tail = of_tail + terms(l, first_term(j) + 1)*c(l, z, k)
+                  c(l, tail + j, k) = of_tail + c(l, s, k)*c(l, tail + j + 1, 0)
                end do
-               !GCC$ unroll 24
-               do m = merge(1, k, j + 1 < highest_sigma_power), k
-                  !$omp simd
-                  do l = 1, half_block
-                     nest(l) = nest(l) + c(l, s, m)*c(l, power + j + 1, k - m)
-                  end do
-               end do
-               c(:, power + j, k) = nest
             end do
             !$omp simd private(of_force, force)
             do l = 1, half_block
                of_force = 0.0_dp
                do j = 1, k - 1
-                  of_force = of_force + c(l, p, k - j)*c(l, power, j)
+                  of_force = of_force + c(l, p, k - j)*c(l, tail, j)
                end do
-               of_force = of_force + c(l, p, k)*c(l, power, 0) + c(l, p, 0)*c(l, power, k)
+               of_force = of_force + c(l, p, k)*c(l, tail, 0) + c(l, p, 0)*c(l, tail, k)
                force = wave(k + 1)*merge(force_cosine(before + l), force_sine(before + l), mod(k, 2) == 0)
                c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
-               c(l, v, k + 1) = (inverse(k + 1)*half_strength(l))*of_force - force
+               c(l, v, k + 1) = (inverse(k + 1)*lane_strength(l))*of_force - force
             end do
          end do
          film(before + 1:before + half_block, 1:rupture_order) = c(:, h, 1:)

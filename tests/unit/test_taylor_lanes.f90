@@ -7,7 +7,8 @@ module test_taylor_lanes
    use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
       kernel_solved_fast
    use kinds, only: dp
-   use lane_functions, only: coarse_log, coarse_power, lane_cosine_sine, lane_exponential, lanes, log_of_one
+   use lane_functions, only: coarse_log, coarse_power, lane_cosine_sine, lane_exponential, lanes, log_of_one, &
+      whole_below
    use lane_motions, only: accelerations, solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use published_iso_viscous, only: rolling_coefficient, squeeze_coefficient
@@ -130,6 +131,10 @@ contains
       x = [(10.0_dp**(l - 8), l=1, lanes)]
       call checks%check(maxval(abs(coarse_power(coarse_log(x) - log_of_one)/x - 1.0_dp)) < 2.0e-6_dp, &
          'coarse power inverts')
+      x = [(0.25_dp + real(l - 1, dp), l=1, lanes)]
+      call checks%check(all(abs(whole_below(x) - (x - 0.25_dp)) <= 0.0_dp), 'whole number below')
+      call checks%check(all(abs(whole_below(x - 0.25_dp) - (x - 0.25_dp)) <= 1.0_dp), 'a whole number or the one below')
+      call checks%check(all(abs(whole_below(spacing(1.0_dp)*[0.0_dp, 1.0_dp])) <= 0.0_dp), 'nothing below zero')
    end subroutine test_functions
 
    !> Start-up of the canonical idle scene, films known to 13 digits.
