@@ -1,6 +1,7 @@
 !> One step of all lanes of a block by Taylor series, and the bookkeeping of a step by any method.
 module lane_advance
-   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast
+   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo
+   use film_series, only: film_series_t
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
    use lane_scenes, only: lane_block_t
@@ -22,39 +23,26 @@ module lane_advance
    !> Scaled film that is none any more, and step too short to go on with [periods].
    real(dp), parameter, public :: lost_film = 1.0e-9_dp, shortest_step = 1.0e-14_dp
 
-   public :: solves_rupture, take_series_step, advance
+   public :: take_series_step, advance
 
 contains
-
-   !> Whether the rupture of a film law follows from (18): its series is that of module taylor_rupture or taylor_reynolds_piezo.
-   elemental logical function solves_rupture(kernel)
-      !> Its kernel
-      integer, intent(in) :: kernel
-
-      solves_rupture = kernel == kernel_reynolds_iso .or. kernel == kernel_solved_fast .or. kernel == kernel_reynolds_piezo
-   end function solves_rupture
 
    !> Series and steps of all lanes, and the states they lead to. A film that changes by some powers of ten in
    !> one step is not trusted, nor is a series about a point of extreme damping. Conditions are numbers, 0 or
    !> 1, and their products: without branch and integer the loop runs in full registers.
-   pure subroutine take_series_step(kernel, last_order, share, block)
-      !> Whose series
-      integer, intent(in) :: kernel
-      !> Its order, and the share of the accuracy that a step may use up, over its length [1/periods]
-      integer, intent(in) :: last_order
-      real(dp), intent(in) :: share
+   pure subroutine take_series_step(series, block)
+      !> Series of the film law
+      type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
       real(dp) :: next_rise(lanes)
-      logical :: rupture
       integer :: l
 
-      rupture = solves_rupture(kernel)
-      if (.not. rupture) call lane_cosine_sine(block%phase, block%cosine, block%sine)
+      if (.not. series%solves_rupture) call lane_cosine_sine(block%phase, block%cosine, block%sine)
       block%remaining = 1.0_dp - block%phase
-      call find_series(kernel, block)
-      call lane_steps(last_order, share, block%accuracy, block%force, block%film, block%momentum, block%damping_rate, &
-                      block%remaining, block%limit, block%step)
-      if (rupture) then
+      call find_series(series%kernel, block)
+      call lane_steps(series%last_order, series%share, block%accuracy, block%force, block%film, block%momentum, &
+                      block%damping_rate, block%remaining, block%limit, block%step)
+      if (series%solves_rupture) then
          call evaluate_rupture_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum, next_rise)
       else
          call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
@@ -66,10 +54,10 @@ contains
             *merge(1.0_dp, 0.0_dp, abs(block%next_momentum(l)) < huge(1.0_dp)) &
             *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_series_rate)
       end do
-      if (kernel == kernel_piezo) call distrust_load_from_nothing( &
+      if (series%kernel == kernel_piezo) call distrust_load_from_nothing( &
          block%strength, block%damping, block%force, block%accuracy, block%film, block%momentum, &
          block%next_film, block%next_momentum, block%trust)
-      if (rupture) call hold_against_forces(kernel, share, next_rise, block)
+      if (series%solves_rupture) call hold_against_forces(series, next_rise, block)
    end subroutine take_series_step
 
    !> Series of film and momentum about the states of a block.
@@ -107,11 +95,9 @@ contains
 
    !> Hold the ends of the steps of films with rupture against film and force there; where a step is not trusted, its start is
    !> looked at instead, for the next try.
-   pure subroutine hold_against_forces(kernel, share, rise, block)
-      !> Whose series
-      integer, intent(in) :: kernel
-      !> Share of the accuracy that a step may use up, over its length [1/periods]
-      real(dp), intent(in) :: share
+   pure subroutine hold_against_forces(series, rise, block)
+      !> Series of the film law
+      type(film_series_t), intent(in) :: series
       !> V' at the ends, by the series [-]
       real(dp), intent(in) :: rise(lanes)
       type(lane_block_t), intent(inout) :: block
@@ -121,7 +107,7 @@ contains
       call lane_cosine_sine(phase, cosine, sine)
       film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
       momentum = merge(block%next_momentum, block%momentum(:, 0), block%trust > 0.0_dp)
-      if (kernel == kernel_reynolds_piezo) then
+      if (series%kernel == kernel_reynolds_piezo) then
          associate (there => block%piezo_expansion)
             call expand_reynolds_piezo(film, momentum, block%damping, block%pressing, there)
             block%trust = block%trust*there%inside
@@ -129,7 +115,7 @@ contains
          end associate
       else
          associate (there => block%expansion)
-            call expand_load(law_of(kernel), film, momentum, block%damping, there)
+            call expand_load(law_of(series%kernel), film, momentum, block%damping, there)
             call compare(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, block%trust)
          end associate
       end if
@@ -148,7 +134,7 @@ contains
          !> 1 where the step is trusted, set to 0 where they differ
          real(dp), intent(inout) :: trust(lanes)
 
-         call distrust_load_unforeseen(share, block%strength, block%damping, block%load, block%amplitude, cosine, block%force, &
+      call distrust_load_unforeseen(series%share, block%strength, block%damping, block%load, block%amplitude, cosine, block%force, &
                                        block%accuracy, inverse_film, root, load, load_slope, film, momentum, rise, trust)
       end subroutine compare
 

@@ -9,9 +9,10 @@
 !> status_not_converged at the start of that period, for collocation to go on.
 module lane_integration
    use collocation_step, only: take_collocation_step
-   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_piezo
+   use film_law, only: film_t
+   use film_series, only: film_series_t, series_of
    use kinds, only: dp, int64
-   use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, solves_rupture, take_series_step
+   use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
    use lane_functions, only: lanes
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, repeat_samples, take_samples
    use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, load_scene, rest_lane, &
@@ -20,15 +21,12 @@ module lane_integration
    use recurrence, only: look_back, recurrence_t
    use settling_forecast, only: forecast_rest
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
-   use taylor_rupture, only: rupture_order
-   use taylor_step_control, only: momentum_weight, order, piezo_share_rate, rupture_share_rate, share_rate
+   use taylor_step_control, only: momentum_weight
    implicit none(type, external)
    private
 
    !> More Taylor steps in a period cost more than collocation; more steps of collocation lead nowhere.
    real(dp), parameter :: most_series_steps = 3000.0_dp, most_implicit_steps = 1.0e5_dp
-   !> Best accuracy of a motion by the cells of the exact piezo-viscous film, whose loads are good to 6e-12.
-   real(dp), parameter :: best_cell_accuracy = 1.0e-10_dp
    !> Share of the accuracy within which a motion counts as repeating.
    real(dp), parameter :: repetition_share = 0.3_dp
 
@@ -65,10 +63,7 @@ module lane_integration
    type :: lane_run_t
       !> Taylor series, else collocation; and whose series
       logical :: by_series = .true.
-      integer :: kernel = kernel_half_pi
-      !> Its order, and the share of the accuracy that a step may use up, over its length [1/periods]
-      integer :: last_order = order
-      real(dp) :: share = share_rate
+      type(film_series_t) :: series
       !> Most steps in a period, and largest damping rate [1/periods]
       real(dp) :: most_steps = 0.0_dp, largest_rate = 0.0_dp
       !> Film laws of the lanes
@@ -80,20 +75,9 @@ module lane_integration
       type(lane_watch_t) :: watches(lanes)
    end type lane_run_t
 
-   public :: has_series, integrate_lanes
+   public :: integrate_lanes
 
 contains
-
-   !> Whether the film law has a Taylor series here that is good enough.
-   elemental logical function has_series(film, accuracy)
-      !> The film
-      type(film_t), intent(in) :: film
-      !> Relative accuracy of the film asked for [-]
-      real(dp), intent(in) :: accuracy
-
-      has_series = film%kernel == kernel_half_pi .or. film%kernel == kernel_piezo .or. solves_rupture(film%kernel)
-      if (film%kernel == kernel_reynolds_piezo) has_series = accuracy >= best_cell_accuracy
-   end function has_series
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
    pure subroutine integrate_lanes(by_series, scenes, queue, request, films, velocities, endings, watches)
@@ -116,11 +100,7 @@ contains
       integer :: l, events
 
       run%by_series = by_series
-      if (size(queue) > 0) run%kernel = scenes(queue(1))%film%kernel
-      if (solves_rupture(run%kernel)) then
-         run%last_order = rupture_order
-         run%share = merge(piezo_share_rate, rupture_share_rate, run%kernel == kernel_reynolds_piezo)
-      end if
+      if (size(queue) > 0) run%series = series_of(scenes(queue(1))%film%kernel)
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
@@ -129,7 +109,7 @@ contains
       end do
       do while (run%active > 0)
          if (by_series) then
-            call take_series_step(run%kernel, run%last_order, run%share, run%block)
+            call take_series_step(run%series, run%block)
          else
             call take_collocation_step(run%films, run%watches%scene > 0, run%block)
          end if

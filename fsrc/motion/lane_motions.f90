@@ -1,9 +1,10 @@
-!> Motions of any number of scenes, error-controlled: Taylor series for the published film laws, collocation
-!> for all other laws and for scenes too stiff for explicit steps.
+!> Motions of any number of scenes, error-controlled: Taylor series for the film laws that have one, collocation
+!> for all others and for scenes too stiff for explicit steps.
 module lane_motions
    use film_law, only: film_loads
+   use film_series, only: has_series
    use kinds, only: dp
-   use lane_integration, only: has_series, integrate_lanes
+   use lane_integration, only: integrate_lanes
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use period_repetition, only: orbit_watch_t
    use scene_status, only: status_film_lost, status_not_converged

@@ -28,9 +28,6 @@ module taylor_step_control
    !> 1e-11, at most a tenth dearer than the best order.
    integer, parameter, public :: order = 14
 
-   !> Share of the accuracy that a step of length x may use up is x times this; found by trial, for the films without rupture,
-   !> those with it, and the exact piezo-viscous one, whose long steps add up their errors where nothing damps [1/periods].
-   real(dp), parameter, public :: share_rate = 4.0_dp, rupture_share_rate = 8.0_dp, piezo_share_rate = 2.0_dp
    !> Error that is rounding alone.
    real(dp), parameter, public :: rounding = 2.0_dp*epsilon(1.0_dp)
    !> Longest step [periods]
