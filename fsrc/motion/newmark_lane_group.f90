@@ -35,10 +35,11 @@ module newmark_lane_group
       !> Film that fails, and least film of all iterates [m]
       real(dp) :: smallest(lanes) = 0.0_dp
       real(dp) :: least(lanes) = 1.0_dp
-      !> L [m] and its slopes dL/dh [-] and dL/dV [-] at the iterate
+      !> L [m] and its slopes dL/dh [-] and dL/dV [-] at the iterate, over a common denominator
       real(dp) :: load(lanes) = 0.0_dp
       real(dp) :: load_by_film(lanes) = 0.0_dp
       real(dp) :: load_by_velocity(lanes) = 0.0_dp
+      real(dp) :: denominator(lanes) = 1.0_dp
       !> Exponential of (37) at the extrapolated iterate [-]
       real(dp) :: growth(lanes) = 1.0_dp
       !> Positive where the step has met the criterion of (36) and kept its film

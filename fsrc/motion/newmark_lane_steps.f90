@@ -3,7 +3,8 @@
 !> unchanged.
 !>
 !> A step is cut into loops over the lanes, short enough that the processor works on many lanes at once and
-!> never waits for a division. Every lane goes through the same instructions, and no number of one lane enters
+!> never waits for a division, of which a pass has one: load and slopes are numerators over a common denominator. Every lane
+!> goes through the same instructions, and no number of one lane enters
 !> another.
 module newmark_lane_steps
    use film_law, only: kernel_half_pi
@@ -11,8 +12,8 @@ module newmark_lane_steps
    use lane_exponential, only: near_exponential, nearness, power_of_two
    use newmark, only: smallest_film_ratio
    use newmark_lane_group, only: newmark_lane_group_t, rest_lane
-   use piezo_viscous_terms, only: piezo_viscous_terms_load
-   use published_iso_viscous, only: half_pi_rupture_load
+   use piezo_viscous_terms, only: piezo_viscous_terms_fractions
+   use published_iso_viscous, only: half_pi_rupture_fractions
    implicit none(type, external)
    private
 
@@ -54,8 +55,8 @@ contains
          do l = 1, group%used
             call begin_step(group%film(l), group%velocity(l), group%acceleration(l), step%known_film(l), &
                             step%known_velocity(l), step%smallest(l), step%least(l), velocity)
-            call half_pi_rupture_load(group%strength(l), group%squeeze(l), max(step%least(l), step%smallest(l)), velocity, &
-                                      step%load(l), step%load_by_film(l), step%load_by_velocity(l))
+            call half_pi_rupture_fractions(group%strength(l), group%squeeze(l), max(step%least(l), step%smallest(l)), velocity, &
+                                           step%load(l), step%load_by_film(l), step%load_by_velocity(l), step%denominator(l))
          end do
       end associate
    end subroutine begin_half_pi_steps
@@ -72,8 +73,9 @@ contains
             call begin_step(group%film(l), group%velocity(l), group%acceleration(l), step%known_film(l), &
                             step%known_velocity(l), step%smallest(l), step%least(l), velocity)
             step%growth(l) = power_of_two(-group%doubling_rate(l)*velocity)
-            call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), max(step%least(l), step%smallest(l)), &
-                                          step%growth(l), step%load(l), step%load_by_film(l), step%load_by_velocity(l))
+            call piezo_viscous_terms_fractions(group%strength(l), group%squeeze(l), max(step%least(l), step%smallest(l)), &
+                                               step%growth(l), step%load(l), step%load_by_film(l), &
+                                               step%load_by_velocity(l), step%denominator(l))
          end do
       end associate
    end subroutine begin_piezo_steps
@@ -114,8 +116,7 @@ contains
          do l = 1, group%used
             step%force(l) = group%mean_force(l) + group%force_amplitude(l)*cosine
             a = corrected(group%acceleration(l), step%load(l), step%load_by_film(l), &
-               step%load_by_velocity(l), &
-                          step%force(l))
+               step%load_by_velocity(l), step%denominator(l), step%force(l))
             film = step%known_film(l) + a
             step%acceleration(l) = a
             step%least(l) = min(film, step%least(l))
@@ -133,9 +134,9 @@ contains
          !$omp simd
          do l = 1, group%used
             step%margin(l) = 1.0_dp
-            call half_pi_rupture_load(group%strength(l), group%squeeze(l), step%film(l), &
-                                      step%known_velocity(l) + 2.0_dp*step%acceleration(l), step%load(l), &
-                                      step%load_by_film(l), step%load_by_velocity(l))
+            call half_pi_rupture_fractions(group%strength(l), group%squeeze(l), step%film(l), &
+                                           step%known_velocity(l) + 2.0_dp*step%acceleration(l), step%load(l), &
+                                           step%load_by_film(l), step%load_by_velocity(l), step%denominator(l))
          end do
       end associate
    end subroutine load_half_pi_again
@@ -151,9 +152,9 @@ contains
          do l = 1, group%used
             change = 2.0_dp*group%squeeze(l)*(group%acceleration(l) - step%acceleration(l))
             step%margin(l) = nearness - abs(change)
-            call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), step%film(l), &
-                                          step%growth(l)*near_exponential(change), step%load(l), &
-                                          step%load_by_film(l), step%load_by_velocity(l))
+            call piezo_viscous_terms_fractions(group%strength(l), group%squeeze(l), step%film(l), &
+                                               step%growth(l)*near_exponential(change), step%load(l), &
+                                               step%load_by_film(l), step%load_by_velocity(l), step%denominator(l))
          end do
       end associate
    end subroutine load_piezo_again
@@ -168,11 +169,10 @@ contains
          !$omp simd private(a, film)
          do l = 1, group%used
             a = corrected(step%acceleration(l), step%load(l), step%load_by_film(l), &
-               step%load_by_velocity(l), &
-                          step%force(l))
+               step%load_by_velocity(l), step%denominator(l), step%force(l))
             film = step%known_film(l) + a
             step%margin(l) = min(step%margin(l), group%tolerance(l) - abs(film - step%film(l)), &
-               group%largest_load(l) - step%load(l), min(film, step%least(l)) - step%smallest(l))
+               group%largest_load(l)*step%denominator(l) - step%load(l), min(film, step%least(l)) - step%smallest(l))
             group%film(l) = film
             group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
             group%acceleration(l) = a
@@ -214,10 +214,10 @@ contains
             do l = 1, group%used
                if (step%margin(l) > 0.0_dp) cycle
                a = corrected(group%acceleration(l), step%load(l), step%load_by_film(l), &
-                             step%load_by_velocity(l), step%force(l))
+                             step%load_by_velocity(l), step%denominator(l), step%force(l))
                film = step%known_film(l) + a
                step%margin(l) = min(group%tolerance(l) - abs(film - group%film(l)), &
-                  group%largest_load(l) - step%load(l), min(film, step%least(l)) - step%smallest(l))
+                  group%largest_load(l)*step%denominator(l) - step%load(l), min(film, step%least(l)) - step%smallest(l))
                group%film(l) = film
                group%velocity(l) = step%known_velocity(l) + 2.0_dp*a
                group%acceleration(l) = a
@@ -236,34 +236,36 @@ contains
          if (group%kernel == kernel_half_pi) then
             !$omp simd
             do l = 1, group%used
-               call half_pi_rupture_load(group%strength(l), group%squeeze(l), group%film(l), &
-                  group%velocity(l), &
-                                         step%load(l), step%load_by_film(l), step%load_by_velocity(l))
+               call half_pi_rupture_fractions(group%strength(l), group%squeeze(l), group%film(l), group%velocity(l), &
+                                              step%load(l), step%load_by_film(l), step%load_by_velocity(l), &
+                                              step%denominator(l))
             end do
          else
             !$omp simd
             do l = 1, group%used
-               call piezo_viscous_terms_load(group%strength(l), group%squeeze(l), group%film(l), &
-                                             power_of_two(-group%doubling_rate(l)*group%velocity(l)), &
-                                             step%load(l), step%load_by_film(l), step%load_by_velocity(l))
+               call piezo_viscous_terms_fractions(group%strength(l), group%squeeze(l), group%film(l), &
+                                                  power_of_two(-group%doubling_rate(l)*group%velocity(l)), &
+                                                  step%load(l), step%load_by_film(l), step%load_by_velocity(l), &
+                                                  step%denominator(l))
             end do
          end if
       end associate
    end subroutine load_states
 
    !> A after a Newton pass: L + dL/dh dA + 2 dL/dV dA - F = A + dA, solved for A + dA.
-   elemental real(dp) function corrected(acceleration, load, load_by_film, load_by_velocity, force)
+   elemental real(dp) function corrected(acceleration, load, load_by_film, load_by_velocity, denominator, force)
       !> A before it [m]
       real(dp), intent(in) :: acceleration
-      !> L [m] and its slopes dL/dh [-] and dL/dV [-] at the iterate
+      !> L [m] and its slopes dL/dh [-] and dL/dV [-] at the iterate, over a common denominator
       real(dp), intent(in) :: load
       real(dp), intent(in) :: load_by_film
       real(dp), intent(in) :: load_by_velocity
+      real(dp), intent(in) :: denominator
       !> Force [m]
       real(dp), intent(in) :: force
 
-      corrected = acceleration + (load - force - acceleration)/ &
-         ((1.0_dp - load_by_film) - 2.0_dp*load_by_velocity)
+      corrected = acceleration + (load - (force + acceleration)*denominator)/ &
+         ((denominator - load_by_film) - 2.0_dp*load_by_velocity)
    end function corrected
 
 end module newmark_lane_steps
