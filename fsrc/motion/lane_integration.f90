@@ -15,7 +15,7 @@ module lane_integration
    use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
    use lane_functions, only: lanes
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, repeat_samples, take_samples
-   use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, load_scene, rest_lane, &
+   use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, load_scene, place_block, rest_lane, &
                           start_period, start_status, state_of_lane
    use period_repetition, only: note_state, orbit_watch_t, watch_from
    use recurrence, only: look_back, recurrence_t
@@ -70,7 +70,7 @@ module lane_integration
       type(film_t) :: films(lanes)
       !> Scenes of the queue taken, lanes with a scene
       integer :: taken = 0, active = lanes
-      type(lane_block_t) :: block
+      type(lane_block_t), pointer :: block => null()
       type(lane_samples_t) :: samples
       type(lane_watch_t) :: watches(lanes)
    end type lane_run_t
@@ -80,7 +80,7 @@ module lane_integration
 contains
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
-   pure subroutine integrate_lanes(by_series, scenes, queue, request, films, velocities, endings, watches)
+   subroutine integrate_lanes(by_series, scenes, queue, request, films, velocities, endings, watches)
       !> Taylor series, else collocation
       logical, intent(in) :: by_series
       !> The scenes
@@ -97,8 +97,10 @@ contains
       !> What the watchers of the scenes carried on have seen, kept up
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
       type(lane_run_t) :: run
+      real(dp), allocatable, target :: room(:)
       integer :: l, events
 
+      call place_block(room, run%block)
       run%by_series = by_series
       if (size(queue) > 0) run%series = series_of(scenes(queue(1))%film%kernel)
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)

@@ -17,7 +17,7 @@ contains
 
    !> Solve all scenes. The order of the scenes decides only which share a block: those of like cost should be
    !> neighbours, the longest first.
-   pure subroutine solve_motions(scenes, request, films, velocities, endings, watches)
+   subroutine solve_motions(scenes, request, films, velocities, endings, watches)
       !> The scenes
       type(lane_scene_t), intent(in) :: scenes(:)
       !> What is asked for

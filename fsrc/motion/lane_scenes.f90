@@ -6,6 +6,8 @@
 !> if never stopped.
 module lane_scenes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
+   use aligned_memory, only: allocate_lines
    use constants, only: pi
    use film_law, only: film_load, film_t, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast, &
       overflow_load, steady_film
@@ -127,7 +129,7 @@ module lane_scenes
    !> First step of a period by collocation [periods]
    real(dp), parameter :: first_step = 1.0_dp/64.0_dp
 
-   public :: load_scene, rest_lane, start_period, state_of_lane, start_status, reference_film
+   public :: place_block, load_scene, rest_lane, start_period, state_of_lane, start_status, reference_film
 
 contains
 
@@ -156,6 +158,20 @@ contains
          load_by_velocity)
       start_status = merge(status_complete, status_overflow, abs(load) < overflow_load)
    end function start_status
+
+   !> A block that starts with a cache line, its lanes undefined. All its arrays fill whole lines, so each starts with one.
+   subroutine place_block(room, block)
+      !> Memory of the block
+      real(dp), allocatable, target, intent(out) :: room(:)
+      !> The block in it; lives as long as `room`, which has to be a target
+      type(lane_block_t), pointer, intent(out) :: block
+      type(c_ptr) :: place
+
+      call allocate_lines(storage_size(block), room, place)
+      call c_f_pointer(place, block)
+      block%expansion = load_expansion_t()
+      block%piezo_expansion = reynolds_piezo_expansion_t()
+   end subroutine place_block
 
    !> Put a scene into a lane, at the start of its first period.
    pure subroutine load_scene(scene, by_series, accuracy, lane, block)

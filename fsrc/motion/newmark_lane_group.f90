@@ -8,7 +8,8 @@
 !>
 !> The laws (35) and (37) keep their form, only their coefficients change. The film stays in metres.
 module newmark_lane_group
-   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_intptr_t, c_loc
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
+   use aligned_memory, only: allocate_lines
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, overflow_load
    use kinds, only: dp, int64
    use newmark, only: motion_state_t, newmark_t
@@ -83,21 +84,16 @@ module newmark_lane_group
 
 contains
 
-   !> A group of resting lanes that starts with a cache line: registers as wide as a line are loaded at half
-   !> the speed from anywhere else.
+   !> A group of resting lanes that starts with a cache line.
    subroutine place_group(room, group)
       !> Memory of the group
       real(dp), allocatable, target, intent(out) :: room(:)
       !> The group in it; lives as long as `room`, which has to be a target
       type(newmark_lane_group_t), pointer, intent(out) :: group
-      integer, parameter :: line_bytes = 64, number_bytes = storage_size(1.0_dp)/8, &
-         line = line_bytes/number_bytes
-      integer :: numbers, skipped
+      type(c_ptr) :: place
 
-      numbers = storage_size(newmark_lane_group_t())/storage_size(1.0_dp) + 1
-      allocate (room(numbers + line))
-      skipped = int(modulo(-transfer(c_loc(room), 1_c_intptr_t), int(line_bytes, c_intptr_t)))/number_bytes
-      call c_f_pointer(c_loc(room(1 + skipped)), group)
+      call allocate_lines(storage_size(newmark_lane_group_t()), room, place)
+      call c_f_pointer(place, group)
       group = newmark_lane_group_t()
    end subroutine place_group
 

@@ -6,7 +6,8 @@
 module reynolds_piezo_expansion
    use kinds, only: dp
    use lane_functions, only: coarse_log, half_block, lanes, log_of_one, octave, whole_below
-   use piezo_viscous_cells, only: cell_degree, cell_size, cells, octave_pieces, peak_pieces, side_pieces, sigma_cells
+   use lane_rows, only: interleave_rows
+   use piezo_viscous_cells, only: cell_degree, cell_size, cells, octave_pieces, peak_pieces, piece_size, side_pieces, sigma_cells
    implicit none(type, external)
    private
 
@@ -96,7 +97,8 @@ contains
       !> Pieces by `coarse_log` of 2 + |A|, which is straight between powers of two, as the ends of the pieces are
       real(dp), parameter :: pieces_per_log = real(octave_pieces, dp)/octave, first_log = log_of_one + octave
       real(dp), parameter :: last_piece = real(side_pieces - 1, dp), last_cell = real(sigma_cells - 1, dp)
-      real(dp) :: peak(half_block, 0:cell_degree), c(half_block, cell_size)
+      !> Centre of the piece of A, one over its unit, and max p*; and the cell
+      real(dp) :: peak(half_block, -2:piece_size - 3), c(half_block, cell_size)
       real(dp), dimension(half_block) :: group, pressure_group, inside, sigma, inverse_unit, deviation, offset
       real(dp) :: place, gap
       integer :: row(half_block), cell(half_block), l, k, j, m
@@ -110,17 +112,13 @@ contains
          inside(l) = merge(1.0_dp, 0.0_dp, place < real(side_pieces, dp))
          row(l) = int(min(place, last_piece) + merge(real(side_pieces, dp), 0.0_dp, group(l) < 0.0_dp))
       end do
+      call interleave_rows(piece_size, peak_pieces(:, row(1)), peak_pieces(:, row(2)), peak_pieces(:, row(3)), &
+                           peak_pieces(:, row(4)), peak_pieces(:, row(5)), peak_pieces(:, row(6)), peak_pieces(:, row(7)), &
+                           peak_pieces(:, row(8)), peak)
       !$omp simd
       do l = 1, half_block
-         deviation(l) = (group(l) - peak_pieces(-2, row(l)))*peak_pieces(-1, row(l))
-         inverse_unit(l) = peak_pieces(-1, row(l))
-      end do
-      !GCC$ unroll 24
-      do k = 0, cell_degree
-         !$omp simd
-         do l = 1, half_block
-            peak(l, k) = peak_pieces(k, row(l))
-         end do
+         deviation(l) = (group(l) - peak(l, -2))*peak(l, -1)
+         inverse_unit(l) = peak(l, -1)
       end do
       ! Division by z - deviation, again and again: the remainders are the terms.
       !GCC$ unroll 24
@@ -143,13 +141,9 @@ contains
          offset(l) = sigma(l) - (place + 0.5_dp)*(1.0_dp/real(sigma_cells, dp))
          cell(l) = int(place)
       end do
-      !GCC$ unroll 99
-      do k = 1, cell_size
-         !$omp simd
-         do l = 1, half_block
-            c(l, k) = cells(k, cell(l), row(l))
-         end do
-      end do
+      call interleave_rows(cell_size, cells(:, cell(1), row(1)), cells(:, cell(2), row(2)), cells(:, cell(3), row(3)), &
+                           cells(:, cell(4), row(4)), cells(:, cell(5), row(5)), cells(:, cell(6), row(6)), &
+                           cells(:, cell(7), row(7)), cells(:, cell(8), row(8)), c)
       ! The same for powers of A, with each power of sigma, then for powers of sigma.
       !GCC$ unroll 24
       do j = 0, cell_degree - 1
@@ -181,7 +175,7 @@ contains
       expansion%inside(first:last) = inside
       expansion%sigma(first:last) = sigma
       expansion%inverse_unit(first:last) = inverse_unit
-      expansion%peak(first:last, :) = peak(:, :highest_peak_power)
+      expansion%peak(first:last, :) = peak(:, 0:highest_peak_power)
       !GCC$ unroll 24
       do j = 0, highest_sigma_power
          expansion%terms(first:last, first_term(j):first_term(j) + highest_power(j)) = &

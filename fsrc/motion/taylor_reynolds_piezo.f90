@@ -16,7 +16,7 @@ module taylor_reynolds_piezo
    use kinds, only: dp
    use lane_functions, only: half_block, lanes
    use reynolds_piezo_expansion, only: expand_reynolds_piezo, first_term, highest_peak_power, highest_power, &
-      highest_sigma_power, load_terms, reynolds_piezo_expansion_t
+      highest_sigma_power, reynolds_piezo_expansion_t
    use series_factors, only: inverse, wave
    use taylor_rupture, only: rupture_order
    use taylor_step_control, only: order
@@ -58,18 +58,14 @@ contains
       !> Films looked up last, those at the point of expansion afterwards
       type(reynolds_piezo_expansion_t), intent(inout) :: expansion
       real(dp) :: c(half_block, series, 0:rupture_order)
-      real(dp) :: peak_terms(half_block, 0:highest_peak_power), terms(half_block, 0:load_terms - 1)
-      real(dp), dimension(half_block) :: half_root, unit_rate, half_sigma, lane_strength, lane_pressing
+      real(dp), dimension(half_block) :: half_root, unit_rate, sigma_slope
+      !> What z, s and V' take from V, max p* and Psi of the same order
+      real(dp), dimension(half_block) :: z_by_momentum, sigma_by_peak, force_by_load
       real(dp) :: of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force, force
       integer :: before, low, high, k, i, j, m, l
 
       call expand_reynolds_piezo(film(:, 0), momentum(:, 0), rate, pressing, expansion)
       do before = 0, lanes - 1, half_block
-         ! Copies, next to the coefficients: how fast memory elsewhere is depends on where it lies.
-         peak_terms = expansion%peak(before + 1:before + half_block, :)
-         terms = expansion%terms(before + 1:before + half_block, :)
-         lane_strength = strength(before + 1:before + half_block)
-         lane_pressing = pressing(before + 1:before + half_block)
          !$omp simd
          do l = 1, half_block
             c(l, h, 0) = film(before + l, 0)
@@ -77,25 +73,53 @@ contains
             c(l, p, 0) = expansion%inverse_film(before + l)
             c(l, r, 0) = expansion%root(before + l)
             c(l, group, 0) = expansion%pressure_group(before + l)
+            c(l, peak, 0) = expansion%peak(before + l, 0)
             half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
-            half_sigma(l) = 0.5_dp/expansion%sigma(before + l)
+            sigma_slope(l) = -0.5_dp/expansion%sigma(before + l)
             unit_rate(l) = rate(before + l)*expansion%inverse_unit(before + l)
-            c(l, h, 1) = c(l, v, 0)
-            c(l, v, 1) = lane_strength(l)*c(l, p, 0)*terms(l, 0) &
-               - load(before + l) - force_cosine(before + l)
+            z_by_momentum(l) = unit_rate(l)*c(l, r, 0)
+            sigma_by_peak(l) = sigma_slope(l)*c(l, group, 0)
+            force_by_load(l) = strength(before + l)*c(l, p, 0)
+            c(l, v, 1) = force_by_load(l)*expansion%terms(before + l, 0) - load(before + l) - force_cosine(before + l)
             damping_rate(before + l) = merge( &
-               -lane_strength(l)*c(l, p, 0)*rate(before + l)*c(l, r, 0)*expansion%load_slope(before + l), no_expansion, &
+               -force_by_load(l)*rate(before + l)*c(l, r, 0)*expansion%load_slope(before + l), no_expansion, &
                expansion%inside(before + l) > 0.0_dp)
          end do
-         c(:, peak, 0) = peak_terms(:, 0)
          do j = 0, highest_sigma_power
-            c(:, tail + j, 0) = terms(:, first_term(j))
+            c(:, tail + j, 0) = expansion%terms(before + 1:before + half_block, first_term(j))
          end do
          !GCC$ unroll 24
          do k = 1, rupture_order - 1
-            ! Powers of z: squares, and products of neighbours
+            ! First all that the series take from lower orders, p H = 1, r**2 = p, B = b p r, z e = c V r less its value at the
+            ! start, s**2 = 1 - B P; then what their new coefficients add to each other: a chain of six operations, during which
+            ! the sums of the next order are under way.
+            !$omp simd private(of_p, of_r, of_z, of_group)
+            do l = 1, half_block
+               c(l, h, k) = inverse(k)*c(l, v, k - 1)
+               of_p = 0.0_dp
+               do j = 1, k - 1
+                  of_p = of_p + c(l, p, k - j)*c(l, h, j)
+               end do
+               c(l, p, k) = -c(l, p, 0)*(of_p + c(l, p, 0)*c(l, h, k))
+               of_r = 0.0_dp
+               do j = 1, (k - 1)/2
+                  of_r = of_r + c(l, r, j)*c(l, r, k - j)
+               end do
+               of_r = 2.0_dp*of_r
+               if (mod(k, 2) == 0) of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
+               c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
+               of_group = 0.0_dp
+               of_z = 0.0_dp
+               do j = 1, k - 1
+                  of_group = of_group + c(l, r, k - j)*c(l, p, j)
+                  of_z = of_z + c(l, r, k - j)*c(l, v, j)
+               end do
+               c(l, group, k) = pressing(before + l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
+               c(l, z, k) = unit_rate(l)*(of_z + c(l, r, k)*c(l, v, 0))
+            end do
             !GCC$ unroll 24
-            do i = 2, min(highest_power(0), k)
+            do i = min(highest_power(0), k), 2, -1
+               ! Squares, and products of neighbours
                low = z - 1 + i/2
                high = z - 1 + (i + 1)/2
                !$omp simd private(of_power)
@@ -109,53 +133,23 @@ contains
                   c(l, z + i - 1, k) = of_power
                end do
             end do
-            !$omp simd private(of_p, of_r, of_z, of_group)
-            do l = 1, half_block
-               of_p = 0.0_dp
-               of_z = 0.0_dp
-               do j = 2, k - 1
-                  of_p = of_p + c(l, p, k - j)*c(l, h, j)
-                  of_z = of_z + c(l, r, k - j)*c(l, v, j)
-               end do
-               of_group = 0.0_dp
-               do j = 1, k - 1
-                  of_group = of_group + c(l, r, k - j)*c(l, p, j)
-               end do
-               of_r = 0.0_dp
-               do j = 1, (k - 1)/2
-                  of_r = of_r + c(l, r, j)*c(l, r, k - j)
-               end do
-               of_r = 2.0_dp*of_r
-               if (mod(k, 2) == 0) of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
-               if (k > 1) then
-                  of_p = of_p + c(l, p, k - 1)*c(l, h, 1)
-                  of_z = of_z + c(l, r, k - 1)*c(l, v, 1)
-               end if
-               ! p H = 1, r**2 = p, z e = c V r less its value at the start, B = b p r
-               c(l, p, k) = -c(l, p, 0)*(of_p + c(l, p, 0)*c(l, h, k))
-               c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
-               c(l, z, k) = unit_rate(l)*(of_z + c(l, r, 0)*c(l, v, k) + c(l, r, k)*c(l, v, 0))
-               c(l, group, k) = lane_pressing(l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
-            end do
-            ! s**2 = 1 - B P
-            !$omp simd private(of_peak, of_s)
+            !$omp simd private(of_s, of_peak)
             do l = 1, half_block
                of_peak = 0.0_dp
-               do i = min(highest_peak_power, k), 1, -1
-                  of_peak = of_peak + peak_terms(l, i)*c(l, z + i - 1, k)
+               do i = min(highest_peak_power, k), 2, -1
+                  of_peak = of_peak + expansion%peak(before + l, i)*c(l, z + i - 1, k)
                end do
                c(l, peak, k) = of_peak
                of_s = 0.0_dp
-               do j = 1, (k - 1)/2
+               do j = (k - 1)/2, 1, -1
                   of_s = of_s + c(l, s, j)*c(l, s, k - j)
                end do
                of_s = 2.0_dp*of_s
                if (mod(k, 2) == 0) of_s = of_s + c(l, s, shiftr(k, 1))*c(l, s, shiftr(k, 1))
-               do j = 1, k - 1
+               do j = 0, k - 1
                   of_s = of_s + c(l, group, k - j)*c(l, peak, j)
                end do
-               of_s = of_s + c(l, group, k)*c(l, peak, 0)
-               c(l, s, k) = -half_sigma(l)*(of_s + c(l, group, 0)*c(l, peak, k))
+               c(l, s, k) = sigma_slope(l)*of_s
             end do
             !GCC$ unroll 8
             do j = min(highest_sigma_power - 1, rupture_order - 1 - k), 0, -1
@@ -163,28 +157,45 @@ contains
                do l = 1, half_block
                   of_tail = 0.0_dp
                   do i = min(highest_power(j), k), 2, -1
-                     of_tail = of_tail + terms(l, first_term(j) + i)*c(l, z + i - 1, k)
+                     of_tail = of_tail + expansion%terms(before + l, first_term(j) + i)*c(l, z + i - 1, k)
                   end do
-                  ! The last F_j is a number.
-                  do m = 1, merge(k - 1, 0, j + 1 < highest_sigma_power)
+                  do m = 2, merge(k - 1, 0, j + 1 < highest_sigma_power)
                      of_tail = of_tail + c(l, s, m)*c(l, tail + j + 1, k - m)
                   end do
-                  of_tail = of_tail + terms(l, first_term(j) + 1)*c(l, z, k)
-                  c(l, tail + j, k) = of_tail + c(l, s, k)*c(l, tail + j + 1, 0)
+                  if (k > 1 .and. j + 1 < highest_sigma_power) of_tail = of_tail + c(l, s, 1)*c(l, tail + j + 1, k - 1)
+                  c(l, tail + j, k) = of_tail
                end do
             end do
             !$omp simd private(of_force, force)
             do l = 1, half_block
-               of_force = 0.0_dp
+               of_force = c(l, p, k)*c(l, tail, 0)
                do j = 1, k - 1
                   of_force = of_force + c(l, p, k - j)*c(l, tail, j)
                end do
-               of_force = of_force + c(l, p, k)*c(l, tail, 0) + c(l, p, 0)*c(l, tail, k)
                force = wave(k + 1)*merge(force_cosine(before + l), force_sine(before + l), mod(k, 2) == 0)
-               c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
-               c(l, v, k + 1) = (inverse(k + 1)*lane_strength(l))*of_force - force
+               c(l, v, k + 1) = (inverse(k + 1)*strength(before + l))*of_force - force
+            end do
+            ! The chain
+            !$omp simd
+            do l = 1, half_block
+               c(l, z, k) = c(l, z, k) + z_by_momentum(l)*c(l, v, k)
+               c(l, peak, k) = c(l, peak, k) + expansion%peak(before + l, 1)*c(l, z, k)
+               c(l, s, k) = c(l, s, k) + sigma_by_peak(l)*c(l, peak, k)
+            end do
+            !GCC$ unroll 8
+            do j = 0, min(highest_sigma_power - 1, rupture_order - 1 - k)
+               !$omp simd
+               do l = 1, half_block
+                  c(l, tail + j, k) = (c(l, tail + j, k) + expansion%terms(before + l, first_term(j) + 1)*c(l, z, k)) &
+                     + c(l, s, k)*c(l, tail + j + 1, 0)
+               end do
+            end do
+            !$omp simd
+            do l = 1, half_block
+               c(l, v, k + 1) = c(l, v, k + 1) + (inverse(k + 1)*force_by_load(l))*c(l, tail, k)
             end do
          end do
+         c(:, h, rupture_order) = inverse(rupture_order)*c(:, v, rupture_order - 1)
          film(before + 1:before + half_block, 1:rupture_order) = c(:, h, 1:)
          momentum(before + 1:before + half_block, 1:rupture_order) = c(:, v, 1:)
       end do

@@ -13,7 +13,7 @@ module period_map
 contains
 
    !> Images of states under the period map; neighbours are solved together, eight at a time.
-   pure subroutine map_states(lane, periods, accuracy, films, velocities, mapped)
+   subroutine map_states(lane, periods, accuracy, films, velocities, mapped)
       !> The scene; its initial state does not matter
       type(lane_scene_t), intent(in) :: lane
       !> Periods of the force

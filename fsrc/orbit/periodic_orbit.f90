@@ -33,7 +33,7 @@ module periodic_orbit
 contains
 
    !> Look for a periodic motion near a state; the shortest period that is near enough is taken.
-   pure function find_periodic_orbit(lane, film, velocity, nearness) result(orbit)
+   function find_periodic_orbit(lane, film, velocity, nearness) result(orbit)
       !> The scene
       type(lane_scene_t), intent(in) :: lane
       !> State at the start of a period of the force [m], [m/s]
@@ -60,7 +60,7 @@ contains
    end function find_periodic_orbit
 
    !> Fixed point of the map of some periods, and the multipliers there.
-   pure function newton(lane, period, film, velocity, scale) result(orbit)
+   function newton(lane, period, film, velocity, scale) result(orbit)
       type(lane_scene_t), intent(in) :: lane
       integer, intent(in) :: period
       real(dp), intent(in) :: film

@@ -9,7 +9,8 @@ followed well beyond its piece, as a step of the motion does.
 For the piezo-viscous film the same is done in A and sigma, in cells: powers of both up to a total degree,
 about the centre of a piece of A and an interval of sigma, from the table of S in film_tables. They are good
 to 1e-11, enough for a Taylor series of the motion, and reach to |A| = 14. max p*(A), which leads to
-sigma, goes with them.
+sigma, goes with them. Zeros fill their rows up to whole registers, in which rows of several lanes are taken
+side by side.
 """
 
 from film_functions import (
@@ -33,6 +34,7 @@ CELL_NODES = 14
 CELL_OCTAVE_PIECES = 6
 CELL_OCTAVES = 3
 SIGMA_CELLS = 5
+REGISTER = 8
 
 
 def exact_load(a):
@@ -141,7 +143,7 @@ def cell_rows(halves, side, octave, piece):
     films = [Film(centre + half * node) for node in chebyshev_nodes(CELL_NODES)]
     columns = [column_at(halves[0 if side < 0 else 1], film.a) for film in films]
     peak = powers(chebyshev_coefficients([film.peak for film in films], CELL_DEGREE + 1))
-    rows = [[centre, 1 / unit, *(f * (unit / half) ** i for i, f in enumerate(peak))]]
+    rows = [filled([centre, 1 / unit, *(f * (unit / half) ** i for i, f in enumerate(peak))])]
     width = mpf(1) / SIGMA_CELLS
     for cell in range(SIGMA_CELLS):
         sigmas = [width * (cell + (1 + node) / 2) for node in chebyshev_nodes(CELL_NODES)]
@@ -167,7 +169,12 @@ def cell_row(values, scale_a, scale_sigma):
         for j, f in enumerate(powers([kept[j][i] for j in range(CELL_DEGREE + 1 - i)])):
             quantum = mpf(10) ** -int(15 - i * mp.log10(3) - j * mp.log10(4))
             kept[j][i] = mp.nint(f * scale_a**i * scale_sigma**j / quantum) * quantum
-    return [f for column in kept for f in column]
+    return filled([f for column in kept for f in column])
+
+
+def filled(row):
+    """A row with zeros at its end that make it a number of whole registers."""
+    return row + [mpf(0)] * (-len(row) % REGISTER)
 
 
 def table_w(sigma):
@@ -198,8 +205,8 @@ def cells_module(halves):
         "",
         "   !> Highest power of A, of max p* and of a cell, where it is that of A and sigma together.",
         f"   integer, parameter, public :: cell_degree = {CELL_DEGREE}",
-        "   !> Coefficients of a cell.",
-        "   integer, parameter, public :: cell_size = (cell_degree + 1)*(cell_degree + 2)/2",
+        "   !> Numbers of a cell, and of a piece; those beyond the coefficients are zero.",
+        f"   integer, parameter, public :: cell_size = {len(pieces[0][1])}, piece_size = {len(pieces[0][0])}",
         "   !> Pieces in an octave of 2 + |A|, those of one sign of A, and cells of a piece.",
         f"   integer, parameter, public :: octave_pieces = {CELL_OCTAVE_PIECES}",
         f"   integer, parameter, public :: side_pieces = {CELL_OCTAVE_PIECES * CELL_OCTAVES}",
@@ -214,8 +221,8 @@ def cells_module(halves):
     text += [
         "",
         "   !> Centre of a piece of A, one over its unit, max p* in powers of (A - centre)/unit; piece.",
-        "   real(dp), parameter, public :: peak_pieces(-2:cell_degree, 0:2*side_pieces - 1) = &",
-        "      reshape(peaks, [cell_degree + 3, 2*side_pieces])",
+        "   real(dp), parameter, public :: peak_pieces(piece_size, 0:2*side_pieces - 1) = &",
+        "      reshape(peaks, [piece_size, 2*side_pieces])",
         "",
         "   !> Psi in powers of (A - centre)/unit, for each power of sigma - centre; cell; piece.",
         "   real(dp), parameter, public :: cells(cell_size, 0:sigma_cells - 1, 0:2*side_pieces - 1) = &",

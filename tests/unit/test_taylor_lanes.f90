@@ -2,15 +2,17 @@
 !> method and reference values; equal bits in any lane; repetition; motions carried on; failures.
 module test_taylor_lanes
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_c_binding, only: c_intptr_t, c_loc
    use checks, only: check_list_t, same_bits
    use constants, only: standard_gravity, two_pi
    use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
       kernel_solved_fast
    use kinds, only: dp
-   use lane_functions, only: coarse_log, coarse_power, lane_cosine_sine, lane_exponential, lanes, log_of_one, &
+   use lane_functions, only: coarse_log, coarse_power, half_block, lane_cosine_sine, lane_exponential, lanes, log_of_one, &
       whole_below
    use lane_motions, only: accelerations, solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use lane_rows, only: interleave_rows
+   use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, place_block
    use published_iso_viscous, only: rolling_coefficient, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, squeeze_exponent_rate
    use reynolds_load, only: pressure_rate, squeeze_rate
@@ -33,6 +35,7 @@ contains
 
       call checks%start('taylor lanes')
       call test_functions(checks)
+      call test_memory(checks)
       call test_reference(checks)
       call test_accuracy(checks)
       call test_leaving_cells(checks)
@@ -136,6 +139,24 @@ contains
       call checks%check(all(abs(whole_below(x - 0.25_dp) - (x - 0.25_dp)) <= 1.0_dp), 'a whole number or the one below')
       call checks%check(all(abs(whole_below(spacing(1.0_dp)*[0.0_dp, 1.0_dp])) <= 0.0_dp), 'nothing below zero')
    end subroutine test_functions
+
+   !> Rows side by side, and blocks at the start of a cache line.
+   subroutine test_memory(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp) :: rows(3*half_block, half_block), columns(half_block, 3*half_block)
+      real(dp), allocatable, target :: room(:)
+      type(lane_block_t), pointer :: block
+      integer :: i
+
+      rows = reshape([(real(i, dp), i=1, size(rows))], shape(rows))
+      call interleave_rows(size(rows, 1), rows(:, 1), rows(:, 2), rows(:, 3), rows(:, 4), rows(:, 5), rows(:, 6), rows(:, 7), &
+         rows(:, 8), columns)
+      call checks%check(all(abs(columns - transpose(rows)) <= 0.0_dp), 'rows side by side')
+      call place_block(room, block)
+      call checks%check(modulo(transfer(c_loc(block%film), 1_c_intptr_t), 64_c_intptr_t) == 0, 'series start with a line')
+      call checks%check(modulo(transfer(c_loc(block%piezo_expansion%terms), 1_c_intptr_t), 64_c_intptr_t) == 0, &
+         'so does the last expansion')
+   end subroutine test_memory
 
    !> Start-up of the canonical idle scene, films known to 13 digits.
    subroutine test_reference(checks)
