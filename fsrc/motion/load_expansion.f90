@@ -5,8 +5,9 @@
 !> once for both: to hold the end of the step against the equation of motion, and to begin the next series.
 module load_expansion
    use kinds, only: dp
-   use lane_functions, only: coarse_log, lanes, log_of_one, octave
-   use load_pieces, only: last_piece, octave_pieces, piece_degree, pieces
+   use lane_functions, only: coarse_log, half_block, lanes, log_of_one, octave
+   use lane_rows, only: interleave_rows
+   use load_pieces, only: last_piece, octave_pieces, piece_degree, piece_size, pieces
    implicit none(type, external)
    private
 
@@ -45,8 +46,8 @@ contains
       type(load_expansion_t), intent(inout) :: expansion
       !> Pieces by `coarse_log` of 2 + |A|, which is straight between powers of two, as the ends of the pieces are
       real(dp), parameter :: pieces_per_log = real(octave_pieces, dp)/octave, first_log = log_of_one + octave
-      real(dp) :: c(lanes, 0:piece_degree), deviation(lanes), changed, piece
-      integer :: row(lanes), l, i, j
+      real(dp) :: changed, piece
+      integer :: row(lanes), l
 
       ! A film that is no number has changed: with max it would count as the same, and a lane would hang on its neighbours.
       changed = 0.0_dp
@@ -68,33 +69,45 @@ contains
          piece = min((coarse_log(2.0_dp + abs(expansion%group(l))) - first_log)*pieces_per_log, real(last_piece, dp))
          row(l) = int(piece + merge(real(last_piece + 1, dp), 0.0_dp, expansion%group(l) < 0.0_dp))
       end do
-      do l = 1, lanes
-         deviation(l) = (expansion%group(l) - pieces(-2, row(l), law))*pieces(-1, row(l), law)
-         expansion%inverse_unit(l) = pieces(-1, row(l), law)
+      do l = 1, lanes, half_block
+         call expand_half(law, l, row(l:l + half_block - 1), expansion)
       end do
-      !GCC$ unroll 24
-      do i = 0, piece_degree
-         !$omp simd
-         do l = 1, lanes
-            c(l, i) = pieces(i, row(l), law)
-         end do
-      end do
+   end subroutine expand_load
+
+   !> Expand the load about the films of half a block.
+   pure subroutine expand_half(law, first, row, expansion)
+      !> Load, as module load_pieces numbers it
+      integer, intent(in) :: law
+      !> Its first lane
+      integer, intent(in) :: first
+      !> Pieces of its lanes
+      integer, intent(in) :: row(half_block)
+      !> The films, A known
+      type(load_expansion_t), intent(inout) :: expansion
+      !> Centre of the piece, one over its unit, and the load
+      real(dp) :: c(half_block, -2:piece_size - 3)
+      real(dp) :: deviation(half_block)
+      integer :: last, l, i, j
+
+      last = first + half_block - 1
+      call interleave_rows(piece_size, pieces(:, row(1), law), pieces(:, row(2), law), pieces(:, row(3), law), &
+                           pieces(:, row(4), law), pieces(:, row(5), law), pieces(:, row(6), law), pieces(:, row(7), law), &
+                           pieces(:, row(8), law), c)
+      deviation = (expansion%group(first:last) - c(:, -2))*c(:, -1)
       ! Division by z - deviation, again and again: the remainders are the terms.
       !GCC$ unroll 24
       do j = 0, highest_power
          !GCC$ unroll 24
          do i = piece_degree - 1, j, -1
             !$omp simd
-            do l = 1, lanes
+            do l = 1, half_block
                c(l, i) = c(l, i) + deviation(l)*c(l, i + 1)
             end do
          end do
       end do
-      !$omp simd
-      do l = 1, lanes
-         expansion%load_slope(l) = c(l, 1)*expansion%inverse_unit(l)
-      end do
-      expansion%terms = c(:, :highest_power)
-   end subroutine expand_load
+      expansion%inverse_unit(first:last) = c(:, -1)
+      expansion%load_slope(first:last) = c(:, 1)*c(:, -1)
+      expansion%terms(first:last, :) = c(:, 0:highest_power)
+   end subroutine expand_half
 
 end module load_expansion

@@ -58,14 +58,14 @@ def piece_row(load, side, octave, piece):
     centre, half, unit = piece_of(side, octave, piece, OCTAVE_PIECES)
     values = [load(centre + half * node) for node in chebyshev_nodes(PIECE_NODES)]
     factors = powers(chebyshev_coefficients(values, PIECE_DEGREE + 1))
-    return [centre, 1 / unit, *(f * (unit / half) ** j for j, f in enumerate(factors))]
+    return filled([centre, 1 / unit, *(f * (unit / half) ** j for j, f in enumerate(factors))])
 
 
 def end_row(load, side):
     """The straight line beyond the last piece: the limit of a load on separation is a constant."""
     start = side * (mpf(2) ** (OCTAVES + 1) - 2)
     slope = 0 if side > 0 else (load(2 * start) - load(start)) / start
-    return [start, mpf(1), load(start), slope] + [mpf(0)] * (PIECE_DEGREE - 1)
+    return filled([start, mpf(1), load(start), slope] + [mpf(0)] * (PIECE_DEGREE - 1))
 
 
 def piece_arrays(name, load):
@@ -110,6 +110,8 @@ def pieces_module():
         "   integer, parameter, public :: exact_load = 1, published_load = 2",
         "   !> Highest power in a piece.",
         f"   integer, parameter, public :: piece_degree = {PIECE_DEGREE}",
+        "   !> Numbers of a piece; those beyond the coefficients are zero.",
+        f"   integer, parameter, public :: piece_size = {len(end_row(exact_load, 1))}",
         "   !> Pieces in an octave of 2 + |A|, and number of the last one, counted from 0.",
         f"   integer, parameter, public :: octave_pieces = {OCTAVE_PIECES}",
         f"   integer, parameter, public :: last_piece = {OCTAVES * OCTAVE_PIECES}",
@@ -123,9 +125,9 @@ def pieces_module():
     text += [
         "",
         "   !> Centre, one over unit and coefficients; piece; load.",
-        "   real(dp), parameter, public :: pieces(-2:piece_degree, 0:2*last_piece + 1, 2) = reshape([ &",
+        "   real(dp), parameter, public :: pieces(piece_size, 0:2*last_piece + 1, 2) = reshape([ &",
         f"      {body}], &",
-        "      [piece_degree + 3, 2*last_piece + 2, 2])",
+        "      [piece_size, 2*last_piece + 2, 2])",
     ]
     return "\n".join([*text, "", "end module load_pieces", ""])
 
