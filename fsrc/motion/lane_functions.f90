@@ -12,7 +12,7 @@ module lane_functions
    !> Scenes in a block. A register holds 8 at most; two registers, interleaved, hide the latency of the
    !> arithmetic.
    integer, parameter, public :: lanes = 16
-   !> Those of one register. What needs so many numbers a lane that those of a whole block leave the first-level cache takes one
+   !> Those of one register. Rows of tables are brought side by side for so many, and what needs many numbers a lane takes one
    !> half after the other.
    integer, parameter, public :: half_block = lanes/2
 
