@@ -134,8 +134,8 @@ contains
          !> 1 where the step is trusted, set to 0 where they differ
          real(dp), intent(inout) :: trust(lanes)
 
-      call distrust_load_unforeseen(series%share, block%strength, block%damping, block%load, block%amplitude, cosine, block%force, &
-                                       block%accuracy, inverse_film, root, load, load_slope, film, momentum, rise, trust)
+         call distrust_load_unforeseen(series%share, block%strength, block%damping, block%load, block%amplitude, cosine, &
+                                     block%force, block%accuracy, inverse_film, root, load, load_slope, film, momentum, rise, trust)
       end subroutine compare
 
    end subroutine hold_against_forces

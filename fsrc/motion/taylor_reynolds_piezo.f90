@@ -8,7 +8,7 @@
 !> reynolds_piezo_expansion gives max p* in powers of z, the deviation of A over the unit e, and Psi in powers of z and y, the
 !> deviation of s:
 !>
-!>     max p* = P = sum of pi_i z**i ,   Psi = F_0 ,   F_j = G_j + y F_(j+1) ,   G_j = sum of psi_ij z**i .
+!>     max p* = sum of pi_i z**i ,   Psi = F_0 ,   F_j = G_j + y F_(j+1) ,   G_j = sum of psi_ij z**i .
 !>
 !> All these sums share the powers of z, series of their own, each the product of two lower ones. As z and y begin with the
 !> first power of x, F_j is needed up to order n - 1 - j only.
@@ -27,7 +27,7 @@ module taylor_reynolds_piezo
    real(dp), parameter :: no_expansion = 1.0e30_dp
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
-   !> Names as above; group = B, peak = P, tail + j: F_j, z + i - 1: z**i.
+   !> Names as above; group = B, peak = max p*, tail + j: F_j, z + i - 1: z**i.
    integer, parameter :: h = 1, v = 2, p = 3, r = 4, group = 5, s = 6, peak = 7, tail = 8, &
                          z = tail + highest_sigma_power + 1, series = z + highest_power(0) - 1
 
@@ -91,8 +91,8 @@ contains
          !GCC$ unroll 24
          do k = 1, rupture_order - 1
             ! First all that the series take from lower orders, p H = 1, r**2 = p, B = b p r, z e = c V r less its value at the
-            ! start, s**2 = 1 - B P; then what their new coefficients add to each other: a chain of six operations, during which
-            ! the sums of the next order are under way.
+            ! start, s**2 = 1 - B max p*; then what their new coefficients add to each other: a chain of six operations, during
+            ! which the sums of the next order are under way.
             !$omp simd private(of_p, of_r, of_z, of_group)
             do l = 1, half_block
                c(l, h, k) = inverse(k)*c(l, v, k - 1)
