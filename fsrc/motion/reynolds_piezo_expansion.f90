@@ -115,24 +115,18 @@ contains
       call interleave_rows(piece_size, peak_pieces(:, row(1)), peak_pieces(:, row(2)), peak_pieces(:, row(3)), &
                            peak_pieces(:, row(4)), peak_pieces(:, row(5)), peak_pieces(:, row(6)), peak_pieces(:, row(7)), &
                            peak_pieces(:, row(8)), peak)
-      !$omp simd
+      !$omp simd private(gap, place)
       do l = 1, half_block
          deviation(l) = (group(l) - peak(l, -2))*peak(l, -1)
          inverse_unit(l) = peak(l, -1)
-      end do
-      ! Division by z - deviation, again and again: the remainders are the terms.
-      !GCC$ unroll 24
-      do m = 0, highest_peak_power
+         ! Division by z - deviation, again and again: the remainders are the terms.
          !GCC$ unroll 24
-         do k = cell_degree - 1, m, -1
-            !$omp simd
-            do l = 1, half_block
+         do m = 0, highest_peak_power
+            !GCC$ unroll 24
+            do k = cell_degree - 1, m, -1
                peak(l, k) = peak(l, k) + deviation(l)*peak(l, k + 1)
             end do
          end do
-      end do
-      !$omp simd private(gap, place)
-      do l = 1, half_block
          gap = 1.0_dp - pressure_group(l)*peak(l, 0)
          inside(l) = inside(l)*merge(1.0_dp, 0.0_dp, gap > 0.0_dp .and. gap <= 1.0_dp)
          sigma(l) = sqrt(merge(gap, 1.0_dp, inside(l) > 0.0_dp))
@@ -145,27 +139,24 @@ contains
                            cells(:, cell(4), row(4)), cells(:, cell(5), row(5)), cells(:, cell(6), row(6)), &
                            cells(:, cell(7), row(7)), cells(:, cell(8), row(8)), c)
       ! The same for powers of A, with each power of sigma, then for powers of sigma.
-      !GCC$ unroll 24
-      do j = 0, cell_degree - 1
+      !$omp simd
+      do l = 1, half_block
          !GCC$ unroll 24
-         do m = 0, min(highest_power(0), cell_degree - j - 1)
+         do j = 0, cell_degree - 1
             !GCC$ unroll 24
-            do k = first_coefficient(j) + cell_degree - j - 1, first_coefficient(j) + m, -1
-               !$omp simd
-               do l = 1, half_block
+            do m = 0, min(highest_power(0), cell_degree - j - 1)
+               !GCC$ unroll 24
+               do k = first_coefficient(j) + cell_degree - j - 1, first_coefficient(j) + m, -1
                   c(l, k) = c(l, k) + deviation(l)*c(l, k + 1)
                end do
             end do
          end do
-      end do
-      !GCC$ unroll 24
-      do k = 0, highest_power(0)
          !GCC$ unroll 24
-         do m = 0, count(highest_power >= k) - 1
+         do k = 0, highest_power(0)
             !GCC$ unroll 24
-            do j = cell_degree - k - 1, m, -1
-               !$omp simd
-               do l = 1, half_block
+            do m = 0, count(highest_power >= k) - 1
+               !GCC$ unroll 24
+               do j = cell_degree - k - 1, m, -1
                   c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) &
                      + offset(l)*c(l, first_coefficient(j + 1) + k)
                end do

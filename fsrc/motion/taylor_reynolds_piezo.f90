@@ -92,8 +92,9 @@ contains
          do k = 1, rupture_order - 1
             ! First all that the series take from lower orders, p H = 1, r**2 = p, B = b p r, z e = c V r less its value at the
             ! start, s**2 = 1 - B max p*; then what their new coefficients add to each other: a chain of six operations, during
-            ! which the sums of the next order are under way.
-            !$omp simd private(of_p, of_r, of_z, of_group)
+            ! which the sums of the next order are under way. One loop over lanes an order: where a register holds fewer than
+            ! half a block, its rounds share the instructions, which would not fit into the cache of a processor otherwise.
+            !$omp simd private(low, high, of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force, force)
             do l = 1, half_block
                c(l, h, k) = inverse(k)*c(l, v, k - 1)
                of_p = 0.0_dp
@@ -116,14 +117,11 @@ contains
                end do
                c(l, group, k) = pressing(before + l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
                c(l, z, k) = unit_rate(l)*(of_z + c(l, r, k)*c(l, v, 0))
-            end do
-            !GCC$ unroll 24
-            do i = min(highest_power(0), k), 2, -1
-               ! Squares, and products of neighbours
-               low = z - 1 + i/2
-               high = z - 1 + (i + 1)/2
-               !$omp simd private(of_power)
-               do l = 1, half_block
+               !GCC$ unroll 24
+               do i = min(highest_power(0), k), 2, -1
+                  ! Squares, and products of neighbours
+                  low = z - 1 + i/2
+                  high = z - 1 + (i + 1)/2
                   of_power = 0.0_dp
                   do j = i/2, merge((k - 1)/2, k - (i + 1)/2, low == high)
                      of_power = of_power + c(l, low, j)*c(l, high, k - j)
@@ -132,14 +130,10 @@ contains
                   if (low == high .and. mod(k, 2) == 0) of_power = of_power + c(l, low, shiftr(k, 1))*c(l, low, shiftr(k, 1))
                   c(l, z + i - 1, k) = of_power
                end do
-            end do
-            !$omp simd private(of_s, of_peak)
-            do l = 1, half_block
                of_peak = 0.0_dp
                do i = min(highest_peak_power, k), 2, -1
                   of_peak = of_peak + expansion%peak(before + l, i)*c(l, z + i - 1, k)
                end do
-               c(l, peak, k) = of_peak
                of_s = 0.0_dp
                do j = (k - 1)/2, 1, -1
                   of_s = of_s + c(l, s, j)*c(l, s, k - j)
@@ -149,12 +143,8 @@ contains
                do j = 0, k - 1
                   of_s = of_s + c(l, group, k - j)*c(l, peak, j)
                end do
-               c(l, s, k) = sigma_slope(l)*of_s
-            end do
-            !GCC$ unroll 8
-            do j = min(highest_sigma_power - 1, rupture_order - 1 - k), 0, -1
-               !$omp simd private(of_tail)
-               do l = 1, half_block
+               !GCC$ unroll 8
+               do j = min(highest_sigma_power - 1, rupture_order - 1 - k), 0, -1
                   of_tail = 0.0_dp
                   do i = min(highest_power(j), k), 2, -1
                      of_tail = of_tail + expansion%terms(before + l, first_term(j) + i)*c(l, z + i - 1, k)
@@ -165,34 +155,22 @@ contains
                   if (k > 1 .and. j + 1 < highest_sigma_power) of_tail = of_tail + c(l, s, 1)*c(l, tail + j + 1, k - 1)
                   c(l, tail + j, k) = of_tail
                end do
-            end do
-            !$omp simd private(of_force, force)
-            do l = 1, half_block
                of_force = c(l, p, k)*c(l, tail, 0)
                do j = 1, k - 1
                   of_force = of_force + c(l, p, k - j)*c(l, tail, j)
                end do
                force = wave(k + 1)*merge(force_cosine(before + l), force_sine(before + l), mod(k, 2) == 0)
-               c(l, v, k + 1) = (inverse(k + 1)*strength(before + l))*of_force - force
-            end do
-            ! The chain
-            !$omp simd
-            do l = 1, half_block
+               ! The chain
                c(l, z, k) = c(l, z, k) + z_by_momentum(l)*c(l, v, k)
-               c(l, peak, k) = c(l, peak, k) + expansion%peak(before + l, 1)*c(l, z, k)
-               c(l, s, k) = c(l, s, k) + sigma_by_peak(l)*c(l, peak, k)
-            end do
-            !GCC$ unroll 8
-            do j = 0, min(highest_sigma_power - 1, rupture_order - 1 - k)
-               !$omp simd
-               do l = 1, half_block
+               c(l, peak, k) = of_peak + expansion%peak(before + l, 1)*c(l, z, k)
+               c(l, s, k) = sigma_slope(l)*of_s + sigma_by_peak(l)*c(l, peak, k)
+               !GCC$ unroll 8
+               do j = 0, min(highest_sigma_power - 1, rupture_order - 1 - k)
                   c(l, tail + j, k) = (c(l, tail + j, k) + expansion%terms(before + l, first_term(j) + 1)*c(l, z, k)) &
                      + c(l, s, k)*c(l, tail + j + 1, 0)
                end do
-            end do
-            !$omp simd
-            do l = 1, half_block
-               c(l, v, k + 1) = c(l, v, k + 1) + (inverse(k + 1)*force_by_load(l))*c(l, tail, k)
+               c(l, v, k + 1) = ((inverse(k + 1)*strength(before + l))*of_force - force) &
+                  + (inverse(k + 1)*force_by_load(l))*c(l, tail, k)
             end do
          end do
          c(:, h, rupture_order) = inverse(rupture_order)*c(:, v, rupture_order - 1)
