@@ -18,6 +18,12 @@ module collocation_newton
    !> Error that is rounding alone.
    real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
 
+   !> What a pass of Newton's method says of the next.
+   type, public :: newton_pass_t
+      !> Largest correction of the accelerations, and largest residual before it [-]
+      real(dp), dimension(lanes) :: change = huge(1.0_dp), imbalance = huge(1.0_dp)
+   end type newton_pass_t
+
    public :: stage_states, scaled_load, residual_and_matrix, solve_lanes, correct, allowed
 
 contains
@@ -212,18 +218,20 @@ contains
    end subroutine solve_lanes
 
    !> Apply Newton's correction; lanes whose correction is small enough are done, those that diverge given up.
-   pure subroutine correct(films, busy, pass, correction, block, k, change, last_change)
+   pure subroutine correct(films, busy, pass, imbalance, correction, last, block, k)
       type(film_t), intent(in) :: films(lanes)
       logical, intent(inout) :: busy(lanes)
       !> Number of this pass
       integer, intent(in) :: pass
+      !> Largest residual before the correction [-]
+      real(dp), intent(in) :: imbalance(lanes)
+      !> Of the accelerations [-]
       real(dp), intent(in) :: correction(lanes, stages)
+      !> The pass before, then this one
+      type(newton_pass_t), intent(inout) :: last
       type(lane_block_t), intent(inout) :: block
       real(dp), intent(inout) :: k(lanes, stages)
-      !> Size of the correction in the film [-], now and in the pass before
-      real(dp), intent(inout) :: change(lanes)
-      real(dp), intent(inout) :: last_change(lanes)
-      real(dp) :: ratio
+      real(dp) :: ratio, change, film_change
       integer :: l
 
       do l = 1, lanes
@@ -232,18 +240,21 @@ contains
             cycle
          end if
          k(l, :) = k(l, :) + correction(l, :)
-         change(l) = maxval(abs(correction(l, :)))*block%step(l)/allowed(block%film(l, 0), l, block) &
+         change = maxval(abs(correction(l, :)))
+         film_change = change*block%step(l)/allowed(block%film(l, 0), l, block) &
             *min(block%step(l), momentum_weight(block%film(l, 0), block%damping_rate(l), block%force(l)))
          ! From the second pass on: the next correction will be smaller by the same factor at least, and where
-         ! corrections fall fast by its square, if the slopes of the film law are the total ones.
-         ratio = merge(1.0_dp, min(1.0_dp, change(l)/last_change(l)), pass == 1)
+         ! corrections fall fast by its square, if the slopes of the film law are the total ones. But not where a
+         ! correction went too far, to where the film is stiff: the ones that lead back are small, and many.
+         ratio = merge(1.0_dp, min(1.0_dp, max(change/last%change(l), imbalance(l)/last%imbalance(l))), pass == 1)
          if (ratio < fast .and. films(l)%kernel == kernel_reynolds_piezo) ratio = ratio*ratio
-         busy(l) = change(l)*ratio > pass_share
-         if (busy(l) .and. pass > 3 .and. change(l) > 2.0_dp*last_change(l)) then
+         busy(l) = film_change*ratio > pass_share
+         if (busy(l) .and. pass > 3 .and. change > 2.0_dp*last%change(l)) then
             busy(l) = .false.
             block%trust(l) = 0.0_dp
          end if
-         last_change(l) = change(l)
+         last%change(l) = change
+         last%imbalance(l) = imbalance(l)
       end do
    end subroutine correct
 

@@ -21,7 +21,7 @@
 !> other. The measure of these is that of the Taylor series (taylor_step_control), with the least damping rate
 !> of the step and the least film that counts as one at its nodes.
 module collocation_step
-   use collocation_newton, only: allowed, correct, residual_and_matrix, scaled_load, solve_lanes, stage_states
+   use collocation_newton, only: allowed, correct, newton_pass_t, residual_and_matrix, scaled_load, solve_lanes, stage_states
    use constants, only: two_pi
    use film_law, only: film_t
    use kinds, only: dp
@@ -57,7 +57,8 @@ contains
       !> series for the samples
       type(lane_block_t), intent(inout) :: block
       real(dp) :: force(lanes, stages), k(lanes, stages), film(lanes, stages), momentum(lanes, stages)
-      real(dp) :: residual(lanes, stages), matrix(lanes, stages, stages), change(lanes), last_change(lanes)
+      real(dp) :: residual(lanes, stages), matrix(lanes, stages, stages), imbalance(lanes)
+      type(newton_pass_t) :: last
       logical :: busy(lanes)
       integer :: pass
 
@@ -66,12 +67,12 @@ contains
       call first_iterate(films, occupied, block, k)
       busy = occupied
       block%trust = merge(1.0_dp, 0.0_dp, occupied)
-      last_change = huge(1.0_dp)
       do pass = 1, most_passes
          call stage_states(block, k, film, momentum)
          call residual_and_matrix(films, force, k, film, momentum, block, busy, residual, matrix)
+         imbalance = maxval(abs(residual), dim=2)
          call solve_lanes(matrix, residual)
-         call correct(films, busy, pass, residual, block, k, change, last_change)
+         call correct(films, busy, pass, imbalance, residual, last, block, k)
          if (.not. any(busy)) exit
       end do
       where (busy) block%trust = 0.0_dp
