@@ -86,22 +86,22 @@ contains
       type(load_expansion_t), intent(inout) :: expansion
       !> Centre of the piece, one over its unit, and the load
       real(dp) :: c(half_block, -2:piece_size - 3)
-      real(dp) :: deviation(half_block)
+      real(dp) :: deviation
       integer :: last, l, i, j
 
       last = first + half_block - 1
       call interleave_rows(piece_size, pieces(:, row(1), law), pieces(:, row(2), law), pieces(:, row(3), law), &
                            pieces(:, row(4), law), pieces(:, row(5), law), pieces(:, row(6), law), pieces(:, row(7), law), &
                            pieces(:, row(8), law), c)
-      deviation = (expansion%group(first:last) - c(:, -2))*c(:, -1)
       ! Division by z - deviation, again and again: the remainders are the terms.
-      !GCC$ unroll 24
-      do j = 0, highest_power
+      !$omp simd private(deviation)
+      do l = 1, half_block
+         deviation = (expansion%group(first - 1 + l) - c(l, -2))*c(l, -1)
          !GCC$ unroll 24
-         do i = piece_degree - 1, j, -1
-            !$omp simd
-            do l = 1, half_block
-               c(l, i) = c(l, i) + deviation(l)*c(l, i + 1)
+         do j = 0, highest_power
+            !GCC$ unroll 24
+            do i = piece_degree - 1, j, -1
+               c(l, i) = c(l, i) + deviation*c(l, i + 1)
             end do
          end do
       end do

@@ -60,7 +60,7 @@ contains
       real(dp) :: c(lanes, series, 0:rupture_order)
       real(dp), dimension(lanes) :: half_root, unit_rate
       real(dp) :: of_p, of_r, of_z, of_square, of_nest, of_force, force
-      integer :: k, j, i, l
+      integer :: once, k, j, i, l
 
       call expand_load(law, film(:, 0), momentum(:, 0), rate, expansion)
       !$omp simd
@@ -79,60 +79,57 @@ contains
          c(:, nest + i, 0) = expansion%terms(:, 2*i)
       end do
       ! The products with the newest coefficients come last: all others can be summed while those are still under way.
-      ! Unrolled, all coefficients of a lane live in registers.
-      !GCC$ unroll 24
-      do k = 1, rupture_order - 1
-         !$omp simd private(of_p, of_r, of_z, of_square)
-         do l = 1, lanes
-            of_p = 0.0_dp
-            of_z = 0.0_dp
-            do j = 2, k - 1
-               of_p = of_p + c(l, p, k - j)*c(l, h, j)
-               of_z = of_z + c(l, r, k - j)*c(l, v, j)
-            end do
-            of_r = 0.0_dp
-            of_square = 0.0_dp
-            do j = 1, (k - 1)/2
-               of_r = of_r + c(l, r, j)*c(l, r, k - j)
-               of_square = of_square + c(l, z, j)*c(l, z, k - j)
-            end do
-            of_r = 2.0_dp*of_r
-            of_square = 2.0_dp*of_square
-            if (mod(k, 2) == 0) then
-               of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
-               of_square = of_square + c(l, z, shiftr(k, 1))*c(l, z, shiftr(k, 1))
-            end if
-            if (k > 1) then
-               of_p = of_p + c(l, p, k - 1)*c(l, h, 1)
-               of_z = of_z + c(l, r, k - 1)*c(l, v, 1)
-            end if
-            ! p H = 1, r**2 = p, z e = c V r less its value at the start
-            c(l, p, k) = -c(l, p, 0)*(of_p + c(l, p, 0)*c(l, h, k))
-            c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
-            c(l, z, k) = unit_rate(l)*(of_z + c(l, r, 0)*c(l, v, k) + c(l, r, k)*c(l, v, 0))
-            c(l, square, k) = of_square
-         end do
-         !GCC$ unroll 8
-         do i = min(last_pair, (rupture_order - 1 - k)/2), 0, -1
-            !$omp simd private(of_nest)
+      ! One loop over lanes an order: its rounds share the instructions, which would not fit into the cache of a
+      ! processor otherwise. gfortran unrolls the orders before it looks for full registers only within another loop.
+      do once = 1, 1
+         !GCC$ unroll 24
+         do k = 1, rupture_order - 1
+            !$omp simd private(of_p, of_r, of_z, of_square, of_nest, of_force, force)
             do l = 1, lanes
-               of_nest = expansion%terms(l, 2*i + 1)*c(l, z, k)
-               do j = max(2, k - (rupture_order - 1 - 2*(i + 1))), merge(k, 0, i < last_pair)
-                  of_nest = of_nest + c(l, square, j)*c(l, nest + i + 1, k - j)
+               of_p = 0.0_dp
+               of_z = 0.0_dp
+               do j = 2, k - 1
+                  of_p = of_p + c(l, p, k - j)*c(l, h, j)
+                  of_z = of_z + c(l, r, k - j)*c(l, v, j)
                end do
-               c(l, nest + i, k) = of_nest
+               of_r = 0.0_dp
+               of_square = 0.0_dp
+               do j = 1, (k - 1)/2
+                  of_r = of_r + c(l, r, j)*c(l, r, k - j)
+                  of_square = of_square + c(l, z, j)*c(l, z, k - j)
+               end do
+               of_r = 2.0_dp*of_r
+               of_square = 2.0_dp*of_square
+               if (mod(k, 2) == 0) then
+                  of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
+                  of_square = of_square + c(l, z, shiftr(k, 1))*c(l, z, shiftr(k, 1))
+               end if
+               if (k > 1) then
+                  of_p = of_p + c(l, p, k - 1)*c(l, h, 1)
+                  of_z = of_z + c(l, r, k - 1)*c(l, v, 1)
+               end if
+               ! p H = 1, r**2 = p, z e = c V r less its value at the start
+               c(l, p, k) = -c(l, p, 0)*(of_p + c(l, p, 0)*c(l, h, k))
+               c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
+               c(l, z, k) = unit_rate(l)*(of_z + c(l, r, 0)*c(l, v, k) + c(l, r, k)*c(l, v, 0))
+               c(l, square, k) = of_square
+               !GCC$ unroll 8
+               do i = min(last_pair, (rupture_order - 1 - k)/2), 0, -1
+                  of_nest = expansion%terms(l, 2*i + 1)*c(l, z, k)
+                  do j = max(2, k - (rupture_order - 1 - 2*(i + 1))), merge(k, 0, i < last_pair)
+                     of_nest = of_nest + c(l, square, j)*c(l, nest + i + 1, k - j)
+                  end do
+                  c(l, nest + i, k) = of_nest
+               end do
+               of_force = 0.0_dp
+               do j = 1, k - 1
+                  of_force = of_force + c(l, p, k - j)*c(l, nest, j)
+               end do
+               of_force = of_force + c(l, p, k)*c(l, nest, 0) + c(l, p, 0)*c(l, nest, k)
+               force = wave(k + 1)*merge(force_cosine(l), force_sine(l), mod(k, 2) == 0)
+               c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
+               c(l, v, k + 1) = (inverse(k + 1)*strength(l))*of_force - force
             end do
-         end do
-         !$omp simd private(of_force, force)
-         do l = 1, lanes
-            of_force = 0.0_dp
-            do j = 1, k - 1
-               of_force = of_force + c(l, p, k - j)*c(l, nest, j)
-            end do
-            of_force = of_force + c(l, p, k)*c(l, nest, 0) + c(l, p, 0)*c(l, nest, k)
-            force = wave(k + 1)*merge(force_cosine(l), force_sine(l), mod(k, 2) == 0)
-            c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
-            c(l, v, k + 1) = (inverse(k + 1)*strength(l))*of_force - force
          end do
       end do
       film(:, 1:rupture_order) = c(:, h, 1:)
