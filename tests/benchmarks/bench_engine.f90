@@ -6,6 +6,7 @@
 !> (until the motion repeats) or newmark-extrapolated. Prints the CPU seconds of one scene, then h/h0 at 64 points of each of
 !> the last ten periods.
 program bench_engine
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use film_law, only: film_t, new_film
    use kinds, only: dp
    use lane_motions, only: solve_motions
@@ -14,7 +15,7 @@ program bench_engine
    use newmark_lanes, only: newmark_lane_scene_t
    use newmark_lanes_extrapolated, only: extrapolated_ending_t, solve_lanes_extrapolated
    use scene_lane, only: lane_of_scene
-   use scene_status, only: is_success
+   use scene_status, only: is_success, status_name
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
    use version, only: program_version
    implicit none(type, external)
@@ -58,7 +59,10 @@ program bench_engine
    allocate (accelerations(merge(sampled*points, 0, engine == 'newmark-extrapolated'), copies))
 
    call solve()
-   if (.not. all(is_success(endings%status))) error stop 1, quiet = .true.
+   if (.not. all(is_success(endings%status))) then
+      write (error_unit, '(a)') status_name(endings(1)%status)
+      stop 1, quiet = .true.
+   end if
    call cpu_time(started)
    call solve()
    call cpu_time(finished)
