@@ -3,13 +3,16 @@
 module test_lane_motions
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t, same_bits
+   use collocation_newton, only: correct, newton_pass_t
    use constants, only: standard_gravity
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
                        kernel_solved_fast, kernel_solved_successive, new_film, steady_film
    use kinds, only: dp
+   use lane_functions, only: lane_count => lanes
    use lane_motions, only: accelerations, solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t
    use period_repetition, only: orbit_watch_t
+   use radau_nodes, only: stages
    use scene_lane, only: lane_of_scene
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, &
@@ -47,6 +50,7 @@ contains
       call test_company(checks)
       call test_returning_periods(checks)
       call test_overshooting_newton(checks)
+      call test_last_pass(checks)
    end subroutine run_lane_motions_tests
 
    !> Canonical scene of a kernel, started from its steady film. The exact films have u_r = 1.905 m/s. For the
@@ -331,48 +335,76 @@ contains
 
       integer, parameter :: periods(2) = [17, 150]
       real(dp), parameter :: accuracy = 1.0e-4_dp
+      ! Radius and length of the contact, viscosity, alpha, entrainment speed, mass, steady force, amplitude, frequency
+      real(dp), parameter :: inputs(9, 2) = reshape( &
+                             [5.118e-3_dp, 610.5_dp, 1.353_dp, 7.522e-9_dp, 0.4316_dp, 0.07465_dp, 424.3_dp, 412.9_dp, 2543.0_dp, &
+                              0.07215_dp, 7.171e6_dp, 0.01874_dp, 1.7696e-8_dp, 2.048_dp, 0.03883_dp, 1961.0_dp, 1908.0_dp, &
+                              3516.0_dp], [9, 2])
       type(scene_t) :: scene
       type(film_t) :: film
       type(lane_scene_t) :: lanes(2)
+      type(lane_request_t) :: request
       type(motions_t) :: collocation, taylor
       real(dp) :: error
       integer :: i
 
-      do i = 1, 2
+      do i = 1, size(periods)
          scene = canonical_scene(law_piezo_viscous, samples)
-         if (i == 1) then
-            scene%contact%radius = 5.118e-3_dp
-            scene%contact%length = 610.5_dp
-            scene%lubricant%viscosity = 1.353_dp
-            scene%lubricant%pressure_viscosity = 7.522e-9_dp
-            scene%kinematics%entrainment_speed = 0.4316_dp
-            scene%load%mass = 0.07465_dp
-            scene%load%steady_force = 424.3_dp
-            scene%load%force_amplitude = 412.9_dp
-            scene%load%frequency = 2543.0_dp
-         else
-            scene%contact%radius = 0.07215_dp
-            scene%contact%length = 7.171e6_dp
-            scene%lubricant%viscosity = 0.01874_dp
-            scene%lubricant%pressure_viscosity = 1.7696e-8_dp
-            scene%kinematics%entrainment_speed = 2.048_dp
-            scene%load%mass = 0.03883_dp
-            scene%load%steady_force = 1961.0_dp
-            scene%load%force_amplitude = 1908.0_dp
-            scene%load%frequency = 3516.0_dp
-         end if
+         associate (input => inputs(:, i))
+            scene%contact%radius = input(1)
+            scene%contact%length = input(2)
+            scene%lubricant%viscosity = input(3)
+            scene%lubricant%pressure_viscosity = input(4)
+            scene%kinematics%entrainment_speed = input(5)
+            scene%load%mass = input(6)
+            scene%load%steady_force = input(7)
+            scene%load%force_amplitude = input(8)
+            scene%load%frequency = input(9)
+         end associate
          film = new_film(scene)
          lanes = lane_of_scene(scene, film, steady_film(film, scene%load%steady_force), 0.0_dp)
          lanes%implicit = [.true., .false.]
-         collocation = motions_of(lanes(:1), lane_request_t(accuracy=accuracy, periods=periods(i), samples_per_period=64, &
-                                                            sampled_periods=1))
-         taylor = motions_of(lanes(2:), lane_request_t(accuracy=1.0e-4_dp*accuracy, periods=periods(i), &
-                                                       samples_per_period=64, sampled_periods=1))
+         request = lane_request_t(accuracy=accuracy, periods=periods(i), samples_per_period=64, sampled_periods=1)
+         collocation = motions_of(lanes(:1), request)
+         request%accuracy = 1.0e-4_dp*accuracy
+         taylor = motions_of(lanes(2:), request)
          error = maxval(abs(collocation%films/taylor%films - 1.0_dp))
          call checks%check(all([collocation%endings%status, taylor%endings%status] == status_complete), 'overshooting: solved')
          call checks%check(error < accuracy, 'overshooting: the film')
       end do
    end subroutine test_overshooting_newton
+
+   !> A small correction ends the passes of Newton's method if the residual has fallen with it, and not if it has grown.
+   subroutine test_last_pass(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(film_t) :: films(lane_count)
+      type(lane_block_t) :: block
+      type(newton_pass_t) :: last
+      logical :: busy(lane_count)
+      real(dp), dimension(lane_count, stages) :: correction, k
+      real(dp) :: imbalance(lane_count)
+
+      block%film(:, 0) = 1.0_dp
+      block%step = 0.1_dp
+      block%accuracy = 1.0e-6_dp
+      block%damping_rate = 0.0_dp
+      block%force = 1.0_dp
+      block%trust = 1.0_dp
+      block%no_load = .false.
+      busy = .true.
+      k = 0.0_dp
+      imbalance = 1.0_dp
+      correction = 1.0_dp
+      call correct(films, busy, 1, imbalance, correction, last, block, k)
+      call checks%check(all(busy), 'last pass: not the first')
+      imbalance(1) = 1.0e-4_dp
+      imbalance(2) = 1.0e4_dp
+      correction = 1.0e-4_dp
+      call correct(films, busy, 2, imbalance, correction, last, block, k)
+      call checks%check(.not. busy(1), 'last pass: corrections and residuals fall')
+      call checks%check(all(busy(2:)), 'last pass: corrections fall, residuals do not')
+   end subroutine test_last_pass
 
    !> Whether two motions agree to the last bit.
    pure logical function same(some, i, others, j)
