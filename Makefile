@@ -34,8 +34,13 @@ DEBUG_FLAGS := -O1 -g -fcheck=all -finit-real=snan -ffpe-trap=invalid,overflow,z
 STRICT_FLAGS := -O1 -fopenmp
 FFLAGS := $(WARNINGS) $(if $(DEBUG),$(DEBUG_FLAGS),$(if $(STRICT),$(STRICT_FLAGS),$(RELEASE_FLAGS))) $(addprefix -I,$(dir $(FFTW_INCLUDE)))
 
-ROOMS := foundation scene film film/coefficients motion orbit spectrum verdict files run campaign \
-  campaign/$(if $(MPI),mpi,serial)
+# Whether the compiler uses registers of eight numbers: they are filled from rows of tables in a way of their own.
+WIDE_REGISTERS := $(shell $(FC) $(ARCHITECTURE) -Q --help=target 2>/dev/null | awk '\
+  $$1 == "-mavx512f" && $$2 == "[enabled]" { wide = 1 } \
+  $$1 == "-mprefer-vector-width=" && $$2 ~ /^(128|256)$$/ { narrow = 1 } \
+  END { if (wide && !narrow) print "yes" }')
+ROOMS := foundation scene film film/coefficients motion motion/$(if $(WIDE_REGISTERS),wide,narrow)_registers \
+  orbit spectrum verdict files run campaign campaign/$(if $(MPI),mpi,serial)
 SOURCES := $(foreach room,$(ROOMS),$(sort $(wildcard fsrc/$(room)/*.f90)))
 OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(SOURCES)))
 UNIT_SOURCES := $(sort $(wildcard tests/unit/*.f90))
@@ -80,7 +85,7 @@ $(PYTHON_ENV)/installed: pyproject.toml scripts/setup_python.sh scripts/requirem
 # A change of compiler or flags changes this file, and with it rebuilds everything.
 $(BUILD)/flags: FORCE
 	@mkdir -p $(BUILD)
-	@{ $(FC) --version | head -1; echo '$(FFLAGS) $(LIBRARIES)'; } > $@.new
+	@{ $(FC) --version | head -1; echo '$(FFLAGS) $(LIBRARIES)'; echo '$(ROOMS)'; } > $@.new
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 # Which object needs which module, read off the use statements.

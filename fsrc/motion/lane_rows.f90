@@ -1,10 +1,12 @@
 !> Rows of a table, one for each lane of half a block, brought side by side.
 !>
-!> Number after number, out of eight places of the memory, a register is filled by eight loads; from whole rows it is filled by
-!> three stages of exchanges between registers, which compilers know as eight interleaved stores.
+!> Where one register holds a number of every lane, whole rows are loaded, and exchanged between registers in three stages,
+!> which compilers know as eight interleaved stores. Where registers are narrower, exchanges between them cost more than
+!> loads, and registers are filled number by number.
 module lane_rows
    use kinds, only: dp
    use lane_functions, only: half_block
+   use register_width, only: wide_registers
    implicit none(type, external)
    private
 
@@ -22,7 +24,7 @@ contains
       real(dp), intent(out) :: columns(half_block, length)
       integer :: i
 
-      !$omp simd
+      !$omp simd if(simd: wide_registers)
       do i = 1, length
          columns(1, i) = row_1(i)
          columns(2, i) = row_2(i)
