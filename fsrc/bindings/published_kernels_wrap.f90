@@ -78,7 +78,7 @@ subroutine wrap_published_piezo_load(n, film, velocity, radius, length, speed, v
    pressure_viscosity, load, load_by_film, load_by_velocity)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_load, squeeze_exponent_rate
+   use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate
    implicit none
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: film(n)
@@ -92,7 +92,7 @@ subroutine wrap_published_piezo_load(n, film, velocity, radius, length, speed, v
    real(c_double), intent(out) :: load_by_film(n)
    real(c_double), intent(out) :: load_by_velocity(n)
 
-   call piezo_viscous_load( &
+   call published_piezo_viscous_load( &
       piezo_coefficient(length, speed, viscosity, radius, pressure_viscosity), squeeze_exponent_rate(speed), &
       film, velocity, load, load_by_film, load_by_velocity)
    ! min(x, limit) of the kernel swallows a NaN.

@@ -4,10 +4,11 @@ module campaign_certificate
    use certify_scene, only: certify
    use fine_window, only: classify_window, window_t
    use kinds, only: dp
-   use lane_motions, only: accelerations, solve_motions
+   use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use rattle_class, only: rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
+   use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: is_success
    use scene_types, only: scene_t
    implicit none(type, external)
@@ -51,7 +52,7 @@ contains
       allocate (window%films, source=films(:samples, 1))
       allocate (window%velocities, source=velocities(:samples, 1))
       allocate (window%accelerations(samples))
-      call accelerations(lane, request%samples_per_period, window%films, window%velocities, window%accelerations)
+      call accelerations_of_samples(lane, request%samples_per_period, window%films, window%velocities, window%accelerations)
       call classify_window(scene, window, resolved%noise_floor, own_verdict)
       if (own_verdict%class /= verdict%class) return
       call certify(scene, resolved, lane, endings(1)%periods, window, own_verdict, certificate)

@@ -4,13 +4,14 @@ module solve_chunk
    use campaign_record, only: judged_scene_t, record_row
    use integrate_controlled, only: reserved_periods
    use kinds, only: dp, int64
-   use lane_motions, only: accelerations, solve_motions
+   use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use rattle_class, only: classify
    use recorded_quantities, only: need_count, needs_acceleration_range, needs_certificate, needs_film_range, needs_regime, &
                                   needs_spectrum, quantities
    use regime_check, only: check_regime
    use resolved_scene, only: resolve, resolved_scene_t
+   use sample_accelerations, only: accelerations_of_samples
    use sampling, only: chunk_values, sample_plan_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: is_success, status_invalid
@@ -209,7 +210,7 @@ contains
          if (.not. judged%success) return
          if (needed(needs_film_range)) call range_of(films, judged%film_minimum, judged%film_maximum)
          if (any(needed([needs_acceleration_range, needs_spectrum, needs_certificate]))) &
-            call accelerations(lane, scene%campaign%samples_per_period, films, velocities, values)
+            call accelerations_of_samples(lane, scene%campaign%samples_per_period, films, velocities, values)
          if (needed(needs_acceleration_range)) call range_of(values, judged%acceleration_minimum, judged%acceleration_maximum)
          if (any(needed([needs_spectrum, needs_certificate]))) &
             call classify(values, choice, judged%resolved%noise_floor, judged%rattle)

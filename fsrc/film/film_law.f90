@@ -6,7 +6,7 @@
 module film_law
    use kinds, only: dp
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
-   use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_load, squeeze_exponent_rate
+   use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate
    use regime, only: equivalent_radius, plane_strain_modulus
    use reynolds_iso_viscous, only: rupture_tangent_fast
    use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate
@@ -179,7 +179,7 @@ contains
       case (kernel_piezo)
          !$omp simd private(load_by_film, load_by_velocity)
          do i = 1, size(loads)
-            call piezo_viscous_load(film%piezo, film%rate, thicknesses(i), velocities(i), loads(i), load_by_film, &
+            call published_piezo_viscous_load(film%piezo, film%rate, thicknesses(i), velocities(i), loads(i), load_by_film, &
                                     load_by_velocity)
          end do
       case default
@@ -260,7 +260,7 @@ contains
       real(dp), intent(out) :: load_by_film
       real(dp), intent(out) :: load_by_velocity
 
-      call piezo_viscous_load(film%piezo, film%rate, thickness, velocity, load, load_by_film, load_by_velocity)
+      call published_piezo_viscous_load(film%piezo, film%rate, thickness, velocity, load, load_by_film, load_by_velocity)
    end subroutine load_piezo
 
    !> Exact iso-viscous film; interface film_kernel.

@@ -5,10 +5,6 @@ module piezo_viscous_terms
    implicit none(type, external)
    private
 
-   !> Exponents beyond this would overflow. The load is held there, far above the load by which the motion
-   !> knows that the law has no value.
-   real(dp), parameter, public :: largest_exponent = 550.0_dp
-
    public :: piezo_viscous_terms_load, piezo_viscous_terms_fractions
 
 contains

@@ -1,15 +1,16 @@
 !> The published piezo-viscous film: load (37) with the contact length as a factor and the squeeze velocity
 !> (printed: the acceleration) in the exponent; it is the film-thickness regression (32) turned round.
 module published_piezo_viscous
+   use elementary_functions, only: exponential, largest_exponent
    use kinds, only: dp
-   use piezo_viscous_terms, only: largest_exponent, piezo_viscous_terms_load
+   use piezo_viscous_terms, only: piezo_viscous_terms_load
    implicit none(type, external)
    private
 
    !> Factors as printed in (37); (32) gives 12*0.787^2.5 = 6.5935 and 2.5*281.2 = 703.
    real(dp), parameter :: load_factor = 6.6_dp, squeeze_factor = 703.0_dp
 
-   public :: piezo_coefficient, squeeze_exponent_rate, piezo_viscous_load
+   public :: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate
 
 contains
 
@@ -38,7 +39,7 @@ contains
    end function squeeze_exponent_rate
 
    !> Load of (37) and its slopes.
-   elemental subroutine piezo_viscous_load(coefficient, rate, film, velocity, load, load_by_film, load_by_velocity)
+   elemental subroutine published_piezo_viscous_load(coefficient, rate, film, velocity, load, load_by_film, load_by_velocity)
       !> Coefficient of h^(-7/2) [N m^(7/2)]
       real(dp), intent(in) :: coefficient
       !> 703/u [s/m]
@@ -53,9 +54,13 @@ contains
       real(dp), intent(out) :: load_by_film
       !> dW/dw [N s/m]
       real(dp), intent(out) :: load_by_velocity
+      real(dp) :: exponent, growth
 
-      call piezo_viscous_terms_load(coefficient, rate, film, exp(min(-rate*velocity, largest_exponent)), load, &
-                                    load_by_film, load_by_velocity)
-   end subroutine piezo_viscous_load
+      ! Above its border the exponential is held there, far above the load by which the motion knows that the law has no value;
+      ! below, a film carries nothing.
+      exponent = -rate*velocity
+      growth = merge(exponential(exponent), 0.0_dp, exponent > -largest_exponent)
+      call piezo_viscous_terms_load(coefficient, rate, film, growth, load, load_by_film, load_by_velocity)
+   end subroutine published_piezo_viscous_load
 
 end module published_piezo_viscous

@@ -11,9 +11,10 @@ module integrate_controlled
    use forcing, only: applied_force, force_of_period
    use integrate_motion, only: motion_end_t, motion_watcher_t, status_of_stop
    use kinds, only: dp, int64
-   use lane_motions, only: accelerations, solve_motions
+   use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use period_repetition, only: longest_orbit, orbit_watch_t
+   use sample_accelerations, only: accelerations_of_samples
    use sample_sink, only: sample_sink_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: is_success, status_complete, status_steady
@@ -136,7 +137,7 @@ contains
       allocate (films, source=film_samples(:, 1))
       allocate (velocities, source=velocity_samples(:, 1))
       allocate (values(size(films)))
-      if (is_success(ending%status)) call accelerations(lane, samples_per_period, films, velocities, values)
+      if (is_success(ending%status)) call accelerations_of_samples(lane, samples_per_period, films, velocities, values)
    end subroutine solve_window
 
    !> Solve until the motion repeats, without samples.
@@ -299,7 +300,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       integer :: period, first, last
 
-      call accelerations(lane, size(force), films(:ending%samples), velocities(:ending%samples), values(:ending%samples))
+      call accelerations_of_samples(lane, size(force), films(:ending%samples), velocities(:ending%samples), values(:ending%samples))
       do period = 1, ending%samples/size(force)
          first = (period - 1)*size(force) + 1
          last = period*size(force)
@@ -314,7 +315,7 @@ contains
       type(lane_scene_t), intent(in) :: lane
       real(dp), intent(out) :: value(1)
 
-      call accelerations(lane, 1, [lane%initial_film], [lane%initial_velocity], value)
+      call accelerations_of_samples(lane, 1, [lane%initial_film], [lane%initial_velocity], value)
    end subroutine accelerations_at_start
 
    !> Make a lane start where a motion ended.

@@ -1,7 +1,6 @@
 !> Motions of any number of scenes, error-controlled: Taylor series for the film laws that have one, collocation
 !> for all others and for scenes too stiff for explicit steps.
 module lane_motions
-   use film_law, only: film_loads
    use film_series, only: has_series
    use kinds, only: dp
    use lane_integration, only: integrate_lanes
@@ -11,7 +10,7 @@ module lane_motions
    implicit none(type, external)
    private
 
-   public :: solve_motions, accelerations
+   public :: solve_motions
 
 contains
 
@@ -70,29 +69,5 @@ contains
       scene%carried_on = .false.
       scene%implicit = .true.
    end subroutine go_on
-
-   !> z'' of samples [m/s2], from the equation of motion.
-   pure subroutine accelerations(scene, samples_per_period, films, velocities, values)
-      use forcing, only: force_of_period
-      !> The scene
-      type(lane_scene_t), intent(in) :: scene
-      !> Samples of a period
-      integer, intent(in) :: samples_per_period
-      !> h [m], from the first sample of a period on
-      real(dp), intent(in) :: films(:)
-      !> z' [m/s]
-      real(dp), intent(in) :: velocities(:)
-      !> z'' [m/s2]
-      real(dp), intent(out) :: values(:)
-      real(dp) :: force(samples_per_period)
-      integer :: before, count
-
-      call force_of_period(scene%steady_force, scene%force_amplitude, force)
-      call film_loads(scene%film, films, velocities, values)
-      do before = 0, size(films) - 1, samples_per_period
-         count = min(samples_per_period, size(films) - before)
-         values(before + 1:before + count) = (values(before + 1:before + count) - scene%weight - force(:count))/scene%mass
-      end do
-   end subroutine accelerations
 
 end module lane_motions

@@ -19,59 +19,59 @@ module newmark_lane_group
    !> Scenes of a group. So many hide the latency of divisions and roots, and their data stay in the nearest
    !> cache. An odd number of cache lines: every array of a group starts with a line if the first one does,
    !> and no two at the same place in a page, where a store to one would hold up the loads of the other.
-   integer, parameter, public :: lanes = 136
+   integer, parameter, public :: group_lanes = 136
    !> Lanes are used in blocks of this many, a register at most, so that none is left to other instructions.
    integer, parameter, public :: block_lanes = 8
 
    !> A step at work. The iterate is the state of the group.
    type, public :: newmark_lane_step_t
       !> h and V at the end of the step were A zero there [m]
-      real(dp) :: known_film(lanes) = 0.0_dp
-      real(dp) :: known_velocity(lanes) = 0.0_dp
+      real(dp) :: known_film(group_lanes) = 0.0_dp
+      real(dp) :: known_velocity(group_lanes) = 0.0_dp
       !> Force at the end of the step, as L [m]
-      real(dp) :: force(lanes) = 0.0_dp
+      real(dp) :: force(group_lanes) = 0.0_dp
       !> Iterate before the present one: h, never below `smallest`, and A [m]
-      real(dp) :: film(lanes) = 1.0_dp
-      real(dp) :: acceleration(lanes) = 0.0_dp
+      real(dp) :: film(group_lanes) = 1.0_dp
+      real(dp) :: acceleration(group_lanes) = 0.0_dp
       !> Film that fails, and least film of all iterates [m]
-      real(dp) :: smallest(lanes) = 0.0_dp
-      real(dp) :: least(lanes) = 1.0_dp
+      real(dp) :: smallest(group_lanes) = 0.0_dp
+      real(dp) :: least(group_lanes) = 1.0_dp
       !> L [m] and its slopes dL/dh [-] and dL/dV [-] at the iterate, over a common denominator
-      real(dp) :: load(lanes) = 0.0_dp
-      real(dp) :: load_by_film(lanes) = 0.0_dp
-      real(dp) :: load_by_velocity(lanes) = 0.0_dp
-      real(dp) :: denominator(lanes) = 1.0_dp
+      real(dp) :: load(group_lanes) = 0.0_dp
+      real(dp) :: load_by_film(group_lanes) = 0.0_dp
+      real(dp) :: load_by_velocity(group_lanes) = 0.0_dp
+      real(dp) :: denominator(group_lanes) = 1.0_dp
       !> Exponential of (37) at the extrapolated iterate [-]
-      real(dp) :: growth(lanes) = 1.0_dp
+      real(dp) :: growth(group_lanes) = 1.0_dp
       !> Positive where the step has met the criterion of (36) and kept its film
-      real(dp) :: margin(lanes) = 1.0_dp
+      real(dp) :: margin(group_lanes) = 1.0_dp
    end type newmark_lane_step_t
 
    !> Group of scenes that share film law and steps per period.
    type, public :: newmark_lane_group_t
       !> h [m], V [m] and A [m]
-      real(dp) :: film(lanes) = 1.0_dp
-      real(dp) :: velocity(lanes) = 0.0_dp
-      real(dp) :: acceleration(lanes) = 0.0_dp
+      real(dp) :: film(group_lanes) = 1.0_dp
+      real(dp) :: velocity(group_lanes) = 0.0_dp
+      real(dp) :: acceleration(group_lanes) = 0.0_dp
       !> Coefficient of 1/h in (35) or of h^(-7/2) in (37), of L instead of W
-      real(dp) :: strength(lanes) = 0.0_dp
+      real(dp) :: strength(group_lanes) = 0.0_dp
       !> Coefficient of the squeeze term of (35), of L and V, or the factor of V in the exponent of (37)
-      real(dp) :: squeeze(lanes) = 0.0_dp
+      real(dp) :: squeeze(group_lanes) = 0.0_dp
       !> Factor of V in the exponent of (37) if its base is 2 [1/m]
-      real(dp) :: doubling_rate(lanes) = 0.0_dp
+      real(dp) :: doubling_rate(group_lanes) = 0.0_dp
       !> Q + m g and F0, as L [m]
-      real(dp) :: mean_force(lanes) = 0.0_dp
-      real(dp) :: force_amplitude(lanes) = 0.0_dp
+      real(dp) :: mean_force(group_lanes) = 0.0_dp
+      real(dp) :: force_amplitude(group_lanes) = 0.0_dp
       !> L above which the law has no value [m]
-      real(dp) :: largest_load(lanes) = 1.0_dp
+      real(dp) :: largest_load(group_lanes) = 1.0_dp
       !> eps of (36) [m]
-      real(dp) :: tolerance(lanes) = 1.0_dp
+      real(dp) :: tolerance(group_lanes) = 1.0_dp
       !> Most passes in a step
-      integer :: pass_limit(lanes) = 2
+      integer :: pass_limit(group_lanes) = 2
       !> A step failed: the lane rests since
-      logical :: failed(lanes) = .false.
+      logical :: failed(group_lanes) = .false.
       !> Passes beyond two, of all steps
-      integer(int64) :: further_passes(lanes) = 0_int64
+      integer(int64) :: further_passes(group_lanes) = 0_int64
       !> The step at work
       type(newmark_lane_step_t) :: step
       !> Film law: kernel_half_pi or kernel_piezo of film_law
@@ -80,7 +80,7 @@ module newmark_lane_group
       integer :: used = 0
    end type newmark_lane_group_t
 
-   public :: place_group, has_lanes, load_lane, rest_lane, lane_state
+   public :: place_group, has_lanes, load_lane, rest_group_lane, lane_state
 
 contains
 
@@ -144,7 +144,7 @@ contains
    end subroutine load_lane
 
    !> Let a lane rest: a film of 1 m on which nothing acts.
-   pure subroutine rest_lane(group, lane)
+   pure subroutine rest_group_lane(group, lane)
       !> The group
       type(newmark_lane_group_t), intent(inout) :: group
       !> Lane
@@ -160,7 +160,7 @@ contains
       group%force_amplitude(lane) = 0.0_dp
       group%largest_load(lane) = 1.0_dp
       group%tolerance(lane) = 1.0_dp
-   end subroutine rest_lane
+   end subroutine rest_group_lane
 
    !> State of a lane from units.
    pure subroutine set_lane_state(group, lane, time_step, state)

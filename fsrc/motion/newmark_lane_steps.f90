@@ -9,9 +9,9 @@
 module newmark_lane_steps
    use film_law, only: kernel_half_pi
    use kinds, only: dp, int64
-   use lane_exponential, only: near_exponential, nearness, power_of_two
+   use elementary_functions, only: near_exponential, nearness, power_of_two
    use newmark, only: smallest_film_ratio
-   use newmark_lane_group, only: newmark_lane_group_t, rest_lane
+   use newmark_lane_group, only: newmark_lane_group_t, rest_group_lane
    use piezo_viscous_terms, only: piezo_viscous_terms_fractions
    use published_iso_viscous, only: half_pi_rupture_fractions
    implicit none(type, external)
@@ -206,7 +206,7 @@ contains
                if (step%least(l) > step%smallest(l) .and. pass < group%pass_limit(l)) cycle
                group%failed(l) = .true.
                step%margin(l) = 1.0_dp
-               call rest_lane(group, l)
+               call rest_group_lane(group, l)
             end do
             if (unsettled_lanes(group) == 0) return
             pass = pass + 1

@@ -6,13 +6,12 @@
 !> bits alone, in any lane, among any neighbours. Against the scalar steps the last digits differ: here every
 !> step has at least two passes.
 module newmark_lanes
-   use constants, only: two_pi
    use film_law, only: film_load, film_t
-   use forcing, only: force_of_period
+   use forcing, only: cosines_of_period, force_of_period
    use kinds, only: dp, int64
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
-   use newmark_lane_group, only: block_lanes, has_lanes, lane_state, lanes, load_lane, newmark_lane_group_t, &
-      place_group, rest_lane
+   use newmark_lane_group, only: block_lanes, group_lanes, has_lanes, lane_state, load_lane, newmark_lane_group_t, &
+      place_group, rest_group_lane
    use newmark_lane_steps, only: advance_lanes
    use scene_status, only: status_complete
    implicit none(type, external)
@@ -75,7 +74,8 @@ contains
       integer :: i, first, last
 
       call place_group(room, group)
-      cosine = [(cos(two_pi*(real(i, dp)/real(request%steps_per_period, dp))), i=1, request%steps_per_period)]
+      allocate (cosine(request%steps_per_period))
+      call cosines_of_period(cosine)
       do i = 1, size(scenes)
          associate (scene => scenes(i), ending => endings(i))
             call start_motion(film_load, scene%film, scene%method, scene%thickness, scene%velocity, &
@@ -94,7 +94,7 @@ contains
       do while (first <= size(queue))
          ! As many as fit and have the law of the first.
          last = first
-         do while (last - first + 1 < lanes .and. last < size(queue))
+         do while (last - first + 1 < group_lanes .and. last < size(queue))
             if (scenes(queue(last + 1))%film%kernel /= scenes(queue(first))%film%kernel) exit
             last = last + 1
          end do
@@ -123,7 +123,7 @@ contains
       group%kernel = scenes(members(1))%film%kernel
       group%used = block_lanes*((size(members) + block_lanes - 1)/block_lanes)
       do l = 1, group%used
-         call rest_lane(group, l)
+         call rest_group_lane(group, l)
          if (l <= size(members)) call load(l)
       end do
       stride = request%steps_per_period/request%samples_per_period

@@ -3,12 +3,12 @@
 !> last two columns agree. A scene that agrees takes no part in the next row; no other scene has a say in
 !> that, so it has the same bits in any company.
 module newmark_lanes_extrapolated
-   use film_law, only: film_load
-   use forcing, only: applied_force
    use kinds, only: dp, int64
+   use lane_scenes, only: lane_scene_t
    use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, &
       solve_newmark_lanes
    use richardson, only: doubt, extrapolate, most_rows, multiples
+   use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: status_complete, status_not_converged
    implicit none(type, external)
    private
@@ -106,14 +106,26 @@ contains
                   pending(scene) = .false.
                   films(:, scene) = film_tables(:, 1, scene)
                   velocities(:, scene) = velocity_tables(:, 1, scene)
-                  call find_accelerations(scenes(scene), samples_per_period, films(:, scene), &
-                                          velocities(:, scene), accelerations(:, scene))
+                  call accelerations_of_samples(same_scene(scenes(scene)), samples_per_period, films(:, scene), &
+                                                velocities(:, scene), accelerations(:, scene))
                end associate
             end do
             deallocate (row_films, row_velocities, row_accelerations, row_endings)
          end do
       end do
    end subroutine solve_lanes_extrapolated
+
+   !> A scene as the other engine has it, all but its start.
+   pure type(lane_scene_t) function same_scene(scene)
+      type(newmark_lane_scene_t), intent(in) :: scene
+
+      same_scene%film = scene%film
+      same_scene%mass = scene%method%mass
+      same_scene%weight = scene%method%weight
+      same_scene%steady_force = scene%method%steady_force
+      same_scene%force_amplitude = scene%method%force_amplitude
+      same_scene%frequency = scene%method%frequency
+   end function same_scene
 
    !> Estimate of the relative error of the film from the last two columns. A velocity counts by the film that
    !> it moves between two samples.
@@ -138,25 +150,5 @@ contains
          time*abs(velocity_table(:, 1) - velocity_table(:, 2)))/film_table(:, 1))
       estimate = change*doubt(row, change, last_change, most_credit)
    end subroutine judge
-
-   !> z'' at the samples from the equation of motion.
-   pure subroutine find_accelerations(scene, samples_per_period, films, velocities, accelerations)
-      type(newmark_lane_scene_t), intent(in) :: scene
-      integer, intent(in) :: samples_per_period
-      real(dp), intent(in) :: films(:)
-      real(dp), intent(in) :: velocities(:)
-      real(dp), intent(out) :: accelerations(:)
-      real(dp) :: load, load_by_film, load_by_velocity, phase
-      integer :: i
-
-      associate (method => scene%method)
-         do i = 1, size(films)
-            phase = real(mod(i - 1, samples_per_period) + 1, dp)/real(samples_per_period, dp)
-            call film_load(scene%film, films(i), velocities(i), load, load_by_film, load_by_velocity)
-            accelerations(i) = (load - method%weight - &
-               applied_force(method%steady_force, method%force_amplitude, phase))/method%mass
-         end do
-      end associate
-   end subroutine find_accelerations
 
 end module newmark_lanes_extrapolated

@@ -15,13 +15,13 @@ module reynolds_piezo_expansion
    !> Highest power of A in the expansion of max p*, and in that of the load with each power of sigma: with more of them the
    !> steps of a motion are hardly longer.
    integer, parameter, public :: highest_peak_power = 7, highest_sigma_power = 6
-   integer, parameter, public :: highest_power(0:highest_sigma_power) = [8, 7, 6, 4, 3, 2, 0]
+   integer, parameter, public :: highest_group_power(0:highest_sigma_power) = [8, 7, 6, 4, 3, 2, 0]
    !> Terms of the load: ascending powers of A, for each power of sigma from its first term on.
-   integer, parameter, public :: load_terms = sum(highest_power + 1)
+   integer, parameter, public :: load_terms = sum(highest_group_power + 1)
    integer, parameter :: earlier(0:highest_sigma_power, 0:highest_sigma_power) = reshape( &
                          [((merge(1, 0, k < i), i=0, highest_sigma_power), k=0, highest_sigma_power)], &
                          [highest_sigma_power + 1, highest_sigma_power + 1])
-   integer, parameter, public :: first_term(0:highest_sigma_power) = matmul(earlier, highest_power + 1)
+   integer, parameter, public :: first_term(0:highest_sigma_power) = matmul(earlier, highest_group_power + 1)
    !> The same in a cell.
    integer, parameter :: first_coefficient(0:cell_degree) = [(i*(cell_degree + 1) - i*(i - 1)/2 + 1, i=0, cell_degree)]
 
@@ -144,7 +144,7 @@ contains
          !GCC$ unroll 24
          do j = 0, cell_degree - 1
             !GCC$ unroll 24
-            do m = 0, min(highest_power(0), cell_degree - j - 1)
+            do m = 0, min(highest_group_power(0), cell_degree - j - 1)
                !GCC$ unroll 24
                do k = first_coefficient(j) + cell_degree - j - 1, first_coefficient(j) + m, -1
                   c(l, k) = c(l, k) + deviation(l)*c(l, k + 1)
@@ -152,9 +152,9 @@ contains
             end do
          end do
          !GCC$ unroll 24
-         do k = 0, highest_power(0)
+         do k = 0, highest_group_power(0)
             !GCC$ unroll 24
-            do m = 0, count(highest_power >= k) - 1
+            do m = 0, count(highest_group_power >= k) - 1
                !GCC$ unroll 24
                do j = cell_degree - k - 1, m, -1
                   c(l, first_coefficient(j) + k) = c(l, first_coefficient(j) + k) &
@@ -169,8 +169,8 @@ contains
       expansion%peak(first:last, :) = peak(:, 0:highest_peak_power)
       !GCC$ unroll 24
       do j = 0, highest_sigma_power
-         expansion%terms(first:last, first_term(j):first_term(j) + highest_power(j)) = &
-            c(:, first_coefficient(j):first_coefficient(j) + highest_power(j))
+         expansion%terms(first:last, first_term(j):first_term(j) + highest_group_power(j)) = &
+            c(:, first_coefficient(j):first_coefficient(j) + highest_group_power(j))
       end do
       ! dPsi/dA at constant sigma, and what sigma changes by
       expansion%load_slope(first:last) = inverse_unit*(c(:, first_coefficient(0) + 1) &

@@ -15,7 +15,7 @@
 module taylor_reynolds_piezo
    use kinds, only: dp
    use lane_functions, only: half_block, lanes
-   use reynolds_piezo_expansion, only: expand_reynolds_piezo, first_term, highest_peak_power, highest_power, &
+   use reynolds_piezo_expansion, only: expand_reynolds_piezo, first_term, highest_peak_power, highest_group_power, &
       highest_sigma_power, reynolds_piezo_expansion_t
    use series_factors, only: inverse, wave
    use taylor_rupture, only: rupture_order
@@ -29,7 +29,7 @@ module taylor_reynolds_piezo
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
    !> Names as above; group = B, peak = max p*, tail + j: F_j, z + i - 1: z**i.
    integer, parameter :: h = 1, v = 2, p = 3, r = 4, group = 5, s = 6, peak = 7, tail = 8, &
-                         z = tail + highest_sigma_power + 1, series = z + highest_power(0) - 1
+                         z = tail + highest_sigma_power + 1, series = z + highest_group_power(0) - 1
 
    public :: reynolds_piezo_series
 
@@ -118,7 +118,7 @@ contains
                c(l, group, k) = pressing(before + l)*(of_group + c(l, r, 0)*c(l, p, k) + c(l, r, k)*c(l, p, 0))
                c(l, z, k) = unit_rate(l)*(of_z + c(l, r, k)*c(l, v, 0))
                !GCC$ unroll 24
-               do i = min(highest_power(0), k), 2, -1
+               do i = min(highest_group_power(0), k), 2, -1
                   ! Squares, and products of neighbours
                   low = z - 1 + i/2
                   high = z - 1 + (i + 1)/2
@@ -146,7 +146,7 @@ contains
                !GCC$ unroll 8
                do j = min(highest_sigma_power - 1, rupture_order - 1 - k), 0, -1
                   of_tail = 0.0_dp
-                  do i = min(highest_power(j), k), 2, -1
+                  do i = min(highest_group_power(j), k), 2, -1
                      of_tail = of_tail + expansion%terms(before + l, first_term(j) + i)*c(l, z + i - 1, k)
                   end do
                   do m = 2, merge(k - 1, 0, j + 1 < highest_sigma_power)

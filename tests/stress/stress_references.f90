@@ -7,10 +7,11 @@
 !> at the start of the last periods. The larger growth is taken, and never less than one.
 module stress_references
    use kinds, only: dp
-   use lane_motions, only: accelerations, solve_motions
+   use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use random_scenes, only: drawn_scene_t, group_t
    use rattle_class, only: classify, rattle_verdict_t
+   use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: is_success
    implicit none(type, external)
    private
@@ -205,7 +206,7 @@ contains
             if (.not. reference%certificate) cycle
             reference%window_films = films(:, i)
             allocate (reference%window_accelerations(size(films, 1)))
-            call accelerations(drawn(i)%lane, window_samples, films(:, i), velocities(:, i), &
+            call accelerations_of_samples(drawn(i)%lane, window_samples, films(:, i), velocities(:, i), &
                                reference%window_accelerations)
             call classify(reference%window_accelerations, drawn(i)%scene%spectrum, &
                           drawn(i)%resolved%noise_floor, &

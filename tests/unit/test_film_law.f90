@@ -1,12 +1,12 @@
 !> Tests of the film of a scene: coefficients, choice of the kernel, steady film.
 module test_film_law
    use canonical_scenes, only: canonical_scene, static_load
-   use checks, only: check_list_t
-   use film_law, only: film_load, film_t, kernel_half_pi, kernel_piezo, kernel_solved_fast, &
+   use checks, only: check_list_t, same_bits
+   use film_law, only: film_load, film_loads, film_t, kernel_half_pi, kernel_piezo, kernel_solved_fast, &
       kernel_solved_successive, &
       load_half_pi, load_piezo, load_solved_fast, load_solved_successive, new_film, steady_film
    use kinds, only: dp
-   use scene_types, only: law_iso_viscous, law_piezo_viscous, rupture_half_pi, rupture_solved, &
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_half_pi, rupture_solved, &
       rupture_solver_fast, &
       rupture_solver_successive, scene_t
    implicit none(type, external)
@@ -22,6 +22,7 @@ contains
 
       call checks%start('film_law')
       call test_kernels(checks)
+      call test_alone(checks)
       call test_steady_film(checks)
       call test_contact(checks)
       call test_linearised(checks)
@@ -108,6 +109,39 @@ contains
       film = new_film(scene)
       call checks%check_close(film%radius, 0.02_dp, 0.02_dp*4.0_dp*epsilon(1.0_dp), 'radius of two flanks')
    end subroutine test_contact
+
+   !> The load of a state has the same bits in any place of any number of states, and alone.
+   subroutine test_alone(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      ! No whole number of registers
+      integer, parameter :: states = 67
+      type(scene_t) :: scenes(5)
+      type(film_t) :: film
+      real(dp), dimension(states) :: thicknesses, velocities, loads, fewer, alone
+      real(dp) :: load, by_film, by_velocity
+      integer :: i, j
+
+      scenes = canonical_scene(law_iso_viscous, 512)
+      scenes(2)%film%rupture = rupture_solved
+      scenes(3)%film%law = law_piezo_viscous
+      scenes(4:)%film%model = model_reynolds
+      scenes(5)%film%law = law_piezo_viscous
+      scenes(5)%lubricant%pressure_viscosity = 1.0e-9_dp
+      thicknesses = [(5.0e-7_dp*(1.0_dp + 0.03_dp*real(i, dp)), i=1, states)]
+      velocities = [(1.0e-3_dp*sin(real(i, dp)), i=1, states)]
+      do j = 1, size(scenes)
+         film = new_film(scenes(j))
+         call film_loads(film, thicknesses, velocities, loads)
+         call film_loads(film, thicknesses(2:), velocities(2:), fewer(2:))
+         do i = 1, states
+            call film_load(film, thicknesses(i), velocities(i), load, by_film, by_velocity)
+            alone(i) = load
+         end do
+         call checks%check(all(same_bits(loads(2:), fewer(2:))), 'the same bits in another place')
+         call checks%check(all(same_bits(loads, alone)), 'the same bits alone')
+      end do
+   end subroutine test_alone
 
    !> Natural frequency and damping ratio of the canonical films, known to five and four digits.
    subroutine test_linearised(checks)

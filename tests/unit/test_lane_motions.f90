@@ -9,10 +9,11 @@ module test_lane_motions
                        kernel_solved_fast, kernel_solved_successive, new_film, steady_film
    use kinds, only: dp
    use lane_functions, only: lane_count => lanes
-   use lane_motions, only: accelerations, solve_motions
+   use lane_motions, only: solve_motions
    use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t
    use period_repetition, only: orbit_watch_t
    use radau_nodes, only: stages
+   use sample_accelerations, only: accelerations_of_samples
    use scene_lane, only: lane_of_scene
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, &
@@ -139,7 +140,7 @@ contains
          law = 1 + modulo(i - 1, size(kernels))
          call checks%check(motions%endings(i)%status == status_complete .and. &
                            motions%endings(i)%samples == samples, trim(names(law))//': ended well')
-         call accelerations(lanes(i), samples, motions%films(:, i), motions%velocities(:, i), values)
+         call accelerations_of_samples(lanes(i), samples, motions%films(:, i), motions%velocities(:, i), values)
          call find_lines(values, 1, 0.01_dp, 1.0e-10_dp, lines)
          call checks%check_close(maxval(abs(lines%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, &
                                  1.0e-6_dp, &

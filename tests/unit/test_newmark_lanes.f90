@@ -6,9 +6,8 @@ module test_newmark_lanes
    use film_law, only: film_t, kernel_half_pi, load_half_pi, load_piezo, new_film
    use forcing, only: force_of_period
    use kinds, only: dp
-   use lane_exponential, only: near_exponential, nearness, power_of_two
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
-   use newmark_lane_group, only: lanes
+   use newmark_lane_group, only: group_lanes
    use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, &
       solve_newmark_lanes
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_overflow
@@ -31,7 +30,6 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       call checks%start('newmark_lanes')
-      call test_exponential(checks)
       call test_against_scalar(checks)
       call test_company(checks)
       call test_samples(checks)
@@ -61,7 +59,7 @@ contains
 
    !> More scenes than a group has lanes, of both laws, from calm to violent.
    function many_scenes() result(scenes)
-      type(newmark_lane_scene_t) :: scenes(lanes + 21)
+      type(newmark_lane_scene_t) :: scenes(group_lanes + 21)
       integer :: i
 
       do i = 1, size(scenes)
@@ -87,33 +85,6 @@ contains
       call solve_newmark_lanes(scenes, request, motions%films, motions%velocities, motions%accelerations, &
                                motions%endings)
    end function motions_of
-
-   !> Powers of two, and the exponential near zero, against the intrinsic functions; the same bits in every
-   !> lane.
-   subroutine test_exponential(checks)
-      type(check_list_t), intent(inout) :: checks  !> Collects the results
-
-      integer, parameter :: points = 4096
-      real(dp), dimension(points) :: x, y
-      real(dp) :: error
-      integer :: i
-
-      x = [(-860.0_dp + 1650.0_dp*real(i, dp)/real(points, dp), i=1, points)]
-      error = maxval(abs(power_of_two(x)/2.0_dp**x - 1.0_dp))
-      call checks%check_close(error, 0.0_dp, 3.0_dp*epsilon(1.0_dp), 'power: whole range')
-      x = [(2.0_dp*real(i, dp)/real(points, dp) - 1.0_dp, i=1, points)]
-      error = maxval(abs(power_of_two(x)/2.0_dp**x - 1.0_dp))
-      call checks%check_close(error, 0.0_dp, 3.0_dp*epsilon(1.0_dp), 'power: near one')
-      error = maxval(abs(near_exponential(nearness*x)/exp(nearness*x) - 1.0_dp))
-      call checks%check_close(error, 0.0_dp, 3.0_dp*epsilon(1.0_dp), 'exponential: short cut')
-      x = -0.7_dp
-      y(:21) = power_of_two(x(:21))
-      call checks%check(all(abs(y(:21) - y(1)) <= 0.0_dp), 'power: the same bits in every lane')
-      call checks%check(power_of_two(1.0e6_dp) > 1.0e100_dp .and. power_of_two(1.0e6_dp) < huge(1.0_dp), &
-                        'power: held above')
-      call checks%check(power_of_two(-1.0e6_dp) >= 0.0_dp .and. power_of_two(-1.0e6_dp) < 1.0e-200_dp, &
-                        'power: held below')
-   end subroutine test_exponential
 
    !> Every sample of three periods against the scalar steps.
    subroutine test_against_scalar(checks)
@@ -161,7 +132,7 @@ contains
    subroutine test_company(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(newmark_lane_scene_t) :: scenes(lanes + 21)
+      type(newmark_lane_scene_t) :: scenes(group_lanes + 21)
       type(newmark_lane_request_t) :: request
       type(motions_t) :: together, reversed, alone
       integer :: i, same_alone, same_reversed

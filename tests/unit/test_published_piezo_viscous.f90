@@ -5,7 +5,7 @@ module test_published_piezo_viscous
    use film_law, only: overflow_load
    use kinds, only: dp
    use piezo_viscous_terms, only: piezo_viscous_terms_fractions, piezo_viscous_terms_load
-   use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_load, squeeze_exponent_rate
+   use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate
    implicit none(type, external)
    private
 
@@ -118,7 +118,7 @@ contains
       real(dp), intent(out) :: load_by_film      !> dW/dh [N/m]
       real(dp), intent(out) :: load_by_velocity  !> dW/dw [N s/m]
 
-      call piezo_viscous_load(piezo_coefficient(length, speed, viscosity, radius, alpha), &
+      call published_piezo_viscous_load(piezo_coefficient(length, speed, viscosity, radius, alpha), &
          squeeze_exponent_rate(speed), &
          film, velocity, load, load_by_film, load_by_velocity)
    end subroutine film_load

@@ -5,7 +5,7 @@ module test_reynolds_piezo_expansion
    use kinds, only: dp
    use lane_functions, only: lanes
    use reynolds_iso_viscous, only: iso_viscous_load
-   use reynolds_piezo_expansion, only: expand_reynolds_piezo, first_term, highest_power, highest_sigma_power, &
+   use reynolds_piezo_expansion, only: expand_reynolds_piezo, first_term, highest_group_power, highest_sigma_power, &
       reynolds_piezo_expansion_t
    use reynolds_piezo_viscous, only: critical_pressure_group, piezo_viscous_load
    implicit none(type, external)
@@ -99,7 +99,7 @@ contains
                sum = 0.0_dp
                do j = highest_sigma_power, 0, -1
                   inner = 0.0_dp
-                  do i = highest_power(j), 0, -1
+                  do i = highest_group_power(j), 0, -1
                      inner = inner*step_a*expansion%inverse_unit(l) + expansion%terms(l, first_term(j) + i)
                   end do
                   sum = sum*(sigma - expansion%sigma(l)) + inner

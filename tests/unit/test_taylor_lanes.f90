@@ -8,14 +8,15 @@ module test_taylor_lanes
    use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
       kernel_solved_fast
    use kinds, only: dp
-   use lane_functions, only: coarse_log, coarse_power, half_block, lane_cosine_sine, lane_exponential, lanes, log_of_one, &
+   use lane_functions, only: coarse_log, coarse_power, half_block, lanes, log_of_one, &
       whole_below
-   use lane_motions, only: accelerations, solve_motions
+   use lane_motions, only: solve_motions
    use lane_rows, only: interleave_rows
    use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, place_block
    use published_iso_viscous, only: rolling_coefficient, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, squeeze_exponent_rate
    use reynolds_load, only: pressure_rate, squeeze_rate
+   use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: status_complete, status_film_lost, status_overflow, status_steady
    implicit none(type, external)
    private
@@ -112,25 +113,12 @@ contains
       films = film_table(:, 1)
    end subroutine films_of
 
-   !> Exponential, cosine and sine, coarse logarithm.
+   !> Coarse logarithm and its inverse, whole numbers below.
    subroutine test_functions(checks)
       type(check_list_t), intent(inout) :: checks
-      real(dp) :: x(lanes), y(lanes), cosine(lanes), sine(lanes), worst_exponential, worst_circle
-      integer :: i, l
+      real(dp) :: x(lanes)
+      integer :: l
 
-      worst_exponential = 0.0_dp
-      worst_circle = 0.0_dp
-      do i = 0, 200
-         x = [(-299.0_dp + real(i*lanes + l, dp)*598.0_dp/real(201*lanes, dp), l=1, lanes)]
-         call lane_exponential(x, y)
-         worst_exponential = max(worst_exponential, maxval(abs(y/exp(x) - 1.0_dp)))
-         x = [(real(i*lanes + l, dp)/real(201*lanes, dp), l=1, lanes)]
-         call lane_cosine_sine(x, cosine, sine)
-         worst_circle = max(worst_circle, maxval(abs(cosine - cos(two_pi*x))), maxval(abs(sine &
-            - sin(two_pi*x))))
-      end do
-      call checks%check_close(worst_exponential, 0.0_dp, 4.0_dp*epsilon(1.0_dp), 'exponential')
-      call checks%check_close(worst_circle, 0.0_dp, 6.0_dp*epsilon(1.0_dp), 'cosine and sine')
       x = [(10.0_dp**(l - 8), l=1, lanes)]
       call checks%check(maxval(abs(coarse_power(coarse_log(x) - log_of_one)/x - 1.0_dp)) < 2.0e-6_dp, &
          'coarse power inverts')
@@ -419,7 +407,7 @@ contains
          status_complete]), &
                         'statuses of scenes that cannot start')
       call checks%check(all(endings%samples == [0, 0, 0, 4]), 'samples of scenes that cannot start')
-      call accelerations(scenes(4), 4, [first_film], [0.0_dp], values(:1))
+      call accelerations_of_samples(scenes(4), 4, [first_film], [0.0_dp], values(:1))
       call checks%check_close(values(1), 0.0_dp, 1.0e-9_dp, 'balance at a quarter of a period')
    end subroutine test_failures
 

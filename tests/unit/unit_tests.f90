@@ -1,6 +1,7 @@
 !> Runs the tests of all modules. The last line is 'N passed, M failed'; the exit code is 1 if any failed.
 program unit_tests
    use checks, only: check_list_t
+   use test_elementary_functions, only: run_elementary_functions_tests
    use test_errors, only: run_errors_tests
    use test_film_integrals, only: run_film_integrals_tests
    use test_film_law, only: run_film_law_tests
@@ -59,6 +60,7 @@ program unit_tests
    call run_text_tests(checks)
    call run_word_list_tests(checks)
    call run_value_range_tests(checks)
+   call run_elementary_functions_tests(checks)
    call run_errors_tests(checks)
    call run_key_table_tests(checks)
    call run_namelist_text_tests(checks)

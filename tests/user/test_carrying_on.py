@@ -120,6 +120,24 @@ def test_one_long_run_equals_three_chained(method: str, model: str, run, scene_t
         same(folder)
 
 
+@pytest.mark.parametrize("film", FILMS)
+def test_samples_that_fill_no_whole_registers_keep_their_bits(
+    film: str, run, scene_text, tmp_path: Path
+) -> None:
+    """A sample has the same bits wherever in a block of periods it stands."""
+    text = canonical(
+        scene_text,
+        *(word.strip("'") for word in FILMS[film].values()),
+        method="'taylor'",
+        samples_per_period="67",
+    )
+    (tmp_path / "scene.nml").write_text(text)
+    for periods in (17, 20, 30, 41, 60):
+        carry_on(run, tmp_path, "--set", f"solver.periods={periods}")
+    assert run("--output", "long", "scene.nml", cwd=tmp_path).returncode == 0
+    same(tmp_path)
+
+
 @pytest.mark.parametrize(
     ("method", "setting", "carried"),
     [

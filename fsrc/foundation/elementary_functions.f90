@@ -1,0 +1,126 @@
+!> Exponential and circular functions as arithmetic and bit operations alone, for loops over many numbers.
+!>
+!> A call within such a loop becomes one of a vector library, and the last numbers of a short loop are left to scalar code, which
+!> differs in the last digit. Here a number gets the same bits in any place, alone or among any neighbours, and loops run in full
+!> registers.
+module elementary_functions
+   use constants, only: two_pi
+   use kinds, only: dp, int64
+   implicit none(type, external)
+   private
+
+   integer :: i
+   !> 2^52 + 2^51: added and subtracted, it rounds to an integer, whose bits stand at the end of the sum.
+   real(dp), parameter :: rounder = 6755399441055744.0_dp
+
+   !> Largest argument, and its negative, of `exponential`; beyond it the value at the border is given, of which products with
+   !> other numbers do not overflow.
+   real(dp), parameter, public :: largest_exponent = 550.0_dp
+   !> Fraction of 1/k! that the exponential needs below |x| = ln(2)/2; the rest is under 5e-18.
+   integer, parameter :: exponential_terms = 13
+   real(dp), parameter :: inverse_factorial(0:exponential_terms) = &
+      [(1.0_dp/gamma(real(i + 1, dp)), i=0, exponential_terms)]
+
+   !> Exponents of `power_of_two` are held between these.
+   real(dp), parameter :: lowest_power = -870.0_dp, highest_power = 790.0_dp
+   !> (2^t - 1)/t on |t| <= 1/2, interpolated at the nodes of Chebyshev; the rest is below 2e-17.
+   real(dp), parameter :: c(11) = [0.6931471805599453_dp, 0.24022650695910097_dp, 0.0555041086648216_dp, &
+                            0.009618129107606854_dp, 0.0013333558146416916_dp, 0.00015403530441794136_dp, &
+                            1.525273382986708e-05_dp, 1.3215442552522291e-06_dp, 1.0178062426976924e-07_dp, &
+                            7.072593027878997e-09_dp, 4.4549643712692967e-10_dp]
+   !> `near_exponential` is good to rounding up to this magnitude.
+   real(dp), parameter, public :: nearness = 0.03125_dp
+
+   public :: cosine_sine, exponential, power_of_two, near_exponential
+
+contains
+
+   !> Cosine and sine of 2 pi times a phase. Quadrant by rounding, then the polynomials of Sun's fdlibm on
+   !> |angle| <= pi/4; errors stay below 2 ulp of 1.
+   elemental subroutine cosine_sine(phase, cosine, sine)
+      !> Phase from 0 to 1 [periods]
+      real(dp), intent(in) :: phase
+      !> cos(2 pi phase) [-]
+      real(dp), intent(out) :: cosine
+      !> sin(2 pi phase) [-]
+      real(dp), intent(out) :: sine
+      real(dp) :: quadrant, angle, z, near_sine, near_cosine, even
+
+      quadrant = (4.0_dp*phase + rounder) - rounder
+      angle = two_pi*(phase - 0.25_dp*quadrant)
+      z = angle*angle
+      near_sine = angle + angle*z*(-1.6666666666666632e-01_dp + z*(8.3333333333224895e-03_dp &
+         + z*(-1.9841269829857949e-04_dp + z*(2.7557313707070068e-06_dp &
+         + z*(-2.5050760253406863e-08_dp + z*1.589690995211550e-10_dp)))))
+      near_cosine = 1.0_dp - 0.5_dp*z + z*z*(4.1666666666666602e-02_dp + z*(-1.3888888888874110e-03_dp &
+         + z*(2.4801587289476729e-05_dp + z*(-2.7557314351390663e-07_dp &
+         + z*(2.0875723212981748e-09_dp - z*1.1359647557788195e-11_dp)))))
+      even = abs(abs(quadrant - 2.0_dp) - 1.0_dp)
+      cosine = merge(near_cosine, near_sine, even > 0.5_dp)
+      sine = merge(near_sine, near_cosine, even > 0.5_dp)
+      cosine = merge(-cosine, cosine, abs(quadrant - 1.5_dp) < 1.0_dp)
+      sine = merge(-sine, sine, abs(quadrant - 2.5_dp) < 1.0_dp)
+   end subroutine cosine_sine
+
+   !> Exponential function, relative error below 2 epsilon for |x| <= largest_exponent.
+   elemental real(dp) function exponential(x)
+      !> Argument [-]
+      real(dp), intent(in) :: x
+      !> 1/ln 2, and ln 2 in two parts, the first with zeros enough to make its product exact
+      real(dp), parameter :: octaves_per_unit = 1.4426950408889634_dp
+      real(dp), parameter :: ln_2_high = 6.931471803691238e-01_dp, ln_2_low = 1.9082149292705877e-10_dp
+      real(dp) :: held, sum, rest, mantissa
+      integer :: k
+
+      held = max(-largest_exponent, min(largest_exponent, x))
+      sum = held*octaves_per_unit + rounder
+      rest = (held - (sum - rounder)*ln_2_high) - (sum - rounder)*ln_2_low
+      mantissa = inverse_factorial(exponential_terms)
+      do k = exponential_terms - 1, 0, -1
+         mantissa = mantissa*rest + inverse_factorial(k)
+      end do
+      exponential = with_octaves(mantissa, sum)
+   end function exponential
+
+   !> 2^x, to 2 epsilon; beyond about 2^-870 and 2^790 those are given.
+   elemental real(dp) function power_of_two(x)
+      !> Exponent [-]
+      real(dp), intent(in) :: x
+      real(dp) :: held, shifted, t, t2, mantissa
+
+      held = max(lowest_power, min(highest_power, x))
+      shifted = held + rounder
+      t = held - (shifted - rounder)
+      t2 = t*t
+      mantissa = 1.0_dp + t*(((c(1) + c(2)*t) + t2*(c(3) + c(4)*t)) + &
+         (t2*t2)*(((c(5) + c(6)*t) + t2*(c(7) + c(8)*t)) + (t2*t2)*((c(9) + c(10)*t) + t2*c(11))))
+      power_of_two = with_octaves(mantissa, shifted)
+   end function power_of_two
+
+   !> A number times two to the power of the integer that `rounder` has left at the end of a sum: it goes to the exponent.
+   elemental real(dp) function with_octaves(number, sum)
+      !> The number [-]
+      real(dp), intent(in) :: number
+      !> The sum [-]
+      real(dp), intent(in) :: sum
+      integer(int64) :: octaves, bits
+
+      ! One transfer a statement: else no vectors.
+      octaves = transfer(sum, octaves)
+      bits = transfer(number, bits)
+      bits = bits + shiftl(octaves, 52)
+      with_octaves = transfer(bits, with_octaves)
+   end function with_octaves
+
+   !> exp(x) for |x| <= nearness.
+   elemental real(dp) function near_exponential(x)
+      !> Argument [-]
+      real(dp), intent(in) :: x
+      real(dp) :: x2
+
+      x2 = x*x
+      near_exponential = (1.0_dp + x) + x2*((0.5_dp + x*(1.0_dp/6.0_dp)) + &
+         x2*((1.0_dp/24.0_dp + x*(1.0_dp/120.0_dp)) + x2*(1.0_dp/720.0_dp + x*(1.0_dp/5040.0_dp))))
+   end function near_exponential
+
+end module elementary_functions
