@@ -4,7 +4,9 @@
 !> scene_types, add its coefficients to `film_t` and `new_film`, its wrapper to this file, and its line to
 !> `film_load` below and to the choice in integrate_motion.
 module film_law
+   use elementary_functions, only: exponential
    use kinds, only: dp
+   use piezo_viscous_terms, only: piezo_viscous_terms_load
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate
    use regime, only: equivalent_radius, plane_strain_modulus
@@ -156,7 +158,8 @@ contains
       end select
    end subroutine film_load
 
-   !> Loads of many states of one film: which law it is, is asked once, and the published ones run in full registers.
+   !> Loads of many states of one film: which law it is, is asked once, and the published ones run in full registers. A state has
+   !> the same bits in any place.
    pure subroutine film_loads(film, thicknesses, velocities, loads)
       !> The film
       type(film_t), intent(in) :: film
@@ -179,8 +182,8 @@ contains
       case (kernel_piezo)
          !$omp simd private(load_by_film, load_by_velocity)
          do i = 1, size(loads)
-            call published_piezo_viscous_load(film%piezo, film%rate, thicknesses(i), velocities(i), loads(i), load_by_film, &
-                                    load_by_velocity)
+            call piezo_viscous_terms_load(film%piezo, film%rate, thicknesses(i), exponential(-film%rate*velocities(i)), loads(i), &
+                                          load_by_film, load_by_velocity)
          end do
       case default
          do i = 1, size(loads)

@@ -1,7 +1,7 @@
 !> The published piezo-viscous film: load (37) with the contact length as a factor and the squeeze velocity
 !> (printed: the acceleration) in the exponent; it is the film-thickness regression (32) turned round.
 module published_piezo_viscous
-   use elementary_functions, only: exponential, largest_exponent
+   use elementary_functions, only: largest_exponent
    use kinds, only: dp
    use piezo_viscous_terms, only: piezo_viscous_terms_load
    implicit none(type, external)
@@ -54,13 +54,10 @@ contains
       real(dp), intent(out) :: load_by_film
       !> dW/dw [N s/m]
       real(dp), intent(out) :: load_by_velocity
-      real(dp) :: exponent, growth
 
-      ! Above its border the exponential is held there, far above the load by which the motion knows that the law has no value;
-      ! below, a film carries nothing.
-      exponent = -rate*velocity
-      growth = merge(exponential(exponent), 0.0_dp, exponent > -largest_exponent)
-      call piezo_viscous_terms_load(coefficient, rate, film, growth, load, load_by_film, load_by_velocity)
+      ! Beyond its border the exponential is held there, far above the load by which the motion knows that the law has no value.
+      call piezo_viscous_terms_load(coefficient, rate, film, exp(min(-rate*velocity, largest_exponent)), load, &
+                                    load_by_film, load_by_velocity)
    end subroutine published_piezo_viscous_load
 
 end module published_piezo_viscous

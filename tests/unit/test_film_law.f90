@@ -110,7 +110,7 @@ contains
       call checks%check_close(film%radius, 0.02_dp, 0.02_dp*4.0_dp*epsilon(1.0_dp), 'radius of two flanks')
    end subroutine test_contact
 
-   !> The load of a state has the same bits in any place of any number of states, and alone.
+   !> The load of a state has the same bits in any place of any number of states; alone it may come by another exponential.
    subroutine test_alone(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -139,7 +139,7 @@ contains
             alone(i) = load
          end do
          call checks%check(all(same_bits(loads(2:), fewer(2:))), 'the same bits in another place')
-         call checks%check(all(same_bits(loads, alone)), 'the same bits alone')
+         call checks%check_close(maxval(abs(loads/alone - 1.0_dp)), 0.0_dp, 8.0_dp*epsilon(1.0_dp), 'the same alone')
       end do
    end subroutine test_alone
 
