@@ -1,8 +1,7 @@
-!> Elementary functions for many scenes at once, one scene a lane.
+!> Functions for many scenes at once, one scene a lane.
 !>
-!> All lanes of a block go through the same vector instructions, written here as arithmetic and bit operations
-!> alone: a call of a vector library would treat the last lanes of a shorter block by scalar code, which
-!> differs in the last digit. So a scene gets the same bits in any lane, among any neighbours.
+!> All lanes of a block go through the same vector instructions, arithmetic and bit operations alone, for the reason that
+!> module elementary_functions gives. So a scene gets the same bits in any lane, among any neighbours.
 module lane_functions
    use elementary_functions, only: cosine_sine, exponential
    use kinds, only: dp, int64
