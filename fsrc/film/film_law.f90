@@ -4,11 +4,10 @@
 !> scene_types, add its coefficients to `film_t` and `new_film`, its wrapper to this file, and its line to
 !> `film_load` below and to the choice in integrate_motion.
 module film_law
-   use elementary_functions, only: exponential
    use kinds, only: dp
    use piezo_viscous_terms, only: piezo_viscous_terms_load
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
-   use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate
+   use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate, squeeze_growth
    use regime, only: equivalent_radius, plane_strain_modulus
    use reynolds_iso_viscous, only: rupture_tangent_fast
    use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate
@@ -182,7 +181,7 @@ contains
       case (kernel_piezo)
          !$omp simd private(load_by_film, load_by_velocity)
          do i = 1, size(loads)
-            call piezo_viscous_terms_load(film%piezo, film%rate, thicknesses(i), exponential(-film%rate*velocities(i)), loads(i), &
+          call piezo_viscous_terms_load(film%piezo, film%rate, thicknesses(i), squeeze_growth(film%rate, velocities(i)), loads(i), &
                                           load_by_film, load_by_velocity)
          end do
       case default

@@ -22,7 +22,7 @@
 !> of the step and the least film that counts as one at its nodes.
 module collocation_step
    use collocation_newton, only: allowed, correct, newton_pass_t, residual_and_matrix, scaled_load, solve_lanes, stage_states
-   use constants, only: two_pi
+   use elementary_functions, only: cosine_sine
    use film_law, only: film_t
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
@@ -117,7 +117,7 @@ contains
       type(lane_block_t), intent(inout) :: block
       !> Accelerations at the nodes [-]
       real(dp), intent(out) :: k(lanes, stages)
-      real(dp) :: ratio, place, load, by_film, by_momentum
+      real(dp) :: ratio, place, load, by_film, by_momentum, cosine, sine
       integer :: l, i, j
 
       k = 0.0_dp
@@ -125,7 +125,8 @@ contains
          if (.not. occupied(l)) cycle
          if (.not. block%last_step(l) > 0.0_dp) then
             call scaled_load(films(l), block, l, block%film(l, 0), block%momentum(l, 0), load, by_film, by_momentum)
-            block%acceleration(l) = load - block%load(l) - block%amplitude(l)*cos(two_pi*block%phase(l))
+            call cosine_sine(block%phase(l), cosine, sine)
+            block%acceleration(l) = load - block%load(l) - block%amplitude(l)*cosine
          end if
          if (block%last_step(l) > 0.0_dp .and. block%step(l) < most_extrapolation*block%last_step(l)) then
             ratio = block%step(l)/block%last_step(l)

@@ -60,6 +60,9 @@ contains
       y = power_of_two(x)
       fewer = power_of_two(x(2:))
       call checks%check(all(same_bits(y(2:), fewer)), 'power: the same bits in another place')
+      x(:21) = -0.7_dp
+      y(:21) = power_of_two(x(:21))
+      call checks%check(all(abs(y(:21) - y(1)) <= 0.0_dp), 'power: the same bits in every lane')
       call checks%check(power_of_two(1.0e6_dp) > 1.0e100_dp .and. power_of_two(1.0e6_dp) < huge(1.0_dp), &
                         'power: held above')
       call checks%check(power_of_two(-1.0e6_dp) >= 0.0_dp .and. power_of_two(-1.0e6_dp) < 1.0e-200_dp, &

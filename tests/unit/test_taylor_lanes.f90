@@ -8,7 +8,7 @@ module test_taylor_lanes
    use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
       kernel_solved_fast
    use kinds, only: dp
-   use lane_functions, only: coarse_log, coarse_power, half_block, lanes, log_of_one, &
+   use lane_functions, only: coarse_log, coarse_power, half_block, lane_cosine_sine, lane_exponential, lanes, log_of_one, &
       whole_below
    use lane_motions, only: solve_motions
    use lane_rows, only: interleave_rows
@@ -113,12 +113,25 @@ contains
       films = film_table(:, 1)
    end subroutine films_of
 
-   !> Coarse logarithm and its inverse, whole numbers below.
+   !> Exponential, cosine and sine, coarse logarithm.
    subroutine test_functions(checks)
       type(check_list_t), intent(inout) :: checks
-      real(dp) :: x(lanes)
-      integer :: l
+      real(dp) :: x(lanes), y(lanes), cosine(lanes), sine(lanes), worst_exponential, worst_circle
+      integer :: i, l
 
+      worst_exponential = 0.0_dp
+      worst_circle = 0.0_dp
+      do i = 0, 200
+         x = [(-299.0_dp + real(i*lanes + l, dp)*598.0_dp/real(201*lanes, dp), l=1, lanes)]
+         call lane_exponential(x, y)
+         worst_exponential = max(worst_exponential, maxval(abs(y/exp(x) - 1.0_dp)))
+         x = [(real(i*lanes + l, dp)/real(201*lanes, dp), l=1, lanes)]
+         call lane_cosine_sine(x, cosine, sine)
+         worst_circle = max(worst_circle, maxval(abs(cosine - cos(two_pi*x))), maxval(abs(sine &
+            - sin(two_pi*x))))
+      end do
+      call checks%check_close(worst_exponential, 0.0_dp, 4.0_dp*epsilon(1.0_dp), 'exponential')
+      call checks%check_close(worst_circle, 0.0_dp, 6.0_dp*epsilon(1.0_dp), 'cosine and sine')
       x = [(10.0_dp**(l - 8), l=1, lanes)]
       call checks%check(maxval(abs(coarse_power(coarse_log(x) - log_of_one)/x - 1.0_dp)) < 2.0e-6_dp, &
          'coarse power inverts')
