@@ -6,100 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from drawn import all_words
 from figure_files import call, stems
-from kernel_module import kernels
-from matplotlib.figure import Figure
-from matplotlib.text import Text
+from film_writer import FILM_INPUT, write_points, write_profiles
 from result_writer import write_motion, write_result
 
 import rattle
 from rattle.figures import film_piezo_pressure, film_points, style
 
-RADIUS, LENGTH, VISCOSITY, ALPHA = 0.0127, 0.010, 0.3, 2.0e-8
-SQUEEZE_RATIOS = (-5e-4, -2.5e-4, 0.0, 2.5e-4, 5e-4)
 PAPER = ["figure_03", "figure_04a", "figure_04b", "figure_05"]
-
-FILM_INPUT = """&scene
-   name = 'film'
-   task = '{task}'
-/
-&contact
-   radius = 0.0127
-   length = 0.01
-/
-&lubricant
-   viscosity = 0.3
-   pressure_viscosity = 2.0E-8
-/
-"""
-
-
-POINT_COLUMNS = {
-    "film_ratio": "-",
-    "squeeze_ratio": "-",
-    "speed_group": "-",
-    "film_thickness": "m",
-    "stiffness_published": "N/m",
-    "stiffness_iso_viscous": "N/m",
-    "stiffness_piezo_viscous": "N/m",
-    "damping_published": "N s/m",
-    "damping_iso_viscous": "N s/m",
-    "damping_piezo_viscous": "N s/m",
-}
-PROFILE_COLUMNS = {
-    "film_ratio": "-",
-    "squeeze_ratio": "-",
-    "speed_group": "-",
-    "coordinate": "rad",
-    "position": "m",
-    "pressure_group": "-",
-    "reduced_pressure": "Pa",
-    "piezo_viscous_pressure": "Pa",
-}
-
-
-def write_points(path: Path, film_ratios: np.ndarray, speed_groups=(0.9e-6,), without: str = "") -> Path:
-    """The table of a film task, with the numbers of the kernels."""
-    rows = []
-    for speed_group in speed_groups:
-        speed = speed_group * RADIUS / (VISCOSITY * ALPHA)
-        contact = {"radius": RADIUS, "length": LENGTH, "speed": speed, "viscosity": VISCOSITY}
-        for squeeze in SQUEEZE_RATIOS:
-            state = film_ratios * RADIUS, np.full_like(film_ratios, squeeze * speed)
-            published = kernels.published_stiffness_damping(*state, **contact)
-            iso = kernels.reynolds_iso_viscous_load(*state, **contact)[1:]
-            piezo = kernels.reynolds_piezo_viscous_load(*state, **contact, pressure_viscosity=ALPHA)[1:]
-            for position, film_ratio in enumerate(film_ratios):
-                pairs = [(published[n][position], -iso[n][position], -piezo[n][position]) for n in (0, 1)]
-                rows.append([film_ratio, squeeze, speed_group, film_ratio * RADIUS, *pairs[0], *pairs[1]])
-    return _write(path, POINT_COLUMNS, rows, without)
-
-
-def write_profiles(path: Path, film_ratio: float, speed_groups=(0.9e-6,), without: str = "") -> Path:
-    """Pressure profiles of a film task, with the numbers of the kernels."""
-    rows = []
-    for speed_group in speed_groups:
-        scale = kernels.pressure_scale(RADIUS, speed_group * RADIUS / ALPHA, 1.0, film_ratio * RADIUS)
-        for squeeze in SQUEEZE_RATIOS:
-            a = kernels.squeeze_group(RADIUS, 1.0, film_ratio * RADIUS, squeeze)
-            end = kernels.rupture_angle(a)
-            angle = np.linspace(-np.pi / 2 + 1e-6, end, 101)
-            group = np.maximum(kernels.pressure_group(np.tan(angle), np.tan(end), a), 0.0)
-            q = kernels.barus_pressure(ALPHA * scale * group) / ALPHA
-            place = np.tan(angle) * np.sqrt(2.0 * film_ratio) * RADIUS
-            held = np.broadcast_to([film_ratio, squeeze, speed_group], (angle.size, 3))
-            rows += np.column_stack([held, angle, place, group, scale * group, q]).tolist()
-    return _write(path, PROFILE_COLUMNS, rows, without)
-
-
-def _write(path: Path, columns: dict[str, str], rows: list, without: str) -> Path:
-    kept = [position for position, name in enumerate(columns) if name != without]
-    pairs = [pair for pair in columns.items() if pair[0] != without]
-    return write_result(path, pairs, np.asarray(rows)[:, kept], input_text=FILM_INPUT.format(task="film"))
-
-
-def words(figure: Figure) -> str:
-    return "\n".join(text.get_text() for text in figure.findobj(Text))
 
 
 @pytest.fixture
@@ -134,9 +49,9 @@ def test_same_film_gives_the_same_bytes(film, tmp_path):
 def test_figure_5_says_which_films_do_not_exist(film):
     profiles = film_points.read_profiles(film)
     with style.house_style():
-        printed = words(film_piezo_pressure.draw(profiles, film_points.Choice(speed_group=0.9e-6)))
-        halved = words(film_piezo_pressure.draw(profiles, film_points.Choice(speed_group=0.45e-6)))
-        both = words(film_piezo_pressure.draw(profiles, film_points.Choice()))
+        printed = all_words(film_piezo_pressure.draw(profiles, film_points.Choice(speed_group=0.9e-6)))
+        halved = all_words(film_piezo_pressure.draw(profiles, film_points.Choice(speed_group=0.45e-6)))
+        both = all_words(film_piezo_pressure.draw(profiles, film_points.Choice()))
     assert "no rigid piezo-viscous film exists" in printed
     assert r"$\alpha p \leq 1.65$, no film" in printed and "MPa$" not in printed.replace("[MPa]", "")
     assert "no rigid" not in halved
@@ -148,7 +63,7 @@ def test_figure_5_counts_the_films_that_do_not_exist(tmp_path):
     write_profiles(tmp_path / "film.profiles.rattle", 96e-6)
     with style.house_style():
         profiles = film_points.read_profiles(tmp_path / "film.rattle")
-        found = words(film_piezo_pressure.draw(profiles, film_points.Choice()))
+        found = all_words(film_piezo_pressure.draw(profiles, film_points.Choice()))
     assert "no rigid film exists at 3 of 5" in found
 
 

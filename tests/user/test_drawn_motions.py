@@ -1,0 +1,306 @@
+"""What the figures of motions and sweeps show: the numbers of the result, in the unit that the axis names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import drawn
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from result_writer import write_motion, write_result
+
+import rattle
+from rattle.figures import catalogue, style, sweep, tolerance
+
+# Harmonics, and lines between them that fit 16 and 20 periods. The slowest tells the periods apart.
+LINES = {0.25: 0.5, 1.0: 10.0, 2.0: 8.0, 3.0: 3.0, 4.5: 2.0}
+PERIOD = 2.0  # ms
+ACCELERATION = r"Acceleration $\ddot{z}$ [m/s$^2$]"
+AMPLITUDE = r"Amplitude of $\ddot{z}$ [m/s$^2$]"
+RATIO = r"Frequency ratio $f/f_\mathrm{exc}$"
+
+
+@pytest.fixture
+def idle(tmp_path) -> Path:
+    return write_motion(tmp_path / "idle.rattle", lines=LINES)
+
+
+@pytest.fixture
+def creep(tmp_path) -> Path:
+    lines = {0.25: 0.2, 1.0: 4.0, 2.0: 1.0}
+    return write_motion(tmp_path / "creep.rattle", lines=lines, law="piezo-viscous")
+
+
+def figure(number: int, *paths: Path, periods: int = 4, window: int | None = None) -> Figure:
+    """One figure of one run, or of several laid over each other."""
+    results = [rattle.read(path) for path in paths]
+    make = catalogue.overlay_figures if len(paths) > 1 else catalogue.single_figures
+    with style.house_style():
+        ((_, made),) = make(results, [number], catalogue.Extent(periods, window))
+        return made
+
+
+def history(path: Path, column: str, periods: int) -> tuple[np.ndarray, np.ndarray]:
+    """Milliseconds and values of the last periods, with the row at their start."""
+    rows = slice(-128 * periods - 1, None)
+    result = rattle.read(path)
+    time = np.array(result["time"][rows])
+    return 1e3 * (time - time[0]), np.array(result[column][rows])
+
+
+def assert_curve(found: tuple[np.ndarray, np.ndarray], expected: tuple[np.ndarray, np.ndarray]) -> None:
+    for seen, meant in zip(found, expected, strict=True):
+        assert seen.shape == meant.shape
+        np.testing.assert_allclose(seen, meant, rtol=1e-12, atol=1e-12 * np.nanmax(np.abs(meant)))
+
+
+def assert_lines(axes: Axes, drawn_set: int, expected: dict[float, float], shift: float = 0.0) -> None:
+    """One set of spectral lines holds these ratios with these amplitudes, and nothing else of any size."""
+    places, heights = drawn.bars(axes)[drawn_set]
+    large = heights > 1e-9
+    np.testing.assert_allclose(places[large] - shift, sorted(expected), rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(heights[large], [expected[ratio] for ratio in sorted(expected)], rtol=1e-9)
+
+
+# --- figures 6, 8 and 9: histories ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("periods", [1, 4])
+def test_figure_6_shows_film_in_micrometres_over_force_in_newtons(idle, periods):
+    film, force = figure(6, idle, periods=periods).axes
+    time, thickness = history(idle, "film_thickness", periods)
+    assert_curve(drawn.curves(film)[0], (time, 1e6 * thickness))
+    assert_curve(drawn.curves(force)[0], history(idle, "applied_force", periods))
+    assert drawn.colours(film) == [style.LAW_COLOURS["iso-viscous"].lower()]
+    assert film.get_ylabel() == r"Film thickness $h$ [$\mathrm{\mu}$m]"
+    start = (20 - periods) * PERIOD
+    assert drawn.labels(force) == (
+        f"Time within the last {periods} excitation periods [ms], from $t$ = {start:.2f} ms",
+        "Applied force $F$ [N]",
+    )
+    assert film.get_ylim()[0] == 0.0 and film.get_ylim()[1] > 1.4
+    for axes in (film, force):
+        assert axes.get_xlim() == pytest.approx((0.0, periods * PERIOD))
+        expected = [count * PERIOD for count in range(periods + 1)]
+        assert drawn.rules(axes, "x") == pytest.approx(expected)
+    low, high = force.get_ylim()
+    assert low < 50.0 < 350.0 < high
+    assert film.get_title(loc="left") == (
+        "Film thickness under the applied force\nScene idle, published iso-viscous film"
+    )
+
+
+@pytest.mark.parametrize(("number", "law"), [(8, "iso-viscous"), (9, "piezo-viscous")])
+def test_figures_8_and_9_show_the_acceleration(tmp_path, number, law):
+    path = write_motion(tmp_path / "idle.rattle", lines=LINES, law=law)
+    (axes,) = figure(number, path, periods=3).axes
+    assert_curve(drawn.curves(axes)[0], history(path, "acceleration", 3))
+    assert drawn.colours(axes) == [style.LAW_COLOURS[law].lower()]
+    words = "Time within the last 3 excitation periods [ms], from $t$ = 34.00 ms"
+    assert drawn.labels(axes) == (words, ACCELERATION)
+    assert axes.get_xlim() == pytest.approx((0.0, 6.0))
+    assert drawn.rules(axes, "x") == pytest.approx([0.0, 2.0, 4.0, 6.0])
+    assert drawn.rules(axes, "y") == [0.0]
+
+
+def test_an_overlay_of_histories_names_each_run_at_its_own_line(idle, creep):
+    made = figure(8, idle, creep, periods=2)
+    (axes,) = made.axes
+    for found, path in zip(drawn.curves(axes), (idle, creep), strict=True):
+        assert_curve(found, history(path, "acceleration", 2))
+    assert drawn.colours(axes) == [colour.lower() for colour in style.RUN_COLOURS[:2]]
+    handles = made.legends[0].legend_handles
+    assert drawn.legend_words(made) == ["idle", "creep"]
+    assert [handle.get_color() for handle in handles] == list(style.RUN_COLOURS[:2])
+    assert axes.get_xlabel() == "Time within the last 2 excitation periods [ms]"
+
+
+# --- figures 7 and 10: spectra -------------------------------------------------------------------------
+
+
+def test_figure_7_shows_the_lines_of_the_force_in_newtons(idle):
+    (axes,) = figure(7, idle).axes
+    assert_lines(axes, 0, {0.0: 200.0, 1.0: 150.0})
+    places = drawn.bars(axes)[0][0]
+    assert places.max() == 5.0
+    assert np.diff(places) == pytest.approx(1.0 / 16.0)
+    assert drawn.labels(axes) == (RATIO, "Amplitude of $F$ [N]")
+    assert axes.get_xlim() == (-0.25, 5.0)
+    assert axes.get_ylim() == pytest.approx((0.0, 224.0))
+    places = {note.get_text(): note.xy for note in axes.texts}
+    assert places["mean\n200 N"] == pytest.approx((0.0, 200.0))
+    assert places["150 N\nat 500 Hz"] == pytest.approx((1.0, 150.0))
+
+
+def test_an_overlay_of_the_force_stands_side_by_side(idle, creep):
+    (axes,) = figure(7, idle, creep).axes
+    for position, shift in enumerate((-0.03, 0.03)):
+        assert_lines(axes, position, {0.0: 200.0, 1.0: 150.0}, shift)
+    assert axes.get_xlabel() == f"{RATIO}; runs side by side"
+
+
+@pytest.mark.parametrize("window", [None, 20])
+def test_figure_10_shows_harmonics_and_what_is_between_them(idle, window):
+    made = figure(10, idle, window=window)
+    linear, logarithmic = made.axes
+    for axes in (linear, logarithmic):
+        assert_lines(axes, 0, {ratio: a for ratio, a in LINES.items() if ratio % 1.0})
+        assert_lines(axes, 1, {ratio: a for ratio, a in LINES.items() if not ratio % 1.0})
+        places = np.sort(np.concatenate([found[0] for found in drawn.bars(axes)]))
+        assert np.diff(places) == pytest.approx(1.0 / (window or 16))
+        assert axes.get_ylabel() == AMPLITUDE
+        assert axes.get_xlim() == (0.0, 10.5)
+    assert logarithmic.get_xlabel() == RATIO
+    assert (linear.get_yscale(), logarithmic.get_yscale()) == ("linear", "log")
+    assert linear.get_ylim() == pytest.approx((0.0, 10.8))
+    assert logarithmic.get_ylim() == pytest.approx((1e-4, 30.0))
+    assert drawn.rules(logarithmic, "y") == pytest.approx([0.1])
+    assert drawn.legend_words(made) == [
+        "harmonics of 500 Hz",
+        "between the harmonics",
+        "1 % of the first harmonic",
+    ]
+    assert (
+        linear.get_title(loc="left")
+        .splitlines()[1]
+        .startswith("Scene idle, published iso-viscous film; 3 lines, class ")
+    )
+
+
+@pytest.mark.parametrize(("last", "end"), [(9.0, 10.5), (14.0, 14.5), (60.0, 40.5)])
+def test_figure_10_ends_behind_the_last_line_within_limits(tmp_path, last, end):
+    path = write_motion(tmp_path / "a.rattle", lines={1.0: 5.0, last: 0.1})
+    linear, _ = figure(10, path).axes
+    assert linear.get_xlim() == (0.0, end)
+
+
+def test_an_overlay_of_spectra_stands_side_by_side(idle, creep):
+    for axes in figure(10, idle, creep).axes:
+        assert_lines(axes, 0, LINES, -0.08)
+        assert_lines(axes, 1, {0.25: 0.2, 1.0: 4.0, 2.0: 1.0}, 0.08)
+    assert axes.get_xlabel() == f"{RATIO}; runs side by side"
+
+
+# --- loose tolerances ----------------------------------------------------------------------------------
+
+
+def test_the_tolerance_figure_puts_each_run_where_its_words_are(tmp_path):
+    loose_path = write_motion(tmp_path / "loose.rattle", lines={1.0: 4.0, 2.5: 9.0, 7.0: 1.0}, tolerance=2e-7)
+    tight_path = write_motion(tmp_path / "tight.rattle", lines={1.0: 5.0, 3.0: 1.0})
+    loose, tight = rattle.read(loose_path), rattle.read(tight_path)
+    pairs = [tolerance.Pair("First", loose, tight, 6.0), tolerance.Pair("Second", loose, tight, 32.0)]
+    with style.house_style():
+        made = tolerance.draw(pairs, 3, 16)
+    upper, lower = made.axes[:2], made.axes[2:]
+    for column, (axes, spectrum) in enumerate(zip(upper, lower, strict=True)):
+        assert_curve(drawn.curves(axes)[0], history(tight_path, "acceleration", 3))
+        assert_curve(drawn.curves(axes)[1], history(loose_path, "acceleration", 3))
+        assert drawn.labels(axes) == ("Time within the last 3 excitation periods [ms]", ACCELERATION)
+        assert axes.get_title(loc="left") == (
+            f"({'ab'[column]}) {('First', 'Second')[column]}\nsuccessive, previous, 128 steps a period"
+        )
+        last = (6.0, 32.0)[column]
+        assert_lines(spectrum, 0, {r: a for r, a in {1.0: 4.0, 2.5: 9.0, 7.0: 1.0}.items() if r <= last})
+        assert_lines(spectrum, 1, {1.0: 5.0, 3.0: 1.0})
+        assert drawn.labels(spectrum) == (RATIO, AMPLITUDE)
+        assert spectrum.get_xlim() == pytest.approx((0.0, last + 0.1))
+        assert spectrum.get_ylim() == pytest.approx((0.0, 1.08 * 9.0))
+        words = [text.get_text() for text in spectrum.get_legend().get_texts()]
+        assert words[0].startswith(r"$\varepsilon = 10^{-12}$ m: 2 reversals a period, class quiet")
+        assert words[1].startswith(r"$\varepsilon = 2 \times 10^{-7}$ m: ")
+        lines = spectrum.get_legend().legend_handles
+        assert [line.get_color() for line in lines] == [tolerance.TIGHT["color"], tolerance.LOOSE["color"]]
+
+
+# --- sweeps --------------------------------------------------------------------------------------------
+
+SWEEP_COLUMNS = {
+    "value": "Hz",
+    "direction": "-",
+    "film_minimum": "m",
+    "film_maximum": "m",
+    "acceleration_minimum": "m/s2",
+    "acceleration_maximum": "m/s2",
+    "orbit_period": "-",
+    "floquet_modulus": "-",
+    "status": "-",
+}
+# The third one failed on the way there; of the fourth no period is known.
+SWEEP_ROWS = [
+    [100.0, 1.0, 1e-6, 2e-6, -30.0, 20.0, 1.0, 0.3, 1.0],
+    [200.0, 1.0, 0.5e-6, 3e-6, -40.0, 50.0, 2.0, 0.6, 0.0],
+    [300.0, 1.0, 0.4e-6, 4e-6, -60.0, 50.0, 1.0, 0.9, 3.0],
+    [400.0, 1.0, 0.3e-6, 5e-6, -70.0, 80.0, 0.0, 0.0, 0.0],
+    [300.0, -1.0, 0.4e-6, 4e-6, -60.0, 50.0, 4.0, 0.9, 1.0],
+    [200.0, -1.0, 0.5e-6, 3e-6, -40.0, 55.0, 2.0, 0.6, 1.0],
+    [100.0, -1.0, 0.9e-6, 2e-6, -30.0, 20.0, 1.0, 0.3, 1.0],
+]
+
+
+def sweep_input(key: str) -> str:
+    return (
+        f"&scene name='climb' task='sweep' /\n&film law='iso-viscous' model='published' /\n"
+        f"&sweep key='{key}' /\n"
+    )
+
+
+def sweep_figure(path: Path, key: str = "frequency", rows: list | None = None) -> Figure:
+    text = sweep_input(key)
+    write_result(path, list(SWEEP_COLUMNS.items()), rows or SWEEP_ROWS, input_text=text)
+    with style.house_style():
+        return sweep.draw(rattle.read(path))
+
+
+def test_a_sweep_shows_both_ways_and_leaves_gaps(tmp_path):
+    made = sweep_figure(tmp_path / "climb.rattle")
+    film, acceleration, period, multiplier = made.axes
+    lost = np.nan
+    there, back = [100.0, 200.0, 300.0, 400.0], [400.0, 300.0, 200.0, 100.0]
+    expected = {
+        film: [
+            (there, [2.0, 3.0, lost, 5.0]),
+            (there, [1.0, 0.5, lost, 0.3]),
+            (back, [5.0, 4.0, 3.0, 2.0]),
+            (back, [0.3, 0.4, 0.5, 0.9]),
+        ],
+        acceleration: [(there, [30.0, 50.0, lost, 80.0]), (back, [80.0, 60.0, 55.0, 30.0])],
+        period: [(there, [1.0, 2.0, lost, lost]), (back, [lost, 4.0, 2.0, 1.0])],
+        multiplier: [(there, [0.3, 0.6, lost, lost]), (back, [lost, 0.9, 0.6, 0.3])],
+    }
+    for axes, curves in expected.items():
+        for found, (values, quantity) in zip(drawn.curves(axes), curves, strict=True):
+            assert_curve(found, (np.array(values), np.array(quantity)))
+        ways = drawn.colours(axes)
+        half = len(ways) // 2
+        assert set(ways[:half]) == {style.RUN_COLOURS[0].lower()}
+        assert set(ways[half:]) == {style.RUN_COLOURS[1].lower()}
+    assert [axes.get_ylabel().replace("\n", " ") for axes in made.axes] == [
+        r"Film, least and largest [$\mathrm{\mu}$m]",
+        r"Largest $|\ddot{z}|$ [m/s$^2$]",
+        r"Period [$1/f_\mathrm{exc}$]",
+        "Largest Floquet multiplier",
+    ]
+    assert multiplier.get_xlabel() == r"Excitation frequency $f_\mathrm{exc}$ [Hz]"
+    assert film.get_yscale() == "log"
+    assert period.get_ylim() == (0.5, 4.5)
+    assert multiplier.get_ylim() == (0.0, 1.1)
+    assert drawn.rules(multiplier, "y") == [1.0]
+    assert drawn.legend_words(made) == ["way there", "way back"]
+
+
+@pytest.mark.parametrize(
+    ("key", "label"),
+    [
+        ("force_amplitude", "Force amplitude $F_0$ [N]"),
+        ("steady_force", "Steady force $Q$ [N]"),
+        ("entrainment_speed", "Entrainment speed $U$ [m/s]"),
+    ],
+)
+def test_a_sweep_names_its_key_and_unit(tmp_path, key, label):
+    only_there = SWEEP_ROWS[:2]
+    made = sweep_figure(tmp_path / "climb.rattle", key, only_there)
+    assert made.axes[-1].get_xlabel() == label
+    assert made.axes[2].get_ylim() == (0.5, 2.5)
+    assert drawn.legend_words(made) == ["way there"]
