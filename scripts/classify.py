@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Classify the motions of result files: idle, creep, quiet or irregular."""
+"""Classify the motions of result files: idle, creep, quiet, irregular or subharmonic."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def parse_options() -> argparse.Namespace:
         "--irregular-limit",
         type=command.finite,
         metavar="X",
-        help="irregular above this fraction between harmonics",
+        help="irregular, or subharmonic if known to repeat, above this fraction between harmonics",
     )
     return parser.parse_args()
 

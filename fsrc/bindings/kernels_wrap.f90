@@ -17,10 +17,10 @@ subroutine wrap_amplitude_spectrum(n, samples, m, amplitudes)
 end subroutine wrap_amplitude_spectrum
 
 ! Class of n samples of `periods` whole periods; m = (n/periods - 1)/2 harmonics. ratios: distortion,
-! irregular fraction, reversals a period; counts: class, lines, 1 if there is motion, 1 if the samples suffice.
-subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, m, harmonics, ratios, counts)
+! irregular fraction, reversals a period; orbit: periods after which the motion is known to repeat, or 0; counts: class, lines, 1 if there is motion, 1 if the samples suffice.
+subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, m, harmonics, ratios, counts)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use rattle_class, only: classify, rattle_verdict_t
+   use rattle_class, only: classify, note_orbit, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    implicit none
    integer(c_int), intent(in) :: n
@@ -28,6 +28,7 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, m, harmon
    integer(c_int), intent(in) :: periods
    real(c_double), intent(in) :: limits(4)
    integer(c_int), intent(in) :: idle_lines
+   integer(c_int), intent(in) :: orbit
    integer(c_int), intent(in) :: m
    real(c_double), intent(out) :: harmonics(m)
    real(c_double), intent(out) :: ratios(3)
@@ -41,6 +42,7 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, m, harmon
    choice%irregular_limit = limits(3)
    choice%idle_lines = idle_lines
    call classify(acceleration, choice, limits(4), verdict)
+   call note_orbit(verdict, orbit)
    harmonics = verdict%lines%harmonics
    ratios = [verdict%lines%harmonic_distortion, verdict%lines%irregular_fraction, verdict%reversals_per_period]
    counts = [verdict%class, verdict%lines%line_count, merge(1, 0, verdict%lines%moving), &

@@ -6,7 +6,7 @@ module campaign_certificate
    use kinds, only: dp
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use rattle_class, only: rattle_verdict_t
+   use rattle_class, only: note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: is_success
@@ -54,9 +54,11 @@ contains
       allocate (window%accelerations(samples))
       call accelerations_of_samples(lane, request%samples_per_period, window%films, window%velocities, window%accelerations)
       call classify_window(scene, window, resolved%noise_floor, own_verdict)
+      call note_orbit(own_verdict, endings(1)%orbit)
       if (own_verdict%class /= verdict%class) return
       call certify(scene, resolved, lane, endings(1)%periods, window, own_verdict, certificate)
-      class_stands = certificate%certified
+      ! An irregular class does not stand where the certificate has found that the motion repeats.
+      class_stands = certificate%certified .and. own_verdict%class == verdict%class
    end function class_stands
 
 end module campaign_certificate

@@ -6,7 +6,7 @@ module solve_chunk
    use kinds, only: dp, int64
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use rattle_class, only: classify
+   use rattle_class, only: classify, note_orbit
    use recorded_quantities, only: need_count, needs_acceleration_range, needs_certificate, needs_film_range, needs_regime, &
                                   needs_spectrum, quantities
    use regime_check, only: check_regime
@@ -214,6 +214,7 @@ contains
          if (needed(needs_acceleration_range)) call range_of(values, judged%acceleration_minimum, judged%acceleration_maximum)
          if (any(needed([needs_spectrum, needs_certificate]))) &
             call classify(values, choice, judged%resolved%noise_floor, judged%rattle)
+         call note_orbit(judged%rattle, judged%ending%orbit)
          if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, scene%film%law, films, velocities)
          if (needed(needs_certificate)) judged%certified = &
             class_stands(scene, judged%resolved, lane, request_of(scene), judged%rattle)

@@ -1,7 +1,7 @@
 !> The periodic motion next to a state: found by Newton's method on the period map, from period 1 to 8.
 module periodic_orbit
    use constants, only: two_pi
-   use floquet, only: floquet_multipliers
+   use floquet, only: floquet_multipliers, orbit_stability, orbit_unstable
    use kinds, only: dp
    use lane_scenes, only: lane_scene_t
    use period_map, only: map_states
@@ -28,7 +28,7 @@ module periodic_orbit
       complex(dp) :: multipliers(2) = (0.0_dp, 0.0_dp)
    end type periodic_orbit_t
 
-   public :: find_periodic_orbit
+   public :: find_periodic_orbit, attracting_period
 
 contains
 
@@ -58,6 +58,16 @@ contains
       end do
       orbit = periodic_orbit_t()
    end function find_periodic_orbit
+
+   !> Periods of the force after which motions near a periodic one repeat, 0 where there is none or they leave it.
+   pure integer function attracting_period(orbit) result(period)
+      !> A periodic motion, or none
+      type(periodic_orbit_t), intent(in) :: orbit
+
+      period = 0
+      if (orbit%period == 0) return
+      if (orbit_stability(orbit%multipliers) /= orbit_unstable) period = orbit%period
+   end function attracting_period
 
    !> Fixed point of the map of some periods, and the multipliers there.
    function newton(lane, period, film, velocity, scale) result(orbit)

@@ -6,8 +6,8 @@ module certify_scene
    use fine_window, only: solve_fine_window, window_t
    use kinds, only: dp
    use lane_scenes, only: lane_ending_t, lane_scene_t
-   use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use rattle_class, only: rattle_verdict_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
+   use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
    use scene_types, only: method_newmark, scene_t
@@ -35,13 +35,14 @@ contains
       integer, intent(in) :: periods
       !> Window at their end
       type(window_t), intent(in) :: window
-      !> Verdict to be tested
-      type(rattle_verdict_t), intent(in) :: verdict
+      !> Verdict to be tested; an irregular motion found to repeat becomes subharmonic
+      type(rattle_verdict_t), intent(inout) :: verdict
       !> Its certificate
       type(certificate_t), intent(out) :: certificate
       !> Periodic motion at the end of the run
       type(periodic_orbit_t), intent(out), optional :: orbit
       type(lane_ending_t) :: ending
+      type(periodic_orbit_t) :: found
       type(rattle_verdict_t) :: tight_verdict
       type(window_t) :: tight
       real(dp) :: accuracy
@@ -55,12 +56,17 @@ contains
          certificate = no_certificate('The tighter solution ended as '//status_name(ending%status)//'.')
          return
       end if
+      if (present(orbit) .or. tight_verdict%class == class_irregular) then
+         found = find_periodic_orbit(lane, ending%film, ending%velocity, orbit_nearness)
+         call note_orbit(verdict, attracting_period(found))
+         call note_orbit(tight_verdict, attracting_period(found))
+      end if
+      if (present(orbit)) orbit = found
       associate (stride => tight%samples_per_period/window%samples_per_period)
          call compare_windows(window%films, tight%films(stride::stride), window%accelerations, &
                               tight%accelerations(stride::stride), verdict, tight_verdict, scene%spectrum, &
                               scene%spectrum%certificate_tolerance, certificate)
       end associate
-      if (present(orbit)) orbit = find_periodic_orbit(lane, ending%film, ending%velocity, orbit_nearness)
    end subroutine certify
 
 end module certify_scene

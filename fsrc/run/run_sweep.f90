@@ -9,10 +9,10 @@ module run_sweep
    use lane_scenes, only: lane_ending_t, lane_scene_t
    use log_file, only: log_t
    use output_place, only: log_path, result_path, summary_path
-   use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use fine_window, only: solve_fine_window, window_t
    use progress, only: progress_t
-   use rattle_class, only: rattle_verdict_t
+   use rattle_class, only: note_orbit, rattle_verdict_t
    use resolved_scene, only: resolve, resolved_scene_t
    use result_writer, only: result_writer_t
    use scene_lane, only: lane_of_scene
@@ -160,6 +160,7 @@ contains
          return
       end if
       orbit = find_periodic_orbit(lane, film, velocity, orbit_nearness)
+      call note_orbit(verdict, max(ending%orbit, attracting_period(orbit)))
       row(3:6) = [minval(window%films), maxval(window%films), minval(window%accelerations), maxval(window%accelerations)]
       row(7) = real(orbit%period, dp)
       if (orbit%period > 0) row(8:9) = [abs(orbit%multipliers(1)), real(orbit_stability(orbit%multipliers), dp)]

@@ -8,7 +8,7 @@ module scene_result
    use lane_scenes, only: lane_ending_t, lane_scene_t
    use newmark, only: motion_count_t
    use periodic_orbit, only: periodic_orbit_t
-   use rattle_class, only: rattle_verdict_t
+   use rattle_class, only: note_orbit, rattle_verdict_t
    use regime_check, only: check_regime, regime_verdict_t
    use resolved_scene, only: resolved_scene_t
    use sample_recorder, only: sample_recorder_t
@@ -67,6 +67,7 @@ contains
           .not. result%rattle%lines%sampling_sufficient) &
          call solve_fine_window(scene, lane, scene%solver%accuracy, result%ending%periods, resolved%noise_floor, window, &
                                 result%rattle, ending)
+      call note_orbit(result%rattle, result%ending%orbit)
       result%window_periods = window%periods
       result%samples_per_period = window%samples_per_period
       result%film_minimum = minval(window%films)

@@ -108,6 +108,7 @@ contains
          call summary%add('rattle_class', class_name(rattle%class))
       end associate
       if (result%certificate%exists) call add_certificate(summary, result)
+      if (result%orbit%period == 0 .and. result%ending%orbit > 0) call summary%add('orbit_period', result%ending%orbit)
       associate (regime => result%regime)
          if (regime%pressure_exists) call summary%add('pressure_maximum', regime%pressure_maximum)
          call summary%add('alpha_p_maximum', regime%alpha_p_maximum)

@@ -90,9 +90,11 @@ contains
          'The window is the last `&spectrum periods` whole periods of the force. a_n is the single-sided amplitude of'// &
          end_of_line//'the acceleration at n times the forcing frequency, for every n that the samples resolve (the'// &
          end_of_line//'summary lists the first 40). The questions are asked in this order:'//end_of_line//end_of_line// &
-         '1. irregular, if the share of power off the harmonics exceeds `irregular_limit`. A periodic motion leaves'// &
-         end_of_line//'   less than 1e-6 there once it is steady; a doubled period or a chaotic motion leaves far more'// &
-         end_of_line//'   than 1 %, so the limit of 0.01 is not delicate.'//end_of_line// &
+         '1. subharmonic or irregular, if the share of power off the harmonics exceeds `irregular_limit`. A motion with'// &
+         end_of_line//'   the period of the force leaves less than 1e-6 there once it is steady; a doubled period or a chaotic'// &
+         end_of_line//'   motion leaves far more than 1 %, so the limit of 0.01 is not delicate. It is subharmonic if it is'// &
+         end_of_line//'   known to repeat after 2 to 8 periods (`orbit_period`): because the run went on until it was steady,'// &
+         end_of_line//'   or because the certificate found the stable motion behind it. Else it is irregular.'//end_of_line// &
          '2. quiet, if the harmonic distortion sqrt(a_2^2 + a_3^2 + ...)/a_1 is below `quiet_limit`. With a tenth of'// &
          end_of_line//'   the static load as amplitude the canonical scenes have 0.25 (idle) and 0.12 (creep), with nine'// &
          end_of_line//'   tenths of it 2.8 and 1.9; 0.35 lies between.'//end_of_line// &

@@ -121,7 +121,7 @@ module key_table
       key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', 'scene.task=motion|sweep|campaign', &
             'Below this harmonic distortion the motion is quiet.'), &
       key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep|campaign', &
-            'Above this share of power off the harmonics the motion is irregular.'), &
+            'Above this share of power off the harmonics the motion is irregular, or subharmonic if it is known to repeat.'), &
       key_t('spectrum', 'certify', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &
             'Whether the scene is solved again tighter, to say how large its errors are and whether its class stands.'), &
       key_t('spectrum', 'certificate_tolerance', real_kind, '-', '0.01', fraction, '', 'scene.task=motion', &

@@ -139,7 +139,7 @@ module scene_types
       integer :: idle_lines = 20
       !> Harmonic distortion below this: quiet
       real(dp) :: quiet_limit = 0.35_dp
-      !> Irregular fraction above this: irregular
+      !> Irregular fraction above this: irregular, or subharmonic
       real(dp) :: irregular_limit = 0.01_dp
       !> Whether the scene is solved again tighter, and the film error [-] up to which its class is certified
       logical :: certify = .true.

@@ -1,7 +1,7 @@
 !> How far a verdict can be trusted: the window of a scene held against the same window solved tighter.
 module certificate
    use kinds, only: dp
-   use rattle_class, only: class_irregular, class_name, rattle_verdict_t
+   use rattle_class, only: class_irregular, class_name, class_subharmonic, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    use text, only: integer_text, short_text
    implicit none(type, external)
@@ -75,7 +75,10 @@ contains
                reason = 'The irregular fraction is close to its limit.'
          else if (certificate%film_error > tolerance) then
             reason = 'Solved tighter, the film differs by '//short_text(100.0_dp*certificate%film_error, 2)//' %.'
-         else if (verdict%lines%moving) then
+         else if (abs(verdict%lines%irregular_fraction - choice%irregular_limit) <= &
+                  abs(verdict%lines%irregular_fraction - tight_verdict%lines%irregular_fraction)) then
+            reason = 'The irregular fraction is within its error of its limit.'
+         else if (verdict%lines%moving .and. verdict%class /= class_subharmonic) then
             reason = doubt_of_limits(verdict, certificate%harmonic_errors, choice)
          end if
       end function doubt

@@ -7,7 +7,7 @@ module rattle_class
    implicit none(type, external)
    private
 
-   integer, parameter, public :: class_quiet = 1, class_creep = 2, class_idle = 3, class_irregular = 4
+   integer, parameter, public :: class_quiet = 1, class_creep = 2, class_idle = 3, class_irregular = 4, class_subharmonic = 5
 
    !> Verdict on a window.
    type, public :: rattle_verdict_t
@@ -16,7 +16,7 @@ module rattle_class
       type(spectral_lines_t) :: lines
    end type rattle_verdict_t
 
-   public :: classify, class_name
+   public :: classify, note_orbit, class_name
 
 contains
 
@@ -36,6 +36,16 @@ contains
       if (verdict%lines%moving) verdict%reversals_per_period = &
          real(count_reversals(acceleration, reversal_prominence), dp)/real(choice%periods, dp)
    end subroutine classify
+
+   !> A motion off its harmonics that is known to repeat after several periods of the force is subharmonic.
+   elemental subroutine note_orbit(verdict, orbit)
+      !> Verdict on the lines of the motion
+      type(rattle_verdict_t), intent(inout) :: verdict
+      !> Periods of the force after which the motion is known to repeat, 0: not known
+      integer, intent(in) :: orbit
+
+      if (verdict%class == class_irregular .and. orbit > 1) verdict%class = class_subharmonic
+   end subroutine note_orbit
 
    !> Order of the questions: regular at all, rich at all, how rich.
    pure integer function class_of(lines, choice) result(class)
@@ -60,7 +70,7 @@ contains
       !> Code of a class
       integer, intent(in) :: class
       character(:), allocatable :: name
-      character(*), parameter :: names(4) = [character(9) :: 'quiet', 'creep', 'idle', 'irregular']
+      character(*), parameter :: names(5) = [character(11) :: 'quiet', 'creep', 'idle', 'irregular', 'subharmonic']
 
       name = trim(names(class))
    end function class_name

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-CLASSES = MappingProxyType({1: "quiet", 2: "creep", 3: "idle", 4: "irregular"})
+CLASSES = MappingProxyType({1: "quiet", 2: "creep", 3: "idle", 4: "irregular", 5: "subharmonic"})
 FILM_REGIMES = MappingProxyType({0: "unknown", 1: "iso-viscous", 2: "piezo-viscous", 3: "elastohydrodynamic"})
 STATUSES = MappingProxyType(
     {

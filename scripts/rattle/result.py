@@ -107,15 +107,30 @@ class Result(ResultFile):
         return max(self.row_count - 1, 0) // self.samples_per_period
 
     @property
+    def summary_path(self) -> Path:
+        """Where the program writes the summary of this run."""
+        return self.path.with_suffix(".summary.nml")
+
+    @property
+    def orbit_period(self) -> int | None:
+        """Periods after which the motion is known to repeat, by the summary beside it."""
+        if not self.summary_path.exists():
+            return None
+        summary = read_summary(self.summary_path)
+        if "orbit_period" not in summary or summary.get("orbit_stability") == "unstable":
+            return None
+        return int(summary["orbit_period"])
+
+    @property
     def window_periods(self) -> int:
         """Periods that the program judged: those of the &spectrum group, or the orbit of a steady motion."""
         if str(self.input.get("solver", {}).get("until", "periods")).strip() == "steady":
-            beside = self.path.with_suffix(".summary.nml")
-            if not beside.exists():
+            if not self.summary_path.exists():
                 raise ResultError(
-                    f"{self.path} ran until steady; its window stands in {beside}, which is not there."
+                    f"{self.path} ran until steady; its window stands in {self.summary_path}, "
+                    "which is not there."
                 )
-            return int(read_summary(beside)["window_periods"])
+            return int(read_summary(self.summary_path)["window_periods"])
         return self.positive_integer("spectrum", "periods")
 
     def window(self, periods: int | None = None, *, with_start: bool = False) -> slice:

@@ -32,7 +32,10 @@ def classify(
     from rattle import kernels
 
     samples = result.samples("acceleration", result.window(periods))
+    limits = thresholds(result, overrides)
     try:
-        return kernels.classify(samples, result.samples_per_period, **thresholds(result, overrides))
+        return kernels.classify(
+            samples, result.samples_per_period, orbit_period=result.orbit_period, **limits
+        )
     except ValueError as fault:
         raise ResultError(f"{result.path} cannot be classified: {fault}.") from None

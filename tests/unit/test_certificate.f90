@@ -3,7 +3,7 @@ module test_certificate
    use certificate, only: certificate_t, compare_windows, no_certificate
    use checks, only: check_list_t
    use kinds, only: dp
-   use rattle_class, only: class_creep, class_idle, class_irregular, class_quiet, rattle_verdict_t
+   use rattle_class, only: class_creep, class_idle, class_irregular, class_quiet, class_subharmonic, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    implicit none(type, external)
    private
@@ -24,6 +24,7 @@ contains
       call test_errors(checks)
       call test_film(checks)
       call test_irregular(checks)
+      call test_subharmonic(checks)
       call test_quiet_limit(checks)
       call test_line_count(checks)
       call test_first_harmonic(checks)
@@ -123,6 +124,43 @@ contains
       call compare_windows(films, films, values, values, close_by, clear, choice, tolerance, certificate)
       call checks%check(.not. certificate%certified, 'irregular: the scene is close to the limit')
    end subroutine test_irregular
+
+   !> Subharmonic motions are regular: their films agree. Their class stands unless the limit is within the error of the
+   !> irregular fraction, and so does every other class of a regular motion; their harmonics do not matter.
+   subroutine test_subharmonic(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(certificate_t) :: certificate
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: verdict, tight
+
+      verdict = verdict_of(class_subharmonic, [1.0e-3_dp, 0.5_dp], choice)
+      verdict%lines%irregular_fraction = 0.012_dp
+      tight = verdict_of(class_subharmonic, [3.0e-3_dp, 0.5_dp], choice)
+      tight%lines%irregular_fraction = 0.0135_dp
+      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call checks%check(certificate%certified, 'subharmonic: the limit is outside the error')
+      call compare_windows(1.011_dp*films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the film differs by 1.1 %') > 0, &
+         'subharmonic: beyond the tolerance of the film')
+      tight%lines%irregular_fraction = 0.0145_dp
+      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'irregular fraction') > 0, &
+         'subharmonic: the limit is within the error')
+      tight%class = class_irregular
+      tight%lines%irregular_fraction = verdict%lines%irregular_fraction
+      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the class is irregular') > 0, &
+         'subharmonic: irregular if solved tighter')
+      verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
+      verdict%lines%irregular_fraction = 0.009_dp
+      tight = verdict
+      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call checks%check(certificate%certified, 'creep: the irregular limit is outside the error')
+      tight%lines%irregular_fraction = 0.0075_dp
+      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call checks%check(.not. certificate%certified, 'creep: the irregular limit is within the error')
+   end subroutine test_subharmonic
 
    !> The distortion a_2/a_1 on either side of its limit, with errors that reach it or do not.
    subroutine test_quiet_limit(checks)

@@ -2,8 +2,8 @@
 module test_rattle_class
    use checks, only: check_list_t
    use kinds, only: dp
-   use rattle_class, only: class_creep, class_idle, class_irregular, class_name, class_quiet, classify, &
-      rattle_verdict_t
+   use rattle_class, only: class_creep, class_idle, class_irregular, class_name, class_quiet, class_subharmonic, classify, &
+      note_orbit, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    implicit none(type, external)
    private
@@ -50,8 +50,10 @@ contains
 
       call test_own_limits(checks)
       call test_reversals_per_period(checks)
+      call test_known_orbit(checks)
       call checks%check(class_name(class_quiet) == 'quiet' .and. class_name(class_creep) == 'creep' .and. &
-         class_name(class_idle) == 'idle' .and. class_name(class_irregular) == 'irregular', 'words')
+         class_name(class_idle) == 'idle' .and. class_name(class_irregular) == 'irregular' .and. &
+         class_name(class_subharmonic) == 'subharmonic', 'words')
 
    contains
 
@@ -83,6 +85,23 @@ contains
          samples = samples + harmonics(n)*sin([(two_pi*real(n*i, dp)/real(steps, dp), i=1, periods*steps)])
       end do
    end function signal
+
+   !> Only a motion off its harmonics that is known to repeat after several periods is subharmonic.
+   subroutine test_known_orbit(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(rattle_verdict_t) :: verdict
+      integer :: class, orbit
+
+      do class = class_quiet, class_subharmonic
+         do orbit = 0, 8
+            verdict%class = class
+            call note_orbit(verdict, orbit)
+            call checks%check(verdict%class == merge(class_subharmonic, class, class == class_irregular .and. orbit > 1), &
+               'known orbit: '//class_name(class))
+         end do
+      end do
+   end subroutine test_known_orbit
 
    !> Every limit is that of the scene, not the default one.
    subroutine test_own_limits(checks)

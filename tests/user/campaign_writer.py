@@ -210,7 +210,8 @@ def _quantities(force: np.ndarray, speed: np.ndarray, viscosity: np.ndarray) -> 
     severity = force / 205.7 * (1.905 / speed) ** 0.4 * (0.3 / viscosity) ** 0.2
     film = 0.9e-6 * (speed / 1.905) * (viscosity / 0.3)
     distortion = 1.3 * severity**1.5
-    codes = np.select([distortion < 0.35, severity < 0.8, severity < 1.6], [1.0, 2.0, 3.0], 4.0)
+    borders = [distortion < 0.35, severity < 0.8, severity < 1.6, severity < 2.0]
+    codes = np.select(borders, [1.0, 2.0, 3.0, 5.0], 4.0)
     data = {
         "film_minimum": film / (1.0 + 1.5 * severity),
         "film_maximum": film * (1.0 + 3.0 * severity),
@@ -220,7 +221,7 @@ def _quantities(force: np.ndarray, speed: np.ndarray, viscosity: np.ndarray) -> 
         "damping_ratio": 0.61 * (speed / 1.905) ** 0.25 * (viscosity / 0.3) ** 0.5,
         "line_count": np.floor(30.0 * np.minimum(severity, 1.3)),
         "harmonic_distortion": distortion,
-        "irregular_fraction": np.where(codes == 4.0, 0.05 * severity, 0.0),
+        "irregular_fraction": np.where(codes >= 4.0, 0.05 * severity, 0.0),
         "reversals_per_period": np.where(codes >= 3.0, 4.0, 2.0),
         "rattle_class": codes,
         "film_regime": np.select([severity < 0.3, severity < 0.9], [1.0, 2.0], 3.0),

@@ -94,7 +94,9 @@ def test_frame_holds_numbers_and_words(campaign, made):
     assert list(frame.columns[:3]) == ["scene", FORCE, SPEED]
     assert frame["scene"].dtype == "int64"
     np.testing.assert_array_equal(frame["acceleration_maximum"], made.column("acceleration_maximum"))
-    words = np.array(["", "quiet", "creep", "idle", "irregular"])[made.column("rattle_class").astype(int)]
+    words = np.array(["", "quiet", "creep", "idle", "irregular", "subharmonic"])[
+        made.column("rattle_class").astype(int)
+    ]
     assert frame["rattle_class_word"].tolist() == words.tolist()
     assert set(frame["status_word"]) == {"steady"}
     assert frame.attrs["units"]["film_minimum"] == "m"
@@ -114,7 +116,7 @@ def test_dataset_of_a_grid(campaign):
     assert data["rattle_class"].dims == (FORCE, SPEED)
     assert data["film_minimum"].attrs["units"] == "m"
     assert data["acceleration_maximum"].attrs["units"] == "m s-2"
-    assert data["rattle_class"].attrs["flag_meanings"] == "quiet creep idle irregular"
+    assert data["rattle_class"].attrs["flag_meanings"] == "quiet creep idle irregular subharmonic"
     point = data.sel({FORCE: 200.0, SPEED: 2.0}, method="nearest")
     row = int(point["scene"]) - 1
     assert float(point["natural_frequency"]) == campaign["natural_frequency"][row]

@@ -100,6 +100,31 @@ def test_recorded_quantities_hang_together(run, scene_text, tmp_path: Path) -> N
     assert (periods[~steady] == 14).all() and (orbit[~steady] == 0).all()
 
 
+@pytest.mark.parametrize("until", ["steady", "periods"])
+def test_motion_known_to_repeat_is_subharmonic(until: str, run, scene_text, tmp_path: Path) -> None:
+    """A steady run knows the orbit; solved for all periods, the same motion is irregular."""
+    campaign = {
+        "record": "'rattle_class', 'irregular_fraction', 'orbit_period', 'certified'",
+        "first": "250.0, 8.0",
+        "last": "450.0, 20.0",
+        "samples_per_period": "256",
+    }
+    solver = {**BASE["solver"], "until": f"'{until}'", "periods": "120"}
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 8, 8, campaign=campaign, solver=solver))
+    result = package.read(solve(run, tmp_path))
+    names = np.array([CLASSES[int(code)] for code in result["rattle_class"]])
+    off = result["irregular_fraction"] > 0.01
+    np.testing.assert_array_equal(np.isin(names, ["irregular", "subharmonic"]), off)
+    repeats = result["orbit_period"] > 1
+    subharmonic = names == "subharmonic"
+    assert repeats.any() == subharmonic.any() == (until == "steady")
+    np.testing.assert_array_equal(subharmonic, off & repeats)
+    if until == "steady":
+        assert (result["certified"][subharmonic] == 1.0).sum() > 10
+    else:
+        assert (result["certified"][off] == 0.0).sum() > 10
+
+
 def test_certified_scene_is_the_certified_single_scene(run, scene_text, tmp_path: Path) -> None:
     """Solved loosely, not every class stands: row by row what the certificate of a single scene says."""
     loose = {**BASE["solver"], "accuracy": "1e-2", "periods": "200"}

@@ -50,6 +50,14 @@ def test_classify_agrees_with_numpy(name):
     assert found["rattle_class"] == expected == name
 
 
+@pytest.mark.parametrize(("orbit", "expected"), [(None, "irregular"), (1, "irregular"), (2, "subharmonic")])
+def test_known_orbit_of_a_motion_off_its_harmonics(orbit, expected):
+    samples = synthetic(SIGNALS["irregular"])
+    assert kernels.classify(samples, PERIOD, orbit_period=orbit)["rattle_class"] == expected
+    regular = synthetic(SIGNALS["creep"])
+    assert kernels.classify(regular, PERIOD, orbit_period=orbit)["rattle_class"] == "creep"
+
+
 def test_reversals_of_a_plain_wave_and_rest():
     assert kernels.classify(synthetic({1.0: 1.0}), PERIOD)["reversals_per_period"] == 2.0
     assert kernels.classify(synthetic({3.0: 1.0, 1.0: 0.1}), PERIOD)["reversals_per_period"] == 6.0

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from outcomes import summary_of
+from script_calls import call_script
 
 import rattle as package
 
@@ -182,6 +184,51 @@ def test_period_two_is_found(run, repository: Path, tmp_path: Path) -> None:
     two = summary(tmp_path / "results", "two")
     assert (two["orbit_period"], two["orbit_stability"], two["certificate"]) == (2, "stable", "certified")
     assert two["harmonics"][0] == pytest.approx(54.14, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("until", "certify", "expected"),
+    [
+        ("periods", True, "subharmonic"),
+        ("steady", True, "subharmonic"),
+        ("steady", False, "subharmonic"),
+        ("periods", False, "irregular"),
+    ],
+)
+@pytest.mark.parametrize("method", ["taylor", "newmark"])
+def test_doubled_period_is_subharmonic_where_it_is_known(
+    method: str, until: str, certify: bool, expected: str, run, repository: Path, tmp_path: Path
+) -> None:
+    """By the steady run or by the certificate; without either it is only off its harmonics."""
+    text = (repository / "input" / "creep_period_two.nml").read_text()
+    if method == "taylor":
+        text = re.sub(
+            r"&solver\n.*?\n/\n", "&solver periods=400 samples_per_period=512 /\n", text, flags=re.S
+        )
+    options = ["--set", f"solver.until={until}", "--set", f"spectrum.certify=.{str(certify).lower()}."]
+    results = solve(run, tmp_path, text, *options, name="two")
+    two = summary(results, "two")
+    assert two["rattle_class"] == expected
+    assert two.get("orbit_period") == (2 if expected == "subharmonic" else None)
+    assert two.get("certificate") == ("certified" if certify else None)
+    assert two["irregular_fraction"] > 0.01
+    judged = call_script("classify.py", results / "two.rattle", cwd=tmp_path)
+    assert judged.returncode == 0 and expected in judged.stdout
+
+
+def test_doubled_period_of_a_sweep_is_subharmonic(run, repository: Path, tmp_path: Path) -> None:
+    """Beyond the frequency at which the period doubles, and only there."""
+    scene = (repository / "input" / "creep_period_two.nml").read_text()
+    groups = re.sub(r"&(solver|spectrum|output)\n.*?\n/\n", "", scene, flags=re.S)
+    swept = "&sweep key='frequency' first=600.0 last=100.0 count=6 /\n&solver samples_per_period=256 /\n"
+    results = solve(run, tmp_path, groups + swept, "--set", "scene.task=sweep", name="sweep")
+    result = package.read(results / "sweep.rattle")
+    off = result["irregular_fraction"] > 0.01
+    repeats = result["orbit_period"] > 1
+    assert (off & repeats).any() and not off.all()
+    subharmonic = result["rattle_class"] == 5
+    np.testing.assert_array_equal(subharmonic, off & repeats)
+    assert (result["orbit_period"][subharmonic] >= 2).all()
 
 
 @pytest.mark.parametrize(("periods", "status"), [(26, "steady"), (25, "complete")])

@@ -35,12 +35,14 @@ def classify(
     quiet_limit: float = 0.35,
     irregular_limit: float = 0.01,
     noise_floor: float = 0.0,
+    orbit_period: int | None = None,
 ) -> dict[str, Any]:
     """Class of a window of whole periods of z'' [m/s2], with the measures it rests on.
 
     acceleration: one-dimensional, finite; samples_per_period: at least 3. The thresholds are finite floats.
     noise_floor [m/s2]: a motion whose rms times sqrt(2) does not exceed it is at rest. A motion at rest is
-    quiet and has no ratios: these are nan then.
+    quiet and has no ratios: these are nan then. orbit_period: periods of the force after which the motion is
+    known to repeat, if that is known; with several, a motion that were irregular is subharmonic.
     """
     samples = finite_samples(acceleration, "acceleration")
     period = positive_count(samples_per_period, "samples_per_period")
@@ -57,7 +59,12 @@ def classify(
         noise_floor=noise_floor,
     )
     harmonics, ratios, counts = _kernels.wrap_classify(
-        samples, samples.size // period, limits, positive_count(idle_lines, "idle_lines"), (period - 1) // 2
+        samples,
+        samples.size // period,
+        limits,
+        positive_count(idle_lines, "idle_lines"),
+        0 if orbit_period is None else positive_count(orbit_period, "orbit_period"),
+        (period - 1) // 2,
     )
     moving = bool(counts[2])
     return {
