@@ -104,6 +104,18 @@ def test_different_versions_columns_and_chunks_are_refused(made, tmp_path):
     assert "have chunks of different size: 32 and 64 rows." in refused(tmp_path, first, second)[1]
 
 
+def test_a_part_that_does_not_begin_with_a_chunk_is_refused(made, tmp_path):
+    """Its checksums would be those of other rows than the ones that the whole has in its chunks."""
+    rows, paths = made.rows, []
+    for part, share in ((1, slice(0, 100)), (2, slice(100, 300))):
+        made.rows = rows[share]
+        content = made.content().replace(b"part = 1\n", b"part = %d\n" % part)
+        paths.append(tmp_path / f"{part}.rattle")
+        paths[-1].write_bytes(content.replace(b"parts = 1\n", b"parts = 2\n"))
+    complaint = f"  {paths[1]} does not begin with a chunk, so its checksums cannot be kept."
+    assert refused(tmp_path, *paths)[1:] == [complaint]
+
+
 def test_scenes_out_of_order_are_damage(made, tmp_path):
     first, second = made.write_parts(tmp_path, 2)
     made.column("scene")[200] = 7.0

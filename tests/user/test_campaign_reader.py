@@ -10,6 +10,7 @@ from campaign_writer import FORCE, FORCES, SPEED, SPEEDS, VISCOSITIES, VISCOSITY
 from result_writer import write_motion
 
 import rattle
+from rattle.codes import CLASSES, NO_OR_YES, STATUSES
 
 SMALL = Key(FORCE, 100.0, 300.0, 5)
 
@@ -66,6 +67,16 @@ def test_unfinished_campaign_knows_what_is_done(made, tmp_path):
     assert len(campaign.frame()) == 192
 
 
+def test_unfinished_campaign_of_whole_chunks_knows_its_scenes(tmp_path):
+    made = grid(FORCES, SPEEDS, chunk_rows=60)
+    path = made.write(tmp_path / "map.rattle", undone=[2], closed=False)
+    campaign = rattle.read_campaign(path)
+    assert (campaign.row_count, campaign.scene_count, campaign.done.sum()) == (300, 300, 240)
+    path.write_bytes(path.read_bytes()[:-8])
+    with pytest.raises(rattle.ResultError, match="chunk 5 counts as done, but 299 rows are all it holds"):
+        rattle.read_campaign(path)
+
+
 def test_campaign_that_has_just_begun(made, tmp_path):
     campaign = rattle.read_campaign(made.write(tmp_path / "a.rattle", undone=range(5), closed=False))
     assert campaign.done.sum() == 0
@@ -117,6 +128,10 @@ def test_dataset_of_a_grid(campaign):
     assert data["film_minimum"].attrs["units"] == "m"
     assert data["acceleration_maximum"].attrs["units"] == "m s-2"
     assert data["rattle_class"].attrs["flag_meanings"] == "quiet creep idle irregular subharmonic"
+    for name, known in (("rattle_class", CLASSES), ("status", STATUSES), ("certified", NO_OR_YES)):
+        attributes = data[name].attrs
+        meanings = dict(zip(attributes["flag_values"], attributes["flag_meanings"].split(), strict=True))
+        assert meanings == dict(known)
     point = data.sel({FORCE: 200.0, SPEED: 2.0}, method="nearest")
     row = int(point["scene"]) - 1
     assert float(point["natural_frequency"]) == campaign["natural_frequency"][row]

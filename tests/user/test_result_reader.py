@@ -163,6 +163,21 @@ def test_resolved_input_gives_the_window(tmp_path):
         result.window(21)
 
 
+@pytest.mark.parametrize(
+    ("rows", "periods"), [(2561, 20), (2560, 19), (2434, 19), (2433, 19), (2432, 18), (1, 0)]
+)
+def test_whole_periods_begin_with_the_row_at_their_start(tmp_path, rows, periods):
+    """As many as lie between the first row and the last one, wherever the run was killed."""
+    path = write_motion(tmp_path / "a.rattle", lines={1.0: 2.0}, closed=False)
+    path.write_bytes(path.read_bytes()[: -(2561 - rows) * 32 or None])
+    result = rattle.read(path)
+    assert (result.row_count, result.whole_periods) == (rows, periods)
+    if periods:
+        assert result.window(periods, with_start=True).start == rows - 1 - 128 * periods
+    with pytest.raises(rattle.ResultError, match="whole periods, fewer than the 21 asked for"):
+        result.window(21)
+
+
 def test_stride_that_divides_no_period_is_explained(tmp_path):
     path = write_motion(tmp_path / "a.rattle", lines={1.0: 2.0}, steps_per_period=100, stride=3)
     with pytest.raises(rattle.ResultError, match="no whole number of samples a period"):

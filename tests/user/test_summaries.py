@@ -1,0 +1,114 @@
+"""Summaries read and put side by side: every number under its words, in the unit that they name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from script_calls import call_script
+
+import rattle
+from rattle.summary import SummaryError, comparison_table
+
+SUMMARY = {
+    "name": "'idle'",
+    "status": "'complete'",
+    "law": "'iso-viscous'",
+    "model": "'published'",
+    "film_minimum": "0.5123e-6",
+    "film_maximum": "1.5e-6",
+    "acceleration_minimum": "-52.1239",
+    "acceleration_maximum": "290.75",
+    "line_count": "30",
+    "harmonic_distortion": "0.98761",
+    "irregular_fraction": "1.5e-12",
+    "reversals_per_period": "4.5",
+    "rattle_class": "'idle'",
+    "certificate": "'certified'",
+    "film_error": "2.5e-9",
+    "orbit_stability": "'stable'",
+    "film_regime": "'piezo-viscous'",
+    "law_contradicted": ".true.",
+    "alpha_p_maximum": "0.8261",
+    "natural_frequency": "812.34",
+    "damping_ratio": "0.12345",
+    "steady_film": "0.8889e-6",
+}
+SHOWN = {
+    "": "idle",
+    "status": "complete",
+    "film law": "iso-viscous",
+    "film model": "published",
+    "film thickness [um]": "0.5123 to 1.5000",
+    "acceleration [m/s2]": "-52.124 to 290.750",
+    "lines": "30",
+    "harmonic distortion": "0.9876",
+    "irregular fraction": "1.5e-12",
+    "reversals a period": "4.5",
+    "rattle class": "idle",
+    "class stands": "certified",
+    "error of the film": "2.5e-09",
+    "motion": "stable",
+    "film regime": "piezo-viscous",
+    "law fits": "no",
+    "largest alpha p": "0.826",
+    "natural frequency [Hz]": "812.3",
+    "damping ratio": "0.1235",
+    "steady film [um]": "0.8889",
+}
+
+
+def write(path: Path, without: tuple[str, ...] = (), **changes: str) -> Path:
+    values = {key: value for key, value in (SUMMARY | changes).items() if key not in without}
+    lines = "".join(f"   {key} = {value}\n" for key, value in values.items())
+    path.write_text(f"&summary\n{lines}/\n")
+    return path
+
+
+def test_every_row_shows_its_own_number_in_its_unit(tmp_path):
+    rows = comparison_table([rattle.read_summary(write(tmp_path / "idle.summary.nml"))])
+    shown = dict(rows)
+    assert {words: shown[words] for words in SHOWN} == SHOWN
+
+
+def test_scenes_stand_side_by_side_and_what_is_unknown_is_a_dash(tmp_path):
+    first = write(tmp_path / "a.summary.nml", name="'a'")
+    second = write(
+        tmp_path / "b.summary.nml",
+        ("name", "film_maximum", "steady_film", "orbit_stability"),
+        law_contradicted=".false.",
+    )
+    done = call_script("compare.py", first, second, "--markdown")
+    assert done.returncode == 0, done.stderr
+    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines()]
+    cells = {words: pair for words, *pair in lines}
+    assert cells[""] == ["a", "b"]
+    assert cells["film thickness [um]"] == ["0.5123 to 1.5000", "-"]
+    assert cells["steady film [um]"] == ["0.8889", "-"]
+    assert cells["motion"] == ["stable", "-"]
+    assert cells["law fits"] == ["no", "yes"]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("&summaty\n/\n", "is not a summary: it has no group &summary."),
+        ("no namelist at all", "is not a summary"),
+        ("&summary\n   name = '\u00fc'\n/\n", "is not a summary: it is not plain text."),
+    ],
+)
+def test_what_is_no_summary_is_explained(tmp_path, text, words):
+    path = tmp_path / "a.summary.nml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(SummaryError) as fault:
+        rattle.read_summary(path)
+    assert words in str(fault.value) and str(path) in str(fault.value)
+    with pytest.raises(SummaryError, match="No such file"):
+        rattle.read_summary(tmp_path / "none.summary.nml")
+
+
+def test_a_value_of_a_wrong_type_is_named(tmp_path):
+    path = write(tmp_path / "a.summary.nml", film_minimum="'thin'")
+    done = call_script("compare.py", path)
+    assert done.returncode == 2
+    assert "The summary of idle holds a value of a wrong type." in done.stderr
