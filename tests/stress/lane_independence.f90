@@ -14,11 +14,12 @@ program lane_independence
       solve_newmark_lanes
    use random_numbers, only: next_uniform, random_permutation, random_state_t
    use random_scenes, only: draw_scene, drawn_scene_t, group_size
-   use stress_engines, only: engine_names, newmark_scene
+   use stress_engines, only: engine_names, engines, newmark_scene
    implicit none(type, external)
 
-   !> Engines compared, by their places in `engine_names`.
-   integer, parameter :: compared(4) = [1, 2, 3, 6]
+   !> Engines compared, by their places in `engine_names`, and Newmark's method.
+   integer, parameter :: by_newmark = engines + 1, compared(4) = [1, 2, 3, by_newmark]
+   character(*), parameter :: names(by_newmark) = [character(30) :: engine_names, 'newmark']
    integer, parameter :: periods = 12, sampled = 8, samples = 4, values = 2*sampled*samples + 6
    !> Scenes of a portion, at most.
    integer, parameter :: largest_portion = 40
@@ -47,7 +48,7 @@ program lane_independence
       call random_permutation(state, order)
       other = bits_of(engine, order)
       differing = count(any(other /= together(:, order), dim=1))
-      write (*, '(a, i0, a, i0, a)', advance='no') '| '//trim(engine_names(engine))//' | ', scenes, ' | ', &
+      write (*, '(a, i0, a, i0, a)', advance='no') '| '//trim(names(engine))//' | ', scenes, ' | ', &
          differing, ' | '
       all_differing = all_differing + differing
       differing = differing_in_portions(engine, order, together)
@@ -69,7 +70,7 @@ contains
 
    !> Scenes that differ when portions of random size are solved by whatever thread comes.
    integer function differing_in_portions(engine, order, together) result(differing)
-      !> Place in `engine_names`
+      !> Place in `names`
       integer, intent(in) :: engine
       !> Order of the scenes
       integer, intent(in) :: order(:)
@@ -97,13 +98,13 @@ contains
 
    !> Bits of samples and ending of scenes solved in one call.
    function bits_of(engine, members) result(bits)
-      !> Place in `engine_names`
+      !> Place in `names`
       integer, intent(in) :: engine
       !> Which scenes, in their order
       integer, intent(in) :: members(:)
       integer(int64) :: bits(values, size(members))
 
-      if (engine == 6) then
+      if (engine == by_newmark) then
          call newmark_bits(members, bits)
       else
          call controlled_bits(engine, members, bits)
@@ -155,7 +156,7 @@ contains
                 accelerations(sampled*samples, size(members)), source=0.0_dp)
       allocate (endings(size(members)), newmark_scenes(size(members)))
       do place = 1, size(members)
-         newmark_scenes(place) = newmark_scene(6, drawn(members(place)))
+         newmark_scenes(place) = newmark_scene(drawn(members(place)))
       end do
       call solve_newmark_lanes(newmark_scenes, newmark_lane_request_t(128, periods, sampled, samples), &
                                films, velocities, &

@@ -61,7 +61,7 @@ module random_scenes
       type(lane_scene_t) :: lane
    end type drawn_scene_t
 
-   public :: draw_group, draw_scene, group_of
+   public :: choose_law, draw, draw_group, draw_scene, group_of
 
 contains
 
@@ -203,8 +203,11 @@ contains
 
    !> A number between two limits, even in its logarithm.
    pure subroutine draw(state, limits, value)
+      !> Where the numbers come from
       type(random_state_t), intent(inout) :: state
+      !> Least and most
       real(dp), intent(in) :: limits(2)
+      !> The number
       real(dp), intent(out) :: value
       real(dp) :: number
 

@@ -37,7 +37,7 @@ contains
          write (unit, '(a)') '&load mass = '//real_text(scene%load%mass)//', steady_force = '// &
             real_text(scene%load%steady_force)//', force_amplitude = '// &
             real_text(scene%load%force_amplitude)// &
-            ', frequency = '//real_text(scene%load%frequency)//' /'
+            ', frequency = '//real_text(scene%load%frequency)//', gravity = '//real_text(scene%load%gravity)//' /'
          write (unit, '(a)') film_group(scene)
          write (unit, '(a)') solver_group(scene)
          write (unit, '(a)') '&spectrum periods = '//integer_text(scene%spectrum%periods)//' /'
@@ -90,6 +90,8 @@ contains
          else
             line = line//" method = 'taylor', accuracy = "//real_text(solver%accuracy)
          end if
+         if (solver%method /= method_newmark .and. solver%kept_per_period > 0) &
+            line = line//', samples_per_period = '//integer_text(solver%kept_per_period)
          if (solver%until == until_steady) line = line//", until = 'steady'"
          line = line//', periods = '//integer_text(solver%periods)//' /'
       end associate

@@ -6,25 +6,21 @@ module stress_engines
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use newmark, only: motion_count_t, motion_state_t, start_motion
    use newmark_extrapolated, only: advance_extrapolated, extrapolation_t, new_extrapolation
-   use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, &
-      solve_newmark_lanes
+   use newmark_lanes, only: newmark_lane_scene_t
    use newmark_lanes_extrapolated, only: extrapolated_ending_t, solve_lanes_extrapolated
    use random_scenes, only: drawn_scene_t, group_t
    use scene_status, only: status_complete
-   use scene_types, only: iteration_newton, iteration_successive, method_newmark, &
-                          method_newmark_extrapolated, method_taylor, predictor_extrapolated, &
-                          predictor_previous, scene_t, until_periods, until_steady
-   use stress_outcomes, only: judge_controlled, judge_newmark, outcome_t
-   use stress_references, only: compared_periods, compared_samples, comparisons, reference_t, &
-      window_periods, window_samples
+   use scene_types, only: iteration_newton, method_newmark_extrapolated, method_taylor, predictor_extrapolated, scene_t, &
+                          until_periods, until_steady
+   use stress_outcomes, only: judge_controlled, outcome_t
+   use stress_references, only: compared_periods, compared_samples, comparisons, reference_t
    implicit none(type, external)
    private
 
-   !> The first three are solved in long runs too, the first five are error-controlled.
-   integer, parameter, public :: engines = 9, long_engines = 3, controlled_engines = 5
+   !> The first three are solved in long runs too.
+   integer, parameter, public :: engines = 5, long_engines = 3
    character(*), parameter, public :: engine_names(engines) = [character(30) :: &
-      'taylor', 'collocation', 'taylor until steady', 'newmark-extrapolated', 'newmark-extrapolated, lanes', &
-      'newmark, newton', 'newmark, newton, previous', 'newmark, successive', 'newmark, successive, previous']
+      'taylor', 'collocation', 'taylor until steady', 'newmark-extrapolated', 'newmark-extrapolated, lanes']
    integer, parameter :: extrapolated = 4, lanes_extrapolated = 5
 
    public :: newmark_scene, run_engine, set_solver, takes_part
@@ -58,10 +54,8 @@ contains
          call run_controlled(engine, group, drawn, references, results)
       else if (engine == extrapolated) then
          call run_extrapolated(group, drawn, references, results)
-      else if (engine == lanes_extrapolated) then
-         call run_lanes_extrapolated(group, drawn, references, results)
       else
-         call run_newmark(engine, group, drawn, references, results)
+         call run_lanes_extrapolated(group, drawn, references, results)
       end if
    end subroutine run_engine
 
@@ -109,7 +103,7 @@ contains
       integer :: i, period, first, done
 
       do i = 1, size(drawn)
-         scene = newmark_scene(extrapolated, drawn(i))
+         scene = newmark_scene(drawn(i))
          extrapolation = new_extrapolation(group%accuracy, compared_samples)
          count = motion_count_t()
          ending = lane_ending_t()
@@ -145,7 +139,7 @@ contains
       integer :: i
 
       do i = 1, size(drawn)
-         scenes(i) = newmark_scene(lanes_extrapolated, drawn(i))
+         scenes(i) = newmark_scene(drawn(i))
       end do
       films = -1.0_dp
       velocities = 0.0_dp
@@ -161,50 +155,12 @@ contains
       end do
    end subroutine run_lanes_extrapolated
 
-   !> The Newmark engines: Newton's iteration of the published films in lanes, all others scene by scene.
-   subroutine run_newmark(engine, group, drawn, references, results)
-      integer, intent(in) :: engine
-      type(group_t), intent(in) :: group
-      type(drawn_scene_t), intent(in) :: drawn(:)
-      type(reference_t), intent(in) :: references(:)
-      type(outcome_t), intent(out) :: results(:)
-      integer, parameter :: stride = window_samples/compared_samples, &
-         window = window_periods*window_samples, &
-                            all_samples = compared_periods*window_samples
-      type(newmark_lane_request_t) :: request
-      type(newmark_lane_scene_t) :: scenes(size(drawn))
-      type(newmark_lane_ending_t) :: endings(size(drawn))
-      real(dp), allocatable, dimension(:, :) :: films, velocities, accelerations
-      integer :: i
-
-      allocate (films(all_samples, size(drawn)), velocities(all_samples, size(drawn)), &
-                accelerations(all_samples, size(drawn)), source=-1.0_dp)
-      do i = 1, size(drawn)
-         scenes(i) = newmark_scene(engine, drawn(i))
-      end do
-      request%steps_per_period = window_samples
-      request%periods = group%periods
-      request%sampled_periods = compared_periods
-      request%samples_per_period = window_samples
-      call solve_newmark_lanes(scenes, request, films, velocities, accelerations, endings)
-      do i = 1, size(drawn)
-         call judge_newmark(drawn(i), references(i), endings(i)%status, films(stride::stride, i), &
-                            films(all_samples - window + 1:, i), accelerations(all_samples - window + 1:, &
-                            i), results(i))
-      end do
-   end subroutine run_newmark
-
    !> A scene for Newmark's method.
-   pure function newmark_scene(engine, drawn) result(scene)
-      !> Place in `engine_names`
-      integer, intent(in) :: engine
+   pure function newmark_scene(drawn) result(scene)
       !> The scene
       type(drawn_scene_t), intent(in) :: drawn
       type(newmark_lane_scene_t) :: scene
-      type(scene_t) :: with_solver
 
-      with_solver = drawn%scene
-      call set_solver(engine, with_solver)
       scene%film = drawn%resolved%film
       scene%thickness = drawn%lane%initial_film
       scene%velocity = drawn%lane%initial_velocity
@@ -213,10 +169,12 @@ contains
       scene%method%steady_force = drawn%lane%steady_force
       scene%method%force_amplitude = drawn%lane%force_amplitude
       scene%method%frequency = drawn%lane%frequency
-      scene%method%tolerance = with_solver%solver%tolerance
-      scene%method%iteration_limit = with_solver%solver%iteration_limit
-      scene%method%by_newton = with_solver%solver%iteration == iteration_newton
-      scene%method%extrapolate = with_solver%solver%predictor == predictor_extrapolated
+      associate (solver => drawn%scene%solver)
+         scene%method%tolerance = solver%tolerance
+         scene%method%iteration_limit = solver%iteration_limit
+         scene%method%by_newton = solver%iteration == iteration_newton
+         scene%method%extrapolate = solver%predictor == predictor_extrapolated
+      end associate
    end function newmark_scene
 
    !> The solver of an engine.
@@ -227,12 +185,8 @@ contains
       type(scene_t), intent(inout) :: scene
 
       associate (solver => scene%solver)
-         solver%method = merge(method_taylor, method_newmark, engine <= long_engines)
-         if (engine == extrapolated .or. engine == lanes_extrapolated) &
-            solver%method = method_newmark_extrapolated
+         solver%method = merge(method_taylor, method_newmark_extrapolated, engine <= long_engines)
          solver%until = merge(until_steady, until_periods, engine == 3)
-         solver%iteration = merge(iteration_successive, iteration_newton, engine >= 8)
-         solver%predictor = merge(predictor_previous, predictor_extrapolated, engine == 7 .or. engine == 9)
       end associate
    end subroutine set_solver
 

@@ -1,4 +1,4 @@
-!> How a scene came out, engine by engine: right, failed with a status, or a silent failure.
+!> How a scene came out of an engine: right, failed with a status, or a silent failure.
 !>
 !> An error-controlled solution is right if its film is within K times its accuracy of the tight one. K = 30:
 !> a period's worth of local errors may add up to 4 to 12 times the accuracy (the share of it that a step may
@@ -7,38 +7,27 @@
 !> that is above 10 % the growth says no more how far apart motions come, and nothing can be asked for:
 !> chaotic motions, and motions that fall to one side or the other.
 !>
-!> Newmark's method promises no accuracy. It is right within 1 %; beyond that it must not get a certificate,
-!> unless all that is certified is that the window is irregular (`irregular`).
-!>
 !> `unjudged`: solved, but the tight solution failed.
 module stress_outcomes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use certificate, only: certificate_t, compare_windows
    use kinds, only: dp, int64
    use lane_scenes, only: lane_ending_t
-   use random_scenes, only: drawn_scene_t
-   use rattle_class, only: class_irregular, classify, rattle_verdict_t
    use scene_status, only: is_success, status_film_lost, status_no_rigid_film, status_not_converged, &
                            status_overflow, status_steady
-   use stress_references, only: compared_samples, comparisons, reference_t, window_periods
+   use stress_references, only: compared_samples, comparisons, reference_t
    implicit none(type, external)
    private
 
-   integer, parameter, public :: outcome_right = 1, outcome_sensitive = 2, outcome_irregular = 3, &
-                                 outcome_uncertain = 4, outcome_not_converged = 5, outcome_film_lost = 6, &
-                                 outcome_no_rigid_film = 7, outcome_overflow = 8, outcome_unjudged = 9, &
-                                 outcome_silent = 10
-   integer, parameter, public :: outcomes = 10
-   character(*), parameter, public :: outcome_names(outcomes) = [character(14) :: 'right', 'sensitive', &
-      'irregular', 'uncertain', 'not_converged', 'film_lost', 'no_rigid_film', 'overflow', 'unjudged', &
-      'SILENT FAILURE']
+   integer, parameter, public :: outcome_right = 1, outcome_sensitive = 2, outcome_not_converged = 3, outcome_film_lost = 4, &
+                                 outcome_no_rigid_film = 5, outcome_overflow = 6, outcome_unjudged = 7, outcome_silent = 8
+   integer, parameter, public :: outcomes = 8
+   character(*), parameter, public :: outcome_names(outcomes) = [character(14) :: 'right', 'sensitive', 'not_converged', &
+      'film_lost', 'no_rigid_film', 'overflow', 'unjudged', 'SILENT FAILURE']
 
    !> K of the header.
    real(dp), parameter :: allowed_ratio = 30.0_dp
    !> Error of the film that growth can foresee [-].
    real(dp), parameter :: unforeseeable = 0.1_dp
-   !> Error up to which Newmark's motion is right, and up to which it is certified [-].
-   real(dp), parameter :: right_error = 0.0101_dp, certificate_tolerance = 0.01_dp
    !> More steps for a scene are a hang.
    integer(int64), parameter :: most_steps = 1000000000_int64
 
@@ -55,7 +44,7 @@ module stress_outcomes
       character(24) :: fault = ''
    end type outcome_t
 
-   public :: judge_controlled, judge_newmark, is_motion
+   public :: judge_controlled
 
 contains
 
@@ -118,55 +107,6 @@ contains
       back = modulo(periods - ending%periods + (ending%samples - sample)/compared_samples, ending%orbit)
       match = comparisons - (back + 1)*compared_samples + 1 + modulo(sample - 1, compared_samples)
    end function matching_sample
-
-   !> Outcome of a Newmark engine.
-   subroutine judge_newmark(drawn, reference, status, films, window_films, window_accelerations, outcome)
-      !> The scene
-      type(drawn_scene_t), intent(in) :: drawn
-      !> What it is held against
-      type(reference_t), intent(in) :: reference
-      !> How it ended
-      integer, intent(in) :: status
-      !> Films of the last periods [m]; those of the window count
-      real(dp), intent(in) :: films(:)
-      !> Its window: films [m] and accelerations [m/s2]
-      real(dp), intent(in) :: window_films(:)
-      real(dp), intent(in) :: window_accelerations(:)
-      !> The outcome
-      type(outcome_t), intent(out) :: outcome
-      integer, parameter :: first = comparisons - window_periods*compared_samples + 1
-      type(rattle_verdict_t) :: verdict
-      type(certificate_t) :: certificate
-
-      outcome = outcome_of_status(status, reference)
-      if (outcome%code /= 0) return
-      if (.not. is_motion(films) .or. .not. is_motion(window_films) .or. &
-          .not. all(ieee_is_finite(window_accelerations))) then
-         outcome = silent('no film')
-         return
-      end if
-      outcome%code = outcome_unjudged
-      if (reference%exists) then
-         outcome%error = maxval(abs(films(first:) - reference%films(first:))/reference%films(first:))
-         outcome%code = outcome_right
-         if (outcome%error <= right_error) return
-      end if
-      ! Without a tighter solution there is no certificate.
-      outcome%code = outcome_uncertain
-      if (.not. reference%certificate) return
-      call classify(window_accelerations, drawn%scene%spectrum, drawn%resolved%noise_floor, verdict)
-      call compare_windows(window_films, reference%window_films, window_accelerations, &
-                           reference%window_accelerations, &
-                           verdict, reference%verdict, drawn%scene%spectrum, certificate_tolerance, &
-                           certificate)
-      if (.not. certificate%certified) return
-      outcome%code = outcome_unjudged
-      if (.not. reference%exists) return
-      ! Of an irregular window only that it is irregular is certified, and the error of its film is stated.
-      outcome%code = outcome_irregular
-      if (verdict%class == class_irregular) return
-      outcome = silent('certified though wrong')
-   end subroutine judge_newmark
 
    !> Outcome of a scene that did not get through; code 0 of one that did.
    pure function outcome_of_status(status, reference) result(outcome)

@@ -1,5 +1,5 @@
 !> What the engines are held against: every scene of a group solved by collocation far tighter than any
-!> engine, its sensitivity, and the tighter solution that a certificate would take.
+!> engine, and its sensitivity.
 !>
 !> Sensitivity. An error e made somewhere has grown to g e where it is looked at, and no method that is only
 !> accurate to e can do better. g is found by two more tight solutions: one with the film at the start and the
@@ -10,8 +10,6 @@ module stress_references
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use random_scenes, only: drawn_scene_t, group_t
-   use rattle_class, only: classify, rattle_verdict_t
-   use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: is_success
    implicit none(type, external)
    private
@@ -19,12 +17,8 @@ module stress_references
    !> The last periods and their samples: what all engines are compared by.
    integer, parameter, public :: compared_periods = 8, compared_samples = 8
    integer, parameter, public :: comparisons = compared_periods*compared_samples
-   !> Window of the class: periods and samples of each.
-   integer, parameter, public :: window_periods = 4, window_samples = 512
    !> Accuracy of the tight solution; where it cannot be had, this share of the accuracy of the group.
    real(dp), parameter :: tight_accuracy = 1.0e-11_dp, second_share = 1.0e-2_dp
-   !> Accuracy of the solution that a certificate takes.
-   real(dp), parameter :: certificate_accuracy = 1.0e-10_dp
    !> What film and force are put off by to see the sensitivity [-].
    real(dp), parameter :: offset = 1.0e-9_dp
 
@@ -38,10 +32,6 @@ module stress_references
       real(dp) :: films(comparisons) = 0.0_dp
       !> Growth g of errors [-]
       real(dp) :: growth = 1.0_dp
-      !> Whether there is a certificate, its window and its verdict
-      logical :: certificate = .false.
-      real(dp), allocatable :: window_films(:), window_accelerations(:)
-      type(rattle_verdict_t) :: verdict
    end type reference_t
 
    public :: solve_references
@@ -49,13 +39,11 @@ module stress_references
 contains
 
    !> References of all scenes of a group.
-   subroutine solve_references(group, drawn, with_certificate, references)
+   subroutine solve_references(group, drawn, references)
       !> The group
       type(group_t), intent(in) :: group
       !> Its scenes
       type(drawn_scene_t), intent(in) :: drawn(:)
-      !> Whether certificates are wanted
-      logical, intent(in) :: with_certificate
       !> The references
       type(reference_t), intent(out) :: references(:)
       integer :: i
@@ -63,7 +51,6 @@ contains
       call solve_tight(group, drawn, tight_accuracy, references)
       if (.not. all(references%exists)) call solve_tight(group, drawn, second_share*group%accuracy, &
                                                          references)
-      if (with_certificate) call solve_windows(group, drawn, references)
       do i = 1, size(references)
          if (.not. references(i)%growth >= 1.0_dp) references(i)%growth = 1.0_dp
       end do
@@ -181,38 +168,5 @@ contains
          if (.not. is_success(middle(i)%status)) endings(i)%status = middle(i)%status
       end do
    end subroutine last_periods
-
-   !> The windows that certificates compare with.
-   subroutine solve_windows(group, drawn, references)
-      type(group_t), intent(in) :: group
-      type(drawn_scene_t), intent(in) :: drawn(:)
-      type(reference_t), intent(inout) :: references(:)
-      type(lane_request_t) :: request
-      type(lane_ending_t) :: endings(size(drawn))
-      real(dp), allocatable :: films(:, :), velocities(:, :)
-      integer :: i
-
-      request%accuracy = certificate_accuracy
-      request%periods = group%periods
-      request%sampled_periods = window_periods
-      request%samples_per_period = window_samples
-      allocate (films(window_periods*window_samples, size(drawn)), velocities(window_periods*window_samples, &
-         size(drawn)), &
-                source=0.0_dp)
-      call solve_motions(drawn%lane, request, films, velocities, endings)
-      do i = 1, size(drawn)
-         associate (reference => references(i))
-            reference%certificate = is_success(endings(i)%status)
-            if (.not. reference%certificate) cycle
-            reference%window_films = films(:, i)
-            allocate (reference%window_accelerations(size(films, 1)))
-            call accelerations_of_samples(drawn(i)%lane, window_samples, films(:, i), velocities(:, i), &
-                               reference%window_accelerations)
-            call classify(reference%window_accelerations, drawn(i)%scene%spectrum, &
-                          drawn(i)%resolved%noise_floor, &
-                          reference%verdict)
-         end associate
-      end do
-   end subroutine solve_windows
 
 end module stress_references

@@ -1,7 +1,7 @@
 !> Random scenes by every engine, each held against an independent tighter solution.
 !>
 !>    stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE] [--failures FILE] [--list OUTCOME]
-!>                  [--accuracy A] [--no-newmark]
+!>                  [--accuracy A]
 !>
 !> Prints the table of outcomes and, of every silent failure and all that is listed, a namelist that shows it
 !> again. The exit code is 1 if there is a silent failure. The result does not depend on the number of threads
@@ -23,7 +23,7 @@ program stress_scenes
    integer(int64) :: scenes = 100000_int64, seed = 1_int64, first = 0_int64
    real(dp) :: accuracy = 0.0_dp
    character(512) :: csv = '', failures = ''
-   logical :: listed(outcomes) = .false., no_newmark = .false., written
+   logical :: listed(outcomes) = .false., written
    type(tally_t) :: tally
    real(dp) :: seconds(0:engines) = 0.0_dp, started, slowest = 0.0_dp
    integer(int64) :: group, slowest_group = 0_int64
@@ -79,9 +79,8 @@ contains
       end do
       group_started = wall_seconds()
       spent = 0.0_dp
-      ! Newmark's method has nothing to show in long runs.
-      last_engine = merge(long_engines, engines, shared%long .or. no_newmark)
-      call solve_references(shared, drawn, last_engine > long_engines, references)
+      last_engine = merge(long_engines, engines, shared%long)
+      call solve_references(shared, drawn, references)
       spent(0) = wall_seconds() - group_started
       do engine = 1, last_engine
          if (.not. takes_part(engine, shared)) cycle
@@ -157,16 +156,13 @@ contains
             if (.not. any(outcome_names == value)) failure = 1
          case ('--accuracy')
             read (value, *, iostat=failure) accuracy
-         case ('--no-newmark')
-            no_newmark = .true.
-            i = i - 1
          case default
             failure = 1
          end select
       end do
       if (failure == 0 .and. scenes > 0_int64 .and. first >= 0_int64) return
       write (error_unit, '(a)') 'usage: stress_scenes [--scenes N] [--seed S] [--first I] [--csv FILE]', &
-         '   [--failures FILE] [--list OUTCOME] [--accuracy A] [--no-newmark]'
+         '   [--failures FILE] [--list OUTCOME] [--accuracy A]'
       stop 2
    end subroutine read_arguments
 

@@ -2,7 +2,7 @@
 module stress_table
    use kinds, only: dp, int64
    use random_scenes, only: law_names, laws
-   use stress_engines, only: controlled_engines, engine_names, engines
+   use stress_engines, only: engine_names, engines
    use stress_outcomes, only: outcome_names, outcome_silent, outcome_t, outcomes
    use text, only: integer_text
    implicit none(type, external)
@@ -17,8 +17,8 @@ module stress_table
       integer(int64) :: count(outcomes, laws, engines) = 0_int64
       !> Scenes given up that the tight solution can solve
       integer(int64) :: needless(laws, engines) = 0_int64
-      !> Ratios of error to accuracy of the error-controlled engines, by class
-      integer(int64) :: ratios(classes, controlled_engines) = 0_int64
+      !> Ratios of error to accuracy, by class
+      integer(int64) :: ratios(classes, engines) = 0_int64
    contains
       procedure :: add
       procedure :: failures
@@ -42,7 +42,7 @@ contains
       self%count(outcome%code, law, engine) = self%count(outcome%code, law, engine) + 1_int64
       if (outcome%error < 0.0_dp .and. outcome%solvable .and. outcome%code /= outcome_silent) &
          self%needless(law, engine) = self%needless(law, engine) + 1_int64
-      if (engine > controlled_engines .or. outcome%ratio < 0.0_dp) return
+      if (outcome%ratio < 0.0_dp) return
       class = ceiling(2.0_dp*log10(max(outcome%ratio, 1.0e-30_dp))) - lowest_class
       class = max(1, min(classes, class))
       self%ratios(class, engine) = self%ratios(class, engine) + 1_int64
@@ -87,17 +87,17 @@ contains
          ' '//integer_text(needless)//' |'
    end subroutine print_row
 
-   !> Shares of the ratios of error to accuracy, for the error-controlled engines.
+   !> Shares of the ratios of error to accuracy.
    subroutine print_ratios(tally)
       type(tally_t), intent(in) :: tally
       integer :: engine, i
 
       print '(a)', '| error over accuracy up to |'//repeat_names()
-      print '(a)', '|---:|'//repeat('---:|', controlled_engines)
+      print '(a)', '|---:|'//repeat('---:|', engines)
       do i = 1, classes
          if (sum(tally%ratios(i, :)) == 0_int64) cycle
          print '(a, es8.1, 20(a, f8.3))', '| ', 10.0_dp**(0.5_dp*real(i + lowest_class, dp)), &
-            (' | ', share(i, engine), engine=1, controlled_engines), ' |'
+            (' | ', share(i, engine), engine=1, engines), ' |'
       end do
 
    contains
@@ -117,7 +117,7 @@ contains
          integer :: place
 
          line = ''
-         do place = 1, controlled_engines
+         do place = 1, engines
             line = line//' '//trim(engine_names(place))//' [%] |'
          end do
       end function repeat_names

@@ -1,0 +1,143 @@
+!> Random scenes as users have them judged: half of them those of random_scenes, over decades of every quantity, half of
+!> them loose gears of a transmission at engine orders of 5 to 60 Hz, with forces up to 50 static loads. These
+!> fly far and strike hard. A scene depends on its number and the seed alone.
+module judged_scenes
+   use constants, only: standard_gravity
+   use film_law, only: steady_film
+   use kinds, only: dp, int64
+   use random_numbers, only: next_uniform, random_state_t
+   use random_scenes, only: choose_law, draw, draw_scene, drawn_scene_t, laws
+   use resolved_scene, only: resolve
+   use scene_lane, only: lane_of_scene
+   use scene_types, only: law_piezo_viscous, method_newmark, method_taylor, model_reynolds, scene_t, until_periods, until_steady
+   implicit none(type, external)
+   private
+
+   !> Ranges of the loose gears, each drawn evenly in the logarithm: R, l [m], m [kg], Q [N], eta0 [Pa s], alpha [1/Pa],
+   !> U [m/s], f_exc [Hz], amplitude of the force over the static load.
+   real(dp), parameter :: radii(2) = [2.0e-3_dp, 4.0e-2_dp], lengths(2) = [2.0e-3_dp, 4.0e-2_dp], masses(2) = [0.01_dp, 5.0_dp], &
+                          loads(2) = [0.5_dp, 300.0_dp], viscosities(2) = [5.0e-3_dp, 1.0_dp], &
+                          coefficients(2) = [1.0e-8_dp, 3.0e-8_dp], speeds(2) = [0.1_dp, 20.0_dp], &
+                          frequencies(2) = [5.0_dp, 60.0_dp], ratios(2) = [0.1_dp, 50.0_dp]
+   real(dp), parameter :: accuracies(8) = [1.0e-8_dp, 1.0e-8_dp, 1.0e-8_dp, 1.0e-8_dp, 1.0e-6_dp, 1.0e-6_dp, 1.0e-4_dp, 1.0e-10_dp]
+   integer, parameter :: windows(4) = [1, 4, 8, 16], samples(8) = [512, 512, 512, 512, 512, 512, 128, 2048]
+   !> Law of a scene, by chance; successive substitution costs most and comes least.
+   integer, parameter :: law_turns(16) = [1, 2, 4, 5, 6, 1, 5, 5, 2, 1, 4, 5, 2, 6, 5, 3]
+   integer(int64), parameter :: gear_stream = 2_int64**40
+
+   public :: draw_judged_scene, is_gear
+
+contains
+
+   !> Whether a scene is a loose gear.
+   elemental logical function is_gear(number)
+      !> Number of the scene, from 0 on
+      integer(int64), intent(in) :: number
+
+      is_gear = modulo(number, 2_int64) == 1_int64
+   end function is_gear
+
+   !> A scene with the solver that a user may have chosen.
+   pure subroutine draw_judged_scene(seed, number, drawn, law)
+      !> Any number
+      integer(int64), intent(in) :: seed
+      !> Number of the scene, from 0 on
+      integer(int64), intent(in) :: number
+      type(drawn_scene_t), intent(out) :: drawn
+      !> Place in law_names
+      integer, intent(out) :: law
+      type(random_state_t) :: state
+
+      state = random_state_t(seed=seed, stream=gear_stream + number)
+      if (is_gear(number)) then
+         call draw_gear(state, drawn%scene, law)
+      else
+         drawn = draw_scene(seed, number)
+         law = law_of(drawn%scene)
+      end if
+      drawn%number = number
+      call draw_solver(state, drawn%scene)
+      drawn%resolved = resolve(drawn%scene)
+      drawn%lane = lane_of_scene(drawn%scene, drawn%resolved%film, drawn%resolved%initial_film, &
+                                 drawn%scene%film%initial_velocity)
+   end subroutine draw_judged_scene
+
+   !> Place of the law of a scene in law_names.
+   pure integer function law_of(scene) result(law)
+      type(scene_t), intent(in) :: scene
+      type(scene_t) :: other
+
+      do law = 1, laws - 1
+         call choose_law(law, other)
+         if (other%film%law == scene%film%law .and. other%film%model == scene%film%model .and. &
+             other%film%rupture == scene%film%rupture .and. other%film%rupture_solver == scene%film%rupture_solver) return
+      end do
+   end function law_of
+
+   !> A loose gear.
+   pure subroutine draw_gear(state, scene, law)
+      type(random_state_t), intent(inout) :: state
+      type(scene_t), intent(inout) :: scene
+      integer, intent(out) :: law
+      real(dp) :: number, ratio, film
+
+      call next_uniform(state, number)
+      law = law_turns(1 + int(real(size(law_turns), dp)*number))
+      call choose_law(law, scene)
+      scene%contact%young_modulus = 205.66e9_dp
+      scene%contact%poisson_ratio = 0.3_dp
+      call next_uniform(state, number)
+      scene%load%gravity = merge(standard_gravity, 0.0_dp, number < 0.5_dp)
+      call draw(state, radii, scene%contact%radius)
+      call draw(state, lengths, scene%contact%length)
+      call draw(state, masses, scene%load%mass)
+      call draw(state, loads, scene%load%steady_force)
+      call draw(state, viscosities, scene%lubricant%viscosity)
+      call draw(state, coefficients, scene%lubricant%pressure_viscosity)
+      call draw(state, speeds, scene%kinematics%entrainment_speed)
+      call draw(state, frequencies, scene%load%frequency)
+      call draw(state, ratios, ratio)
+      scene%load%force_amplitude = ratio*scene%load%static_load()
+      if (scene%film%law == law_piezo_viscous .and. scene%film%model == model_reynolds) then
+         ! With an oil of today few of these films would stand the first impact.
+         call draw(state, [1.0e-3_dp, 1.0_dp], ratio)
+         scene%lubricant%pressure_viscosity = ratio*scene%lubricant%pressure_viscosity
+      end if
+      call next_uniform(state, number)
+      call draw(state, [0.2_dp, 100.0_dp], ratio)
+      scene%film%initial_film = 0.0_dp
+      scene%film%initial_velocity = 0.0_dp
+      if (number < 0.8_dp) return
+      scene%film%initial_film = 1.0_dp
+      associate (resolved => resolve(scene))
+         film = steady_film(resolved%film, scene%load%static_load())
+      end associate
+      scene%film%initial_film = max(0.0_dp, ratio*film)
+   end subroutine draw_gear
+
+   !> Solver and window.
+   pure subroutine draw_solver(state, scene)
+      type(random_state_t), intent(inout) :: state
+      type(scene_t), intent(inout) :: scene
+      real(dp) :: number(6)
+      integer :: i
+
+      do i = 1, size(number)
+         call next_uniform(state, number(i))
+      end do
+      associate (solver => scene%solver)
+         solver%method = merge(method_newmark, method_taylor, number(1) < 1.0_dp/16.0_dp)
+         solver%until = merge(until_steady, until_periods, number(2) < 0.5_dp .and. solver%method == method_taylor)
+         solver%accuracy = accuracies(1 + int(8.0_dp*number(3)))
+         solver%kept_per_period = samples(1 + int(8.0_dp*number(4)))
+         solver%steps_per_period = 512
+         solver%tolerance = 1.0e-14_dp
+         solver%iteration_limit = 100
+         scene%spectrum%periods = windows(1 + int(4.0_dp*number(5)))
+         solver%periods = scene%spectrum%periods + 8 + int(32.0_dp*number(6))
+         if (solver%until == until_steady) solver%periods = 200
+      end associate
+      scene%output%series = .false.
+   end subroutine draw_solver
+
+end module judged_scenes

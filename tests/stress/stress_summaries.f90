@@ -1,0 +1,146 @@
+!> Random scenes solved and judged as a user has them judged, each summary held against the true motion.
+!>
+!>    stress_summaries [--scenes N] [--seed S] [--first I] [--failures FILE] [--list OUTCOME]
+!>
+!> Prints the table of outcomes and, of every silent failure and all that is listed, a namelist that shows it
+!> again. The exit code is 1 if there is a silent failure. The result does not depend on the number of threads
+!> (OMP_NUM_THREADS).
+program stress_summaries
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use clock, only: wall_seconds
+   use judged_scenes, only: draw_judged_scene, is_gear
+   use kinds, only: dp, int64
+   use lobatto_rule, only: lobatto_rule_t, new_lobatto_rule
+   use random_scenes, only: drawn_scene_t, law_names, laws
+   use scene_namelist, only: print_namelist
+   use summary_outcomes, only: outcome_of_summary, told_names, told_outcome_t, told_outcomes, told_silent
+   use text, only: integer_text
+   use told_summary, only: summary_told, told_t
+   implicit none(type, external)
+
+   integer(int64) :: scenes = 100000_int64, seed = 1_int64, first = 0_int64, number
+   integer(int64) :: counts(told_outcomes, laws, 2) = 0_int64
+   character(512) :: failures = ''
+   logical :: listed(told_outcomes) = .false.
+   real(dp) :: started, seconds(2) = 0.0_dp, slowest = 0.0_dp
+   integer(int64) :: slowest_scene = 0_int64
+   type(lobatto_rule_t) :: rule
+   integer :: unit
+
+   call read_arguments()
+   unit = output_unit
+   if (failures /= '') open (newunit=unit, file=trim(failures), status='replace', action='write')
+   rule = new_lobatto_rule()
+   started = wall_seconds()
+   !$omp parallel do schedule(dynamic) default(shared)
+   do number = first, first + scenes - 1_int64
+      call run_scene(number)
+   end do
+   !$omp end parallel do
+   call print_table()
+   print '(a)', ''
+   print '(a, i0, a, i0, a, i0, a, f0.1, a)', 'scenes ', first, ' to ', first + scenes - 1_int64, ', seed ', seed, ', ', &
+      wall_seconds() - started, ' s'
+   print '(2(a, f0.1), a)', 'seconds of the program ', seconds(1), ', of the reference ', seconds(2), ', all threads together'
+   print '(a, i0, a, f0.2, a)', 'slowest scene: ', slowest_scene, ', ', slowest, ' s'
+   print '(a, i0)', 'silent failures: ', sum(counts(told_silent, :, :))
+   if (any(counts(told_silent, :, :) > 0_int64)) stop 1
+
+contains
+
+   !> One scene.
+   subroutine run_scene(number)
+      integer(int64), intent(in) :: number
+      type(drawn_scene_t) :: drawn
+      type(told_t) :: told
+      type(told_outcome_t) :: outcome
+      real(dp) :: times(3)
+      integer :: law
+
+      call draw_judged_scene(seed, number, drawn, law)
+      times(1) = wall_seconds()
+      call summary_told(drawn, told)
+      times(2) = wall_seconds()
+      call outcome_of_summary(drawn, rule, told, outcome)
+      times(3) = wall_seconds()
+      !$omp critical (count_summaries)
+      seconds = seconds + times(2:) - times(:2)
+      if (times(3) - times(1) > slowest) then
+         slowest = times(3) - times(1)
+         slowest_scene = number
+      end if
+      associate (place => merge(2, 1, is_gear(number)))
+         counts(outcome%code, law, place) = counts(outcome%code, law, place) + 1_int64
+      end associate
+      if (outcome%code == told_silent .or. listed(outcome%code)) then
+         call print_namelist(unit, drawn, 'scene '//integer_text(number)//', seed '//integer_text(seed)//', '// &
+                             trim(law_names(law))//': '//trim(told_names(outcome%code))//' '//outcome%fault)
+         flush (unit)
+      end if
+      !$omp end critical (count_summaries)
+   end subroutine run_scene
+
+   !> Outcomes by scenes and law.
+   subroutine print_table()
+      integer :: place, law, i
+
+      print '(100a)', '| scenes | film |', (' '//trim(told_names(i))//' |', i=1, told_outcomes)
+      print '(100a)', '|---|---|', ('---:|', i=1, told_outcomes)
+      do place = 1, 2
+         do law = 1, laws
+            if (any(counts(:, law, place) > 0_int64)) call print_row(place_name(place), trim(law_names(law)), counts(:, law, place))
+         end do
+         call print_row(place_name(place), '**all**', sum(counts(:, :, place), dim=2))
+      end do
+   end subroutine print_table
+
+   !> One row.
+   subroutine print_row(scene_kind, film, row)
+      character(*), intent(in) :: scene_kind
+      character(*), intent(in) :: film
+      integer(int64), intent(in) :: row(:)
+      integer :: i
+
+      print '(100a)', '| '//scene_kind//' | '//film//' |', (' '//integer_text(row(i))//' |', i=1, told_outcomes)
+   end subroutine print_row
+
+   !> The two halves of the scenes.
+   function place_name(place) result(name)
+      integer, intent(in) :: place
+      character(:), allocatable :: name
+
+      name = trim(merge('all decades', 'loose gears', place == 1))
+   end function place_name
+
+   !> Command line.
+   subroutine read_arguments()
+      character(512) :: word, value
+      integer :: i, failure
+
+      failure = modulo(command_argument_count(), 2)
+      do i = 1, command_argument_count() - 1, 2
+         if (failure /= 0) exit
+         call get_command_argument(i, word)
+         call get_command_argument(i + 1, value)
+         select case (word)
+         case ('--scenes')
+            read (value, *, iostat=failure) scenes
+         case ('--seed')
+            read (value, *, iostat=failure) seed
+         case ('--first')
+            read (value, *, iostat=failure) first
+         case ('--failures')
+            failures = value
+         case ('--list')
+            listed = listed .or. told_names == value
+            if (.not. any(told_names == value)) failure = 1
+         case default
+            failure = 1
+         end select
+      end do
+      if (failure == 0 .and. scenes > 0_int64 .and. first >= 0_int64) return
+      write (error_unit, '(a)') 'usage: stress_summaries [--scenes N] [--seed S] [--first I] [--failures FILE] [--list OUTCOME]'
+      stop 2
+   end subroutine read_arguments
+
+end program stress_summaries

@@ -1,0 +1,249 @@
+!> Whether what a summary tells is true.
+!>
+!> A certified summary is a silent failure if its class is none that the true motion can have, if an extreme of film or
+!> acceleration or one of the first harmonics is farther off than the error that it states, or if the motion that it
+!> calls steady is not the one that repeats. What the reference may be off itself, found by solving it with another
+!> tolerance, is allowed for. Where a disturbance of film and force by 1e-9 grows so far that no certificate could
+!> foresee the film (30 times the growth times the accuracy of a certificate, 1e-10, beyond 1 %), nothing can be
+!> asked for but that a motion called irregular is irregular.
+module summary_outcomes
+   use impact_reference, only: compared_harmonics, find_orbit, impact_reference_t, possible_classes, solve_reference
+   use impact_steps, only: tooth_of_lane, tooth_state_t, tooth_t
+   use impact_window, only: solve_periods
+   use kinds, only: dp
+   use lobatto_rule, only: lobatto_rule_t
+   use random_scenes, only: drawn_scene_t
+   use text, only: integer_text, short_text
+   use told_summary, only: told_t
+   implicit none(type, external)
+   private
+
+   integer, parameter, public :: told_right = 1, told_irregular = 2, told_sensitive = 3, told_uncertain = 4, &
+                                 told_understated = 5, told_status = 6, told_unjudged = 7, told_silent = 8
+   integer, parameter, public :: told_outcomes = 8
+   character(*), parameter, public :: told_names(told_outcomes) = [character(20) :: 'right', 'irregular', 'sensitive', &
+      'uncertain', 'error understated', 'status', 'unjudged', 'SILENT FAILURE']
+
+   !> Quantities that are compared, and their names.
+   integer, parameter :: quantities = 4 + compared_harmonics
+   character(*), parameter :: extreme_names(4) = [character(20) :: 'film_minimum', 'film_maximum', 'acceleration_minimum', &
+      'acceleration_maximum']
+
+   !> Tolerances of the reference: the usual one, and that of the second look. What each may be off at least [-].
+   real(dp), parameter :: usual = 1.0e-9_dp, second = 1.0e-11_dp, usual_error = 3.0e-9_dp, second_error = 1.0e-10_dp
+   !> Disturbance, and how far it may grow [-]
+   real(dp), parameter :: disturbance = 1.0e-9_dp, foreseeable_growth = 0.01_dp/(30.0_dp*1.0e-10_dp)
+   !> A steady motion may be this many times its accuracy away from the one that repeats.
+   real(dp), parameter :: steady_ratio = 30.0_dp
+
+   !> What became of a scene.
+   type, public :: told_outcome_t
+      integer :: code = 0
+      !> What is wrong
+      character(:), allocatable :: fault
+   end type told_outcome_t
+
+   public :: outcome_of_summary
+
+contains
+
+   !> Judge what was told of a scene.
+   subroutine outcome_of_summary(drawn, rule, told, outcome)
+      !> The scene
+      type(drawn_scene_t), intent(in) :: drawn
+      type(lobatto_rule_t), intent(in) :: rule
+      !> What its summary says
+      type(told_t), intent(in) :: told
+      type(told_outcome_t), intent(out) :: outcome
+      type(impact_reference_t) :: reference, tight, disturbed
+      real(dp) :: own_errors(quantities), grown
+      character(:), allocatable :: fault
+
+      outcome%fault = trim(told%status)
+      outcome%code = told_status
+      if (.not. told%judged) return
+      outcome%code = merge(told_right, told_uncertain, told%certified)
+      outcome%fault = trim(told%reason)
+      call reference_of(drawn, rule, told, usual, 0.0_dp, reference)
+      if (.not. reference%solved) then
+         if (told%certified) outcome%code = told_unjudged
+         return
+      end if
+      if (told%certified .and. told%class == 'irregular') then
+         outcome%code = told_irregular
+         if (.not. class_is_possible(told, reference)) call fail(class_fault(told, reference))
+         return
+      end if
+      own_errors = usual_error*abs(values_of(reference)) + noise(drawn)
+      fault = fault_of(told, reference, own_errors, told%certified)
+      if (len(fault) > 0) then
+         call reference_of(drawn, rule, told, second, 0.0_dp, tight)
+         if (.not. tight%solved) then
+            if (told%certified) outcome%code = told_unjudged
+            return
+         end if
+         own_errors = second_error*abs(values_of(tight)) + noise(drawn) + 3.0_dp*abs(values_of(tight) - values_of(reference))
+         fault = fault_of(told, tight, own_errors, told%certified)
+      end if
+      if (len(fault) > 0) then
+         call reference_of(drawn, rule, told, second, disturbance, disturbed)
+         grown = huge(1.0_dp)
+         if (disturbed%solved) grown = maxval(abs(log(disturbed%extremes(:2)/tight%extremes(:2))))/disturbance
+         if (grown > foreseeable_growth) then
+            if (told%certified) outcome%code = told_sensitive
+            return
+         end if
+         if (told%certified) then
+            call fail(fault//', growth '//short_text(grown, 3))
+         else
+            outcome%code = told_understated
+            outcome%fault = fault//'; '//trim(told%reason)
+         end if
+         return
+      end if
+      if (told%orbit > 0 .and. told%certified) then
+         fault = fault_of_orbit(drawn, rule, told, reference, own_errors)
+         if (fault == '?') then
+            outcome%code = told_unjudged
+         else if (len(fault) > 0) then
+            call fail(fault)
+         end if
+      end if
+
+   contains
+
+      !> A silent failure.
+      subroutine fail(what)
+         character(*), intent(in) :: what
+
+         outcome%code = told_silent
+         outcome%fault = what
+      end subroutine fail
+
+   end subroutine outcome_of_summary
+
+   !> Solve the window of a summary.
+   subroutine reference_of(drawn, rule, told, tolerance, offset, reference)
+      type(drawn_scene_t), intent(in) :: drawn
+      type(lobatto_rule_t), intent(in) :: rule
+      type(told_t), intent(in) :: told
+      real(dp), intent(in) :: tolerance
+      !> Relative disturbance of film and force
+      real(dp), intent(in) :: offset
+      type(impact_reference_t), intent(out) :: reference
+      type(tooth_t) :: tooth
+      type(tooth_state_t) :: state
+      logical :: solved
+
+      tooth = tooth_of_lane(drawn%lane)
+      tooth%static_load = tooth%static_load + offset*(tooth%static_load + tooth%amplitude)
+      state%film = drawn%lane%initial_film*(1.0_dp + offset)
+      state%velocity = drawn%lane%initial_velocity
+      call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)
+      if (solved) call solve_reference(tooth, rule, tolerance, told%window, drawn%scene%spectrum, drawn%resolved%noise_floor, &
+                                       state, reference)
+   end subroutine reference_of
+
+   !> Amplitudes that rounding explains [m], [m/s2].
+   pure function noise(drawn)
+      type(drawn_scene_t), intent(in) :: drawn
+      real(dp) :: noise(quantities)
+
+      noise = 1.0e-11_dp*(drawn%scene%load%static_load() + drawn%scene%load%force_amplitude)/drawn%scene%load%mass
+      noise(:2) = 0.0_dp
+   end function noise
+
+   !> All that is compared.
+   pure function values_of(reference) result(values)
+      type(impact_reference_t), intent(in) :: reference
+      real(dp) :: values(quantities)
+
+      values = [reference%extremes, reference%harmonics]
+   end function values_of
+
+   !> Whether the class told is one that the true motion may have.
+   pure logical function class_is_possible(told, reference)
+      type(told_t), intent(in) :: told
+      type(impact_reference_t), intent(in) :: reference
+      character(len(told%class)) :: word
+
+      word = told%class
+      ! What is off its harmonics and repeats has a name of its own.
+      if (word == 'subharmonic') word = 'irregular'
+      class_is_possible = any(possible_classes == word .and. reference%possible)
+   end function class_is_possible
+
+   !> A wrong class in words.
+   pure function class_fault(told, reference) result(fault)
+      type(told_t), intent(in) :: told
+      type(impact_reference_t), intent(in) :: reference
+      character(:), allocatable :: fault
+      integer :: i
+
+      fault = 'class '//trim(told%class)//', truly'
+      do i = 1, size(possible_classes)
+         if (reference%possible(i)) fault = fault//' '//trim(possible_classes(i))
+      end do
+   end function class_fault
+
+   !> First thing that is wrong, empty if nothing is.
+   pure function fault_of(told, reference, own_errors, with_class) result(fault)
+      type(told_t), intent(in) :: told
+      type(impact_reference_t), intent(in) :: reference
+      !> Of the reference
+      real(dp), intent(in) :: own_errors(quantities)
+      !> Whether the class counts
+      logical, intent(in) :: with_class
+      character(:), allocatable :: fault
+      real(dp) :: values(quantities), stated(quantities), true_values(quantities)
+      integer :: i
+
+      fault = ''
+      if (with_class .and. .not. class_is_possible(told, reference)) fault = class_fault(told, reference)//'; '
+      values = [told%extremes, told%harmonics]
+      stated = [told%extreme_errors, told%harmonic_errors]
+      true_values = values_of(reference)
+      do i = 1, 4 + told%harmonic_count
+         if (abs(values(i) - true_values(i)) <= stated(i) + own_errors(i)) cycle
+         if (i <= 4) then
+            fault = fault//trim(extreme_names(i))
+         else
+            fault = fault//'harmonic '//integer_text(i - 4)
+         end if
+         fault = fault//' '//short_text(values(i), 9)//' +- '//short_text(stated(i), 3)//', truly '// &
+                 short_text(true_values(i), 9)//' +- '//short_text(own_errors(i), 3)
+         return
+      end do
+   end function fault_of
+
+   !> Whether the motion that repeats is another than the one told; '?' if it is not known.
+   function fault_of_orbit(drawn, rule, told, reference, own_errors) result(fault)
+      type(drawn_scene_t), intent(in) :: drawn
+      type(lobatto_rule_t), intent(in) :: rule
+      type(told_t), intent(in) :: told
+      type(impact_reference_t), intent(in) :: reference
+      real(dp), intent(in) :: own_errors(quantities)
+      character(:), allocatable :: fault
+      type(impact_reference_t) :: orbit
+      type(tooth_t) :: tooth
+      type(tooth_state_t) :: state
+      real(dp) :: away(2), allowed(2)
+      logical :: found
+
+      fault = '?'
+      tooth = tooth_of_lane(drawn%lane)
+      state = reference%start
+      call find_orbit(tooth, rule, usual, told%orbit, state, found)
+      if (.not. found) return
+      call solve_reference(tooth, rule, usual, told%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, state, orbit)
+      if (.not. orbit%solved) return
+      fault = ''
+      away = abs(log(told%extremes(:2)/orbit%extremes(:2)))
+      allowed = steady_ratio*drawn%scene%solver%accuracy + (told%extreme_errors(:2) + own_errors(:2))/told%extremes(:2)
+      if (any(away > allowed)) &
+         fault = 'steady too early: films '//short_text(told%extremes(1), 9)//' to '//short_text(told%extremes(2), 9)// &
+                 ', in the end '//short_text(orbit%extremes(1), 9)//' to '//short_text(orbit%extremes(2), 9)//', '// &
+                 short_text(maxval(away)/drawn%scene%solver%accuracy, 3)//' times the accuracy'
+   end function fault_of_orbit
+
+end module summary_outcomes
