@@ -166,7 +166,7 @@ def test_an_older_script_is_kept(campaign_input, tmp_path):
 # --- state
 
 
-def test_status_of_a_finished_campaign(whole):
+def test_status_of_a_finished_campaign(made, whole):
     done = call(whole.parent, "status", "map.rattle")
     assert (done.returncode, done.stderr) == (0, "")
     rows = {line[:20].strip(): line[20:].strip() for line in done.stdout.splitlines()}
@@ -174,6 +174,9 @@ def test_status_of_a_finished_campaign(whole):
     assert "5 of 5" in done.stdout
     assert "300 of 300 (100 %)" in done.stdout
     assert "status film_lost" in done.stdout
+    certified, failed = made.column("certified"), int((made.column("status") > 1.0).sum())
+    for words, count in (("without certificate", int((certified == 0.0).sum())), ("failed", failed)):
+        assert rows[words] == f"{count} ({100.0 * count / 300.0:.3g} %)"
 
 
 def test_status_of_an_unfinished_one_shows_its_progress(made, tmp_path):
@@ -237,9 +240,21 @@ def test_netcdf_holds_the_grid(made, whole):
 
 @pytest.mark.parametrize("form", ["csv", "parquet", "netcdf"])
 def test_unfinished_and_sampled_campaigns_are_exported_too(tmp_path, form):
-    sample().write(tmp_path / "cloud.rattle", undone=[1], closed=False)
+    made = sample()
+    made.write(tmp_path / "cloud.rattle", undone=[1], closed=False)
     done = call(tmp_path, "export", "cloud.rattle", "--to", form)
     assert done.returncode == 0, done.stderr
+    output = tmp_path / {"csv": "cloud.csv", "parquet": "cloud.parquet", "netcdf": "cloud.nc"}[form]
+    expected = np.delete(made.column("acceleration_maximum"), slice(64, 128))
+    if form == "csv":
+        with output.open(newline="") as stream:
+            values = [float(row["acceleration_maximum[m/s2]"]) for row in csv.DictReader(stream)]
+    elif form == "parquet":
+        values = parquet.read_table(output)["acceleration_maximum"].to_numpy()
+    else:
+        with xarray.open_dataset(output) as data:
+            values = data["acceleration_maximum"].values
+    np.testing.assert_array_equal(values, expected)
     assert done.stderr == (
         "campaign.py: cloud.rattle is not finished; 236 of 300 scenes are done and used.\n"
     )
