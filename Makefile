@@ -55,7 +55,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(ROOMS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test unit user lint debug python bench stress stress-sample test-cluster clean install help format pages pictures FORCE
+.PHONY: all run test unit user lint debug python bench stress stress-sample mutants test-cluster clean install help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -68,6 +68,7 @@ help:
 	@echo 'make python       Python environment and the module of the Fortran kernels'
 	@echo 'make bench        speed of the program, as a table'
 	@echo 'make stress       100000 random scenes by every engine (SCENES=N)'
+	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
 	@echo 'make pages        write input/README.md anew from the key table'
 	@echo 'make pictures     draw the pictures of the README anew'
@@ -191,6 +192,11 @@ SCENES := 100000
 stress: $(BUILD)/stress_scenes $(BUILD)/lane_independence
 	@$(BUILD)/stress_scenes --scenes $(SCENES) --csv $(BUILD)/stress.csv
 	@$(BUILD)/lane_independence --scenes 3000
+
+# Does a test notice when the code is broken in one place? Hours; PART=3/20 is every twentieth mutant from the third on.
+PART := 1/1
+mutants: $(PYTHON_ENV)/installed
+	@$(PYTHON) tests/mutants/run_mutants.py --part $(PART) --scratch $(BUILD)/mutants
 
 # Open MPI and Slurm on this machine: array jobs, MPI jobs, time limits, resume. Some minutes; installs with apt.
 test-cluster: $(PYTHON_ENV)/installed

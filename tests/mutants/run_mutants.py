@@ -1,0 +1,372 @@
+#!/usr/bin/env python3
+"""Break the code in one place at a time and see whether a test notices.
+
+Each mutant of mutants.txt is put into a scratch copy of the checkout. The file is compiled again, then the
+unit tests run, then the user tests of its room, then all others, until one fails: the mutant is killed. One
+that no test notices has survived.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatch
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+LIST = Path(__file__).with_name("mutants.txt")
+# Optimised file by file: a file of which only the inside changes is compiled alone and linked anew.
+FLAGS = "-O2 -march=x86-64-v3 -fno-math-errno -fno-trapping-math -fopenmp -fPIC"
+UNIT_LIMIT, USER_LIMIT = 300.0, 900.0  # seconds; an endless loop is noticed, too
+COLUMNS = ("number", "place", "reason", "outcome", "by", "seconds")
+KILLED, SURVIVED, SAME, BROKEN = "killed", "survived", "no difference", "does not build"
+NEAR = "the tests near it"
+
+# The user tests that most likely see a mutant, by the beginning of its path; the longest that fits counts.
+NEAREST_TESTS = {
+    "fsrc/foundation": ("bad_inputs", "written_files", "campaigns", "carrying_on"),
+    "fsrc/scene": ("bad_inputs", "check_and_template", "varied_keys", "tasks", "commands"),
+    "fsrc/film": ("kernels*", "tasks", "scenes_at_rest"),
+    "fsrc/motion": ("tasks", "carrying_on", "varied_keys", "run_endings", "scenes_at_rest", "campaigns"),
+    "fsrc/orbit": ("tasks", "scenes_at_rest"),
+    "fsrc/spectrum": ("kernels_spectrum", "classify_script", "tasks"),
+    "fsrc/verdict": ("kernels*", "tasks", "classify_script", "scenes_at_rest"),
+    "fsrc/files": ("written_files", "carrying_on", "output_places", "run_endings", "campaigns", "full_disk"),
+    "fsrc/run": ("tasks", "run_endings", "carrying_on", "commands", "check_and_template", "varied_keys"),
+    "fsrc/campaign": ("varied_keys", "campaigns", "carrying_on", "odd_inputs"),
+    "fsrc/bindings": ("kernels*",),
+    "fsrc/main.f90": ("commands", "run_endings"),
+    "scripts/rattle/figures": ("drawn_*",),
+    "scripts/rattle/kernels": ("kernels*",),
+    "scripts/rattle/merge.py": ("campaign_merge",),
+    "scripts/rattle/job_script.py": ("campaign_scripts",),
+    "scripts/rattle/rerun.py": ("campaign_scripts",),
+    "scripts/rattle/campaign_export.py": ("campaign_scripts",),
+    "scripts/rattle/campaign_section.py": ("drawn_campaigns", "campaign_map"),
+    "scripts/rattle/verdict.py": ("classify_script",),
+    "scripts/rattle": ("result_reader", "campaign_reader", "summaries", "drawn_campaigns"),
+    "scripts": ("campaign_scripts",),
+}
+# What the module of the kernels is made of.
+KERNEL_ROOMS = ("fsrc/foundation", "fsrc/film", "fsrc/spectrum", "fsrc/verdict", "fsrc/bindings")
+
+
+# They see neither the program nor its kernels.
+PYTHON_ALONE = (
+    "campaign_merge",
+    "campaign_reader",
+    "drawn_campaigns",
+    "export",
+    "generator",
+    "result_reader",
+    "summaries",
+)
+SCRIPT_MODULES = ("import rattle", "from rattle", "script_calls", "figure_files", "kernel_module")
+
+
+class ListError(Exception):
+    """The list of mutants cannot be used."""
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change of one file: its text, what it becomes, and what kind of mistake that is."""
+
+    number: int
+    path: str
+    reason: str
+    original: str
+    changed: str
+    no_difference: str
+
+    def apply(self, text: str) -> str:
+        if text.count(self.original) != 1:
+            raise ListError(
+                f"mutant {self.number} ({self.path}, {self.reason}): its text stands there "
+                f"{text.count(self.original)} times, not once:\n{self.original}"
+            )
+        return text.replace(self.original, self.changed)
+
+
+def read_list(path: Path = LIST) -> list[Mutant]:
+    """The mutants, in their order. Raises ListError for a block that is incomplete."""
+    mutants = []
+    for block in path.read_text(encoding="ascii").split("\n@ ")[1:]:
+        head, *lines = block.splitlines()
+        place, _, reason = head.partition(": ")
+        parts: dict[str, list[str]] = {"-": [], "+": [], "=": []}
+        for line in lines:
+            if line and not line.startswith("#"):
+                parts.get(line[0], []).append(line[2:])
+        original, changed = "\n".join(parts["-"]), "\n".join(parts["+"])
+        number = len(mutants) + 1
+        if not (reason and original and parts["+"]) or original == changed:
+            raise ListError(f"mutant {number} ({head}) is incomplete")
+        mutants.append(Mutant(number, place, reason, original, changed, " ".join(parts["="])))
+    keys = Counter((one.path, one.reason) for one in mutants)
+    if keys.most_common(1)[0][1] > 1:
+        raise ListError(f"two mutants have one name: {keys.most_common(1)[0][0]}")
+    return mutants
+
+
+def check(mutants: Sequence[Mutant], root: Path = REPOSITORY) -> list[str]:
+    """A sentence for each mutant that does not apply exactly once to the present source."""
+    faults = []
+    for mutant in mutants:
+        try:
+            mutant.apply((root / mutant.path).read_text(encoding="utf-8"))
+        except (ListError, OSError) as fault:
+            faults.append(str(fault))
+    return faults
+
+
+class Scratch:
+    """A copy of the checkout with a build of its own."""
+
+    def __init__(self, place: Path, python: str) -> None:
+        self.place = place
+        self.python = python
+        self.environment = os.environ | {
+            "RATTLE_PROGRAM": str(place / "build" / "rattle"),
+            "SYSTEM_LOOKED_AT": "yes",
+            "PYTHONDONTWRITEBYTECODE": "1",
+        }
+        listed = self._run(["git", "ls-files", "-z"], cwd=REPOSITORY).stdout.split("\0")
+        for name in filter(None, listed):
+            source, target = REPOSITORY / name, place / name
+            if source.exists() and (not target.exists() or target.read_bytes() != source.read_bytes()):
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(source, target)
+        gone = {path for path in place.glob("fsrc/**/*.f90")} - {place / name for name in listed}
+        for path in gone | set(place.glob("tests/**/__pycache__")):
+            path.unlink() if path.is_file() else shutil.rmtree(path)
+        if not (place / ".venv").exists():
+            (place / ".venv").symlink_to((REPOSITORY / ".venv").resolve())
+        made = self.make("build/rattle", "build/unit_tests", "build/kernels/built")
+        if made.returncode:
+            raise SystemExit(f"The unchanged program cannot be built:\n{made.stderr[-2000:]}")
+
+    def _run(self, command: Sequence[str], limit: float = 3600.0, **options) -> subprocess.CompletedProcess:
+        options = {"cwd": self.place, "env": self.environment, "text": True} | options
+        return subprocess.run(command, capture_output=True, check=False, timeout=limit, **options)
+
+    def make(self, *targets: str) -> subprocess.CompletedProcess:
+        command = ["make", "--no-print-directory", "-j2", "-o", ".venv/installed", f"RELEASE_FLAGS={FLAGS}"]
+        return self._run([*command, *targets])
+
+    def compile(self, path: str) -> bool:
+        """Build the programs with a file that was just changed; False if it does not compile.
+
+        Where the interface that other files see is the same, they are not compiled again.
+        """
+        source, built = self.place / path, self._object(path)
+        module = built.with_suffix(".mod")
+        before, stamp = module.read_bytes() if module.exists() else b"", built.stat().st_mtime_ns
+        for name in (built.name, "rattle", "unit_tests"):
+            (built.parent / name).unlink(missing_ok=True)
+        if self.make(f"build/{built.name}").returncode:
+            return False
+        if module.exists() and module.read_bytes() == before:
+            os.utime(source, ns=(stamp - 1, stamp - 1))
+            os.utime(built, ns=(stamp, stamp))
+        return self.make("build/rattle", "build/unit_tests").returncode == 0
+
+    def keep(self, path: str) -> list[Path]:
+        """Copies of a file and of what is made of it alone, for `restore`."""
+        built = self._object(path)
+        made = (built, built.with_suffix(".mod")) if path.endswith(".f90") else ()
+        kept = [self.place / path, *(one for one in made if one.exists())]
+        for one in kept:
+            shutil.copy2(one, one.with_name(f"{one.name}.kept"))
+        return kept
+
+    def restore(self, kept: Sequence[Path]) -> None:
+        """Bring the copies back; the files that saw another interface are compiled again."""
+        module = kept[-1]
+        alike = (
+            module.exists() and module.read_bytes() == module.with_name(f"{module.name}.kept").read_bytes()
+        )
+        for one in kept:
+            os.replace(one.with_name(f"{one.name}.kept"), one)
+        if module.suffix == ".mod" and not alike:
+            kept[0].touch()
+            self.make("build/rattle", "build/unit_tests")
+
+    def _object(self, path: str) -> Path:
+        return self.place / "build" / f"{Path(path).stem}.o"
+
+    def make_kernels(self) -> bool:
+        """Build the Python module of the kernels anew."""
+        (self.place / "build" / "kernels" / "built").unlink(missing_ok=True)
+        return self.make("build/kernels/built").returncode == 0
+
+    def unit_tests(self) -> str:
+        """What fails, empty if nothing does."""
+        return "" if self._ends_well(["build/unit_tests"], UNIT_LIMIT) else "unit tests"
+
+    def user_tests(self, files: Sequence[str]) -> str:
+        """The first test that fails, empty if none does."""
+        if not files:
+            return ""
+        command = [self.python, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *files]
+        try:
+            ended = self._run(command, USER_LIMIT)
+        except subprocess.TimeoutExpired:
+            return "time limit"
+        failed = [line for line in ended.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))]
+        words = failed[0].split(" ")[1].removeprefix("tests/user/") if failed else "pytest"
+        return words.partition("[")[0] if ended.returncode else ""
+
+    def files_near(self, path: str) -> tuple[list[str], ...]:
+        """The files of user tests that most likely see a change of `path`, and all others."""
+        folder = self.place / "tests" / "user"
+        every = {found.stem.removeprefix("test_"): found for found in sorted(folder.glob("test_*.py"))}
+        room = max((start for start in NEAREST_TESTS if path.startswith(start)), key=len)
+        near = [name for wish in NEAREST_TESTS[room] for name in every if fnmatch(name, wish)]
+        # The test of the list would see every mutant, by its text.
+        blind = {"mutants"}
+        if path.startswith("scripts"):
+            blind |= {name for name, file in every.items() if not calls_python(file)}
+        elif not path.startswith(KERNEL_ROOMS):
+            blind |= set(PYTHON_ALONE)
+        rest = [name for name in every if name not in near and name not in blind]
+        return tuple([f"tests/user/test_{name}.py" for name in names] for names in (near, rest))
+
+    def _ends_well(self, command: Sequence[str], limit: float) -> bool:
+        try:
+            return self._run(command, limit).returncode == 0
+        except subprocess.TimeoutExpired:
+            return False
+
+
+def calls_python(file: Path) -> bool:
+    """Whether a test uses the Python package or its scripts."""
+    text = file.read_text(encoding="utf-8")
+    return any(words in text for words in SCRIPT_MODULES)
+
+
+def judge(mutant: Mutant, scratch: Scratch, near_only: bool) -> tuple[str, str]:
+    """Outcome of one mutant, and the test that killed it."""
+    target = scratch.place / mutant.path
+    compiled = mutant.path.endswith(".f90") and not mutant.path.startswith("fsrc/bindings")
+    in_module = mutant.path.startswith(KERNEL_ROOMS)
+    kept = scratch.keep(mutant.path)
+    try:
+        target.write_text(mutant.apply(target.read_text(encoding="utf-8")), encoding="utf-8")
+        if compiled:
+            if not scratch.compile(mutant.path):
+                return BROKEN, ""
+            found = scratch.unit_tests()
+            if found:
+                in_module = False  # the module was not made of it
+                return KILLED, found
+        if in_module and not scratch.make_kernels():
+            return BROKEN, ""
+        near, rest = scratch.files_near(mutant.path)
+        found = scratch.user_tests(near) or ("" if near_only else scratch.user_tests(rest))
+        return (KILLED, found) if found else (SURVIVED, NEAR if near_only else "")
+    finally:
+        scratch.restore(kept)
+        if in_module:
+            scratch.make_kernels()
+
+
+def run(mutants: Sequence[Mutant], scratch: Scratch, path: Path, near_only: bool) -> Counter[str]:
+    """Judge the mutants one after another; each has its row in the CSV as soon as it is known."""
+    outcomes: Counter[str] = Counter()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("w", newline="", encoding="ascii") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for mutant in mutants:
+            started = time.monotonic()
+            outcome, found = SAME, mutant.no_difference
+            if not mutant.no_difference:
+                outcome, found = judge(mutant, scratch, near_only)
+            seconds = f"{time.monotonic() - started:.0f}"
+            writer.writerow([mutant.number, mutant.path, mutant.reason, outcome, found, seconds])
+            stream.flush()
+            print(f"{mutant.number:4d}  {outcome:14s} {mutant.path}, {mutant.reason}  {found}", flush=True)
+            outcomes[outcome] += 1
+    return outcomes
+
+
+def table(paths: Sequence[Path]) -> str:
+    """Results of several parts in Markdown: a line for each room, then the survivors. Later results count."""
+    found = {}
+    for path in paths:
+        with path.open(newline="", encoding="ascii") as stream:
+            found.update({(row["place"], row["reason"]): row for row in csv.DictReader(stream)})
+    order = [(one.path, one.reason) for one in read_list()]
+    rows = [found[key] for key in order if key in found]
+    counts: dict[str, Counter[str]] = {}
+    for row in rows:
+        parts = row["place"].split("/")
+        room = "/".join(parts[:-1]) if parts[0] == "scripts" else "/".join(parts[:2])
+        for name in (room, "**all**"):
+            counts.setdefault(name, Counter())[row["outcome"]] += 1
+    counts["**all**"] = counts.pop("**all**", Counter())
+    lines = ["| place | killed | survived | no difference |", "| --- | ---: | ---: | ---: |"]
+    lines += [f"| {room} | {n[KILLED]} | {n[SURVIVED]} | {n[SAME]} |" for room, n in counts.items()]
+    survivors = [row for row in rows if row["outcome"] == SURVIVED]
+    lines += ["", f"{len(rows)} of {len(order)} mutants of the list were tried. Survivors:", ""]
+    lines += [f"- `{row['place']}`: {row['reason']}" for row in survivors]
+    return "\n".join(lines)
+
+
+def part_of(text: str) -> tuple[int, int]:
+    part, _, parts = text.partition("/")
+    if not (part.isdigit() and parts.isdigit() and 1 <= int(part) <= int(parts)):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a part such as 1/10")
+    return int(part), int(parts)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument(
+        "--part", type=part_of, default=(1, 1), metavar="K/N", help="every N-th mutant from the K-th"
+    )
+    parser.add_argument("--only", metavar="PATTERN", help="those whose 'NUMBER FILE: REASON' it matches")
+    parser.add_argument(
+        "--near", action="store_true", help="leave out the tests of other rooms, which take minutes"
+    )
+    parser.add_argument("--scratch", type=Path, default=REPOSITORY / "build" / "mutants", metavar="DIR")
+    parser.add_argument("--csv", type=Path, help="where the results go; by default beside the scratch copy")
+    parser.add_argument(
+        "--check", action="store_true", help="only see that every mutant applies exactly once"
+    )
+    parser.add_argument(
+        "--table", nargs="+", type=Path, metavar="CSV", help="print the table of these results"
+    )
+    options = parser.parse_args()
+    if options.table:
+        print(table(options.table))
+        return 0
+    mutants = read_list()
+    faults = check(mutants)
+    if faults or options.check:
+        print("\n".join(faults) or f"{len(mutants)} mutants apply.")
+        return 1 if faults else 0
+    part, parts = options.part
+    wanted = re.compile(options.only or "")
+    chosen = [
+        one for one in mutants[part - 1 :: parts] if wanted.search(f"{one.number} {one.path}: {one.reason}")
+    ]
+    scratch = Scratch(options.scratch.resolve(), sys.executable)
+    path = options.csv or options.scratch / f"part-{part}-of-{parts}.csv"
+    outcomes = run(chosen, scratch, path, options.near)
+    print(", ".join(f"{count} {outcome}" for outcome, count in outcomes.items()))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
