@@ -23,7 +23,7 @@ def main() -> None:
     result = rattle.read(options.result)
     names = options.columns or list(result.columns)
     for name in names:
-        result.check_column(name)  # an unknown name ends the work before a file is touched
+        result[name]  # an unknown name or damaged rows end the work before a file is touched
     command.note_open(result)
     output = options.output or result.path.with_suffix(".csv")
     if output == STANDARD_OUTPUT:
@@ -37,13 +37,29 @@ def main() -> None:
 
 
 def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) -> None:
-    """A head of name[unit], then every `stride`-th row; float repr is the shortest exact form."""
+    """A head of name[unit], then every `stride`-th row; float repr is the shortest exact form.
+
+    The extreme rows are put in by time, all of them.
+    """
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(f"{name}[{result.units[name]}]" for name in names)
-    step = ROWS_AT_ONCE * stride
-    for start in range(0, result.row_count, step):
-        rows = slice(start, start + step, stride)
-        writer.writerows(np.column_stack([result[name][rows] for name in names]).tolist())
+    extremes = np.column_stack([result.extremes[name] for name in names])
+    if "time" in result:
+        places = np.searchsorted(result["time"][::stride], result.extremes["time"], side="right")
+    else:
+        places = np.full(len(extremes), -1)
+        if len(extremes):
+            command.note(
+                f"{result.path} has no column of times; its {len(extremes)} extreme rows are left out."
+            )
+    count = -(-result.row_count // stride)
+    for start in range(0, count, ROWS_AT_ONCE):
+        end = min(start + ROWS_AT_ONCE, count)
+        block = np.column_stack([result[name][start * stride : end * stride : stride] for name in names])
+        between = (places > start) & (places <= end)
+        if between.any():
+            block = np.insert(block, places[between] - start, extremes[between], axis=0)
+        writer.writerows(block.tolist())
 
 
 def parse_options() -> argparse.Namespace:

@@ -1,9 +1,13 @@
 !> Files that are written byte by byte, with every failure seen. The runtime's own unformatted and stream
 !> output forgets that the disk was full when it empties its buffer; hence this one.
+!>
+!> A file is written beside its place, as PATH.new, and put there when it is complete, or as soon as what it holds
+!> makes sense. Until then whatever stands at the place stays as it is.
 module byte_file
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc
    use errors, only: error_t, exit_system, raise
-   use file_descriptor, only: close_descriptor, open_replacing, write_bytes
+   use file_descriptor, only: close_descriptor, open_replacing, synchronise_descriptor, write_bytes
+   use file_system, only: delete_file, rename_file
    use kinds, only: dp, int64
    use system_error, only: error_words, last_error
    implicit none(type, external)
@@ -18,6 +22,8 @@ module byte_file
       integer(c_int) :: descriptor = -1
       !> Whether a write has failed; nothing more is written then
       logical :: broken = .false.
+      !> Whether it stands at its place
+      logical :: placed = .false.
       integer :: used = 0
       character(:), allocatable :: path
       character(kind=c_char), allocatable :: buffer(:)
@@ -27,6 +33,7 @@ module byte_file
       generic :: put => put_text, put_numbers
       procedure :: put_at
       procedure :: flush => flush_buffer
+      procedure :: place => place_file
       procedure :: close => close_file
       procedure, private :: put_text
       procedure, private :: put_numbers
@@ -34,9 +41,34 @@ module byte_file
       procedure, private :: fail
    end type byte_file_t
 
+   public :: new_path, put_in_place
+
 contains
 
-   !> Create a file; one that stands there is replaced.
+   !> Where a file is written until it is put in its place.
+   pure function new_path(path)
+      !> Path of the file
+      character(*), intent(in) :: path
+      character(:), allocatable :: new_path
+
+      new_path = path//'.new'
+   end function new_path
+
+   !> Put a file that was written beside its place there, in one step; what stands there is replaced.
+   subroutine put_in_place(path, error)
+      !> Path of the file
+      character(*), intent(in) :: path
+      !> Set if it cannot be done; what stands there stays then
+      type(error_t), allocatable, intent(out) :: error
+      logical :: moved
+
+      call rename_file(new_path(path), path, moved)
+      if (moved) return
+      call raise(error, exit_system, path//' cannot be written: '//error_words(last_error()))
+      call delete_file(new_path(path))
+   end subroutine put_in_place
+
+   !> Create a file beside its place.
    subroutine open_file(self, path, error)
       class(byte_file_t), intent(inout) :: self
       !> Path of the file
@@ -47,8 +79,9 @@ contains
       self%path = path
       self%used = 0
       self%broken = .false.
+      self%placed = .false.
       if (.not. allocated(self%buffer)) allocate (self%buffer(buffer_bytes))
-      self%descriptor = open_replacing(path)
+      self%descriptor = open_replacing(new_path(path))
       if (self%descriptor < 0) call self%fail(error)
    end subroutine open_file
 
@@ -100,22 +133,20 @@ contains
       end if
    end subroutine put_numbers
 
-   !> Write a long integer over what stands at a place; everything before is on the disk then.
-   subroutine put_at(self, offset, number, error)
+   !> Write over what stands at a place; everything before is on the disk then.
+   subroutine put_at(self, offset, bytes, error)
       class(byte_file_t), intent(inout) :: self
       !> Bytes before it
       integer(int64), intent(in) :: offset
-      !> The number
-      integer(int64), intent(in) :: number
+      !> Bytes as they are
+      character(*), intent(in) :: bytes
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error
-      character(8) :: bytes
       logical :: complete
 
       call self%flush(error)
       if (allocated(error)) return
-      bytes = transfer(number, bytes)
-      call write_bytes(self%descriptor, 8_int64, bytes, complete, offset)
+      call write_bytes(self%descriptor, len(bytes, int64), bytes, complete, offset)
       if (.not. complete) call self%fail(error)
    end subroutine put_at
 
@@ -131,20 +162,38 @@ contains
       if (used > 0) call self%write_on(self%buffer(:used), error)
    end subroutine flush_buffer
 
-   !> Close the file. After a failed write nothing more is written, and no second error is raised.
+   !> Put the file in its place, if it is not there. What is written into an open file afterwards goes there.
+   subroutine place_file(self, error)
+      class(byte_file_t), intent(inout) :: self
+      !> Set if it cannot be done
+      type(error_t), allocatable, intent(out) :: error
+
+      if (self%placed) return
+      if (self%is_open()) call self%flush(error)
+      if (.not. allocated(error)) call put_in_place(self%path, error)
+      self%placed = .not. allocated(error)
+   end subroutine place_file
+
+   !> Close the file, which stands on the disk itself then. After a failed write nothing more is written, and no
+   !> second error is raised; a file beside its place is taken away.
    subroutine close_file(self, error)
       class(byte_file_t), intent(inout) :: self
       !> Set if the file is not complete
       type(error_t), allocatable, intent(out) :: error
       integer(c_int) :: descriptor
-      logical :: closed
+      logical :: sound
 
       if (self%descriptor < 0) return
       if (.not. self%broken) call self%flush(error)
+      if (.not. self%broken) then
+         call synchronise_descriptor(self%descriptor, sound)
+         if (.not. sound) call self%fail(error)
+      end if
       descriptor = self%descriptor
       self%descriptor = -1
-      call close_descriptor(descriptor, closed)
-      if (.not. closed .and. .not. self%broken) call self%fail(error)
+      call close_descriptor(descriptor, sound)
+      if (.not. sound .and. .not. self%broken) call self%fail(error)
+      if (self%broken .and. .not. self%placed) call delete_file(new_path(self%path))
    end subroutine close_file
 
    !> Write bytes behind those that the file has.

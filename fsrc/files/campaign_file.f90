@@ -1,23 +1,18 @@
 !> The result file of a campaign: NAME.rattle as result_format describes it, one row for every scene in the
-!> order of the scenes, and in its header a table of the chunks that are done:
-!>
-!>    after the input text, at the next multiple of 64 bytes:
-!>       'CHUNKTAB', 8 bytes;  scenes in a chunk, int64;  count of chunks, int64
-!>       per chunk: checksum of its rows, int64; 0: not done
-!>    zeros up to the first row, at a multiple of 64 bytes
+!> order of the scenes, and in its header a table of the chunks that are done.
 !>
 !> A chunk may be written at any time. Its rows go first, its checksum after them, so a run that is killed
 !> at any moment leaves chunks that are whole or count as not done. The bytes of the finished file depend
 !> neither on the order of the chunks nor on the number of runs that it took.
 module campaign_file
-   use campaign_header, only: campaign_layout_t, campaign_places_t, check_same_campaign, find_places, &
-                              header_front, places_for
+   use campaign_header, only: campaign_layout_t, check_same_campaign, header_for
    use checksum, only: checksum_of
    use errors, only: error_t, exit_bad_input, exit_system, raise
    use file_system, only: delete_file, first_bytes, path_exists, rename_file
    use kinds, only: dp, int64
    use random_access_file, only: lock_held, lock_refused, random_access_file_t
    use result_format, only: result_magic, row_count_offset, rows_unknown
+   use result_header, only: header_text, result_header_t
    use text, only: integer_text
    implicit none(type, external)
    private
@@ -27,7 +22,7 @@ module campaign_file
       private
       type(random_access_file_t) :: file
       character(:), allocatable :: path
-      type(campaign_places_t) :: places
+      type(result_header_t) :: header
       integer(int64) :: scene_count = 0_int64
       !> Checksum of each chunk, 0: not done
       integer(int64), allocatable :: checksums(:)
@@ -106,14 +101,13 @@ contains
          return
       end if
 
-      self%places = places_for(layout)
+      self%header = header_for(layout)
       self%scene_count = layout%scene_count
       if (allocated(self%checksums)) deallocate (self%checksums)
-      allocate (self%checksums(self%places%chunk_count), source=0_int64)
+      allocate (self%checksums(self%header%chunk_count), source=0_int64)
       call self%file%set_size(0_int64, error)
-      if (.not. allocated(error)) call self%file%set_size(self%places%first_row, error)
-      if (.not. allocated(error)) call self%file%write_at(0_int64, header_front(layout, self%places), error)
-      if (.not. allocated(error)) call self%file%write_at(self%places%table, self%places%table_start(), error)
+      if (.not. allocated(error)) call self%file%set_size(self%header%header_bytes, error)
+      if (.not. allocated(error)) call self%file%write_at(0_int64, header_text(self%header), error)
       if (.not. allocated(error)) call self%file%synchronise(error)
       if (.not. allocated(error)) then
          call rename_file(new_path, path, moved)
@@ -199,12 +193,11 @@ contains
       type(campaign_layout_t), intent(in) :: layout
       type(error_t), allocatable, intent(out) :: error
 
-      call check_same_campaign(self%file, self%path, layout, error)
-      if (.not. allocated(error)) call find_places(self%file, self%path, layout, self%places, error)
+      call check_same_campaign(self%file, self%path, layout, self%header, error)
       if (allocated(error)) return
       self%scene_count = layout%scene_count
       if (allocated(self%checksums)) deallocate (self%checksums)
-      allocate (self%checksums(self%places%chunk_count))
+      allocate (self%checksums(self%header%chunk_count))
       call self%refresh(error)
    end subroutine attach
 
@@ -215,7 +208,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       logical :: complete
 
-      call self%file%read_at(self%places%checksums, self%checksums, complete)
+      call self%file%read_at(self%header%checksum_place(1_int64), self%checksums, complete)
       if (.not. complete) call raise(error, exit_system, self%path//' cannot be read')
    end subroutine refresh
 
@@ -229,8 +222,8 @@ contains
       logical :: sound
 
       spoilt_chunks = 0_int64
-      allocate (rows(self%places%column_count, min(self%places%chunk_rows, self%scene_count)))
-      do chunk = 1_int64, self%places%chunk_count
+      allocate (rows(size(self%header%names), min(self%header%chunk_rows, self%scene_count)))
+      do chunk = 1_int64, self%header%chunk_count
          if (self%checksums(chunk) == 0_int64) cycle
          call self%chunk_bounds(chunk, first, last)
          call self%read_chunk(chunk, rows(:, :last - first + 1_int64), sound)
@@ -238,7 +231,7 @@ contains
          ! A closed file that turns out to be spoilt is open again.
          if (spoilt_chunks == 0_int64) call self%file%write_at(row_count_offset, [rows_unknown], error)
          if (.not. allocated(error)) &
-            call self%file%write_at(self%places%checksum_place(chunk), [0_int64], error)
+            call self%file%write_at(self%header%checksum_place(chunk), [0_int64], error)
          if (allocated(error)) return
          self%checksums(chunk) = 0_int64
          spoilt_chunks = spoilt_chunks + 1_int64
@@ -249,7 +242,7 @@ contains
    pure integer(int64) function chunk_count(self)
       class(campaign_file_t), intent(in) :: self
 
-      chunk_count = self%places%chunk_count
+      chunk_count = self%header%chunk_count
    end function chunk_count
 
    !> Scenes of a chunk.
@@ -262,8 +255,8 @@ contains
       !> Last scene
       integer(int64), intent(out) :: last
 
-      first = (chunk - 1_int64)*self%places%chunk_rows + 1_int64
-      last = min(first + self%places%chunk_rows - 1_int64, self%scene_count)
+      first = (chunk - 1_int64)*self%header%chunk_rows + 1_int64
+      last = min(first + self%header%chunk_rows - 1_int64, self%scene_count)
    end subroutine chunk_bounds
 
    !> Whether a chunk is done, as far as this rank knows.
@@ -295,14 +288,14 @@ contains
       integer(int64) :: first, last, sum_of_rows
 
       call self%chunk_bounds(chunk, first, last)
-      if (size(rows, 1) /= self%places%column_count .or. size(rows, 2, int64) /= last - first + 1_int64) then
+      if (size(rows, 1) /= size(self%header%names) .or. size(rows, 2, int64) /= last - first + 1_int64) then
          call raise(error, exit_system, self%path//': chunk '//integer_text(chunk)//' has the wrong size')
          return
       end if
       sum_of_rows = checksum_of(rows)
-      call self%file%write_at(self%places%row_place(first), rows, error)
+      call self%file%write_at(self%header%row_place(first), rows, error)
       if (.not. allocated(error)) &
-         call self%file%write_at(self%places%checksum_place(chunk), [sum_of_rows], error)
+         call self%file%write_at(self%header%checksum_place(chunk), [sum_of_rows], error)
       if (.not. allocated(error)) self%checksums(chunk) = sum_of_rows
    end subroutine write_chunk
 
@@ -318,7 +311,7 @@ contains
       integer(int64) :: first, last
 
       call self%chunk_bounds(chunk, first, last)
-      call self%file%read_at(self%places%row_place(first), rows, sound)
+      call self%file%read_at(self%header%row_place(first), rows, sound)
       if (sound) sound = checksum_of(rows) == self%checksums(chunk)
    end subroutine read_chunk
 

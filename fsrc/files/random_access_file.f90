@@ -3,7 +3,8 @@
 module random_access_file
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, c_ptr
    use errors, only: error_t, exit_system, raise
-   use file_descriptor, only: close_descriptor, open_existing, read_and_write, read_bytes, read_only, write_bytes
+   use file_descriptor, only: close_descriptor, open_existing, read_and_write, read_bytes, read_only, &
+                              synchronise_descriptor, write_bytes
    use kinds, only: dp, int64
    use system_error, only: error_words, interrupted_call, last_error, no_locks, no_such_call, not_supported
    implicit none(type, external)
@@ -77,12 +78,6 @@ module random_access_file
          integer(c_int), value :: origin
          integer(c_long) :: place
       end function c_lseek
-
-      function c_fsync(descriptor) bind(c, name='fsync') result(stat)
-         import :: c_int
-         integer(c_int), value :: descriptor
-         integer(c_int) :: stat
-      end function c_fsync
    end interface
 
 contains
@@ -275,12 +270,10 @@ contains
       class(random_access_file_t), intent(in) :: self
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error
+      logical :: stands
 
-      do
-         if (c_fsync(self%descriptor) == 0) return
-         if (last_error() /= interrupted_call) exit
-      end do
-      call self%fail('written', error)
+      call synchronise_descriptor(self%descriptor, stands)
+      if (.not. stands) call self%fail('written', error)
    end subroutine synchronise
 
    !> Close the file, and give back its lock.

@@ -1,16 +1,31 @@
 !> The header of a result file, put together and taken apart; see result_format for its layout.
 module result_header
+   use checksum, only: checksum_of
    use errors, only: error_t, exit_bad_input, raise
    use kinds, only: int32, int64
    use random_access_file, only: random_access_file_t
-   use result_format, only: alignment, byte_order_mark, column_name_bytes, column_unit_bytes, &
-                            fixed_header_bytes, result_format_version, result_magic, rows_unknown
+   use result_format, only: alignment, byte_order_mark, campaign_table_magic, column_name_bytes, column_unit_bytes, &
+                            fixed_header_bytes, result_format_version, result_magic, rows_unknown, seal_bytes, seal_offset, &
+                            series_table_magic, table_start_bytes, word_bytes
    use text, only: integer_text
    use version, only: program_version
    implicit none(type, external)
    private
 
    integer, parameter :: version_bytes = 24
+   !> Words of a chunk of a series: 4 MB, found damaged or sound in a millisecond; and most chunks of a series.
+   integer(int64), parameter :: series_chunk_words = 524288_int64, most_series_chunks = 4096_int64
+
+   !> What the checksums of a series cover so far.
+   type, public :: result_seal_t
+      integer(int64) :: rows = 0_int64
+      integer(int32) :: extremes = 0_int32
+      !> Whether the series is coarser than the motion
+      logical :: coarse = .false.
+      !> Checksums of the rows behind the last whole chunk, and of the extreme rows; 0: none
+      integer(int64) :: rest_checksum = 0_int64
+      integer(int64) :: extremes_checksum = 0_int64
+   end type result_seal_t
 
    !> What a header says.
    type, public :: result_header_t
@@ -25,43 +40,116 @@ module result_header
       character(column_unit_bytes), allocatable :: units(:)
       !> Resolved input as namelist text
       character(:), allocatable :: input_text
+      !> Checksum of the scenes of a CSV file; 0: none
+      integer(int64) :: source_checksum = 0_int64
+      !> Kind of the table of chunks, rows in a chunk, count of chunks, rows of the file at most
+      character(8) :: table_magic = series_table_magic
+      integer(int64) :: chunk_rows = 0_int64
+      integer(int64) :: chunk_count = 0_int64
+      integer(int64) :: row_limit = 0_int64
+      type(result_seal_t) :: seal
+   contains
+      procedure :: lay_out
+      procedure :: table_place
+      procedure :: checksum_place
+      procedure :: row_place
    end type result_header_t
 
-   public :: header_text, aligned_text_end, read_result_header
+   public :: header_text, seal_text, read_result_header, series_chunk_rows
 
 contains
 
-   !> Bytes up to the next multiple of 64 after the input text; there the rows begin, or what else the
-   !> header holds.
-   pure integer(int64) function aligned_text_end(header)
-      !> Its columns and input text are set
+   !> Rows in a chunk of a series.
+   pure integer(int64) function series_chunk_rows(column_count, row_limit)
+      !> Columns of the series
+      integer, intent(in) :: column_count
+      !> Rows that it has at most
+      integer(int64), intent(in) :: row_limit
+
+      series_chunk_rows = max(1_int64, series_chunk_words/int(column_count, int64), &
+                              (row_limit - 1_int64)/most_series_chunks + 1_int64)
+   end function series_chunk_rows
+
+   !> Find the count of chunks and the place of the first row; all else of the header is known.
+   pure subroutine lay_out(self)
+      class(result_header_t), intent(inout) :: self
+
+      self%chunk_count = (self%row_limit - 1_int64)/self%chunk_rows + 1_int64
+      self%header_bytes = aligned(self%checksum_place(self%chunk_count + 1_int64))
+   end subroutine lay_out
+
+   !> Bytes before the table of chunks.
+   pure integer(int64) function table_place(self)
+      class(result_header_t), intent(in) :: self
+
+      table_place = aligned(text_place(self) + len(self%input_text, int64))
+   end function table_place
+
+   !> Bytes before the checksum of a chunk.
+   pure integer(int64) function checksum_place(self, chunk)
+      class(result_header_t), intent(in) :: self
+      !> From 1
+      integer(int64), intent(in) :: chunk
+
+      checksum_place = self%table_place() + table_start_bytes + word_bytes*(chunk - 1_int64)
+   end function checksum_place
+
+   !> Bytes before a row.
+   pure integer(int64) function row_place(self, row)
+      class(result_header_t), intent(in) :: self
+      !> From 1
+      integer(int64), intent(in) :: row
+
+      row_place = self%header_bytes + word_bytes*size(self%names, kind=int64)*(row - 1_int64)
+   end function row_place
+
+   !> Bytes before the input text.
+   pure integer(int64) function text_place(header)
       type(result_header_t), intent(in) :: header
-      integer(int64) :: column_count, text_end
 
-      column_count = size(header%names, kind=int64)
-      text_end = fixed_header_bytes + column_count*(column_name_bytes + column_unit_bytes) + &
-                 len(header%input_text, int64)
-      aligned_text_end = ((text_end + alignment - 1_int64)/alignment)*alignment
-   end function aligned_text_end
+      text_place = fixed_header_bytes + size(header%names, kind=int64)*(column_name_bytes + column_unit_bytes)
+   end function text_place
 
-   !> Bytes of a header up to the end of its input text, without the padding.
+   pure integer(int64) function aligned(place)
+      integer(int64), intent(in) :: place
+
+      aligned = ((place + alignment - 1_int64)/alignment)*alignment
+   end function aligned
+
+   !> Bytes of a header up to the checksums of its chunks, which are zeros in a new file.
    pure function header_text(header) result(bytes)
-      !> All its parts are set
+      !> Laid out
       type(result_header_t), intent(in) :: header
       character(:), allocatable :: bytes
+      character(:), allocatable :: front, behind, table
       integer :: i
 
-      bytes = result_magic//int32_bytes(result_format_version)//int32_bytes(byte_order_mark)// &
-              int64_bytes(header%header_bytes)//int64_bytes(header%row_count)// &
-              int32_bytes(size(header%names, kind=int32))//int32_bytes(len(header%input_text, int32))// &
-              header%version
+      front = result_magic//int32_bytes(result_format_version)//int32_bytes(byte_order_mark)//int64_bytes(header%header_bytes)
+      behind = int32_bytes(size(header%names, kind=int32))//int32_bytes(len(header%input_text, int32))// &
+               header%version//int64_bytes(header%source_checksum)
+      table = header%table_magic//int64_bytes(header%chunk_rows)//int64_bytes(header%chunk_count)//int64_bytes(header%row_limit)
+      bytes = ''
       do i = 1, size(header%names)
          bytes = bytes//header%names(i)//header%units(i)
       end do
       bytes = bytes//header%input_text
+      bytes = front//int64_bytes(header%row_count)//behind//int64_bytes(checksum_of(front//behind//bytes//table))// &
+              seal_text(header%seal)//repeat(achar(0), fixed_header_bytes - int(seal_offset) - seal_bytes)//bytes
+      bytes = bytes//repeat(achar(0), int(header%table_place()) - len(bytes))//table
    end function header_text
 
-   !> Read the header of an open file, and see that it is a result file of this version, of sound sizes.
+   !> Bytes of a seal, with its own checksum.
+   pure function seal_text(seal) result(bytes)
+      !> What the checksums cover
+      type(result_seal_t), intent(in) :: seal
+      character(seal_bytes) :: bytes
+
+      bytes = int64_bytes(seal%rows)//int32_bytes(seal%extremes)//int32_bytes(merge(1_int32, 0_int32, seal%coarse))// &
+              int64_bytes(seal%rest_checksum)//int64_bytes(seal%extremes_checksum)
+      bytes(seal_bytes - 7:) = int64_bytes(checksum_of(bytes(:seal_bytes - 8)))
+   end function seal_text
+
+   !> Read the header of an open file, and see that it is a result file of this format, sound in all its parts.
    subroutine read_result_header(file, path, header, error)
       !> Open file
       type(random_access_file_t), intent(in) :: file
@@ -72,10 +160,7 @@ contains
       !> Set if it is no such file
       type(error_t), allocatable, intent(out) :: error
       character(fixed_header_bytes) :: fixed
-      character(:), allocatable :: columns
-      integer(int64) :: column_end, file_bytes
       integer(int32) :: format_version
-      integer :: i, column_count, text_bytes, width
       logical :: complete
 
       call file%read_at(0_int64, fixed, complete)
@@ -90,34 +175,69 @@ contains
                     'program; version '//integer_text(int(format_version))//' stands in it')
          return
       end if
+      call read_parts(file, fixed, header, complete)
+      if (complete) call read_seal(fixed(seal_offset + 1:seal_offset + seal_bytes), header%seal, complete)
+      if (complete .and. header%table_magic == series_table_magic) &
+         complete = header%row_count == rows_unknown .or. header%row_count == header%seal%rows
+      if (complete .and. header%table_magic == campaign_table_magic) &
+         complete = header%row_count == rows_unknown .or. header%row_count == header%row_limit
+      if (.not. complete) call raise(error, exit_bad_input, path//' has a damaged header: its parts contradict each other')
+   end subroutine read_result_header
+
+   !> Columns, input text and table, which the checksum of the header covers together with the fixed part.
+   subroutine read_parts(file, fixed, header, sound)
+      type(random_access_file_t), intent(in) :: file
+      character(*), intent(in) :: fixed
+      type(result_header_t), intent(inout) :: header
+      logical, intent(out) :: sound
+      integer, parameter :: width = column_name_bytes + column_unit_bytes
+      character(:), allocatable :: columns
+      character(table_start_bytes) :: table
+      integer(int64) :: file_bytes
+      integer :: i, column_count, text_bytes
+
+      file_bytes = file%bytes()
       header%header_bytes = transfer(fixed(17:24), 0_int64)
       header%row_count = transfer(fixed(25:32), 0_int64)
       column_count = int(transfer(fixed(33:36), 0_int32))
       text_bytes = int(transfer(fixed(37:40), 0_int32))
       header%version = fixed(41:64)
-      width = column_name_bytes + column_unit_bytes
-      column_end = fixed_header_bytes + int(max(column_count, 0), int64)*width
-      file_bytes = file%bytes()
-      if (column_count < 1 .or. text_bytes < 0 .or. &
-          modulo(header%header_bytes, int(alignment, int64)) /= 0_int64 .or. &
-          header%header_bytes < column_end + text_bytes .or. header%header_bytes > file_bytes) then
-         call raise(error, exit_bad_input, path//' has a damaged header: its sizes contradict each other')
-         return
-      end if
+      header%source_checksum = transfer(fixed(65:72), 0_int64)
+      sound = column_count > 0 .and. text_bytes >= 0
+      if (sound) sound = fixed_header_bytes + int(column_count, int64)*width + int(text_bytes, int64) <= header%header_bytes &
+                         .and. header%header_bytes <= file_bytes
+      if (.not. sound) return
       allocate (header%names(column_count), header%units(column_count))
       allocate (character(column_count*width) :: columns)
       allocate (character(text_bytes) :: header%input_text)
-      call file%read_at(int(fixed_header_bytes, int64), columns, complete)
-      if (complete) call file%read_at(column_end, header%input_text, complete)
-      if (.not. complete) then
-         call raise(error, exit_bad_input, path//' cannot be read')
-         return
-      end if
+      call file%read_at(int(fixed_header_bytes, int64), columns, sound)
+      if (sound) call file%read_at(text_place(header), header%input_text, sound)
+      if (sound) call file%read_at(header%table_place(), table, sound)
+      if (sound) sound = transfer(fixed(73:80), 0_int64) == checksum_of(fixed(:24)//fixed(33:72)//columns//header%input_text//table)
+      if (.not. sound) return
       do i = 1, column_count
          header%names(i) = columns((i - 1)*width + 1:)
          header%units(i) = columns((i - 1)*width + column_name_bytes + 1:)
       end do
-   end subroutine read_result_header
+      header%table_magic = table(:8)
+      header%chunk_rows = transfer(table(9:16), 0_int64)
+      header%chunk_count = transfer(table(17:24), 0_int64)
+      header%row_limit = transfer(table(25:32), 0_int64)
+   end subroutine read_parts
+
+   !> What the checksums of a series cover.
+   pure subroutine read_seal(bytes, seal, sound)
+      character(*), intent(in) :: bytes
+      type(result_seal_t), intent(out) :: seal
+      logical, intent(out) :: sound
+
+      sound = transfer(bytes(seal_bytes - 7:), 0_int64) == checksum_of(bytes(:seal_bytes - 8))
+      seal%rows = transfer(bytes(1:8), 0_int64)
+      seal%extremes = transfer(bytes(9:12), 0_int32)
+      seal%coarse = transfer(bytes(13:16), 0_int32) == 1_int32
+      seal%rest_checksum = transfer(bytes(17:24), 0_int64)
+      seal%extremes_checksum = transfer(bytes(25:32), 0_int64)
+   end subroutine read_seal
 
    pure function int32_bytes(number) result(bytes)
       integer(int32), intent(in) :: number

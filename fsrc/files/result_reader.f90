@@ -1,12 +1,18 @@
 !> Reads result files that this program wrote, see result_format.
 module result_reader
+   use checksum, only: checksum_t
    use errors, only: error_t, exit_bad_input, raise
    use kinds, only: dp, int64
    use random_access_file, only: random_access_file_t
-   use result_format, only: column_name_bytes
+   use result_format, only: column_name_bytes, series_table_magic
    use result_header, only: read_result_header, result_header_t
+   use text, only: integer_text
+   use version, only: program_version
    implicit none(type, external)
    private
+
+   !> Rows that are verified at once.
+   integer(int64), parameter :: block_rows = 4096_int64
 
    !> An open result file.
    type, public :: result_reader_t
@@ -15,11 +21,15 @@ module result_reader
       integer :: columns = 0
       !> Names of the columns
       character(column_name_bytes), allocatable :: names(:)
-      integer(int64), private :: header_bytes = 0_int64
+      !> Whether another version of the program wrote it, and which
+      logical :: from_another_version = .false.
+      character(:), allocatable :: version
+      type(result_header_t), private :: header
       type(random_access_file_t), private :: file
       character(:), allocatable, private :: path
    contains
       procedure :: open => open_result
+      procedure :: verify_rows
       procedure :: read_rows
       procedure :: close => close_result
    end type result_reader_t
@@ -31,9 +41,8 @@ contains
       class(result_reader_t), intent(inout) :: self
       !> Path of the file
       character(*), intent(in) :: path
-      !> Set if it is no result file of this format
+      !> Set if it is no result file of this format, or its header is damaged
       type(error_t), allocatable, intent(out) :: error
-      type(result_header_t) :: header
 
       self%path = path
       call self%file%open_to_read(path, error)
@@ -41,13 +50,58 @@ contains
          error%exit_code = exit_bad_input
          return
       end if
-      call read_result_header(self%file, path, header, error)
+      call read_result_header(self%file, path, self%header, error)
       if (allocated(error)) return
-      self%columns = size(header%names)
-      self%header_bytes = header%header_bytes
-      call move_alloc(header%names, self%names)
-      call move_alloc(header%input_text, self%input_text)
+      if (self%header%table_magic /= series_table_magic) then
+         call raise(error, exit_bad_input, path//' is the result of a campaign')
+         return
+      end if
+      self%columns = size(self%header%names)
+      self%names = self%header%names
+      self%input_text = self%header%input_text
+      self%version = trim(self%header%version)
+      self%from_another_version = self%header%version /= program_version
    end subroutine open_result
+
+   !> See that the first rows are what their checksums say. A chunk is verified as a whole.
+   subroutine verify_rows(self, count, error)
+      class(result_reader_t), intent(in) :: self
+      !> Rows that are needed
+      integer(int64), intent(in) :: count
+      !> Set if they are not, or if there are fewer
+      type(error_t), allocatable, intent(out) :: error
+      type(checksum_t) :: found
+      real(dp), allocatable :: rows(:, :)
+      integer(int64) :: chunk, first, last, start, part, stored(1)
+      logical :: sound
+
+      associate (header => self%header)
+         if (header%seal%rows < count) then
+            call raise(error, exit_bad_input, self%path//' holds '//integer_text(header%seal%rows)//' rows, fewer than the '// &
+                       integer_text(count)//' that are needed')
+            return
+         end if
+         allocate (rows(self%columns, block_rows))
+         do chunk = 1_int64, (count - 1_int64)/header%chunk_rows + 1_int64
+            first = (chunk - 1_int64)*header%chunk_rows + 1_int64
+            last = min(first + header%chunk_rows - 1_int64, header%seal%rows)
+            stored = header%seal%rest_checksum
+            sound = .true.
+            if (last - first + 1_int64 == header%chunk_rows) call self%file%read_at(header%checksum_place(chunk), stored, sound)
+            found = checksum_t()
+            do start = first, last, block_rows
+               part = min(block_rows, last - start + 1_int64)
+               if (sound) call self%file%read_at(header%row_place(start), rows(:, :part), sound)
+               if (sound) call found%add(rows(:, :part))
+            end do
+            if (sound) sound = found%value() == stored(1)
+            if (sound) cycle
+            call raise(error, exit_bad_input, self%path//' is damaged: rows '//integer_text(first)//' to '// &
+                       integer_text(last)//' are not what their checksum says')
+            return
+         end do
+      end associate
+   end subroutine verify_rows
 
    !> Read consecutive rows.
    subroutine read_rows(self, first, rows, error)
@@ -60,7 +114,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       logical :: complete
 
-      call self%file%read_at(self%header_bytes + (first - 1_int64)*8_int64*int(self%columns, int64), rows, complete)
+      call self%file%read_at(self%header%row_place(first), rows, complete)
       if (.not. complete) call raise(error, exit_bad_input, self%path//' ends before its rows do')
    end subroutine read_rows
 

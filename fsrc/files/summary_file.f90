@@ -1,8 +1,7 @@
 !> NAME.summary.nml: one group &summary, readable by Fortran and f90nml. Unknown values are left out.
 module summary_file
-   use byte_file, only: byte_file_t
+   use byte_file, only: byte_file_t, put_in_place
    use errors, only: error_t
-   use file_system, only: delete_file
    use kinds, only: dp, int64
    use text, only: integer_text, logical_text, quoted, real_text
    implicit none(type, external)
@@ -18,6 +17,7 @@ module summary_file
    contains
       generic :: add => add_real, add_reals, add_integer, add_long, add_logical, add_text
       procedure :: write => write_summary
+      procedure :: write_beside
       procedure, private :: add_real
       procedure, private :: add_reals
       procedure, private :: add_integer
@@ -113,13 +113,24 @@ contains
       self%body = self%body//'   '//name//' = '//value//new_line('a')
    end subroutine add_line
 
-   !> Write the file; one that stands there is replaced. A file that could not be completed is taken away:
-   !> nobody, and no later run, could tell that it was a summary.
+   !> Write the file and put it in its place; what stands there stays until then.
    subroutine write_summary(self, path, error)
       class(summary_t), intent(in) :: self
       !> Path of the file
       character(*), intent(in) :: path
       !> Set if it cannot be written
+      type(error_t), allocatable, intent(out) :: error
+
+      call self%write_beside(path, error)
+      if (.not. allocated(error)) call put_in_place(path, error)
+   end subroutine write_summary
+
+   !> Write the file beside its place, for place_files to bring it there.
+   subroutine write_beside(self, path, error)
+      class(summary_t), intent(in) :: self
+      !> Path of the file
+      character(*), intent(in) :: path
+      !> Set if it cannot be written; nothing is left then
       type(error_t), allocatable, intent(out) :: error
       type(byte_file_t) :: file
       type(error_t), allocatable :: close_error
@@ -129,7 +140,6 @@ contains
       call file%put(summary_magic//new_line('a')//self%body//'/'//new_line('a'), error)
       call file%close(close_error)
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
-      if (allocated(error)) call delete_file(path)
-   end subroutine write_summary
+   end subroutine write_beside
 
 end module summary_file

@@ -1,25 +1,36 @@
 !> 64-bit checksum of numbers or bytes, to find data that a disk has lost, torn or altered.
 !>
-!> The data are words w_1 ... w_n of 64 bits; bytes are filled up with zeros to whole words. Each word is
-!> mixed with its place, the mixed words are joined by exclusive or. So the order of evaluation is free,
-!> and any one altered word is found for certain, because the mixing can be undone:
+!> The data are words w_1 ... w_n of 64 bits; bytes are filled up with zeros to whole words. The words are dealt
+!> in turn to 509 lanes, the words of a lane are joined by exclusive or. Each lane is then mixed with its place,
+!> and the mixed lanes are joined by exclusive or. So any one altered word is found for certain, because the mixing
+!> can be undone, and 509 is a prime, so that rows and pages that change places meet other lanes:
 !>
-!>    x = w_i xor i*m_0, split into its halves of 32 bits
+!>    x = lane_i xor i*m_0, split into its halves of 32 bits
 !>    high = high xor f(low, m_1);  low = low xor f(high, m_2);  high = high xor f(low, m_3)
 !>    f(v, m) = (v*m xor v*m/2^32) modulo 2^32
 !>
-!> The count of bytes goes in as a word at place 0. A checksum of 0 is replaced by 1: 0 means 'none'.
+!> The count of bytes goes in as a lane at place 0. A checksum of 0 is replaced by 1: 0 means 'none'.
 !> All multipliers are below 2^31, so that no product leaves the positive 64-bit integers.
 module checksum
-   use, intrinsic :: iso_c_binding, only: c_char
    use kinds, only: dp, int64
    implicit none(type, external)
    private
 
+   integer, parameter :: lane_count = 509
    integer(int64), parameter :: low_half = int(z'FFFFFFFF', int64)
    integer(int64), parameter :: m_0 = int(z'5E3779B1', int64), m_1 = int(z'7FEB352D', int64), &
                                 m_2 = int(z'6C8E9CF5', int64), m_3 = int(z'58F38DED', int64)
    integer(int64), parameter :: word_bytes = 8_int64
+
+   !> Checksum of numbers that come in pieces.
+   type, public :: checksum_t
+      private
+      integer(int64) :: lanes(lane_count) = 0_int64
+      integer(int64) :: words = 0_int64
+   contains
+      procedure :: add => add_numbers
+      procedure :: value => checksum_value
+   end type checksum_t
 
    !> Checksum of reals of rank 1 or 2, or of a text.
    interface checksum_of
@@ -36,57 +47,88 @@ contains
    pure integer(int64) function checksum_of_list(numbers)
       !> Any numbers, NaN and infinities included
       real(dp), contiguous, intent(in) :: numbers(:)
+      type(checksum_t) :: sum_of_all
 
-      checksum_of_list = checksum_of_reals(size(numbers, kind=int64), numbers)
+      call add_words(sum_of_all, size(numbers, kind=int64), numbers)
+      checksum_of_list = sum_of_all%value()
    end function checksum_of_list
 
    !> Checksum of a table of numbers, in the order of its storage.
    pure integer(int64) function checksum_of_table(numbers)
       !> Any numbers, NaN and infinities included
       real(dp), contiguous, intent(in) :: numbers(:, :)
+      type(checksum_t) :: sum_of_all
 
-      checksum_of_table = checksum_of_reals(size(numbers, kind=int64), numbers)
+      call sum_of_all%add(numbers)
+      checksum_of_table = sum_of_all%value()
    end function checksum_of_table
 
    !> Checksum of bytes.
    pure integer(int64) function checksum_of_text(text)
       !> Any bytes
       character(*), intent(in) :: text
-      character(word_bytes, kind=c_char) :: bytes
-      integer(int64) :: joined, place, first
+      type(checksum_t) :: sum_of_all
+      real(dp), allocatable :: words(:)
 
-      joined = mixed(len(text, int64), 0_int64)
-      do place = 1_int64, (len(text, int64) + word_bytes - 1_int64)/word_bytes
-         first = (place - 1_int64)*word_bytes + 1_int64
-         bytes = repeat(achar(0), word_bytes)
-         bytes(:min(word_bytes, len(text, int64) - first + 1_int64)) = &
-            text(first:min(len(text, int64), first + word_bytes - 1_int64))
-         joined = ieor(joined, mixed(transfer(bytes, 0_int64), place))
-      end do
-      checksum_of_text = not_zero(joined)
+      allocate (words((len(text, int64) + word_bytes - 1_int64)/word_bytes))
+      words(:) = transfer(text//repeat(achar(0), modulo(-len(text), int(word_bytes))), [0.0_dp])
+      call add_words(sum_of_all, size(words, kind=int64), words)
+      checksum_of_text = joined_lanes(sum_of_all, len(text, int64))
    end function checksum_of_text
 
-   pure integer(int64) function checksum_of_reals(count, numbers)
+   !> Take in more numbers, in the order of their storage.
+   pure subroutine add_numbers(self, numbers)
+      class(checksum_t), intent(inout) :: self
+      !> Any numbers, NaN and infinities included
+      real(dp), contiguous, intent(in) :: numbers(:, :)
+
+      call add_words(self, size(numbers, kind=int64), numbers)
+   end subroutine add_numbers
+
+   !> Checksum of all numbers so far, never 0.
+   pure integer(int64) function checksum_value(self)
+      class(checksum_t), intent(in) :: self
+
+      checksum_value = joined_lanes(self, word_bytes*self%words)
+   end function checksum_value
+
+   !> Deal words to the lanes.
+   pure subroutine add_words(self, count, numbers)
+      class(checksum_t), intent(inout) :: self
       integer(int64), intent(in) :: count
       real(dp), intent(in) :: numbers(count)
-      integer(int64) :: joined, place
+      integer(int64) :: before, run
+      integer :: i, lane
 
-      joined = mixed(word_bytes*count, 0_int64)
+      lane = int(modulo(self%words, int(lane_count, int64)))
+      before = 0_int64
+      do while (before < count)
+         run = min(count - before, int(lane_count - lane, int64))
+         do i = 1, int(run)
+            self%lanes(lane + i) = ieor(self%lanes(lane + i), transfer(numbers(before + i), 0_int64))
+         end do
+         before = before + run
+         lane = 0
+      end do
+      self%words = self%words + count
+   end subroutine add_words
+
+   !> The lanes and the count of bytes as one number.
+   pure integer(int64) function joined_lanes(sum_of_all, bytes) result(joined)
+      class(checksum_t), intent(in) :: sum_of_all
+      integer(int64), intent(in) :: bytes
+      integer :: i
+
+      joined = mixed(bytes, 0_int64)
       ! Vectors of four words without an instruction that multiplies them are slower than one word at a time.
 !GCC$ NOVECTOR
-      do place = 1_int64, count
-         joined = ieor(joined, mixed(transfer(numbers(place), 0_int64), place))
+      do i = 1, lane_count
+         joined = ieor(joined, mixed(sum_of_all%lanes(i), int(i, int64)))
       end do
-      checksum_of_reals = not_zero(joined)
-   end function checksum_of_reals
+      if (joined == 0_int64) joined = 1_int64
+   end function joined_lanes
 
-   pure integer(int64) function not_zero(joined)
-      integer(int64), intent(in) :: joined
-
-      not_zero = merge(1_int64, joined, joined == 0_int64)
-   end function not_zero
-
-   !> One word mixed with its place, which must be below 2^31 (16 GB of data).
+   !> One word mixed with its place, which must be below 2^31.
    elemental integer(int64) function mixed(word, place)
       integer(int64), intent(in) :: word
       integer(int64), intent(in) :: place

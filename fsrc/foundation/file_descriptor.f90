@@ -3,7 +3,7 @@
 module file_descriptor
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char, c_size_t
    use kinds, only: int64
-   use system_error, only: interrupted_call, last_error
+   use system_error, only: interrupted_call, invalid_call, last_error
    implicit none(type, external)
    private
 
@@ -32,6 +32,12 @@ module file_descriptor
          integer(c_int), value :: descriptor
          integer(c_int) :: stat
       end function c_close
+
+      function c_fsync(descriptor) bind(c, name='fsync') result(stat)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: stat
+      end function c_fsync
 
       function c_read(descriptor, bytes, count) bind(c, name='read') result(got)
          import :: c_char, c_int, c_size_t
@@ -68,7 +74,7 @@ module file_descriptor
       end function c_pwrite
    end interface
 
-   public :: open_existing, open_replacing, close_descriptor, read_bytes, write_bytes
+   public :: open_existing, open_replacing, synchronise_descriptor, close_descriptor, read_bytes, write_bytes
 
 contains
 
@@ -89,6 +95,22 @@ contains
 
       descriptor = c_creat(path//c_null_char, read_and_write_for_all)
    end function open_replacing
+
+   !> See that everything written stands on the disk itself.
+   subroutine synchronise_descriptor(descriptor, stands)
+      !> Open file
+      integer(c_int), intent(in) :: descriptor
+      !> Whether it does; also where the file system cannot tell
+      logical, intent(out) :: stands
+
+      do
+         stands = c_fsync(descriptor) == 0
+         if (stands) return
+         if (last_error() == interrupted_call) cycle
+         stands = last_error() == invalid_call
+         return
+      end do
+   end subroutine synchronise_descriptor
 
    !> Close a file.
    subroutine close_descriptor(descriptor, closed)

@@ -4,7 +4,7 @@ module system_error
    implicit none(type, external)
    private
 
-   integer(c_int), parameter, public :: interrupted_call = 4, no_locks = 37, no_such_call = 38, &
+   integer(c_int), parameter, public :: interrupted_call = 4, invalid_call = 22, no_locks = 37, no_such_call = 38, &
                                         not_supported = 95
 
    interface

@@ -17,8 +17,10 @@ module resume
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
+   use sample_recorder, only: series_rows
    use scene_types, only: method_newmark_extrapolated, method_taylor, scene_t, until_steady
    use text, only: integer_text
+   use version, only: program_version
    implicit none(type, external)
    private
 
@@ -42,7 +44,7 @@ module resume
 
 contains
 
-   !> Write the state of a run.
+   !> Write the state of a run beside its place, for place_files to bring it there.
    subroutine save_state(scene, state, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
@@ -60,7 +62,7 @@ contains
       units(:) = '-'
       units(:size(state_units)) = state_units
       row(:, 1) = row_of(state, interval_count(scene))
-      call writer%open(state_path(scene), scene%resolved_input, names, units, error)
+      call writer%open(state_path(scene), scene%resolved_input, names, units, 1_int64, .false., error)
       if (.not. allocated(error)) call writer%write_rows(row, error)
       if (.not. allocated(error)) call writer%close(error)
    end subroutine save_state
@@ -81,13 +83,10 @@ contains
       allocate (names, source=column_names(scene))
       allocate (row(size(names), 1))
       call open_earlier(scene, state_path(scene), reader, error)
-      if (.not. allocated(error)) then
-         if (.not. equal_names(reader%names, names)) then
-            call raise(error, exit_bad_input, state_path(scene)//' was kept by another version of rattle'//begin_anew)
-         else
-            call reader%read_rows(1_int64, row, error)
-         end if
-      end if
+      if (.not. allocated(error) .and. .not. equal_names(reader%names, names)) &
+         call raise(error, exit_bad_input, state_path(scene)//' was kept by another version of rattle'//begin_anew)
+      if (.not. allocated(error)) call reader%verify_rows(1_int64, error)
+      if (.not. allocated(error)) call reader%read_rows(1_int64, row, error)
       call reader%close()
       if (allocated(error)) return
       state = state_of(row(:, 1))
@@ -108,6 +107,7 @@ contains
       end if
       if (.not. scene%output%series) return
       call open_earlier(scene, result_path(scene), reader, error)
+      if (.not. allocated(error)) call reader%verify_rows(series_rows(scene, state%periods), error)
       call reader%close()
    end subroutine load_state
 
@@ -121,7 +121,15 @@ contains
       character(:), allocatable :: difference
 
       call reader%open(path, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         error%message = error%message//begin_anew
+         return
+      end if
+      if (reader%from_another_version) then
+         call raise(error, exit_bad_input, path//' was written by version '//reader%version//' of rattle, this is '// &
+                    program_version//begin_anew)
+         return
+      end if
       difference = first_difference(reader%input_text, scene%resolved_input, free_keys)
       if (len(difference) > 0) call raise(error, exit_bad_input, path//' belongs to another scene: '//difference)
    end subroutine open_earlier

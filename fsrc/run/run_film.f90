@@ -6,7 +6,8 @@ module run_film
    use film_point, only: film_contact_t, film_point_t, new_film_point, speed_group_of
    use film_profiles, only: profile_names, profile_rows, profile_units
    use film_table, only: film_row, film_row_t
-   use kinds, only: dp
+   use finished_files, only: place_files
+   use kinds, only: dp, int64
    use log_file, only: log_t
    use output_place, only: log_path, profiles_path, result_path, summary_path
    use regime, only: plane_strain_modulus
@@ -18,6 +19,7 @@ module run_film
    use signals, only: caught_signal
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
@@ -54,6 +56,8 @@ contains
       if (allocated(error)) status = status_not_written
       call write_film_summary(scene, points, wall_seconds() - started, status, summary_error)
       if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+      call place_files(result_files(scene), summary_path(scene), error)
+      if (allocated(error)) status = status_not_written
       if (allocated(error)) then
          call log%line('  '//error%message)
       else
@@ -78,6 +82,7 @@ contains
       type(film_row_t) :: row
       real(dp), allocatable :: rows(:, :), nodes(:, :), groups(:)
       type(error_t), allocatable :: close_error
+      integer(int64) :: points
       integer :: i, j, k, filled
 
       done = 0
@@ -87,9 +92,11 @@ contains
       point = new_film_point(contact, scene%points%film_ratios(1), scene%points%squeeze_ratios(1), groups(1))
       row = film_row(scene, contact, point)
       allocate (rows(row%count, block), nodes(size(profile_names), scene%points%profile_nodes))
-      call table%open(result_path(scene), scene%resolved_input, row%names(:row%count), row%units(:row%count), error)
+      points = size(groups, kind=int64)*size(scene%points%squeeze_ratios, kind=int64)*size(scene%points%film_ratios, kind=int64)
+      call table%open(result_path(scene), scene%resolved_input, row%names(:row%count), row%units(:row%count), points, .true., error)
       if (.not. allocated(error) .and. scene%points%compute(compute_profile)) &
-         call profiles%open(profiles_path(scene), scene%resolved_input, profile_names, profile_units, error)
+         call profiles%open(profiles_path(scene), scene%resolved_input, profile_names, profile_units, &
+                            points*size(nodes, 2, int64), .true., error)
       speeds: do k = 1, size(groups)
          do j = 1, size(scene%points%squeeze_ratios)
             do i = 1, size(scene%points%film_ratios)
@@ -114,11 +121,20 @@ contains
          end do
       end do speeds
       if (.not. allocated(error) .and. filled > 0) call table%write_rows(rows(:, :filled), error)
-      if (allocated(error)) return
-      call table%close(error)
+      call table%close(close_error)
+      if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
       call profiles%close(close_error)
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
    end subroutine write_points
+
+   !> The table, and the profiles if they are asked for.
+   pure function result_files(scene) result(paths)
+      type(scene_t), intent(in) :: scene
+      type(word_t), allocatable :: paths(:)
+
+      paths = [word_t(result_path(scene))]
+      if (scene%points%compute(compute_profile)) paths = [paths, word_t(profiles_path(scene))]
+   end function result_files
 
    !> u* as given, or of the speeds.
    pure subroutine form_speed_groups(scene, contact, groups)
@@ -162,7 +178,7 @@ contains
       call summary%add('speed_meaning', speed_meaning(scene))
       call summary%add('sign_convention', 'stiffness -dW/dh0, damping -dW/dw: positive where the film resists')
       call summary%add('wall_seconds', seconds)
-      call summary%write(summary_path(scene), error)
+      call summary%write_beside(summary_path(scene), error)
    end subroutine write_film_summary
 
 end module run_film

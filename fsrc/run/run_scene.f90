@@ -3,11 +3,12 @@ module run_scene
    use checkpoint, only: checkpoint_t
    use clock, only: wall_seconds
    use errors, only: error_t
+   use finished_files, only: place_files
    use integrate_controlled, only: solve_controlled
    use integrate_motion, only: solve_motion
    use kinds, only: dp
    use log_file, only: log_t
-   use output_place, only: log_path, result_path, summary_path
+   use output_place, only: log_path, result_path, state_path, summary_path
    use progress, only: progress_t
    use resolved_scene, only: resolve, resolved_scene_t
    use resume, only: load_state, save_state
@@ -18,6 +19,7 @@ module run_scene
    use scene_summary, only: write_scene_summary
    use scene_types, only: method_taylor, scene_t
    use text, only: integer_text
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
@@ -44,7 +46,7 @@ contains
       type(checkpoint_t) :: start
       type(progress_t) :: watcher
       type(log_t), target :: log
-      type(error_t), allocatable :: write_error, summary_error
+      type(error_t), allocatable :: write_error
       real(dp) :: started
 
       status = status_complete
@@ -78,14 +80,23 @@ contains
          if (.not. allocated(error)) call save_state(scene, result%ending%checkpoint, error)
       end if
       if (allocated(error)) result%ending%status = status_not_written
-      status = result%ending%status
-
-      call write_scene_summary(summary_path(scene), scene, resolved, result, summary_error)
-      ! A summary that cannot be written takes nothing from the log.
+      call write_scene_summary(summary_path(scene), scene, resolved, result, write_error)
+      if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
+      call place_files(result_files(scene), summary_path(scene), error)
       if (.not. allocated(error)) call report_ending(log, scene, result)
-      if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+      if (allocated(error)) result%ending%status = status_not_written
+      status = result%ending%status
       if (allocated(error)) call log%line('  '//error%message)
       call log%close()
    end subroutine run_one_scene
+
+   !> Series and state.
+   pure function result_files(scene) result(paths)
+      type(scene_t), intent(in) :: scene
+      type(word_t), allocatable :: paths(:)
+
+      paths = [word_t(state_path(scene))]
+      if (scene%output%series) paths = [word_t(result_path(scene)), paths]
+   end function result_files
 
 end module run_scene

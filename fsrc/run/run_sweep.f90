@@ -3,9 +3,10 @@
 module run_sweep
    use clock, only: wall_seconds
    use errors, only: error_t
+   use finished_files, only: place_files
    use floquet, only: orbit_stability
    use integrate_controlled, only: find_steady_motion
-   use kinds, only: dp
+   use kinds, only: dp, int64
    use lane_scenes, only: lane_ending_t, lane_scene_t
    use log_file, only: log_t
    use output_place, only: log_path, result_path, summary_path
@@ -23,6 +24,7 @@ module run_sweep
    use signals, only: caught_signal
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
@@ -51,7 +53,7 @@ contains
       type(log_t), target :: log
       type(progress_t) :: watcher
       type(result_writer_t) :: writer
-      type(error_t), allocatable :: summary_error
+      type(error_t), allocatable :: close_error, summary_error
       real(dp) :: started, film, velocity, row(size(names), 1)
       integer :: i, failed, ended
 
@@ -60,7 +62,7 @@ contains
       call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
       call report_head(log, scene, 'sweep of '//integer_text(size(scene%sweep%values))//' motions, '//law_sentence(scene))
-      call writer%open(result_path(scene), scene%resolved_input, names, units, error)
+      call writer%open(result_path(scene), scene%resolved_input, names, units, size(scene%sweep%values, kind=int64), .true., error)
       call watcher%start(log, quiet)
       film = 0.0_dp
       velocity = 0.0_dp
@@ -79,10 +81,13 @@ contains
          call watcher%period_done(i, size(scene%sweep%values))
       end do
       call watcher%clear()
-      if (.not. allocated(error)) call writer%close(error)
+      call writer%close(close_error)
+      if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
       if (allocated(error)) status = status_not_written
       call write_sweep_summary(scene, failed, wall_seconds() - started, status, summary_error)
       if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+      call place_files([word_t(result_path(scene))], summary_path(scene), error)
+      if (allocated(error)) status = status_not_written
       if (allocated(error)) then
          call log%line('  '//error%message)
       else
@@ -183,7 +188,7 @@ contains
       call summary%add('motions', size(scene%sweep%values))
       call summary%add('motions_failed', failed)
       call summary%add('wall_seconds', seconds)
-      call summary%write(summary_path(scene), error)
+      call summary%write_beside(summary_path(scene), error)
    end subroutine write_sweep_summary
 
 end module run_sweep

@@ -1,8 +1,7 @@
 !> Keeps of the samples of a motion what the scene asks for: the window at the end, and the time series
 !> in its file. A scene without a series keeps nothing beyond the window, however long it runs.
 module sample_recorder
-   use errors, only: error_t, exit_bad_input, exit_system, raise
-   use file_system, only: rename_file
+   use errors, only: error_t, exit_bad_input, raise
    use kinds, only: dp, int64
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
@@ -24,14 +23,15 @@ module sample_recorder
       integer, allocatable :: columns(:)
       real(dp), allocatable :: rows(:, :)
       type(result_writer_t) :: writer
-      !> Where the series belongs, and where it is written until it is complete
-      character(:), allocatable :: path, written_path
+      character(:), allocatable :: path
    contains
       procedure :: open => open_recorder
       procedure :: take => take_samples
       procedure :: begin_window
       procedure :: close => close_recorder
    end type sample_recorder_t
+
+   public :: series_rows
 
 contains
 
@@ -58,13 +58,20 @@ contains
       self%columns = scene%output%columns
       allocate (self%rows(size(self%columns), samples/self%stride + 1))
       self%path = path
-      self%written_path = path
-      if (resumed_periods > 0) self%written_path = path//'.resumed'
-      call self%writer%open(self%written_path, scene%resolved_input, column_names(self%columns), column_units(self%columns), &
-                            error)
-      if (resumed_periods > 0 .and. .not. allocated(error)) &
-         call copy_rows(self, int(resumed_periods, int64)*int(samples, int64)/int(self%stride, int64) + 1_int64, error)
+      call self%writer%open(path, scene%resolved_input, column_names(self%columns), column_units(self%columns), &
+                            series_rows(scene, scene%solver%periods), .true., error)
+      if (resumed_periods > 0 .and. .not. allocated(error)) call copy_rows(self, series_rows(scene, resumed_periods), error)
    end subroutine open_recorder
+
+   !> Rows of a series of some periods; the first is the start.
+   pure integer(int64) function series_rows(scene, periods)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Periods from the start
+      integer, intent(in) :: periods
+
+      series_rows = int(periods, int64)*int(scene%solver%samples_per_period(), int64)/int(scene%output%stride, int64) + 1_int64
+   end function series_rows
 
    !> Copy the first rows of the earlier series.
    subroutine copy_rows(self, count, error)
@@ -162,19 +169,13 @@ contains
       call self%writer%write_rows(self%rows(:, :last), error)
    end subroutine write_series
 
-   !> Complete the series.
+   !> Complete the series. Where an earlier one stands it is beside its place, until place_files puts it there.
    subroutine close_recorder(self, error)
       class(sample_recorder_t), intent(inout) :: self
       !> Set if the file could not be completed
       type(error_t), allocatable, intent(out) :: error
 
-      logical :: moved
-
-      if (.not. self%series) return
-      call self%writer%close(error)
-      if (allocated(error) .or. self%written_path == self%path) return
-      call rename_file(self%written_path, self%path, moved)
-      if (.not. moved) call raise(error, exit_system, self%path//' cannot be replaced by '//self%written_path)
+      if (self%series) call self%writer%close(error)
    end subroutine close_recorder
 
 end module sample_recorder

@@ -25,7 +25,7 @@ module scene_summary
 
 contains
 
-   !> Write the summary of a scene.
+   !> Write the summary of a scene beside its place, for place_files to bring it there.
    subroutine write_scene_summary(path, scene, resolved, result, error)
       !> Path of the summary
       character(*), intent(in) :: path
@@ -64,7 +64,7 @@ contains
          if (count%steps > 0) call summary%add('iterations_per_step', passes_per_step(count))
       end associate
       call summary%add('wall_seconds', result%solve_seconds + result%judge_seconds)
-      call summary%write(path, error)
+      call summary%write_beside(path, error)
    end subroutine write_scene_summary
 
    !> What every summary of a scene begins with.

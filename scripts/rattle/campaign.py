@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rattle.campaign_plan import GRID, LINEAR, Plan, PlannedAxis, read_plan
-from rattle.chunk_table import ChunkTable, read_chunk_table
+from rattle.chunk_table import CAMPAIGN
 from rattle.codes import SUCCESSES
-from rattle.result_file import ResultFile, check_length, map_rows
+from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import ResultError, ResultHeader, read_header
 
 if TYPE_CHECKING:
@@ -55,28 +55,26 @@ class Campaign(ResultFile):
         self,
         path: Path,
         header: ResultHeader,
-        chunks: ChunkTable,
         rows: np.ndarray,
-        row_count: int,
         plan: Plan,
     ) -> None:
         super().__init__(path, header)
         self.header = header
-        self.row_count = row_count
-        self.chunks = chunks
-        self.done = np.repeat(chunks.done, chunks.chunk_rows)[:row_count]
+        self.row_count = header.chunks.row_limit
+        self.chunks = header.chunks
+        self.done = np.repeat(self.chunks.done, self.chunks.chunk_rows)[: self.row_count]
         self.kind = plan.kind
         self.part, self.parts = plan.part, plan.parts
         self.scene_count = plan.scene_count
         if self.scene_count is None and self.closed and self.parts == 1:
-            self.scene_count = row_count
+            self.scene_count = self.row_count
         self.varied = tuple(name for name in header.names if "." in name)
         self._plan = plan
-        self._rows = rows
+        self._rows = CheckedRows(path, header, rows, self.row_count)
 
     def __getitem__(self, name: str) -> np.ndarray:
         self.check_column(name)
-        held = self._rows[:, self.names.index(name)]
+        held = self.rows[:, self.names.index(name)]
         if self.done.all():
             return held
         values = np.full(self.row_count, np.nan)
@@ -92,7 +90,8 @@ class Campaign(ResultFile):
     @property
     def rows(self) -> np.ndarray:
         """All rows that the file holds, as they stand there; those not done hold nothing meaningful."""
-        return self._rows
+        self._rows.verify()
+        return self._rows.mapped
 
     @property
     def name(self) -> str:
@@ -174,51 +173,40 @@ def read_campaign(path: str | Path) -> Campaign:
     try:
         with path.open("rb") as stream:
             header = read_header(stream, path)
-            chunks = read_chunk_table(stream, header, path)
             data_bytes = stream.seek(0, 2) - header.header_bytes
     except OSError as fault:
         raise ResultError(f"{path} cannot be read: {fault.strerror or fault}.") from None
+    if header.chunks.kind != CAMPAIGN:
+        raise ResultError(f"{path} is no campaign: it has no chunk table.")
     try:
         plan = read_plan(header.input_text)
     except ValueError as fault:
         raise ResultError(f"{path} is no campaign: {fault}") from None
     if header.names[0] != SCENE or not any("." in name for name in header.names):
         raise ResultError(f"{path} is no campaign: its columns are not a scene and the varied keys.")
-    row_count = _row_count(path, header, chunks, data_bytes, plan)
-    held = min(data_bytes // header.row_bytes, row_count)
-    return Campaign(path, header, chunks, map_rows(path, header, held), row_count, plan)
+    _check_rows(path, header, data_bytes)
+    held = min(data_bytes // header.row_bytes, header.chunks.row_limit)
+    return Campaign(path, header, map_rows(path, header, held), plan)
 
 
-def _row_count(path: Path, header: ResultHeader, chunks: ChunkTable, data_bytes: int, plan: Plan) -> int:
-    """Scenes that the file is to hold, after all checks of its length."""
-    count, size = chunks.checksums.size, chunks.chunk_rows
-    held = data_bytes // header.row_bytes
-    if header.closed:
-        if -(-header.row_count // size) != count:
-            raise ResultError(
-                f"{path} has a damaged chunk table: {count} chunks of {size} rows are not "
-                f"{header.row_count} rows."
-            )
-        check_length(path, header, data_bytes)
-        if not chunks.done.all():
-            missing = int(np.argmin(chunks.done)) + 1
-            raise ResultError(f"{path} is damaged: it is closed, but its chunk {missing} is not done.")
-        return header.row_count
-    row_count = count * size
-    if plan.scene_count is not None and plan.part == plan.parts:
-        last_rows = plan.scene_count % size or size
-        row_count -= size - last_rows
-    elif count and chunks.done[-1]:
-        row_count = min(row_count, held)
+def _check_rows(path: Path, header: ResultHeader, data_bytes: int) -> None:
+    """Refuse a file whose length, count of rows and chunks contradict each other."""
+    chunks = header.chunks
+    check_length(path, header, data_bytes)
+    if header.closed and not chunks.done.all():
+        missing = int(np.argmin(chunks.done)) + 1
+        raise ResultError(f"{path} is damaged: it is closed, but its chunk {missing} is not done.")
+    if data_bytes > chunks.row_limit * header.row_bytes:
+        raise ResultError(
+            f"{path} is {data_bytes - chunks.row_limit * header.row_bytes} bytes longer than its "
+            f"{chunks.row_limit} rows."
+        )
     done = np.flatnonzero(chunks.done)
-    if done.size:
-        needed = min((int(done[-1]) + 1) * size, row_count)
-        if held < needed:
-            chunk = int(done[-1]) + 1
-            raise ResultError(
-                f"{path} is cut short: its chunk {chunk} counts as done, but {held} rows are all it holds."
-            )
-    return row_count
+    held = data_bytes // header.row_bytes
+    if done.size and held < min((int(done[-1]) + 1) * chunks.chunk_rows, chunks.row_limit):
+        raise ResultError(
+            f"{path} is cut short: its chunk {int(done[-1]) + 1} counts as done, but {held} rows are all it holds."
+        )
 
 
 def _nearest(values: np.ndarray, wanted: np.ndarray) -> np.ndarray:

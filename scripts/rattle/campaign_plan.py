@@ -43,7 +43,9 @@ def read_plan(input_text: str) -> Plan:
         raise ValueError(f"its resolved input cannot be read: {fault}") from None
     if group is None:
         raise ValueError("its resolved input has no group &campaign.")
-    part, parts = int(group.get("part") or 1), int(group.get("parts") or 1)
+    part, parts = _count(group, "part"), _count(group, "parts")
+    if part > parts:
+        raise ValueError(f"its part {part} is none of {parts}.")
     if _said(group, "csv"):
         return Plan(TABLE, (), None, part, parts)
     starts = group.start_index
@@ -56,6 +58,16 @@ def read_plan(input_text: str) -> Plan:
     sizes = [None if axis.values is None else axis.values.size for axis in axes]
     count = math.prod(sizes) if axes and None not in sizes else None
     return Plan(GRID, axes, count, part, parts)
+
+
+def _count(group: Mapping[str, Any], key: str) -> int:
+    """A positive whole number, 1 if it is not given."""
+    number = group.get(key)
+    if number is None:
+        return 1
+    if isinstance(number, bool) or not isinstance(number, int) or number < 1:
+        raise ValueError(f"its campaign.{key} is no positive whole number.")
+    return number
 
 
 def _said(group: Mapping[str, Any], key: str) -> bool:

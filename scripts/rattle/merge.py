@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 from rattle.campaign import SCENE, Campaign, read_campaign
-from rattle.chunk_table import ChunkTable
+from rattle.chunk_table import CAMPAIGN, ChunkTable
 from rattle.command import CommandError
-from rattle.result_header import BYTE_ORDER_MARK, COLUMN_PART, FIXED_PART, FORMAT_VERSION, MAGIC, aligned
+from rattle.result_header import COLUMN_PART, header_bytes_of
 
 PART_KEY = re.compile(r"^(\s*parts?\s*=\s*)\d+")
 GROUP = re.compile(r"^\s*&(\w+)")
@@ -80,6 +80,8 @@ def _differing(parts: Sequence[Campaign]) -> list[str]:
             faults.append(f"{pair} hold different columns.")
         elif whole_input(part.input_text) != whole_input(first.input_text):
             faults.append(f"{pair} come from different inputs: {_difference(part, first)}.")
+        elif part.header.source_checksum != first.header.source_checksum:
+            faults.append(f"{pair} come from different scenes: their CSV file has changed in between.")
         if part.parts != first.parts:
             faults.append(f"{pair} belong to different divisions: into {part.parts} and {first.parts} parts.")
         if part.chunks.chunk_rows != first.chunks.chunk_rows:
@@ -170,26 +172,25 @@ def _head(parts: Sequence[Campaign]) -> bytes:
     """Header and chunk table of the whole."""
     header = parts[0].header
     text = _text_as_stored(parts[0])
-    table = ChunkTable(
-        parts[0].chunks.chunk_rows, np.concatenate([part.chunks.checksums for part in parts])
-    ).table_bytes
+    chunks = ChunkTable(
+        CAMPAIGN,
+        parts[0].chunks.chunk_rows,
+        sum(part.row_count for part in parts),
+        np.concatenate([part.chunks.checksums for part in parts]),
+    )
     columns = b"".join(
         COLUMN_PART.pack(name.encode().ljust(32), unit.encode().ljust(16))
         for name, unit in zip(header.names, header.units, strict=True)
     )
-    table_start = aligned(FIXED_PART.size + len(columns) + len(text))
-    header_bytes = aligned(table_start + len(table))
-    fixed = FIXED_PART.pack(
-        MAGIC,
-        FORMAT_VERSION,
-        BYTE_ORDER_MARK,
-        header_bytes,
-        sum(part.row_count for part in parts),
-        len(header.names),
-        len(text),
-        header.program_version.encode().ljust(24),
+    return header_bytes_of(
+        columns,
+        text,
+        column_count=len(header.names),
+        program_version=header.program_version.encode().ljust(24),
+        row_count=chunks.row_limit,
+        source_checksum=header.source_checksum,
+        chunks=chunks,
     )
-    return ((fixed + columns + text).ljust(table_start, b"\0") + table).ljust(header_bytes, b"\0")
 
 
 def _text_as_stored(part: Campaign) -> bytes:

@@ -2,40 +2,91 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from rattle.result_file import ResultFile, check_length, map_rows
+from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import ResultError, ResultHeader, read_header
 from rattle.summary import read_summary
+
+TIME = "time"
+
+
+class Columns(Mapping[str, np.ndarray]):
+    """The columns of a file by name, verified when one of them is first asked for."""
+
+    def __init__(self, names: Sequence[str], rows: CheckedRows, row_count: int) -> None:
+        self._places = {name: place for place, name in enumerate(names)}
+        self._rows = rows
+        self._row_count = row_count
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        place = self._places[name]
+        self._rows.verify()
+        return self._rows.mapped[: self._row_count, place]
+
+    def part(self, name: str, rows: slice) -> np.ndarray:
+        """Some rows of a column; no others are verified."""
+        self._rows.verify(rows)
+        return self._rows.mapped[: self._row_count, self._places[name]][rows]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        return len(self._places)
 
 
 class Result(ResultFile):
     """One result file of a single scene.
 
-    ``result['film_thickness']`` is a read-only array mapped from the file, not a copy.
+    ``result['film_thickness']`` is a read-only array mapped from the file, not a copy. What is read is held
+    against the checksums of the file; a column as a whole, `samples` the rows asked for.
 
     Attributes
     ----------
     columns : mapping of column name to array
-    row_count : rows that the file holds
+    row_count : rows that the file holds, without the extreme ones
+    coarse : whether the program says that the series is coarser than the motion
     and those of every `ResultFile`
     """
 
-    def __init__(self, path: Path, header: ResultHeader, rows: np.ndarray) -> None:
+    def __init__(self, path: Path, header: ResultHeader, rows: np.ndarray, row_count: int) -> None:
         super().__init__(path, header)
-        self.row_count = rows.shape[0]
-        self.columns: Mapping[str, np.ndarray] = MappingProxyType(
-            {name: rows[:, position] for position, name in enumerate(header.names)}
-        )
+        self.row_count = row_count
+        self.coarse = bool(header.seal.coarse)
+        self._rows = CheckedRows(path, header, rows, row_count)
+        self.columns = Columns(header.names, self._rows, row_count)
 
     def __getitem__(self, name: str) -> np.ndarray:
         self.check_column(name)
         return self.columns[name]
+
+    @cached_property
+    def extremes(self) -> Mapping[str, np.ndarray]:
+        """The extreme rows, by column: the extremes of the motion that fall between the other rows."""
+        rows = self._rows.extremes()
+        return MappingProxyType({name: rows[:, place] for place, name in enumerate(self.names)})
+
+    def merged(self, names: Sequence[str], rows: slice = slice(None)) -> list[np.ndarray]:
+        """Some columns with the extreme rows put in by time, for a curve of the motion; copies, all finite."""
+        parts = [self.samples(name, rows) for name in names]
+        if TIME not in self or not self.extremes[TIME].size:
+            return parts
+        time, between = self.samples(TIME, rows), np.asarray(self.extremes[TIME])
+        inside = (
+            (between >= time[0]) & (between <= time[-1]) if time.size else np.zeros(between.size, dtype=bool)
+        )
+        places = np.searchsorted(time, between[inside], side="right")
+        return [
+            np.insert(part, places, self.extremes[name][inside])
+            for name, part in zip(names, parts, strict=True)
+        ]
 
     def __repr__(self) -> str:
         state = "closed" if self.closed else "not closed"
@@ -64,7 +115,8 @@ class Result(ResultFile):
 
     def samples(self, name: str, rows: slice = slice(None)) -> np.ndarray:
         """A contiguous copy of some rows of a column, all of them finite."""
-        values = np.ascontiguousarray(self[name][rows], dtype=np.float64)
+        self.check_column(name)
+        values = np.ascontiguousarray(self.columns.part(name, rows), dtype=np.float64)
         if not np.isfinite(values).all():
             raise ResultError(f"The column '{name}' of {self.path} holds values that are not finite.")
         return values
@@ -168,4 +220,8 @@ def read(path: str | Path) -> Result:
     except OSError as fault:
         raise ResultError(f"{path} cannot be read: {fault.strerror or fault}.") from None
     check_length(path, header, data_bytes)
-    return Result(path, header, map_rows(path, header, data_bytes // header.row_bytes))
+    held = data_bytes // header.row_bytes
+    row_count = header.row_count if header.closed else held
+    if not header.closed and header.seal.extremes:
+        row_count = header.seal.rows  # the run ended while it wrote the extreme rows
+    return Result(path, header, map_rows(path, header, held), row_count)

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from rattle.checksums import checksum
+from rattle.chunk_table import SERIES
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import ResultError, ResultHeader
 
@@ -50,13 +52,70 @@ class ResultFile:
             raise ResultError(f"The resolved input in {self.path} cannot be read: {fault}") from None
 
 
+class CheckedRows:
+    """The rows of a file, mapped; each chunk of them is held against its checksum when it is first asked for.
+
+    `mapped` holds all rows, those of series that are extremes at its end. Rows of a file in progress that no
+    checksum covers yet, and chunks of a campaign that are not done, are given as they are.
+    """
+
+    def __init__(self, path: Path, header: ResultHeader, mapped: np.ndarray, row_count: int) -> None:
+        self.mapped = mapped
+        self._path = path
+        self._header = header
+        covered = header.seal.rows if header.chunks.kind == SERIES else header.chunks.row_limit
+        self._covered = min(covered, row_count)
+        self._sound = np.zeros(-(-self._covered // header.chunks.chunk_rows), dtype=bool)
+
+    def verify(self, rows: slice = slice(None)) -> None:
+        """Refuse a file whose rows are not what their checksums say."""
+        chunk_rows = self._header.chunks.chunk_rows
+        first, last, _ = slice(rows.start, rows.stop).indices(self._covered)
+        chunks = range(first // chunk_rows, -(-last // chunk_rows))
+        for chunk in chunks if last > first else ():
+            if not self._sound[chunk]:
+                self._verify_chunk(chunk)
+                self._sound[chunk] = True
+
+    def _verify_chunk(self, chunk: int) -> None:
+        table, seal = self._header.chunks, self._header.seal
+        first = chunk * table.chunk_rows
+        last = min(first + table.chunk_rows, self._covered)
+        stored = table.checksums[chunk]
+        if table.kind == SERIES and last - first < table.chunk_rows:
+            stored = seal.rest_checksum
+        elif table.kind != SERIES and stored == 0:
+            return
+        if checksum(self.mapped[first:last]) != stored:
+            start = self._header.header_bytes
+            places = (
+                f"bytes {start + first * self._header.row_bytes} to {start + last * self._header.row_bytes}"
+            )
+            raise ResultError(
+                f"{self._path} is damaged: rows {first + 1} to {last} ({places}) are not what their "
+                "checksum says."
+            )
+
+    def extremes(self) -> np.ndarray:
+        """The rows behind the others, verified."""
+        seal = self._header.seal
+        rows = self.mapped[self.mapped.shape[0] - seal.extremes :] if self._header.closed else self.mapped[:0]
+        if rows.size and checksum(rows) != seal.extremes_checksum:
+            raise ResultError(f"{self._path} is damaged: its extreme rows are not what their checksum says.")
+        return rows
+
+
 def check_length(path: Path, header: ResultHeader, data_bytes: int) -> None:
-    """Refuse a closed file whose rows are not as many as its header says."""
-    expected = header.row_count * header.row_bytes
-    if header.closed and data_bytes < expected:
-        held = data_bytes // header.row_bytes
+    """Refuse a file that holds fewer or more rows than its header says."""
+    held = data_bytes // header.row_bytes
+    if not header.closed:
+        if held < header.seal.rows:
+            raise ResultError(f"{path} is cut short: it holds {held} of {header.seal.rows} rows.")
+        return
+    expected = (header.row_count + header.seal.extremes) * header.row_bytes
+    if data_bytes < expected:
         raise ResultError(f"{path} is cut short: it holds {held} of its {header.row_count} rows.")
-    if header.closed and data_bytes > expected:
+    if data_bytes > expected:
         raise ResultError(f"{path} is {data_bytes - expected} bytes longer than its {header.row_count} rows.")
 
 

@@ -13,9 +13,20 @@ offset bytes   content
 32     4       column count
 36     4       bytes of the resolved input
 40     24      program version
-64     48 each name (32) and unit (16) of every column
-...            resolved input as namelist text, zeros up to the first row
+64     8       checksum of the scenes of a CSV file, 0: none
+72     8       checksum of the header
+80     8       rows that the checksums of a series cover
+88     4       count of extreme rows
+92     4       1: the series is coarser than the motion
+96     8       checksum of the rows behind the last whole chunk
+104    8       checksum of the extreme rows
+112    8       checksum of the 32 bytes from 80 on
+128    48 each name (32) and unit (16) of every column
+...            resolved input as namelist text
+...            table of chunks, see `chunk_table`
 ====== ======= ==========================================================
+
+The rows follow, then the extreme rows.
 """
 
 from __future__ import annotations
@@ -24,16 +35,39 @@ import struct
 from dataclasses import dataclass
 from typing import BinaryIO
 
+import numpy as np
+
+from rattle.checksums import checksum
+from rattle.chunk_table import CAMPAIGN, SERIES, TABLE_HEAD, ChunkTable
+
 MAGIC = b"RATTLE\r\n"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 BYTE_ORDER_MARK = 0x01020304
 ALIGNMENT = 64
-FIXED_PART = struct.Struct("<8siiqqii24s")
+FIXED_PART = struct.Struct("<8siiqqii24sqq40s8x")
+SEAL = struct.Struct("<qiiqqq")
 COLUMN_PART = struct.Struct("<32s16s")
 
 
 class ResultError(Exception):
     """A result file that cannot be used, explained in one plain sentence."""
+
+
+@dataclass(frozen=True)
+class Seal:
+    """What the checksums of a series cover, and its extreme rows."""
+
+    rows: int = 0
+    extremes: int = 0
+    coarse: int = 0
+    rest_checksum: int = 0
+    extremes_checksum: int = 0
+
+    @property
+    def seal_bytes(self) -> bytes:
+        words = (self.rows, self.extremes, self.coarse, self.rest_checksum, self.extremes_checksum)
+        front = SEAL.pack(*words, 0)[:-8]
+        return SEAL.pack(*words, checksum(front))
 
 
 @dataclass(frozen=True)
@@ -50,6 +84,9 @@ class ResultHeader:
     program_version: str
     input_bytes: int
     input_text: str
+    source_checksum: int
+    seal: Seal
+    chunks: ChunkTable
 
     @property
     def closed(self) -> bool:
@@ -61,11 +98,6 @@ class ResultHeader:
         return FIXED_PART.size + COLUMN_PART.size * len(self.names)
 
     @property
-    def input_end(self) -> int:
-        """Offset of what follows the resolved input."""
-        return self.input_start + self.input_bytes
-
-    @property
     def row_bytes(self) -> int:
         return 8 * len(self.names)
 
@@ -75,42 +107,104 @@ def aligned(count: int) -> int:
     return -(-count // ALIGNMENT) * ALIGNMENT
 
 
+def header_bytes_of(
+    columns: bytes,
+    text: bytes,
+    *,
+    column_count: int,
+    program_version: bytes,
+    row_count: int,
+    source_checksum: int,
+    chunks: ChunkTable,
+) -> bytes:
+    """A whole header of a campaign, up to its first row."""
+    table_start = aligned(FIXED_PART.size + len(columns) + len(text))
+    table = chunks.table_bytes
+    header_bytes = aligned(table_start + len(table))
+    words = [MAGIC, FORMAT_VERSION, BYTE_ORDER_MARK, header_bytes, row_count, column_count, len(text)]
+    words += [program_version, source_checksum]
+    fixed = FIXED_PART.pack(*words, 0, Seal().seal_bytes)
+    covered = fixed[:24] + fixed[32:72] + columns + text + chunks.head_bytes
+    fixed = FIXED_PART.pack(*words, checksum(covered), Seal().seal_bytes)
+    return ((fixed + columns + text).ljust(table_start, b"\0") + table).ljust(header_bytes, b"\0")
+
+
 def read_header(stream: BinaryIO, path: object) -> ResultHeader:
     """Read and check the header at the start of `stream`; `path` is named in the messages."""
     fixed = stream.read(FIXED_PART.size)
     if not fixed.startswith(MAGIC[: len(fixed)]) or not fixed:
         raise ResultError(f"{path} is not a rattle result file.")
+    if len(fixed) >= 16:
+        _check_encoding(*struct.unpack("<ii", fixed[8:16]), path)
     if len(fixed) < FIXED_PART.size:
         raise ResultError(f"{path} ends inside its header.")
-    _, version, mark, header_bytes, row_count, column_count, input_bytes, program = FIXED_PART.unpack(fixed)
-    _check_encoding(version, mark, path)
-
-    used_bytes = FIXED_PART.size + COLUMN_PART.size * column_count + input_bytes
+    (_, _, _, header_bytes, row_count, column_count, input_bytes, program, source, stored, seal) = (
+        FIXED_PART.unpack(fixed)
+    )
+    column_bytes = COLUMN_PART.size * column_count
+    table_start = aligned(FIXED_PART.size + column_bytes + input_bytes)
     if (
         column_count < 1
         or input_bytes < 0
         or row_count < -1
         or header_bytes % ALIGNMENT != 0
-        or header_bytes < used_bytes
+        or header_bytes < table_start + TABLE_HEAD.size
     ):
         raise ResultError(f"{path} has a damaged header: its sizes contradict each other.")
     if stream.seek(0, 2) < header_bytes:
         raise ResultError(f"{path} ends inside its header.")
 
     stream.seek(FIXED_PART.size)
-    columns = list(COLUMN_PART.iter_unpack(stream.read(COLUMN_PART.size * column_count)))
-    names = tuple(_text(name, "column name", path) for name, _ in columns)
+    columns, text = stream.read(column_bytes), stream.read(input_bytes)
+    stream.seek(table_start)
+    head = stream.read(TABLE_HEAD.size)
+    if checksum(fixed[:24] + fixed[32:72] + columns + text + head) != stored:
+        raise ResultError(f"{path} has a damaged header: it is not what its checksum says.")
+    chunks = _read_chunks(stream, head, header_bytes - table_start, path)
+    names = tuple(_text(name, "column name", path) for name, _ in COLUMN_PART.iter_unpack(columns))
     if "" in names or len(set(names)) < len(names):
         raise ResultError(f"{path} has a damaged header: its column names are blank or repeated.")
     return ResultHeader(
         header_bytes=header_bytes,
         row_count=row_count,
         names=names,
-        units=tuple(_text(unit, "unit", path) for _, unit in columns),
+        units=tuple(_text(unit, "unit", path) for _, unit in COLUMN_PART.iter_unpack(columns)),
         program_version=_text(program, "program version", path),
         input_bytes=input_bytes,
-        input_text=_text(stream.read(input_bytes), "resolved input", path),
+        input_text=_text(text, "resolved input", path),
+        source_checksum=source,
+        seal=_read_seal(seal, row_count, chunks, path),
+        chunks=chunks,
     )
+
+
+def _read_chunks(stream: BinaryIO, head: bytes, space: int, path: object) -> ChunkTable:
+    """The table of chunks, whose head has been read and fills a known space with its checksums."""
+    kind, chunk_rows, count, row_limit = TABLE_HEAD.unpack(head)
+    if (
+        kind not in (CAMPAIGN, SERIES)
+        or chunk_rows < 1
+        or row_limit < 0
+        or count != max(-(-row_limit // chunk_rows), 1)
+        or aligned(TABLE_HEAD.size + 8 * count) != space
+    ):
+        raise ResultError(f"{path} has a damaged chunk table: its sizes contradict each other.")
+    return ChunkTable(kind, chunk_rows, row_limit, np.frombuffer(stream.read(8 * count), dtype="<i8"))
+
+
+def _read_seal(raw: bytes, row_count: int, chunks: ChunkTable, path: object) -> Seal:
+    *words, stored = SEAL.unpack(raw)
+    seal = Seal(*words)
+    expected = seal.rows if chunks.kind == SERIES else chunks.row_limit
+    if (
+        checksum(raw[:-8]) != stored
+        or not 0 <= seal.rows <= chunks.row_limit
+        or seal.extremes < 0
+        or seal.coarse not in (0, 1)
+        or row_count not in (-1, expected)
+    ):
+        raise ResultError(f"{path} has a damaged header: its counts of rows contradict each other.")
+    return seal
 
 
 def _check_encoding(version: int, mark: int, path: object) -> None:

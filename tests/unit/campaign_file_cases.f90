@@ -2,6 +2,7 @@
 module campaign_file_cases
    use campaign_file, only: campaign_file_t, campaign_layout_t
    use checks, only: check_list_t
+   use checksum, only: checksum_of
    use errors, only: error_t
    use file_system, only: read_whole_file
    use kinds, only: dp, int64
@@ -17,7 +18,8 @@ module campaign_file_cases
    integer, parameter, public :: scenes = 1000, chunk_rows = 64, chunks = 16, columns = 3
    integer, parameter :: size_limit = 1000000
 
-   public :: layout_of, rows_of, compute, create, resume, close_file, finish, content_of, long_at, overwrite_bytes, expect
+   public :: layout_of, rows_of, compute, create, resume, close_file, finish, content_of, long_at, overwrite_bytes, &
+             reseal, expect
 
 contains
 
@@ -130,6 +132,18 @@ contains
       write (unit, pos=offset + 1) bytes
       close (unit)
    end subroutine overwrite_bytes
+
+   !> Enter the right checksum of a changed header, as another program would leave it.
+   subroutine reseal()
+      character(:), allocatable :: content
+      integer :: text_end, table
+
+      content = content_of(path)
+      text_end = 128 + 48*columns + len(input)
+      table = ((text_end + 63)/64)*64
+      call overwrite_bytes(72_int64, transfer(checksum_of(content(:24)//content(33:72)//content(129:text_end)// &
+                                                          content(table + 1:table + 32)), repeat(' ', 8)))
+   end subroutine reseal
 
    subroutine expect(checks, error, exit_code, words)
       type(check_list_t), intent(inout) :: checks

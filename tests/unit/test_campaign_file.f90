@@ -53,19 +53,20 @@ contains
       undisturbed = content_of(path)
       call checks%check(undisturbed(:8) == 'RATTLE'//achar(13)//achar(10), 'magic')
       call checks%check(long_at(undisturbed, 24_int64) == scenes, 'count of rows')
-      table = 64 + 48*columns + len(input)
-      call checks%check(undisturbed(64 + 48*columns + 1:table) == input, 'input text')
+      table = 128 + 48*columns + len(input)
+      call checks%check(undisturbed(128 + 48*columns + 1:table) == input, 'input text')
       table = ((table + 63)/64)*64
       call checks%check(undisturbed(table + 1:table + 8) == 'CHUNKTAB', 'magic of the table')
       call checks%check(long_at(undisturbed, table + 8) == chunk_rows, 'scenes in a chunk')
       call checks%check(long_at(undisturbed, table + 16) == chunks, 'count of chunks')
-      first_row = ((table + 24 + 8*chunks + 63)/64)*64
+      call checks%check(long_at(undisturbed, table + 24) == scenes, 'scenes')
+      first_row = ((table + 32 + 8*chunks + 63)/64)*64
       call checks%check(long_at(undisturbed, 16_int64) == first_row, 'bytes before the rows')
       call checks%check(len(undisturbed, int64) == first_row + 8*columns*scenes, 'size')
       do chunk = 1, chunks
          first = int(chunk - 1, int64)*chunk_rows + 1
          last = min(first + chunk_rows - 1, int(scenes, int64))
-         call checks%check(long_at(undisturbed, table + 24 + 8*(chunk - 1)) == checksum_of(rows_of(first, &
+         call checks%check(long_at(undisturbed, table + 32 + 8*(chunk - 1)) == checksum_of(rows_of(first, &
                                                             last)), 'checksum')
          call checks%check(undisturbed(first_row + 24*(first - 1) + 1:first_row + 24*last) == &
                            bytes_of(rows_of(first, last)), &

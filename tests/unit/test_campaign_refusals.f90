@@ -3,7 +3,7 @@
 module test_campaign_refusals
    use campaign_file, only: campaign_file_t, campaign_layout_t
    use campaign_file_cases, only: chunks, close_file, compute, content_of, create, expect, input, layout_of, line_feed, &
-      overwrite_bytes, path, rows_of
+      overwrite_bytes, reseal, path, rows_of
    use checks, only: check_list_t
    use errors, only: error_t, exit_bad_input, exit_system
    use file_system, only: delete_file, path_exists
@@ -99,7 +99,11 @@ contains
       call close_file(checks, file, .false.)
       layout%scene_count = 2000
       call file%resume(path, layout, spoilt, error)
-      call expect(checks, error, exit_bad_input, 'damaged table of chunks')
+      call expect(checks, error, exit_bad_input, 'holds 1000 scenes, this campaign has 2000')
+      layout = layout_of(input)
+      layout%source_checksum = 1
+      call file%resume(path, layout, spoilt, error)
+      call expect(checks, error, exit_bad_input, 'was begun with other scenes: the CSV file has changed')
       call checks%check(content_of(path) == before, 'nothing is changed by later refusals')
    end subroutine test_changes
 
@@ -115,13 +119,17 @@ contains
       call create(checks, file, .true.)
       call close_file(checks, file, .false.)
       call overwrite_bytes(version_place, '9.8.7   ')
+      call file%resume(path, layout_of(input), spoilt, error)
+      call expect(checks, error, exit_bad_input, 'damaged header')
+      call reseal()
       before = content_of(path)
       call file%resume(path, layout_of(input), spoilt, error)
       call expect(checks, error, exit_bad_input, 'was begun by version 9.8.7 of the program')
       call checks%check(content_of(path) == before, 'another version: nothing is changed')
       call create(checks, file, .true.)
       call close_file(checks, file, .false.)
-      call overwrite_bytes(int(index(content_of(path), 'CHUNKTAB'), int64) - 1_int64, 'CHUNKTAP')
+      call overwrite_bytes(int(index(content_of(path), 'CHUNKTAB'), int64) - 1_int64, 'BLOCKTAB')
+      call reseal()
       before = content_of(path)
       call file%resume(path, layout_of(input), spoilt, error)
       call expect(checks, error, exit_bad_input, 'it has no table of chunks')

@@ -2,7 +2,7 @@
 module test_checksum
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use checks, only: check_list_t
-   use checksum, only: checksum_of
+   use checksum, only: checksum_of, checksum_t
    use kinds, only: dp, int64
    use random_numbers, only: random_bits
    use text, only: integer_text
@@ -29,23 +29,42 @@ contains
    subroutine test_definition(checks)
       type(check_list_t), intent(inout) :: checks
       real(dp), parameter :: numbers(5) = [1.0_dp, -2.5_dp, 0.0_dp, 1.0e300_dp, -0.0_dp]
-      integer :: n
+      real(dp) :: many(2000)
+      type(checksum_t) :: pieces
+      integer :: n, first
 
       do n = 1, size(numbers)
          call checks%check(checksum_of(numbers(:n)) == defined(numbers(:n)), 'definition, '// &
                            integer_text(n)//' numbers')
       end do
-      call checks%check(checksum_of(numbers) == int(z'509FE913779EF9FB', int64), 'a fixed value')
+      many = [(sqrt(real(n, dp)), n=1, size(many))]
+      do n = 500, size(many), 250
+         call checks%check(checksum_of(many(:n)) == defined(many(:n)), 'definition, '//integer_text(n)//' numbers')
+      end do
+      first = 1
+      do n = 1, 7
+         call pieces%add(reshape(many(first:first + 40*n - 1), [4, 10*n]))
+         first = first + 40*n
+      end do
+      call checks%check(pieces%value() == checksum_of(many(:first - 1)), 'in pieces')
+      call checks%check(checksum_of(numbers) == int(z'67A4758817EF34BD', int64), 'a fixed value')
       call checks%check(checksum_of(numbers(:0)) /= 0_int64, 'no data: not 0')
    end subroutine test_definition
 
+   !> Lane by lane, each from the words that belong to it.
    pure integer(int64) function defined(numbers)
       real(dp), intent(in) :: numbers(:)
-      integer :: i
+      integer, parameter :: lane_count = 509
+      integer(int64) :: lane
+      integer :: i, j
 
       defined = word(8_int64*size(numbers), 0)
-      do i = 1, size(numbers)
-         defined = ieor(defined, word(transfer(numbers(i), 0_int64), i))
+      do i = 1, lane_count
+         lane = 0_int64
+         do j = i, size(numbers), lane_count
+            lane = ieor(lane, transfer(numbers(j), 0_int64))
+         end do
+         defined = ieor(defined, word(lane, i))
       end do
 
    contains

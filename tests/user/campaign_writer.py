@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-import struct
-import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
 
 import numpy as np
-from result_writer import header_end, header_front
+from result_writer import checksum, header
 
 FORCE, SPEED, VISCOSITY = "load.force_amplitude", "kinematics.entrainment_speed", "lubricant.viscosity"
 UNITS = {FORCE: "N", SPEED: "m/s", VISCOSITY: "Pa s"}
@@ -107,6 +105,7 @@ class Made:
     group: str
     chunk_rows: int = 64
     version: str = "0.1.0"
+    source: int = 0
     base: str = field(default=BASE)
 
     def input_text(self, part: int = 1, parts: int = 1) -> str:
@@ -125,22 +124,20 @@ class Made:
         chunks = math.ceil(len(self.rows) / size)
         first, last = chunks * (part - 1) // parts, chunks * part // parts
         rows = self.rows[first * size : last * size].copy()
-        checksums = [zlib.crc32(rows[i * size : (i + 1) * size].tobytes()) | 1 for i in range(last - first)]
+        checksums = [checksum(rows[i * size : (i + 1) * size].tobytes()) for i in range(last - first)]
         for chunk in undone:
             checksums[chunk] = 0
             rows[chunk * size : (chunk + 1) * size] = -7e77
-        text = self.input_text(part, parts).encode("ascii")
-        table_start = -(-header_end(self.columns, text) // 64) * 64
-        header_bytes = -(-(table_start + 24 + 8 * len(checksums)) // 64) * 64
-        head = header_front(
+        head = header(
             self.columns,
-            text,
-            header_bytes=header_bytes,
+            self.input_text(part, parts).encode("ascii"),
+            table=(b"CHUNKTAB", size, len(checksums), len(rows)),
+            checksums=checksums,
             row_count=len(rows) if closed else -1,
             program_version=self.version,
-        ).ljust(table_start, b"\0")
-        head += b"CHUNKTAB" + struct.pack(f"<qq{len(checksums)}q", size, len(checksums), *checksums)
-        return head.ljust(header_bytes, b"\0") + rows.astype("<f8").tobytes()
+            source=self.source,
+        )
+        return head + rows.astype("<f8").tobytes()
 
     def write(self, path: Path, **options) -> Path:
         path.write_bytes(self.content(**options))

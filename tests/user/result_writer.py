@@ -8,6 +8,32 @@ from pathlib import Path
 
 import numpy as np
 
+LANES = 509
+
+
+def checksum(data: bytes) -> int:
+    """The checksum of fsrc/foundation/checksum.f90, written out with Python's integers."""
+    words = struct.unpack(f"<{-(-len(data) // 8)}Q", data.ljust(-(-len(data) // 8) * 8, b"\0"))
+    lanes = [0] * LANES
+    for place, word in enumerate(words):
+        lanes[place % LANES] ^= word
+    joined = _mixed(len(data), 0)
+    for place, lane in enumerate(lanes, 1):
+        joined ^= _mixed(lane, place)
+    return struct.unpack("<q", struct.pack("<Q", joined or 1))[0]
+
+
+def _mixed(word: int, place: int) -> int:
+    high, low = divmod(word ^ (place * 0x5E3779B1), 1 << 32)
+    high ^= _folded(low * 0x7FEB352D)
+    low ^= _folded(high * 0x6C8E9CF5)
+    high ^= _folded(low * 0x58F38DED)
+    return high << 32 | low
+
+
+def _folded(product: int) -> int:
+    return (product ^ product >> 32) & 0xFFFFFFFF
+
 
 def result_bytes(
     columns: Sequence[tuple[str, str]],
@@ -16,47 +42,82 @@ def result_bytes(
     input_text: str = "",
     closed: bool = True,
     program_version: str = "0.1.0",
-    format_version: int = 1,
+    format_version: int = 2,
     byte_order: str = "<",
+    chunk_rows: int = 64,
+    extremes: Sequence[Sequence[float]] = (),
+    coarse: bool = False,
 ) -> bytes:
-    """A whole result file; `columns` holds pairs of name and unit."""
-    text = input_text.encode("ascii")
-    header_bytes = -(-header_end(columns, text) // 64) * 64
-    head = header_front(
+    """A whole result file; `columns` holds pairs of name and unit.
+
+    A file that is not closed is one whose rows came after the last checksum.
+    """
+    table_rows = np.asarray(rows, dtype=byte_order + "f8").reshape(-1, len(columns))
+    extreme_rows = np.asarray(extremes, dtype=byte_order + "f8").reshape(-1, len(columns)).tobytes()
+    chunks = [table_rows[i : i + chunk_rows].tobytes() for i in range(0, len(table_rows), chunk_rows)]
+    rest = chunks.pop() if len(table_rows) % chunk_rows else b""
+    sums = [checksum(chunk) for chunk in chunks] if closed else []
+    count = max(-(-len(table_rows) // chunk_rows), 1)
+    seal = (0, 0, 0, 0, 0)
+    if closed:
+        sums_behind = (checksum(rest) if rest else 0, checksum(extreme_rows) if extremes else 0)
+        seal = (len(table_rows), len(extremes), int(coarse), *sums_behind)
+    head = header(
         columns,
-        text,
-        header_bytes=header_bytes,
-        row_count=len(rows) if closed else -1,
+        input_text.encode("ascii"),
+        table=(b"BLOCKTAB", chunk_rows, count, len(table_rows)),
+        checksums=(sums + [0] * count)[:count],
+        seal=seal,
+        row_count=len(table_rows) if closed else -1,
         program_version=program_version,
         format_version=format_version,
         byte_order=byte_order,
-    ).ljust(header_bytes, b"\0")
-    return head + np.asarray(rows, dtype=byte_order + "f8").reshape(-1, len(columns)).tobytes()
+    )
+    return head + table_rows.tobytes() + extreme_rows
 
 
-def header_end(columns: Sequence[tuple[str, str]], text: bytes) -> int:
-    """Bytes of a header up to the end of its input text."""
-    return 64 + 48 * len(columns) + len(text)
-
-
-def header_front(
+def header(
     columns: Sequence[tuple[str, str]],
     text: bytes,
     *,
-    header_bytes: int,
+    table: tuple[bytes, int, int, int],
+    checksums: Sequence[int],
     row_count: int,
     program_version: str,
-    format_version: int = 1,
+    seal: tuple[int, int, int, int, int] = (0, 0, 0, 0, 0),
+    source: int = 0,
+    format_version: int = 2,
     byte_order: str = "<",
 ) -> bytes:
-    """A header up to the end of its input text; a row count of -1: not closed."""
-    head = b"RATTLE\r\n"
-    head += struct.pack(byte_order + "iiqq", format_version, 0x01020304, header_bytes, row_count)
-    head += struct.pack(byte_order + "ii", len(columns), len(text))
-    head += program_version.encode("ascii").ljust(24)
-    for name, unit in columns:
-        head += name.encode("ascii").ljust(32) + unit.encode("ascii").ljust(16)
-    return head + text
+    """A header up to the first row; a row count of -1: not closed."""
+    table_start = -(-(128 + 48 * len(columns) + len(text)) // 64) * 64
+    header_bytes = -(-(table_start + 32 + 8 * len(checksums)) // 64) * 64
+    front = b"RATTLE\r\n" + struct.pack(byte_order + "iiq", format_version, 0x01020304, header_bytes)
+    behind = struct.pack(byte_order + "ii", len(columns), len(text))
+    behind += program_version.encode("ascii").ljust(24) + struct.pack(byte_order + "q", source)
+    names = b"".join(
+        name.encode("ascii").ljust(32) + unit.encode("ascii").ljust(16) for name, unit in columns
+    )
+    table_head = struct.pack(byte_order + "8sqqq", *table)
+    sealed = struct.pack(byte_order + "qiiqq", *seal)
+    head = front + struct.pack(byte_order + "q", row_count) + behind
+    head += struct.pack(byte_order + "q", checksum(front + behind + names + text + table_head))
+    head += sealed + struct.pack(byte_order + "q", checksum(sealed)) + bytes(8) + names + text
+    head = (
+        head.ljust(table_start, b"\0")
+        + table_head
+        + struct.pack(f"{byte_order}{len(checksums)}q", *checksums)
+    )
+    return head.ljust(header_bytes, b"\0")
+
+
+def resealed(content: bytes) -> bytes:
+    """A changed file with the right checksum of its header: the work of another program, no damage."""
+    column_count, text_bytes = struct.unpack("<ii", content[32:40])
+    end = 128 + 48 * column_count + text_bytes
+    table = -(-end // 64) * 64
+    covered = content[:24] + content[32:72] + content[128:end] + content[table : table + 32]
+    return content[:72] + struct.pack("<q", checksum(covered)) + content[80:]
 
 
 def write_result(path: Path, columns: Sequence[tuple[str, str]], rows, **options) -> Path:
@@ -121,6 +182,7 @@ def write_motion(
     window: int = 16,
     without: str | None = None,
     closed: bool = True,
+    extremes: Sequence[Sequence[float]] = (),
 ) -> Path:
     """A made-up motion: `lines` maps f/f_exc to the amplitude of the acceleration [m/s2]."""
     samples = steps_per_period // stride
@@ -143,4 +205,4 @@ def write_motion(
         stride=stride,
     )
     rows = np.column_stack([data[column] for column, _ in columns])
-    return write_result(path, columns, rows, input_text=text, closed=closed)
+    return write_result(path, columns, rows, input_text=text, closed=closed, extremes=extremes)

@@ -7,7 +7,7 @@ import struct
 import numpy as np
 import pytest
 from campaign_writer import FORCE, FORCES, SPEED, SPEEDS, VISCOSITIES, VISCOSITY, Key, csv_table, grid, sample
-from result_writer import write_motion
+from result_writer import resealed, write_motion
 
 import rattle
 from rattle.codes import CLASSES, NO_OR_YES, STATUSES
@@ -203,18 +203,52 @@ def table_at(content: bytes) -> int:
 DAMAGE = [
     (lambda c, _: c[:-8], "is cut short: it holds 299 of its 300 rows."),
     (lambda c, _: c + b"12345678", "is 8 bytes longer than its 300 rows."),
-    (lambda c, t: c.replace(b"CHUNKTAB", b"CHUNKTUB"), "is no campaign: it has no chunk table."),
-    (lambda c, t: changed(c, t + 8, "<q", 0), "has a damaged chunk table: its sizes contradict each other."),
-    (lambda c, t: changed(c, t + 16, "<q", 2**60), "has a damaged chunk table: its sizes contradict"),
-    (lambda c, t: changed(c, t + 8, "<q", 10), "5 chunks of 10 rows are not 300 rows."),
-    (lambda c, t: changed(c, t + 32, "<q", 0), "it is closed, but its chunk 2 is not done."),
+    (lambda c, t: changed(c, 24, "<q", -1) + b"12345678", "is 8 bytes longer than its 300 rows."),
+    (
+        lambda c, t: c.replace(b"CHUNKTAB", b"CHUNKTUB"),
+        "has a damaged header: it is not what its checksum says.",
+    ),
+    (lambda c, t: resealed(c.replace(b"CHUNKTAB", b"CHUNKTUB")), "has a damaged chunk table: its sizes"),
+    (
+        lambda c, t: resealed(changed(c, t + 8, "<q", 0)),
+        "has a damaged chunk table: its sizes contradict each other.",
+    ),
+    (
+        lambda c, t: resealed(changed(c, t + 8, "<q", 1)),
+        "has a damaged chunk table: its sizes contradict each other.",
+    ),
+    (
+        lambda c, t: resealed(changed(c, t + 16, "<q", 2**60)),
+        "has a damaged chunk table: its sizes contradict",
+    ),
+    (lambda c, t: resealed(changed(c, t + 16, "<q", 0)), "has a damaged chunk table: its sizes contradict"),
+    (lambda c, t: resealed(changed(c, t + 8, "<q", 10)), "has a damaged chunk table: its sizes contradict"),
+    (lambda c, t: resealed(changed(c, t + 24, "<q", 299)), "its counts of rows contradict each other"),
+    (lambda c, t: changed(c, t + 40, "<q", 0), "it is closed, but its chunk 2 is not done."),
+    (lambda c, t: changed(c, t + 40, "<q", 77), "is damaged: rows 65 to 128 (bytes "),
+    (lambda c, t: changed(c, len(c) - 1, "B", 1), "is damaged: rows 257 to 300 (bytes "),
     (
         lambda c, _: changed(c, 24, "<q", -1)[:-8],
         "chunk 5 counts as done, but 299 rows are all it holds.",
     ),
-    (lambda c, _: c.replace(b"&campaign", b"&campaigx"), "has no group &campaign."),
-    (lambda c, _: c.replace(b"count(1) = 20", b"count(1) = 19"), "load.force_amplitude has values such as"),
-    (lambda c, _: c.replace(b"scene   ", b"stage   ", 1), "its columns are not a scene and the varied keys."),
+    (lambda c, _: resealed(c.replace(b"&campaign", b"&campaigx")), "has no group &campaign."),
+    (lambda c, _: resealed(c.replace(b"part = 1", b"part = 2")), "its part 2 is none of 1"),
+    (
+        lambda c, _: resealed(c.replace(b"parts = 1", b"parts=1,1")),
+        "its campaign.parts is no positive whole number",
+    ),
+    (
+        lambda c, _: resealed(c.replace(b"parts = 1", b"parts = 0")),
+        "its campaign.parts is no positive whole number",
+    ),
+    (
+        lambda c, _: resealed(c.replace(b"count(1) = 20", b"count(1) = 19")),
+        "load.force_amplitude has values such as",
+    ),
+    (
+        lambda c, _: resealed(c.replace(b"scene   ", b"stage   ", 1)),
+        "its columns are not a scene and the varied keys.",
+    ),
     (lambda c, _: b"other" + c, "is not a rattle result file."),
     (lambda c, t: c[: t + 8], "ends inside its header."),
 ]

@@ -59,6 +59,36 @@ def test_columns_in_the_order_asked_for_and_every_nth_row(result, tmp_path):
     np.testing.assert_array_equal(rows, ROWS[::7, [2, 0]])
 
 
+@pytest.mark.parametrize("stride", [1, 3])
+def test_extreme_rows_are_put_in_by_time(tmp_path, stride):
+    """Wherever they fall: between two blocks of rows written together, at the end, at a row itself."""
+    rows = np.column_stack([np.arange(25000.0), np.zeros(25000), np.arange(25000.0)])
+    times = [0.0, 0.5, 9999.5, 10000.0, 24999.25] if stride == 1 else [1.0, 29999.0 / 3, 24998.0, 24999.5]
+    extremes = [[time, 1.0, -time] for time in times]
+    path = write_result(tmp_path / "run.rattle", COLUMNS, rows, extremes=extremes)
+    assert export(tmp_path, str(path), "--stride", str(stride)).returncode == 0
+    _, written = read_csv(path.with_suffix(".csv"))
+    both = np.vstack([rows[::stride], extremes])
+    np.testing.assert_array_equal(written, both[np.argsort(both[:, 0], kind="stable")])
+
+
+def test_extreme_rows_without_times_are_left_out_with_a_word(tmp_path):
+    path = write_result(tmp_path / "run.rattle", COLUMNS[1:], ROWS[:5, 1:], extremes=[[1.0, 2.0]])
+    done = export(tmp_path, str(path))
+    assert done.stderr == f"export.py: {path} has no column of times; its 1 extreme rows are left out.\n"
+    np.testing.assert_array_equal(read_csv(path.with_suffix(".csv"))[1], ROWS[:5, 1:])
+
+
+def test_damaged_rows_are_not_exported(result):
+    content = bytearray(result.read_bytes())
+    content[-9] ^= 4
+    result.write_bytes(content)
+    done = export(result.parent, "run.rattle")
+    assert done.returncode == 2
+    assert "are not what their checksum says" in done.stderr
+    assert not result.with_suffix(".csv").exists()
+
+
 def test_standard_output_may_be_cut_by_its_reader(result):
     script = SCRIPTS / "export.py"
     command = f"'{sys.executable}' '{script}' '{result}' --output - | head -n 1"

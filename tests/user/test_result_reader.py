@@ -70,6 +70,92 @@ def test_columns_are_mapped_and_read_only(tmp_path):
         result.columns["time"] = column
 
 
+def _flipped(content: bytes, place: int, bit: int = 0) -> bytes:
+    damaged = bytearray(content)
+    damaged[place] ^= 1 << bit
+    return bytes(damaged)
+
+
+EXTREMES = [[0.05, 9.0], [0.15, -9.0]]
+
+
+def test_every_flipped_bit_is_found_or_harmless(tmp_path):
+    """Anywhere in the file: refused with a sentence, or nothing that is read has changed."""
+    text = "&scene name='a' /\n"
+    content = result_bytes(COLUMNS, ROWS, input_text=text, extremes=EXTREMES, coarse=True)
+    path = tmp_path / "a.rattle"
+    harmless = 0
+    for place in range(len(content)):
+        path.write_bytes(_flipped(content, place, place % 8))
+        try:
+            result = rattle.read(path)
+            values = [*result["time"], *result["acceleration"], *result.extremes["acceleration"]]
+        except rattle.ResultError as fault:
+            assert str(path) in str(fault)
+            continue
+        harmless += 1
+        assert (result.input_text, result.units["time"], result.coarse) == (text, "s", True)
+        assert (result.program_version, result.closed) == ("0.1.0", True)
+        assert values == [0.0, 0.1, 0.2, 1.5, -2.5, 1e-300, 9.0, -9.0]
+    assert harmless < 120  # the padding alone
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_damaged_rows_are_named_and_others_can_be_read(tmp_path, closed):
+    rows = np.arange(2000.0).reshape(-1, 2)
+    content = result_bytes(COLUMNS, rows, chunk_rows=300)
+    if not closed:
+        content = content[:24] + struct.pack("<q", -1) + content[32:]
+    damaged = _flipped(content, len(content) - 16 * 399, 3)
+    path = tmp_path / "a.rattle"
+    path.write_bytes(damaged)
+    result = rattle.read(path)
+    assert result.samples("time", slice(0, 600)).tolist() == rows[:600, 0].tolist()
+    assert result.samples("time", slice(900, None)).tolist() == rows[900:, 0].tolist()
+    start = len(content) - 16000
+    words = rf"rows 601 to 900 \(bytes {start + 9600} to {start + 14400}\) are not what their checksum says"
+    for touch in (
+        lambda: result["acceleration"],
+        lambda: result.columns["time"],
+        lambda: result.samples("time", slice(899, 901)),
+        lambda: result.samples("time"),
+    ):
+        with pytest.raises(rattle.ResultError, match=words):
+            touch()
+
+
+def test_extreme_rows_stand_apart(tmp_path):
+    result = rattle.read(write_result(tmp_path / "a.rattle", COLUMNS, ROWS, extremes=EXTREMES, coarse=True))
+    assert result.row_count == 3 and result["time"].tolist() == [0.0, 0.1, 0.2]
+    assert result.coarse is True
+    assert result.extremes["time"].tolist() == [0.05, 0.15]
+    assert result.extremes["acceleration"].tolist() == [9.0, -9.0]
+    time, acceleration = result.merged(("time", "acceleration"))
+    assert time.tolist() == [0.0, 0.05, 0.1, 0.15, 0.2]
+    assert acceleration.tolist() == [1.5, 9.0, -2.5, -9.0, 1e-300]
+    assert result.merged(("acceleration",), slice(1, None))[0].tolist() == [-2.5, -9.0, 1e-300]
+
+
+def test_series_without_extreme_rows(tmp_path):
+    result = rattle.read(write_result(tmp_path / "a.rattle", COLUMNS, ROWS))
+    assert result.coarse is False
+    assert result.extremes["time"].size == 0
+    assert result.merged(("time",))[0].tolist() == [0.0, 0.1, 0.2]
+
+
+def test_run_that_ended_among_its_extreme_rows(tmp_path):
+    """The count of rows comes last: without it the extreme rows are none of the others."""
+    content = bytearray(result_bytes(COLUMNS, ROWS, extremes=EXTREMES))
+    content[24:32] = struct.pack("<q", -1)
+    path = tmp_path / "a.rattle"
+    for cut in (0, 5, 16, 20, 32):
+        path.write_bytes(content[: len(content) - cut])
+        result = rattle.read(path)
+        assert not result.closed
+        assert result["time"].tolist() == [0.0, 0.1, 0.2]
+        assert result.extremes["time"].size == 0
+
+
 def test_header_fields_are_told(tmp_path):
     result = rattle.read(write_result(tmp_path / "a.rattle", COLUMNS, ROWS, program_version="1.2.3"))
     assert result.program_version == "1.2.3"
@@ -119,10 +205,12 @@ def _with_row_count(count: int) -> bytes:
         (b"a text file, quite another thing" * 20, "is not a rattle result file"),
         (result_bytes(COLUMNS, ROWS)[:40], "ends inside its header"),
         (result_bytes(COLUMNS, ROWS)[:130], "ends inside its header"),
-        (result_bytes(COLUMNS, ROWS, format_version=2), "has format version 2"),
+        (result_bytes(COLUMNS, ROWS, format_version=1), "has format version 1"),
         (_swapped(), "big-endian byte order"),
-        (_with_row_count(7), "holds 3 of its 7 rows"),
-        (_with_row_count(1), "is 32 bytes longer than its 1 rows"),
+        (result_bytes(COLUMNS, 2 * ROWS)[:-48], "holds 3 of its 6 rows"),
+        (result_bytes(COLUMNS, ROWS) + bytes(32), "is 32 bytes longer than its 3 rows"),
+        (_with_row_count(7), "counts of rows contradict each other"),
+        (_with_row_count(1), "counts of rows contradict each other"),
         (_with_row_count(-5), "sizes contradict each other"),
         (result_bytes([("time", "s"), ("time", "s")], ROWS), "blank or repeated"),
     ],

@@ -14,10 +14,10 @@ from rattle.result import Result
 def last_periods(
     result: Result, name: str, periods: int, scale: float = 1.0
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Time since the start of the last `periods` [ms] and the scaled column `name`."""
+    """Time since the start of the last `periods` [ms] and the scaled column `name`, with the extreme rows."""
     rows = result.window(periods, with_start=True)
-    time = result.samples("time", rows)
-    return 1e3 * (time - time[0]), scale * result.samples(name, rows)
+    time, values = result.merged(("time", name), rows)
+    return 1e3 * (time - time[0]), scale * values
 
 
 def period_rules(axes: Axes, results: Sequence[Result], periods: int) -> None:
@@ -34,5 +34,5 @@ def time_label(results: Sequence[Result], periods: int) -> str:
     label = f"Time within the last {periods} excitation periods [ms]"
     if len(results) > 1:
         return label
-    start = 1e3 * float(results[0]["time"][results[0].window(periods, with_start=True)][0])
+    start = 1e3 * float(results[0].samples("time", results[0].window(periods, with_start=True))[0])
     return f"{label}, from $t$ = {start:.2f} ms"
