@@ -205,7 +205,8 @@ def _check_rows(path: Path, header: ResultHeader, data_bytes: int) -> None:
     held = data_bytes // header.row_bytes
     if done.size and held < min((int(done[-1]) + 1) * chunks.chunk_rows, chunks.row_limit):
         raise ResultError(
-            f"{path} is cut short: its chunk {int(done[-1]) + 1} counts as done, but {held} rows are all it holds."
+            f"{path} is cut short: its chunk {int(done[-1]) + 1} counts as done, but {held} rows are all "
+            "it holds."
         )
 
 

@@ -1,7 +1,7 @@
 """The checksum of result files, as fsrc/foundation/checksum.f90 defines it.
 
-The words of 64 bits are dealt in turn to 509 lanes, those of a lane joined by exclusive or; each lane is mixed
-with its place, and the mixed lanes are joined. Only the first pass sees all data, at the speed of the memory.
+The words of 64 bits are dealt in turn to 509 lanes, those of a lane joined by exclusive or; each lane is
+mixed with its place, and the mixed lanes are joined. Only the first pass sees all the data.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ MULTIPLIERS = tuple(map(np.uint64, (0x7FEB352D, 0x6C8E9CF5, 0x58F38DED)))
 
 
 def checksum(data: bytes | np.ndarray) -> int:
-    """The checksum of bytes, or of an array of float64 in the order of its storage; a signed number, not 0."""
+    """The checksum of bytes, or of an array of float64 in the order of storage; a signed number, not 0."""
     if isinstance(data, bytes):
         byte_count = len(data)
         words = np.frombuffer(data.ljust(-(-byte_count // 8) * 8, b"\0"), dtype="<u8")

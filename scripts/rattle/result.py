@@ -74,7 +74,7 @@ class Result(ResultFile):
         return MappingProxyType({name: rows[:, place] for place, name in enumerate(self.names)})
 
     def merged(self, names: Sequence[str], rows: slice = slice(None)) -> list[np.ndarray]:
-        """Some columns with the extreme rows put in by time, for a curve of the motion; copies, all finite."""
+        """Some columns with the extreme rows put in by time, for a curve; copies, all finite."""
         parts = [self.samples(name, rows) for name in names]
         if TIME not in self or not self.extremes[TIME].size:
             return parts

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from campaign_writer import FORCES, SPEEDS, grid, sample
+from result_writer import resealed
 from script_calls import call_script
 
 import rattle
@@ -104,6 +105,25 @@ def test_different_versions_columns_and_chunks_are_refused(made, tmp_path):
     assert "have chunks of different size: 32 and 64 rows." in refused(tmp_path, first, second)[1]
 
 
+def test_parts_of_two_states_of_a_csv_file_are_refused(made, tmp_path):
+    first, second = made.write_parts(tmp_path, 2)
+    made.source = 77
+    made.write(second, part=2, parts=2)
+    assert (
+        "come from different scenes: their CSV file has changed in between."
+        in refused(tmp_path, first, second)[1]
+    )
+
+
+def test_damaged_parts_are_not_joined(made, tmp_path):
+    """The damage is seen in any column, not only in those that the joining looks at."""
+    first, second = made.write_parts(tmp_path, 2)
+    content = bytearray(second.read_bytes())
+    content[-1] ^= 1
+    second.write_bytes(content)
+    assert f"{second} is damaged: rows " in refused(tmp_path, first, second)[0]
+
+
 def test_a_part_that_does_not_begin_with_a_chunk_is_refused(made, tmp_path):
     """Its checksums would be those of other rows than the ones that the whole has in its chunks."""
     rows, paths = made.rows, []
@@ -111,7 +131,7 @@ def test_a_part_that_does_not_begin_with_a_chunk_is_refused(made, tmp_path):
         made.rows = rows[share]
         content = made.content().replace(b"part = 1\n", b"part = %d\n" % part)
         paths.append(tmp_path / f"{part}.rattle")
-        paths[-1].write_bytes(content.replace(b"parts = 1\n", b"parts = 2\n"))
+        paths[-1].write_bytes(resealed(content.replace(b"parts = 1\n", b"parts = 2\n")))
     complaint = f"  {paths[1]} does not begin with a chunk, so its checksums cannot be kept."
     assert refused(tmp_path, *paths)[1:] == [complaint]
 
