@@ -16,6 +16,7 @@ from pyarrow import parquet
 from script_calls import call_script
 
 import rattle as package
+from rattle import job_script, rerun
 from rattle.namelist import parse
 
 
@@ -163,6 +164,13 @@ def test_an_older_script_is_kept(campaign_input, tmp_path):
     assert "--array=1-2" in script_text(tmp_path, "--array", 2, "--overwrite")
 
 
+@pytest.mark.parametrize(
+    ("time", "seconds"), [("00:00:59", 59), ("01:02:03", 3723), ("30:00:00", 108000), ("2-01:00:00", 176400)]
+)
+def test_time_limits_are_read_as_slurm_does(time, seconds):
+    assert job_script.seconds_of(time) == seconds
+
+
 # --- state
 
 
@@ -289,6 +297,16 @@ def test_worst_scenes_become_inputs(made, whole):
     assert groups["load"]["force_amplitude"] == made.column(FORCE)[scenes[0] - 1]
     assert groups["kinematics"]["entrainment_speed"] == made.column(SPEED)[scenes[0] - 1]
     assert groups["load"]["mass"] == 3.0
+
+
+def test_a_scene_that_failed_is_never_the_worst(made, whole):
+    """What is known of it, its frequency, may be the largest; it has no motion to look at."""
+    frequency = made.column("natural_frequency")
+    frequency[np.argmax(made.column("status"))] = 1e6
+    campaign = package.read_campaign(made.write(whole))
+    worst = rerun.extreme_rows(campaign, "natural_frequency", 3)
+    usable = np.where(made.column("status") == 1.0, frequency, -1.0)
+    np.testing.assert_array_equal(worst, np.argsort(-usable, kind="stable")[:3])
 
 
 def test_smallest_failed_and_named_scenes(made, whole):

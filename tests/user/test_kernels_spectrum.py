@@ -63,3 +63,11 @@ def test_reversals_of_a_plain_wave_and_rest():
     assert kernels.classify(synthetic({3.0: 1.0, 1.0: 0.1}), PERIOD)["reversals_per_period"] == 6.0
     rest = kernels.classify(np.zeros(PERIOD), PERIOD)
     assert rest["rattle_class"] == "quiet" and np.isnan(rest["harmonic_distortion"])
+
+
+def test_a_motion_at_rest_is_quiet_and_has_no_ratios():
+    for samples, floor in ((np.zeros(PERIOD), 0.0), (1e-9 * synthetic(SIGNALS["irregular"]), 1e-6)):
+        found = kernels.classify(samples, PERIOD, noise_floor=floor)
+        assert found["rattle_class"] == "quiet"
+        assert np.isnan(found["harmonic_distortion"]) and np.isnan(found["irregular_fraction"])
+        assert found["reversals_per_period"] == 0.0 and found["line_count"] == 0

@@ -8,6 +8,7 @@ import pytest
 from script_calls import call_script
 
 import rattle
+from rattle import table
 from rattle.summary import SummaryError, comparison_table
 
 SUMMARY = {
@@ -112,3 +113,19 @@ def test_a_value_of_a_wrong_type_is_named(tmp_path):
     done = call_script("compare.py", path)
     assert done.returncode == 2
     assert "The summary of idle holds a value of a wrong type." in done.stderr
+
+
+def test_tables_put_words_to_the_left_and_numbers_to_the_right():
+    rows = [["", "a", "long"], ["film [um]", "1.5", "10.25"], ["x | y", "-", "2"]]
+    assert table.plain(rows).splitlines() == [
+        "             a   long",
+        "---------  ---  -----",
+        "film [um]  1.5  10.25",
+        "x | y        -      2",
+    ]
+    assert table.markdown(rows).splitlines() == [
+        "|           |   a |  long |",
+        "| --------- | --: | ----: |",
+        "| film [um] | 1.5 | 10.25 |",
+        "| x \\| y    |   - |     2 |",
+    ]
