@@ -2,7 +2,7 @@
 module campaign_certificate
    use certificate, only: certificate_t
    use certify_scene, only: certify
-   use fine_window, only: classify_window, window_t
+   use fine_window, only: judge_window, window_t
    use kinds, only: dp
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
@@ -11,6 +11,8 @@ module campaign_certificate
    use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: is_success
    use scene_types, only: scene_t
+   use window_extremes, only: extremes_of_record
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -33,6 +35,7 @@ contains
       type(rattle_verdict_t), intent(in) :: verdict
       type(lane_request_t) :: from_start
       type(lane_ending_t) :: endings(1)
+      type(window_record_t) :: records(1)
       type(rattle_verdict_t) :: own_verdict
       type(certificate_t) :: certificate
       type(window_t) :: window
@@ -42,9 +45,10 @@ contains
       class_stands = .false.
       from_start = request
       from_start%forecast = .false.
-      samples = request%sampled_periods*request%samples_per_period
+      samples = request%sampled_periods*scene%campaign%samples_per_period
+      from_start%samples_per_period = scene%campaign%samples_per_period
       allocate (films(samples, 1), velocities(samples, 1))
-      call solve_motions([lane], from_start, films, velocities, endings)
+      call solve_motions([lane], from_start, films, velocities, endings, records=records)
       if (.not. is_success(endings(1)%status)) return
       samples = endings(1)%samples
       window%periods = samples/request%samples_per_period
@@ -53,10 +57,11 @@ contains
       allocate (window%velocities, source=velocities(:samples, 1))
       allocate (window%accelerations(samples))
       call accelerations_of_samples(lane, request%samples_per_period, window%films, window%velocities, window%accelerations)
-      call classify_window(scene, window, resolved%noise_floor, own_verdict)
+      window%record = records(1)
+      call judge_window(scene, lane, request%accuracy, resolved%noise_floor, window, own_verdict)
       call note_orbit(own_verdict, endings(1)%orbit)
       if (own_verdict%class /= verdict%class) return
-      call certify(scene, resolved, lane, endings(1)%periods, window, own_verdict, certificate)
+      call certify(scene, resolved, lane, endings(1)%periods, window, extremes_of_record(records(1)), own_verdict, certificate)
       ! An irregular class does not stand where the certificate has found that the motion repeats.
       class_stands = certificate%certified .and. own_verdict%class == verdict%class
    end function class_stands

@@ -4,20 +4,24 @@ module campaign_record
    use key_table, only: keys
    use kinds, only: dp, int64
    use lane_scenes, only: lane_ending_t
+   use model_limits, only: model_limit
+   use node_extremes, only: seen_acceleration, seen_film, seen_load, seen_velocity
    use rattle_class, only: rattle_verdict_t
    use recorded_quantities, only: quantities, record_acceleration_maximum, record_acceleration_minimum, record_alpha_p_maximum, &
                                   record_certified, record_damping_ratio, record_deflection, record_film_maximum, &
                                   record_film_minimum, record_film_regime, record_harmonic_distortion, record_harmonics, &
                                   record_irregular_fraction, record_law_contradicted, record_line_count, &
+                                  record_line_count_is_bound, record_load_maximum, record_model_limit, &
                                   record_natural_frequency, record_orbit_period, record_periods_solved, &
                                   record_pressure_maximum, record_rattle_class, record_reversals_per_period, &
-                                  record_sampling_sufficient, record_steady_film
+                                  record_sampling_sufficient, record_steady_film, record_velocity_maximum, record_velocity_minimum
    use regime_check, only: regime_verdict_t
    use resolved_scene, only: resolved_scene_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use scene_types, only: scene_t
    use text, only: integer_text
    use varied_keys, only: varied_key_name
+   use window_extremes, only: window_extremes_t
    implicit none(type, external)
    private
 
@@ -32,7 +36,7 @@ module campaign_record
       type(rattle_verdict_t) :: rattle
       type(regime_verdict_t) :: regime
       !> Extremes of the window
-      real(dp) :: film_minimum = 0.0_dp, film_maximum = 0.0_dp, acceleration_minimum = 0.0_dp, acceleration_maximum = 0.0_dp
+      type(window_extremes_t) :: extremes
       !> Whether the class stands when the scene is solved tighter
       logical :: certified = .false.
    end type judged_scene_t
@@ -154,13 +158,13 @@ contains
       associate (lines => judged%rattle%lines, regime => judged%regime)
          select case (code)
          case (record_film_minimum)
-            value = judged%film_minimum
+            value = judged%extremes%lowest(seen_film)%value
          case (record_film_maximum)
-            value = judged%film_maximum
+            value = judged%extremes%highest(seen_film)%value
          case (record_acceleration_minimum)
-            value = judged%acceleration_minimum
+            value = judged%extremes%lowest(seen_acceleration)%value
          case (record_acceleration_maximum)
-            value = judged%acceleration_maximum
+            value = judged%extremes%highest(seen_acceleration)%value
          case (record_line_count)
             if (lines%moving) value = real(lines%line_count, dp)
          case (record_harmonic_distortion)
@@ -183,6 +187,17 @@ contains
             if (regime%pressure_exists) value = regime%pressure_maximum
          case (record_deflection)
             value = regime%deflection
+         case (record_velocity_minimum)
+            value = judged%extremes%lowest(seen_velocity)%value
+         case (record_velocity_maximum)
+            value = judged%extremes%highest(seen_velocity)%value
+         case (record_load_maximum)
+            value = judged%extremes%highest(seen_load)%value
+         case (record_model_limit)
+            value = real(model_limit(judged%extremes%lowest(seen_film)%value, judged%extremes%highest(seen_film)%value, &
+                                     judged%resolved%film%radius), dp)
+         case (record_line_count_is_bound)
+            value = merge(1.0_dp, 0.0_dp, lines%count_is_bound)
          case (record_certified)
             value = merge(1.0_dp, 0.0_dp, judged%certified)
          case default

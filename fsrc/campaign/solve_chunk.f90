@@ -2,13 +2,15 @@
 module solve_chunk
    use campaign_certificate, only: class_stands
    use campaign_record, only: judged_scene_t, record_row
+   use fine_window, only: classify_window, integral_record, window_again
    use integrate_controlled, only: reserved_periods
    use kinds, only: dp, int64
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use rattle_class, only: classify, note_orbit
-   use recorded_quantities, only: need_count, needs_acceleration_range, needs_certificate, needs_film_range, needs_regime, &
-                                  needs_spectrum, quantities
+   use node_extremes, only: seen_acceleration, seen_film, seen_load, seen_pressure, seen_velocity
+   use rattle_class, only: classify_steps, note_orbit
+   use recorded_quantities, only: need_count, needs_acceleration_range, needs_certificate, needs_film_range, needs_load_range, &
+                                  needs_regime, needs_spectrum, needs_velocity_range, quantities
    use regime_check, only: check_regime
    use resolved_scene, only: resolve, resolved_scene_t
    use sample_accelerations, only: accelerations_of_samples
@@ -17,9 +19,10 @@ module solve_chunk
    use scene_status, only: is_success, status_invalid
    use scene_types, only: scene_t, spectrum_choice_t, until_steady
    use schedule, only: cost_order
-   use value_range, only: range_of
    use varied_keys, only: varied_code
    use varied_scene, only: is_valid_scene, set_varied_keys
+   use window_extremes, only: extremes_of_record
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -34,6 +37,8 @@ module solve_chunk
       real(dp), allocatable :: films(:, :), velocities(:, :)
       !> z'' of one scene [m/s2]
       real(dp), allocatable :: accelerations(:)
+      !> What the steps of the windows tell
+      type(window_record_t), allocatable :: records(:)
       !> The scene judged last; its arrays serve the next one
       type(judged_scene_t) :: judged
    end type chunk_space_t
@@ -90,8 +95,11 @@ contains
       type(lane_request_t) :: requests(size(values, 2))
       type(lane_ending_t) :: endings(size(values, 2))
       real(dp) :: costs(size(values, 2))
+      type(window_record_t), allocatable :: windows(:)
+      type(spectrum_choice_t) :: choice
+      integer, allocatable :: number(:)
       integer :: order(size(values, 2)), i, solved
-      logical :: valid(size(values, 2)), together
+      logical :: valid(size(values, 2)), coarse(size(values, 2)), together
 
       solved = 0
       do i = 1, size(values, 2)
@@ -103,46 +111,132 @@ contains
          resolved(i) = resolve(scene)
          lanes(i) = lane_of_scene(scene, resolved(i)%film, resolved(i)%initial_film, scene%film%initial_velocity)
          costs(i) = -likely_cost(scene, resolved(i))
-         requests(i) = request_of(scene)
+         requests(i) = request_of(scene, needed)
       end do
       call cost_order(costs, order)
       together = alike(requests(order(:solved)))
-      call provide_space(space, requests(order(:solved)), merge(solved, 1, together))
+      call provide_space(space, requests(order(:solved)), solved, merge(solved, 1, together), needed)
       if (together .and. solved > 0) call solve_motions(lanes(order(:solved)), requests(order(1)), space%films(:, :solved), &
-                                                        space%velocities(:, :solved), endings(:solved))
+                                                        space%velocities(:, :solved), endings(:solved), &
+                                                        records=space%records(:solved))
+      coarse = .false.
       do i = 1, size(values, 2)
          associate (scene_number => order(i))
             if (valid(scene_number)) then
                call set_varied_keys(scene, codes, values(:, scene_number))
                if (.not. together) call solve_motions(lanes(scene_number:scene_number), requests(scene_number), &
-                                                      space%films(:, :1), space%velocities(:, :1), endings(i:i))
+                                                      space%films(:, :1), space%velocities(:, :1), endings(i:i), &
+                                                      records=space%records(i:i))
                space%judged%ending = endings(i)
                space%judged%resolved = resolved(scene_number)
-               call judge_scene(scene, lanes(scene_number), needed, merge(i, 1, together), space)
+               call judge_by_samples(scene, lanes(scene_number), needed, i, merge(i, 1, together), space)
+               coarse(i) = space%judged%success .and. .not. space%judged%rattle%lines%sampling_sufficient
+               ! What the samples are too few for is judged below, by the steps.
+               if (.not. coarse(i)) call complete(scene, lanes(scene_number), needed, space%records(i), space%judged)
             else
                space%judged%success = .false.
                space%judged%ending = lane_ending_t(status=status_invalid)
                space%judged%resolved = resolved_scene_t()
             end if
+            if (.not. coarse(i)) call record_row(scene, first + int(scene_number - 1, int64), values(:, scene_number), &
+                                                 space%judged, rows(:, scene_number))
+         end associate
+      end do
+      number = pack([(i, i=1, size(values, 2))], coarse)
+      if (together .and. size(number) > 0) then
+         windows = integral_windows(scene, lanes(order(number)), endings(number), space%records(number), requests(order(1)))
+      end if
+      do i = 1, size(number)
+         associate (place => number(i), scene_number => order(number(i)))
+            call set_varied_keys(scene, codes, values(:, scene_number))
+            if (.not. together) windows = integral_windows(scene, lanes([scene_number]), endings([place]), &
+                                                           space%records([place]), requests(scene_number))
+            space%judged%ending = endings(place)
+            space%judged%resolved = resolved(scene_number)
+            space%judged%success = .true.
+            associate (window => windows(merge(i, 1, together)))
+               if (window%periods > 0) then
+                  choice = scene%spectrum
+                  choice%periods = window%window_periods
+                  call classify_steps(window, scene%load%frequency, choice, space%judged%resolved%noise_floor, space%judged%rattle)
+               else
+                  call judge_by_samples(scene, lanes(scene_number), needed, place, merge(place, 1, together), space)
+               end if
+            end associate
+            call complete(scene, lanes(scene_number), needed, space%records(place), space%judged)
             call record_row(scene, first + int(scene_number - 1, int64), values(:, scene_number), space%judged, &
                             rows(:, scene_number))
          end associate
       end do
    end subroutine solve_batch
 
-   !> See that the samples of so many scenes have their place.
-   pure subroutine provide_space(space, requests, scenes)
+   !> Records of some windows with Fourier integrals. The windows are solved again from where they begin, side by side; a window
+   !> that cannot be has no periods in its record.
+   function integral_windows(scene, lanes, endings, records, asked) result(windows)
+      !> Any scene of the batch
+      type(scene_t), intent(in) :: scene
+      !> The motions, how they ended and what the steps of their windows told
+      type(lane_scene_t), intent(in) :: lanes(:)
+      type(lane_ending_t), intent(in) :: endings(:)
+      type(window_record_t), intent(in) :: records(:)
+      !> What was asked of the engine
+      type(lane_request_t), intent(in) :: asked
+      type(window_record_t) :: windows(size(lanes))
+      type(lane_scene_t) :: again(size(lanes))
+      type(lane_request_t) :: request
+      type(lane_ending_t) :: ended(size(lanes))
+      integer :: periods(size(lanes)), i
+      real(dp), allocatable :: films(:, :), velocities(:, :)
+
+      periods = endings%samples/asked%samples_per_period
+      request%accuracy = asked%accuracy
+      request%periods = maxval(periods)
+      request%sampled_periods = request%periods
+      request%samples_per_period = 1
+      request%every_period = .true.
+      do i = 1, size(lanes)
+         again(i) = window_again(lanes(i), records(i))
+         again(i)%periods_done = request%periods - periods(i)
+         windows(i) = integral_record(scene%spectrum, periods(i))
+      end do
+      allocate (films(request%periods, size(lanes)), velocities(request%periods, size(lanes)), source=0.0_dp)
+      call solve_motions(again, request, films, velocities, ended, records=windows)
+      do i = 1, size(lanes)
+         if (.not. is_success(ended(i)%status)) windows(i)%periods = 0
+      end do
+   end function integral_windows
+
+   !> See that the samples and records of so many scenes have their place.
+   pure subroutine provide_space(space, requests, scenes, sampled, needed)
       type(chunk_space_t), intent(inout) :: space
       type(lane_request_t), intent(in) :: requests(:)
+      !> Scenes, and those whose samples are kept at a time
       integer, intent(in) :: scenes
-      integer :: samples
+      integer, intent(in) :: sampled
+      !> What the columns need
+      logical, intent(in) :: needed(:)
+      type(window_record_t) :: blank
+      integer :: samples, i
 
+      blank%wants = .false.
+      blank%wants(seen_film) = needed(needs_film_range)
+      blank%wants(seen_velocity) = needed(needs_velocity_range)
+      blank%wants(seen_acceleration) = needed(needs_acceleration_range)
+      blank%wants(seen_load) = needed(needs_load_range)
+      blank%wants(seen_pressure) = needed(needs_regime)
+      if (allocated(space%records)) then
+         if (size(space%records) < scenes) deallocate (space%records)
+      end if
+      if (.not. allocated(space%records)) allocate (space%records(scenes))
+      do i = 1, scenes
+         space%records(i) = blank
+      end do
       samples = max(1, maxval(requests%sampled_periods*requests%samples_per_period))
       if (allocated(space%films)) then
-         if (size(space%films, 1) >= samples .and. size(space%films, 2) >= scenes) return
+         if (size(space%films, 1) >= samples .and. size(space%films, 2) >= sampled) return
          deallocate (space%films, space%velocities, space%accelerations)
       end if
-      allocate (space%films(samples, scenes), space%velocities(samples, scenes), space%accelerations(samples))
+      allocate (space%films(samples, sampled), space%velocities(samples, sampled), space%accelerations(samples))
    end subroutine provide_space
 
    !> Whether all scenes of a batch ask for the same.
@@ -157,13 +251,16 @@ contains
    end function alike
 
    !> What is asked of the engine.
-   pure function request_of(scene) result(request)
+   pure function request_of(scene, needed) result(request)
       type(scene_t), intent(in) :: scene
+      !> What the columns need
+      logical, intent(in) :: needed(:)
       type(lane_request_t) :: request
 
       request%accuracy = scene%solver%accuracy
       request%periods = scene%solver%periods
-      request%samples_per_period = scene%campaign%samples_per_period
+      request%samples_per_period = 1
+      if (any(needed([needs_spectrum, needs_certificate]))) request%samples_per_period = scene%campaign%samples_per_period
       request%sampled_periods = scene%spectrum%periods
       request%until_steady = scene%solver%until == until_steady
       if (request%until_steady) request%sampled_periods = reserved_periods(scene%spectrum%periods)
@@ -188,37 +285,49 @@ contains
                     (4.0_dp + settling + irregular_share*ratio**5*settling**2)
    end function likely_cost
 
-   !> Judge the window of a scene as far as its columns ask for it.
-   subroutine judge_scene(scene, lane, needed, column, space)
+   !> Class of the window of a scene by its samples, if its columns ask for it.
+   subroutine judge_by_samples(scene, lane, needed, place, column, space)
       type(scene_t), intent(in) :: scene
       type(lane_scene_t), intent(in) :: lane
       !> What the columns need
       logical, intent(in) :: needed(:)
-      !> Where its samples stand
+      !> Where its record and where its samples stand
+      integer, intent(in) :: place
       integer, intent(in) :: column
       !> With its ending and what follows from it; the verdict is added
       type(chunk_space_t), intent(inout) :: space
-      type(spectrum_choice_t) :: choice
       integer :: samples
 
       samples = space%judged%ending%samples
-      choice = scene%spectrum
-      choice%periods = samples/scene%campaign%samples_per_period
-      associate (judged => space%judged, films => space%films(:samples, column), &
-                 velocities => space%velocities(:samples, column), values => space%accelerations(:samples))
-         judged%success = is_success(judged%ending%status)
-         if (.not. judged%success) return
-         if (needed(needs_film_range)) call range_of(films, judged%film_minimum, judged%film_maximum)
-         if (any(needed([needs_acceleration_range, needs_spectrum, needs_certificate]))) &
-            call accelerations_of_samples(lane, scene%campaign%samples_per_period, films, velocities, values)
-         if (needed(needs_acceleration_range)) call range_of(values, judged%acceleration_minimum, judged%acceleration_maximum)
-         if (any(needed([needs_spectrum, needs_certificate]))) &
-            call classify(values, choice, judged%resolved%noise_floor, judged%rattle)
-         call note_orbit(judged%rattle, judged%ending%orbit)
-         if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, scene%film%law, films, velocities)
-         if (needed(needs_certificate)) judged%certified = &
-            class_stands(scene, judged%resolved, lane, request_of(scene), judged%rattle)
+      space%judged%success = is_success(space%judged%ending%status)
+      space%judged%rattle%lines%sampling_sufficient = .true.
+      if (.not. (space%judged%success .and. any(needed([needs_spectrum, needs_certificate])))) return
+      associate (values => space%accelerations(:samples))
+         call accelerations_of_samples(lane, scene%campaign%samples_per_period, space%films(:samples, column), &
+                                       space%velocities(:samples, column), values)
+         call classify_window(scene, lane, samples/scene%campaign%samples_per_period, values, space%records(place), &
+                              space%judged%resolved%noise_floor, space%judged%rattle)
       end associate
-   end subroutine judge_scene
+   end subroutine judge_by_samples
+
+   !> What the steps of the window of a judged scene tell, and whether its class stands.
+   subroutine complete(scene, lane, needed, record, judged)
+      type(scene_t), intent(in) :: scene
+      type(lane_scene_t), intent(in) :: lane
+      !> What the columns need
+      logical, intent(in) :: needed(:)
+      !> Its record
+      type(window_record_t), intent(in) :: record
+      type(judged_scene_t), intent(inout) :: judged
+
+      if (.not. judged%success) return
+      call note_orbit(judged%rattle, judged%ending%orbit)
+      judged%extremes = extremes_of_record(record)
+      associate (pressure => record%highest(seen_pressure))
+         if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, scene%film%law, pressure%value, pressure%film)
+      end associate
+      if (needed(needs_certificate)) judged%certified = class_stands(scene, judged%resolved, lane, request_of(scene, needed), &
+                                                                     judged%rattle)
+   end subroutine complete
 
 end module solve_chunk

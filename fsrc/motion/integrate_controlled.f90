@@ -19,6 +19,7 @@ module integrate_controlled
    use scene_lane, only: lane_of_scene
    use scene_status, only: is_success, status_complete, status_steady
    use scene_types, only: scene_t, until_steady
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -103,11 +104,9 @@ contains
       reserved_periods = max(window, longest_orbit)
    end function reserved_periods
 
-   !> Films, velocities and accelerations of the last periods of a run, and how it ended.
-   subroutine solve_window(scene, lane, accuracy, samples_per_period, periods, window, films, velocities, values, ending)
-      !> Checked scene
-      type(scene_t), intent(in) :: scene
-      !> Its lane
+   !> Films, velocities and accelerations of the last periods of a run, what its steps tell, and how it ended.
+   subroutine solve_window(lane, accuracy, samples_per_period, periods, window, films, velocities, values, ending, record)
+      !> Lane of the scene
       type(lane_scene_t), intent(in) :: lane
       !> Relative accuracy [-]
       real(dp), intent(in) :: accuracy
@@ -122,8 +121,11 @@ contains
       real(dp), allocatable, intent(out) :: values(:)
       !> How it ended
       type(lane_ending_t), intent(out) :: ending
+      !> What the steps tell of the last periods
+      type(window_record_t), intent(out) :: record
       type(lane_request_t) :: request
       type(lane_ending_t) :: endings(1)
+      type(window_record_t) :: records(1)
       real(dp), allocatable :: film_samples(:, :), velocity_samples(:, :)
 
       request%accuracy = accuracy
@@ -131,9 +133,10 @@ contains
       request%samples_per_period = samples_per_period
       request%sampled_periods = window
       allocate (film_samples(window*samples_per_period, 1), velocity_samples(window*samples_per_period, 1), &
-                source=scene%film%initial_film)
-      call solve_motions([lane], request, film_samples, velocity_samples, endings)
+                source=lane%initial_film)
+      call solve_motions([lane], request, film_samples, velocity_samples, endings, records=records)
       ending = endings(1)
+      record = records(1)
       allocate (films, source=film_samples(:, 1))
       allocate (velocities, source=velocity_samples(:, 1))
       allocate (values(size(films)))
@@ -191,7 +194,7 @@ contains
          request%periods = min(last, lane%periods_done + block)
          call solve_motions([lane], request, no_films, no_velocities, endings, watches)
          ! Where the search ends is known only now: samples, if wanted, are made by solving the block again.
-         if (wants_all) call solve_sampled(scene, lane, endings(1)%periods, sink, sampled, error)
+         if (wants_all) call solve_sampled(scene, lane, endings(1)%periods, sink, sampled, error=error)
          if (allocated(error)) return
          call record_block(scene, endings(1), ending)
          if (ending%status /= status_complete) return
@@ -221,6 +224,7 @@ contains
       type(lane_request_t) :: request
       type(lane_ending_t) :: endings(1)
       type(checkpoint_t) :: here
+      type(window_record_t) :: records(1)
       real(dp) :: no_films(0, 1), no_velocities(0, 1)
       integer :: samples, sampled_from, last
 
@@ -234,9 +238,12 @@ contains
             call solve_motions([lane], request, no_films, no_velocities, endings)
          else
             last = min(periods, lane%periods_done + sampled_block(scene))
-            ! A block ends where the window begins: from there the run can be carried on.
-            if (lane%periods_done < periods - window) last = min(last, periods - window)
-            call solve_sampled(scene, lane, last, sink, endings(1), error)
+            ! A block ends where the window begins: from there the run can be carried on, and its steps are recorded.
+            if (lane%periods_done < periods - window) then
+               call solve_sampled(scene, lane, min(last, periods - window), sink, endings(1), error=error)
+            else
+               call solve_sampled(scene, lane, last, sink, endings(1), records, error)
+            end if
          end if
          if (allocated(error)) return
          call record_block(scene, endings(1), ending)
@@ -246,6 +253,7 @@ contains
          ! A search is carried on from where it ended, not from behind it.
          if (scene%solver%until /= until_steady .and. here%periods <= periods - window) ending%checkpoint = here
          call watcher%period_done(here%periods, periods)
+         ending%record = records(1)
          if (here%periods == periods) return
          ending%status = status_of_stop(scene, started)
          if (ending%status /= status_complete) return
@@ -260,13 +268,15 @@ contains
    end function sampled_block
 
    !> Solve the periods of a block, from where the lane stands, and hand over their samples.
-   subroutine solve_sampled(scene, lane, last, sink, found, error)
+   subroutine solve_sampled(scene, lane, last, sink, found, records, error)
       type(scene_t), intent(in) :: scene
       type(lane_scene_t), intent(in) :: lane
       !> Last period of the block
       integer, intent(in) :: last
       class(sample_sink_t), intent(inout) :: sink
       type(lane_ending_t), intent(out) :: found
+      !> What the steps tell, added to what they told before
+      type(window_record_t), optional, intent(inout) :: records(:)
       type(error_t), allocatable, intent(out) :: error
       type(lane_request_t) :: request
       type(lane_ending_t) :: endings(1)
@@ -281,7 +291,7 @@ contains
       allocate (films(request%sampled_periods*samples, 1), velocities(request%sampled_periods*samples, 1), source=0.0_dp)
       allocate (values(request%sampled_periods*samples), force(samples))
       call force_of_period(scene%load%steady_force, scene%load%force_amplitude, force)
-      call solve_motions([lane], request, films, velocities, endings)
+      call solve_motions([lane], request, films, velocities, endings, records=records)
       call hand_over(lane, force, lane%periods_done, endings(1), films(:, 1), velocities(:, 1), values, sink, error)
       found = endings(1)
    end subroutine solve_sampled

@@ -16,6 +16,7 @@ module integrate_motion
    use scene_status, only: status_complete, status_interrupted, status_steady, status_time_limit
    use scene_types, only: iteration_newton, method_newmark_extrapolated, predictor_extrapolated, scene_t, until_steady
    use signals, only: caught_signal
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -34,6 +35,8 @@ module integrate_motion
       type(motion_count_t) :: count
       !> State from which the run can be extended
       type(checkpoint_t) :: checkpoint
+      !> What the steps of the window tell beyond its samples; no periods: its samples are its steps
+      type(window_record_t) :: record
    end type motion_end_t
 
    !> Watcher of the motion, told after every period.

@@ -20,8 +20,10 @@ module lane_integration
    use period_repetition, only: note_state, orbit_watch_t, watch_from
    use recurrence, only: look_back, recurrence_t
    use settling_forecast, only: forecast_rest
+   use step_nodes, only: step_nodes_t, take_nodes
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
    use taylor_step_control, only: momentum_weight
+   use window_record, only: record_period, start_record, window_record_t
    implicit none(type, external)
    private
 
@@ -73,6 +75,8 @@ module lane_integration
       type(lane_block_t), pointer :: block => null()
       type(lane_samples_t) :: samples
       type(lane_watch_t) :: watches(lanes)
+      !> Nodes of the steps of the present period, where windows are recorded
+      type(step_nodes_t) :: nodes(lanes)
    end type lane_run_t
 
    public :: integrate_lanes
@@ -80,7 +84,7 @@ module lane_integration
 contains
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
-   subroutine integrate_lanes(by_series, scenes, queue, request, films, velocities, endings, watches)
+   subroutine integrate_lanes(by_series, scenes, queue, request, films, velocities, endings, watches, records)
       !> Taylor series, else collocation
       logical, intent(in) :: by_series
       !> The scenes
@@ -96,6 +100,9 @@ contains
       type(lane_ending_t), intent(inout) :: endings(:)
       !> What the watchers of the scenes carried on have seen, kept up
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
+      !> What the steps of the sampled periods tell, scene by scene; what stands in the record of a motion that begins within
+      !> its sampled periods is kept and added to
+      type(window_record_t), optional, intent(inout) :: records(:)
       type(lane_run_t) :: run
       real(dp), allocatable, target :: room(:)
       integer :: l, events
@@ -107,7 +114,7 @@ contains
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
       do l = 1, lanes
-         call next_scene(l, scenes, queue, request, run, endings, watches)
+         call next_scene(l, scenes, queue, request, run, endings, watches, records)
       end do
       do while (run%active > 0)
          if (by_series) then
@@ -115,7 +122,10 @@ contains
          else
             call take_collocation_step(run%films, run%watches%scene > 0, run%block)
          end if
-         if (run%samples%sampled_lanes > 0) call take_samples(run%block, run%samples, films, velocities)
+         if (run%samples%sampled_lanes > 0) then
+            call take_samples(run%block, run%samples, films, velocities)
+            if (present(records)) call take_lane_nodes(records, run)
+         end if
          call advance(run%most_steps, run%largest_rate, run%block, events)
          if (events == 0) cycle
          do l = 1, lanes
@@ -124,7 +134,7 @@ contains
                cycle
             end if
             if (run%block%remaining(l) <= 0.0_dp) then
-               call end_period(l, request, films, velocities, run)
+               call end_period(l, scenes, request, films, velocities, run, records)
             else if (in_trouble(l, run) .and. run%watches(l)%departure%period > 0) then
                run%watches(l)%ending%steps = run%watches(l)%ending%steps + nint(run%block%period_steps(l), int64)
                call start_period(l, run%block)
@@ -134,13 +144,13 @@ contains
             end if
             if (run%watches(l)%period < run%watches(l)%last_period) cycle
             call finish(l, run, endings, watches)
-            call next_scene(l, scenes, queue, request, run, endings, watches)
+            call next_scene(l, scenes, queue, request, run, endings, watches, records)
          end do
       end do
    end subroutine integrate_lanes
 
    !> Put the next scene that can start into a lane.
-   pure subroutine next_scene(lane, scenes, queue, request, run, endings, watches)
+   pure subroutine next_scene(lane, scenes, queue, request, run, endings, watches, records)
       !> Lane
       integer, intent(in) :: lane
       type(lane_scene_t), intent(in) :: scenes(:)
@@ -149,6 +159,7 @@ contains
       type(lane_run_t), intent(inout) :: run
       type(lane_ending_t), intent(inout) :: endings(:)
       type(orbit_watch_t), optional, intent(in) :: watches(:)
+      type(window_record_t), optional, intent(inout) :: records(:)
       integer :: scene, status
 
       run%watches(lane) = lane_watch_t()
@@ -181,12 +192,45 @@ contains
          end associate
          run%samples%written(lane) = samples_before(run%watches(lane), run%samples)
          run%samples%column(lane) = scene
-         if (run%watches(lane)%period >= run%watches(lane)%sample_from) call begin_samples(run%samples, lane)
+         if (present(records)) then
+            run%nodes(lane)%pieces = 0
+            if (run%watches(lane)%period < run%watches(lane)%sample_from) records(scene)%periods = 0
+         end if
+         if (run%watches(lane)%period >= run%watches(lane)%sample_from) call begin_period(lane, run, records)
          return
       end do
       run%active = run%active - 1
       call rest_lane(lane, run%block)
    end subroutine next_scene
+
+   !> Begin a period that is sampled, and its window if it is the first one.
+   pure subroutine begin_period(lane, run, records)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(inout) :: run
+      type(window_record_t), optional, intent(inout) :: records(:)
+      real(dp) :: film, velocity, momentum
+
+      call begin_samples(run%samples, lane)
+      if (.not. present(records)) return
+      associate (record => records(run%watches(lane)%scene))
+         if (record%periods > 0) return
+         call state_of_lane(lane, run%block, film, velocity, momentum)
+         call start_record(film, velocity, momentum,.not. run%by_series, record)
+      end associate
+   end subroutine begin_period
+
+   !> Nodes of the present steps of the lanes whose periods are sampled.
+   pure subroutine take_lane_nodes(records, run)
+      type(window_record_t), intent(in) :: records(:)
+      type(lane_run_t), intent(inout) :: run
+      integer :: l
+
+      do l = 1, lanes
+         if (run%samples%sampled(l) .and. run%block%trust(l) > 0.0_dp) &
+            call take_nodes(run%block, l, records(run%watches(l)%scene)%longest_piece, run%nodes(l))
+      end do
+   end subroutine take_lane_nodes
 
    !> Samples of the periods before this one.
    pure integer function samples_before(watch, samples)
@@ -197,17 +241,23 @@ contains
    end function samples_before
 
    !> A period has ended: does the motion repeat, are samples due?
-   pure subroutine end_period(lane, request, films, velocities, run)
+   pure subroutine end_period(lane, scenes, request, films, velocities, run, records)
       !> Lane
       integer, intent(in) :: lane
+      type(lane_scene_t), intent(in) :: scenes(:)
       type(lane_request_t), intent(in) :: request
       real(dp), contiguous, intent(inout) :: films(:, :)
       real(dp), contiguous, intent(inout) :: velocities(:, :)
       type(lane_run_t), intent(inout) :: run
-      real(dp) :: weight, distance
+      type(window_record_t), optional, intent(inout) :: records(:)
+      real(dp) :: weight, distance, film, velocity, momentum
       integer :: orbit
 
       associate (watch => run%watches(lane), block => run%block)
+         if (present(records) .and. run%samples%sampled(lane)) then
+            call state_of_lane(lane, block, film, velocity, momentum)
+            call record_period(scenes(watch%scene), velocity, run%nodes(lane), records(watch%scene))
+         end if
          watch%ending%steps = watch%ending%steps + nint(block%period_steps(lane), int64)
          call start_period(lane, block)
          watch%period = watch%period + 1
@@ -231,7 +281,7 @@ contains
             call skip_returns(lane, films, velocities, run)
          end if
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
-            call begin_samples(run%samples, lane)
+            call begin_period(lane, run, records)
       end associate
    end subroutine end_period
 
@@ -340,6 +390,7 @@ contains
          watch%ending%steps = watch%ending%steps + nint(block%period_steps(lane), int64)
          ! Samples of the period that was not finished do not count.
          run%samples%written(lane) = samples_before(watch, run%samples)
+         run%nodes(lane)%pieces = 0
          block%film(lane, 0) = watch%film
          block%momentum(lane, 0) = watch%momentum
          watch%last_period = watch%period

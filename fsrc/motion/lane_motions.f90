@@ -7,6 +7,7 @@ module lane_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use period_repetition, only: orbit_watch_t
    use scene_status, only: status_film_lost, status_not_converged
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -16,7 +17,7 @@ contains
 
    !> Solve all scenes. The order of the scenes decides only which share a block: those of like cost should be
    !> neighbours, the longest first.
-   subroutine solve_motions(scenes, request, films, velocities, endings, watches)
+   subroutine solve_motions(scenes, request, films, velocities, endings, watches, records)
       !> The scenes
       type(lane_scene_t), intent(in) :: scenes(:)
       !> What is asked for
@@ -28,6 +29,8 @@ contains
       type(lane_ending_t), intent(out) :: endings(:)
       !> What a search for repetition that is carried on looks back on, scene by scene; without it every search begins anew
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
+      !> What the steps of the sampled periods tell, scene by scene; a motion that is carried on within them adds to it
+      type(window_record_t), optional, intent(inout) :: records(:)
       type(lane_scene_t), allocatable :: rest(:)
       logical, allocatable :: explicit(:), left(:)
       integer, allocatable :: number(:)
@@ -42,7 +45,7 @@ contains
          first = findloc(left, .true., dim=1)
          kernel = scenes(first)%film%kernel
          call integrate_lanes(.true., scenes, pack(number, left .and. scenes%film%kernel == kernel), request, &
-                              films, velocities, endings, watches)
+                              films, velocities, endings, watches, records)
          left(:) = left .and. scenes%film%kernel /= kernel
       end do
 
@@ -53,7 +56,7 @@ contains
          if (left(i)) call go_on(endings(i), rest(i))
       end do
       if (any(left)) &
-         call integrate_lanes(.false., rest, pack(number, left), request, films, velocities, endings, watches)
+         call integrate_lanes(.false., rest, pack(number, left), request, films, velocities, endings, watches, records)
    end subroutine solve_motions
 
    !> The rest of a motion that Taylor series could not finish.

@@ -2,15 +2,17 @@
 !> method solved it first, sampled finely enough for its lines; and the periodic motion behind it with its Floquet
 !> multipliers.
 module certify_scene
-   use certificate, only: certificate_t, compare_windows, no_certificate
-   use fine_window, only: solve_fine_window, window_t
+   use certificate, only: certificate_t, closing_sentence, compare_windows, no_certificate
+   use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
    use lane_scenes, only: lane_ending_t, lane_scene_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
-   use scene_types, only: method_newmark, scene_t
+   use scene_types, only: method_newmark, method_taylor, scene_t
+   use text, only: integer_text
+   use window_extremes, only: extremes_of_record, window_extremes_t
    implicit none(type, external)
    private
 
@@ -24,7 +26,7 @@ module certify_scene
 contains
 
    !> Certificate and periodic motion of a judged scene.
-   subroutine certify(scene, resolved, lane, periods, window, verdict, certificate, orbit)
+   subroutine certify(scene, resolved, lane, periods, window, extremes, verdict, certificate, orbit)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
@@ -35,6 +37,8 @@ contains
       integer, intent(in) :: periods
       !> Window at their end
       type(window_t), intent(in) :: window
+      !> Its extremes
+      type(window_extremes_t), intent(in) :: extremes
       !> Verdict to be tested; an irregular motion found to repeat becomes subharmonic
       type(rattle_verdict_t), intent(inout) :: verdict
       !> Its certificate
@@ -43,15 +47,22 @@ contains
       type(periodic_orbit_t), intent(out), optional :: orbit
       type(lane_ending_t) :: ending
       type(periodic_orbit_t) :: found
+      type(lane_scene_t) :: tight_lane
       type(rattle_verdict_t) :: tight_verdict
       type(window_t) :: tight
+      character(:), allocatable :: unclosed
       real(dp) :: accuracy
 
       accuracy = tight_accuracy
-      if (scene%solver%method /= method_newmark) accuracy = min(accuracy, max(tightest_accuracy, 0.01_dp*scene%solver%accuracy))
+      tight_lane = lane
+      if (scene%solver%method == method_taylor) then
+         accuracy = min(accuracy, max(tightest_accuracy, 0.01_dp*scene%solver%accuracy))
+         ! Where there is no room for a tighter solution, another method tells the errors.
+         if (accuracy > 0.05_dp*scene%solver%accuracy) tight_lane%implicit = .true.
+      end if
       tight%periods = window%periods
       tight%samples_per_period = window%samples_per_period
-      call solve_fine_window(scene, lane, accuracy, periods, resolved%noise_floor_at(accuracy), tight, tight_verdict, ending)
+      call solve_whole_window(scene, tight_lane, accuracy, periods, resolved%noise_floor_at(accuracy), tight, tight_verdict, ending)
       if (.not. is_success(ending%status)) then
          certificate = no_certificate('The tighter solution ended as '//status_name(ending%status)//'.')
          return
@@ -62,11 +73,32 @@ contains
          call note_orbit(tight_verdict, attracting_period(found))
       end if
       if (present(orbit)) orbit = found
+      unclosed = closing_sentence(window%record, lane%frequency, lane%mass)
+      if (len(unclosed) == 0) unclosed = closing_sentence(tight%record, lane%frequency, lane%mass)
+      if (len(unclosed) == 0 .and. .not. (verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient)) &
+         unclosed = too_few_samples(scene, tight)
       associate (stride => tight%samples_per_period/window%samples_per_period)
-         call compare_windows(window%films, tight%films(stride::stride), window%accelerations, &
-                              tight%accelerations(stride::stride), verdict, tight_verdict, scene%spectrum, &
-                              scene%spectrum%certificate_tolerance, certificate)
+         call compare_windows(window%films, tight%films(stride::stride), extremes, extremes_of_record(tight%record), verdict, &
+                              tight_verdict, unclosed, scene%spectrum, scene%spectrum%certificate_tolerance, accuracy, certificate)
       end associate
    end subroutine certify
+
+   !> That the samples are too few, and how many would do.
+   pure function too_few_samples(scene, tight) result(reason)
+      type(scene_t), intent(in) :: scene
+      !> The tighter solution
+      type(window_t), intent(in) :: tight
+      character(:), allocatable :: reason
+      character(:), allocatable :: key
+
+      key = 'solver.samples_per_period'
+      if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
+      reason = 'The samples a period are too few for the lines: '//key
+      if (.not. tight%by_integrals .and. tight%samples_per_period > scene%solver%samples_per_period()) then
+         reason = reason//' = '//integer_text(tight%samples_per_period)//' would follow the motion.'
+      else
+         reason = reason//' would have to follow impacts that no equidistant samples follow; the default method does.'
+      end if
+   end function too_few_samples
 
 end module certify_scene

@@ -1,16 +1,29 @@
-!> Last periods of a scene by the error-controlled engine, sampled finely enough for their lines.
+!> Last periods of a scene by the error-controlled engine, and the verdict on them by as many samples as their lines need, or
+!> by integrals over the steps where no number of samples would do.
 module fine_window
    use integrate_controlled, only: solve_window
    use kinds, only: dp
-   use lane_scenes, only: lane_ending_t, lane_scene_t
-   use rattle_class, only: classify, rattle_verdict_t
+   use lane_motions, only: solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use rattle_class, only: classify, classify_steps, rattle_verdict_t
+   use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: is_success
    use scene_types, only: scene_t, spectrum_choice_t
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
    !> Samples of a period and of a window that no spectrum needs.
    integer, parameter :: most_samples_per_period = 16384, most_samples = 8388608
+   !> Piece of a step [periods] that is too short for so many samples to follow what happens there.
+   real(dp), parameter :: least_piece = 0.25_dp/real(most_samples_per_period, dp)
+   !> Highest multiple of the frequency that is integrated for, and most pieces that a window may have for it.
+   integer, parameter :: usual_multiples = 128, least_multiples = 40, most_integrals = 16384
+   !> Oscillations that the eight nodes of a piece of a step integrate to eight digits.
+   real(dp), parameter :: oscillations_per_piece = 1.27_dp
+   !> Share of the first harmonic by which the mean of the samples may miss the change of velocity, and of the power by which
+   !> theirs may miss that of the steps: a line may then be off by a tenth of the line threshold at most.
+   real(dp), parameter :: mean_share = 1.0e-5_dp, power_share = 1.0e-6_dp
 
    !> A window.
    type, public :: window_t
@@ -19,14 +32,18 @@ module fine_window
       integer :: samples_per_period = 0
       !> h [m], z' [m/s], z'' [m/s2]
       real(dp), allocatable :: films(:), velocities(:), accelerations(:)
+      !> What the steps of the engine tell of it; no periods: the samples are all that is known
+      type(window_record_t) :: record
+      !> Whether its lines are integrals over the steps
+      logical :: by_integrals = .false.
    end type window_t
 
-   public :: solve_fine_window, classify_window
+   public :: solve_whole_window, judge_window, integral_record, classify_window, window_again
 
 contains
 
-   !> Solve a scene and double the samples until the spectrum of its last periods needs no more.
-   subroutine solve_fine_window(scene, lane, accuracy, periods, noise_floor, window, verdict, ending)
+   !> Solve a scene and judge its last periods.
+   subroutine solve_whole_window(scene, lane, accuracy, periods, noise_floor, window, verdict, ending)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Its lane
@@ -44,23 +61,120 @@ contains
       !> How the run ended; without success there is no window
       type(lane_ending_t), intent(out) :: ending
 
-      do
-         call solve_window(scene, lane, accuracy, window%samples_per_period, periods, window%periods, window%films, &
-                           window%velocities, window%accelerations, ending)
-         if (.not. is_success(ending%status)) return
-         call classify_window(scene, window, noise_floor, verdict)
-         if (verdict%lines%sampling_sufficient .or. 2*window%samples_per_period > most_samples_per_period .or. &
-             2*size(window%films) > most_samples) return
-         window%samples_per_period = 2*window%samples_per_period
-      end do
-   end subroutine solve_fine_window
+      call solve_window(lane, accuracy, window%samples_per_period, periods, window%periods, window%films, window%velocities, &
+                        window%accelerations, ending, window%record)
+      if (is_success(ending%status)) call judge_window(scene, lane, accuracy, noise_floor, window, verdict)
+   end subroutine solve_whole_window
 
-   !> Class of a window, whose periods may be others than the scene asks for.
-   subroutine classify_window(scene, window, noise_floor, verdict)
+   !> Judge a window of the error-controlled engine: by its samples, by twice as many until they are enough, or by integrals over
+   !> the steps. The window is solved again from where it begins, which gives the same motion.
+   subroutine judge_window(scene, lane, accuracy, noise_floor, window, verdict)
       !> Checked scene
       type(scene_t), intent(in) :: scene
+      !> Its lane
+      type(lane_scene_t), intent(in) :: lane
+      !> Relative accuracy of its solution [-]
+      real(dp), intent(in) :: accuracy
+      !> Amplitude that the errors of the solution explain [m/s2]
+      real(dp), intent(in) :: noise_floor
+      !> The window with its record; on return with as many samples as there may be and its lines need
+      type(window_t), intent(inout) :: window
+      !> Verdict on it
+      type(rattle_verdict_t), intent(out) :: verdict
+      type(window_t) :: finer
+      type(lane_ending_t) :: ending
+
+      call classify_window(scene, lane, window%periods, window%accelerations, window%record, noise_floor, verdict)
+      do while (.not. verdict%lines%sampling_sufficient .and. window%record%shortest_piece > least_piece)
+         if (2*window%samples_per_period > most_samples_per_period .or. 2*size(window%films) > most_samples) exit
+         finer%periods = window%periods
+         finer%samples_per_period = 2*window%samples_per_period
+         call solve_window(window_again(lane, window%record), accuracy, finer%samples_per_period, finer%periods, finer%periods, &
+                           finer%films, finer%velocities, finer%accelerations, ending, finer%record)
+         if (.not. is_success(ending%status)) exit
+         window = finer
+         call classify_window(scene, lane, window%periods, window%accelerations, window%record, noise_floor, verdict)
+      end do
+      window%by_integrals = .not. verdict%lines%sampling_sufficient
+      if (window%by_integrals) call judge_by_integrals(scene, lane, accuracy, noise_floor, window, verdict)
+   end subroutine judge_window
+
+   !> Judge a window by integrals over the steps of its motion.
+   subroutine judge_by_integrals(scene, lane, accuracy, noise_floor, window, verdict)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Its lane
+      type(lane_scene_t), intent(in) :: lane
+      !> Relative accuracy of its solution [-]
+      real(dp), intent(in) :: accuracy
+      !> Amplitude that the errors of the solution explain [m/s2]
+      real(dp), intent(in) :: noise_floor
       !> The window
       type(window_t), intent(in) :: window
+      !> Verdict by its samples, replaced if the integrals can be had
+      type(rattle_verdict_t), intent(inout) :: verdict
+      type(lane_request_t) :: request
+      type(lane_ending_t) :: endings(1)
+      type(window_record_t) :: records(1)
+      type(spectrum_choice_t) :: choice
+      real(dp) :: films(window%periods, 1), velocities(window%periods, 1)
+
+      records(1) = integral_record(scene%spectrum, window%periods)
+      request%accuracy = accuracy
+      request%periods = window%periods
+      request%sampled_periods = window%periods
+      request%samples_per_period = 1
+      request%every_period = .true.
+      call solve_motions([window_again(lane, window%record)], request, films, velocities, endings, records=records)
+      if (.not. is_success(endings(1)%status)) return
+      choice = scene%spectrum
+      choice%periods = window%periods
+      call classify_steps(records(1), scene%load%frequency, choice, noise_floor, verdict)
+   end subroutine judge_by_integrals
+
+   !> An empty record that asks for Fourier integrals.
+   pure function integral_record(spectrum, periods) result(record)
+      !> Limits of the classes
+      type(spectrum_choice_t), intent(in) :: spectrum
+      !> Periods of the window
+      integer, intent(in) :: periods
+      type(window_record_t) :: record
+
+      record%wants = .false.
+      record%multiples = min(max(usual_multiples, 2*spectrum%idle_lines), max(least_multiples, most_integrals/periods))
+      record%window_periods = periods
+      record%longest_piece = oscillations_per_piece/real(record%multiples, dp)
+   end function integral_record
+
+   !> The motion from where a window begins.
+   pure function window_again(lane, record) result(again)
+      !> The scene
+      type(lane_scene_t), intent(in) :: lane
+      !> Record of its window
+      type(window_record_t), intent(in) :: record
+      type(lane_scene_t) :: again
+
+      again = lane
+      again%carried_on = .true.
+      again%periods_done = 0
+      again%initial_film = record%start_film
+      again%initial_velocity = record%start_velocity
+      again%initial_momentum = record%start_momentum
+      again%implicit = record%start_implicit
+   end function window_again
+
+   !> Class of a window by its samples, and whether they are enough: their mean and their power must be those of the steps.
+   subroutine classify_window(scene, lane, periods, accelerations, record, noise_floor, verdict)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Its lane
+      type(lane_scene_t), intent(in) :: lane
+      !> Periods of the window
+      integer, intent(in) :: periods
+      !> z'' of its samples, the same count in each period [m/s2]
+      real(dp), intent(in) :: accelerations(:)
+      !> What the steps tell; no periods: the samples are all that is known
+      type(window_record_t), intent(in) :: record
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> Verdict on it
@@ -68,8 +182,37 @@ contains
       type(spectrum_choice_t) :: choice
 
       choice = scene%spectrum
-      choice%periods = window%periods
-      call classify(window%accelerations, choice, noise_floor, verdict)
+      choice%periods = periods
+      call classify(accelerations, choice, noise_floor, verdict)
+      associate (lines => verdict%lines)
+         if (record%periods > 0 .and. lines%sampling_sufficient) lines%sampling_sufficient = &
+            samples_agree(lane, accelerations(:record%periods*(size(accelerations)/periods)), record, noise_floor, &
+                          lines%harmonics(1))
+         lines%count_is_bound = .not. lines%sampling_sufficient
+         lines%distortion_is_bound = .not. lines%sampling_sufficient
+      end associate
    end subroutine classify_window
+
+   !> Whether samples have the mean and the power that the steps have, over the periods that were recorded.
+   pure logical function samples_agree(lane, z, record, noise_floor, first_harmonic)
+      type(lane_scene_t), intent(in) :: lane
+      !> z'' of the periods recorded [m/s2]
+      real(dp), intent(in) :: z(:)
+      type(window_record_t), intent(in) :: record
+      real(dp), intent(in) :: noise_floor
+      !> a_1 [m/s2]
+      real(dp), intent(in) :: first_harmonic
+      real(dp) :: start(1), count, mean, power, true_mean, true_power
+
+      count = real(size(z), dp)
+      call accelerations_of_samples(lane, 1, [record%start_film], [record%start_velocity], start)
+      ! By the trapezium, which leaves no error where the motion is smooth and repeats.
+      mean = (sum(z) - 0.5_dp*(z(size(z)) - start(1)))/count
+      power = (sum(z**2) - 0.5_dp*(z(size(z))**2 - start(1)**2))/count
+      true_mean = (record%end_velocity - record%start_velocity)*lane%frequency/real(record%periods, dp)
+      true_power = record%acceleration_square/real(record%periods, dp)
+      samples_agree = abs(mean - true_mean) <= mean_share*first_harmonic + noise_floor .and. &
+                      abs(power - true_power) <= power_share*true_power + 4.0_dp*noise_floor*sqrt(true_power)
+   end function samples_agree
 
 end module fine_window

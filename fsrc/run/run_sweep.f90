@@ -10,8 +10,10 @@ module run_sweep
    use lane_scenes, only: lane_ending_t, lane_scene_t
    use log_file, only: log_t
    use output_place, only: log_path, result_path, summary_path
+   use model_limits, only: model_limit
+   use node_extremes, only: seen_acceleration, seen_film
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
-   use fine_window, only: solve_fine_window, window_t
+   use fine_window, only: solve_whole_window, window_t
    use progress, only: progress_t
    use rattle_class, only: note_orbit, rattle_verdict_t
    use resolved_scene, only: resolve, resolved_scene_t
@@ -28,11 +30,12 @@ module run_sweep
    implicit none(type, external)
    private
 
-   character(*), parameter :: names(17) = [character(24) :: 'value', 'direction', 'film_minimum', 'film_maximum', &
+   character(*), parameter :: names(18) = [character(24) :: 'value', 'direction', 'film_minimum', 'film_maximum', &
       'acceleration_minimum', 'acceleration_maximum', 'orbit_period', 'floquet_modulus', 'orbit_stability', 'line_count', &
-      'harmonic_distortion', 'irregular_fraction', 'rattle_class', 'natural_frequency', 'periods', 'status', 'first_harmonic']
-   character(*), parameter :: units(17) = [character(8) :: '-', '-', 'm', 'm', 'm/s2', 'm/s2', '-', '-', '-', '-', '-', '-', '-', &
-                                           'Hz', '-', '-', 'm/s2']
+      'harmonic_distortion', 'irregular_fraction', 'rattle_class', 'natural_frequency', 'periods', 'status', 'first_harmonic', &
+      'model_limit']
+   character(*), parameter :: units(18) = [character(8) :: '-', '-', 'm', 'm', 'm/s2', 'm/s2', '-', '-', '-', '-', '-', '-', '-', &
+                                           'Hz', '-', '-', 'm/s2', '-']
    !> A periodic motion farther away than this is another one [-].
    real(dp), parameter :: orbit_nearness = 1.0e-3_dp
 
@@ -158,15 +161,19 @@ contains
       window%periods = scene%spectrum%periods
       if (ending%orbit > 0) window%periods = ending%orbit
       window%samples_per_period = scene%solver%samples_per_period()
-      call solve_fine_window(scene, lane, scene%solver%accuracy, window%periods, resolved%noise_floor, window, verdict, &
-                             window_ending)
+      call solve_whole_window(scene, lane, scene%solver%accuracy, window%periods, resolved%noise_floor, window, verdict, &
+                              window_ending)
       if (.not. is_success(window_ending%status)) then
          status = window_ending%status
          return
       end if
       orbit = find_periodic_orbit(lane, film, velocity, orbit_nearness)
       call note_orbit(verdict, max(ending%orbit, attracting_period(orbit)))
-      row(3:6) = [minval(window%films), maxval(window%films), minval(window%accelerations), maxval(window%accelerations)]
+      associate (lowest => window%record%lowest, highest => window%record%highest)
+         row(3:6) = [lowest(seen_film)%value, highest(seen_film)%value, lowest(seen_acceleration)%value, &
+                     highest(seen_acceleration)%value]
+         row(18) = real(model_limit(row(3), row(4), resolved%film%radius), dp)
+      end associate
       row(7) = real(orbit%period, dp)
       if (orbit%period > 0) row(8:9) = [abs(orbit%multipliers(1)), real(orbit_stability(orbit%multipliers), dp)]
       if (verdict%lines%moving) row(10:12) = [real(verdict%lines%line_count, dp), verdict%lines%harmonic_distortion, &

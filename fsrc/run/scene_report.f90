@@ -5,13 +5,15 @@ module scene_report
    use key_table, only: choice_word
    use kinds, only: dp
    use log_file, only: log_magic, log_t
+   use model_limits, only: model_limit_sentence, within_model
+   use node_extremes, only: seen_acceleration, seen_film
    use output_place, only: result_path, summary_path
    use rattle_class, only: class_name
    use regime_words, only: regime_sentence
    use resolved_scene, only: resolved_scene_t
    use scene_result, only: passes_per_step, scene_result_t
    use scene_status, only: is_success, status_name, status_sentence
-   use scene_types, only: law_iso_viscous, model_reynolds, rupture_solved, scene_t, speed_mean, task_film
+   use scene_types, only: law_iso_viscous, method_newmark, model_reynolds, rupture_solved, scene_t, speed_mean, task_film
    use text, only: integer_text, short_text
    use version, only: program_version
    implicit none(type, external)
@@ -131,37 +133,50 @@ contains
       if (.not. is_success(result%ending%status)) call log%line('  '//status_name(result%ending%status)//' at t = '// &
                            short_text(result%ending%time, 6)//' s, film '//micrometres(result%ending%film)//' um: '// &
                                                                 status_sentence(result%ending%status))
-      if (result%judged) call report_window(log, result)
+      if (result%judged) call report_window(log, scene, result)
       if (scene%output%series) call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
    end subroutine report_ending
 
    !> The window: extremes, spectrum, class, regime.
-   subroutine report_window(log, result)
+   subroutine report_window(log, scene, result)
       type(log_t), intent(in) :: log
+      type(scene_t), intent(in) :: scene
       type(scene_result_t), intent(in) :: result
 
-      call log%line('  film '//micrometres(result%film_minimum)//' to '//micrometres(result%film_maximum)// &
-                    ' um, acceleration '//short_text(result%acceleration_minimum, 5)//' to '// &
-                    short_text(result%acceleration_maximum, 5)//' m/s2')
+      associate (lowest => result%extremes%lowest, highest => result%extremes%highest)
+         call log%line('  film '//micrometres(lowest(seen_film)%value)//' to '//micrometres(highest(seen_film)%value)// &
+                       ' um, acceleration '//short_text(lowest(seen_acceleration)%value, 5)//' to '// &
+                       short_text(highest(seen_acceleration)%value, 5)//' m/s2')
+      end associate
       associate (rattle => result%rattle, lines => result%rattle%lines)
          if (lines%moving) then
-            call log%line('  '//integer_text(lines%line_count)//' lines, harmonic distortion '// &
-                          short_text(lines%harmonic_distortion, 3)//', '// &
+            call log%line('  '//at_least(lines%count_is_bound)//integer_text(lines%line_count)//' lines, harmonic distortion '// &
+                          at_least(lines%distortion_is_bound)//short_text(lines%harmonic_distortion, 3)//', '// &
                           short_text(rattle%reversals_per_period, 3)//' reversals a period: '//class_name(rattle%class)// &
                           certified_in_brackets())
          else
             call log%line('  no motion but rounding: '//class_name(rattle%class))
          end if
-         if (.not. lines%sampling_sufficient) &
-            call log%line('  warning: too few samples a period for the highest lines; take more steps or samples')
+         if (result%series_coarse) call log%line('  warning: '//coarse_sentence(scene, result))
       end associate
+      if (result%model_limit /= within_model) call log%line('  warning: '//model_limit_sentence(result%model_limit)// &
+                                                            ' (model_limit)')
       call report_certificate(log, result)
       call log%line('  '//regime_sentence(result%regime))
       if (result%regime%law_contradicted) &
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted)')
 
    contains
+
+      !> Words before a number that is a lower bound.
+      pure function at_least(is_bound) result(words)
+         logical, intent(in) :: is_bound
+         character(:), allocatable :: words
+
+         words = ''
+         if (is_bound) words = 'at least '
+      end function at_least
 
       !> Whether the class stands, behind it.
       pure function certified_in_brackets() result(words)
@@ -173,6 +188,27 @@ contains
 
    end subroutine report_window
 
+   !> What samples that are too few for the motion mean, and how many would do.
+   pure function coarse_sentence(scene, result) result(sentence)
+      type(scene_t), intent(in) :: scene
+      type(scene_result_t), intent(in) :: result
+      character(:), allocatable :: sentence
+      character(:), allocatable :: key
+
+      key = 'solver.samples_per_period'
+      if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
+      sentence = 'the samples of the series are too few for its motion; '
+      if (.not. result%rattle%lines%sampling_sufficient) then
+         sentence = sentence//'the lines are those of the samples: raise '//key
+      else if (.not. result%lines_by_integrals) then
+         sentence = sentence//key//' = '//integer_text(result%samples_per_period)//' would do, as many as gave the lines here'
+      else
+         sentence = sentence//'no number up to 16384 would do. The lines here are integrals over the steps'
+      end if
+      if (scene%output%series) &
+         sentence = sentence//' (series_coarse; the rows of the extremes stand in the series)'
+   end function coarse_sentence
+
    !> Errors by the tighter solution, and the periodic motion.
    subroutine report_certificate(log, result)
       type(log_t), intent(in) :: log
@@ -182,7 +218,8 @@ contains
       call log%line('  '//result%certificate%reason)
       if (size(result%certificate%harmonic_errors) > 0) &
          call log%line('  error of the film '//short_text(result%certificate%film_error, 2)// &
-                       ', of the peak acceleration '//short_text(result%certificate%acceleration_error, 2))
+                       ', of the extremes of the acceleration '//short_text(result%certificate%acceleration_minimum_error, 2)// &
+                       ' and '//short_text(result%certificate%acceleration_maximum_error, 2)//' m/s2')
       associate (orbit => result%orbit)
          if (orbit%period > 0) call log%line('  the motion repeats after '//integer_text(orbit%period)// &
             trim(merge(' period ', ' periods', orbit%period == 1))//': '//stability_name(orbit_stability(orbit%multipliers))// &

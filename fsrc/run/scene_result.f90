@@ -2,11 +2,13 @@
 module scene_result
    use certificate, only: certificate_t
    use certify_scene, only: certify
-   use fine_window, only: classify_window, solve_fine_window, window_t
+   use fine_window, only: classify_window, judge_window, window_t
    use integrate_motion, only: motion_end_t
    use kinds, only: dp
-   use lane_scenes, only: lane_ending_t, lane_scene_t
+   use lane_scenes, only: lane_scene_t
+   use model_limits, only: model_limit, within_model
    use newmark, only: motion_count_t
+   use node_extremes, only: seen_film, seen_pressure
    use periodic_orbit, only: periodic_orbit_t
    use rattle_class, only: note_orbit, rattle_verdict_t
    use regime_check, only: check_regime, regime_verdict_t
@@ -14,7 +16,8 @@ module scene_result
    use sample_recorder, only: sample_recorder_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: is_success
-   use scene_types, only: method_newmark, scene_t
+   use scene_types, only: scene_t
+   use window_extremes, only: extremes_of_record, extremes_of_samples, window_extremes_t
    implicit none(type, external)
    private
 
@@ -22,11 +25,15 @@ module scene_result
    type, public :: scene_result_t
       type(motion_end_t) :: ending
       logical :: judged = .false.
-      !> Extremes over the samples of the window [m], [m/s2]
-      real(dp) :: film_minimum = 0.0_dp, film_maximum = 0.0_dp
-      real(dp) :: acceleration_minimum = 0.0_dp, acceleration_maximum = 0.0_dp
-      !> Whole periods of the window, and samples of each
+      !> Extremes of the window
+      type(window_extremes_t) :: extremes
+      !> Code of model_limits
+      integer :: model_limit = within_model
+      !> Whole periods of the window, samples of each, and whether its lines are integrals over the steps
       integer :: window_periods = 0, samples_per_period = 0
+      logical :: lines_by_integrals = .false.
+      !> Whether the samples of the scene are too few for its motion
+      logical :: series_coarse = .false.
       type(rattle_verdict_t) :: rattle
       type(regime_verdict_t) :: regime
       type(certificate_t) :: certificate
@@ -50,7 +57,6 @@ contains
       !> Result with its ending, completed
       type(scene_result_t), intent(inout) :: result
       type(lane_scene_t) :: lane
-      type(lane_ending_t) :: ending
       type(window_t) :: window
 
       result%judged = is_success(result%ending%status)
@@ -61,22 +67,27 @@ contains
       allocate (window%velocities, source=recorder%velocities)
       allocate (window%accelerations, source=recorder%accelerations)
       lane = lane_of_scene(scene, resolved%film, resolved%initial_film, scene%film%initial_velocity)
-      call classify_window(scene, window, resolved%noise_floor, result%rattle)
-      ! The samples of an error-controlled motion that repeats are free to be as many as its lines need.
-      if (result%ending%orbit > 0 .and. scene%solver%method /= method_newmark .and. &
-          .not. result%rattle%lines%sampling_sufficient) &
-         call solve_fine_window(scene, lane, scene%solver%accuracy, result%ending%periods, resolved%noise_floor, window, &
-                                result%rattle, ending)
+      window%record = result%ending%record
+      call classify_window(scene, lane, window%periods, window%accelerations, window%record, resolved%noise_floor, result%rattle)
+      result%series_coarse = .not. result%rattle%lines%sampling_sufficient
+      ! What the error-controlled engine has solved can be solved again, sampled finer, from where the window begins.
+      if (result%series_coarse .and. window%record%periods > 0) &
+         call judge_window(scene, lane, scene%solver%accuracy, resolved%noise_floor, window, result%rattle)
       call note_orbit(result%rattle, result%ending%orbit)
       result%window_periods = window%periods
       result%samples_per_period = window%samples_per_period
-      result%film_minimum = minval(window%films)
-      result%film_maximum = maxval(window%films)
-      result%acceleration_minimum = minval(window%accelerations)
-      result%acceleration_maximum = maxval(window%accelerations)
-      result%regime = check_regime(resolved%film, scene%film%law, window%films, window%velocities)
-      if (scene%spectrum%certify) call certify(scene, resolved, lane, result%ending%periods, window, result%rattle, &
-                                               result%certificate, result%orbit)
+      result%lines_by_integrals = window%by_integrals
+      if (window%record%periods > 0) then
+         result%extremes = extremes_of_record(result%ending%record)
+      else
+         result%extremes = extremes_of_samples(resolved%film, window%films, window%velocities, window%accelerations)
+      end if
+      associate (lowest => result%extremes%lowest, highest => result%extremes%highest)
+         result%model_limit = model_limit(lowest(seen_film)%value, highest(seen_film)%value, resolved%film%radius)
+         result%regime = check_regime(resolved%film, scene%film%law, highest(seen_pressure)%value, highest(seen_pressure)%film)
+      end associate
+      if (scene%spectrum%certify) call certify(scene, resolved, lane, result%ending%periods, window, result%extremes, &
+                                               result%rattle, result%certificate, result%orbit)
    end subroutine judge
 
    !> Evaluations of the film per step of a motion, 0 without a step.

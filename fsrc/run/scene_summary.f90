@@ -5,6 +5,8 @@ module scene_summary
    use floquet, only: orbit_stability, stability_name
    use key_table, only: choice_word
    use kinds, only: dp
+   use model_limits, only: model_limit_name
+   use node_extremes, only: seen_acceleration, seen_film, seen_load, seen_velocity
    use rattle_class, only: class_name
    use regime, only: film_elastohydrodynamic
    use regime_words, only: regime_name
@@ -92,16 +94,27 @@ contains
 
       call summary%add('window_periods', result%window_periods)
       call summary%add('samples_per_period', result%samples_per_period)
-      call summary%add('film_minimum', result%film_minimum)
-      call summary%add('film_maximum', result%film_maximum)
-      call summary%add('acceleration_minimum', result%acceleration_minimum)
-      call summary%add('acceleration_maximum', result%acceleration_maximum)
+      call summary%add('series_coarse', result%series_coarse)
+      call summary%add('lines_by_integrals', result%lines_by_integrals)
+      associate (lowest => result%extremes%lowest, highest => result%extremes%highest)
+         call summary%add('film_minimum', lowest(seen_film)%value)
+         call summary%add('film_maximum', highest(seen_film)%value)
+         call summary%add('velocity_minimum', lowest(seen_velocity)%value)
+         call summary%add('velocity_maximum', highest(seen_velocity)%value)
+         call summary%add('acceleration_minimum', lowest(seen_acceleration)%value)
+         call summary%add('acceleration_maximum', highest(seen_acceleration)%value)
+         call summary%add('load_minimum', lowest(seen_load)%value)
+         call summary%add('load_maximum', highest(seen_load)%value)
+      end associate
+      call summary%add('model_limit', model_limit_name(result%model_limit))
       associate (rattle => result%rattle, lines => result%rattle%lines)
          call summary%add('reversals_per_period', rattle%reversals_per_period)
          call summary%add('harmonics', lines%harmonics(:min(most_harmonics, size(lines%harmonics))))
          if (lines%moving) then
             call summary%add('line_count', lines%line_count)
+            call summary%add('line_count_is_bound', lines%count_is_bound)
             call summary%add('harmonic_distortion', lines%harmonic_distortion)
+            call summary%add('harmonic_distortion_is_bound', lines%distortion_is_bound)
             call summary%add('irregular_fraction', lines%irregular_fraction)
             call summary%add('sampling_sufficient', lines%sampling_sufficient)
          end if
@@ -128,7 +141,11 @@ contains
          call summary%add('certificate_text', certificate%reason)
          if (size(certificate%harmonic_errors) > 0) then
             call summary%add('film_error', certificate%film_error)
+            call summary%add('film_minimum_error', certificate%film_minimum_error)
+            call summary%add('film_maximum_error', certificate%film_maximum_error)
             call summary%add('acceleration_error', certificate%acceleration_error)
+            call summary%add('acceleration_minimum_error', certificate%acceleration_minimum_error)
+            call summary%add('acceleration_maximum_error', certificate%acceleration_maximum_error)
             call summary%add('harmonic_errors', &
                              certificate%harmonic_errors(:min(most_harmonics, size(certificate%harmonic_errors))))
          end if

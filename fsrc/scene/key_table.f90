@@ -189,15 +189,16 @@ module key_table
             'Table of scenes instead of vary: a CSV file whose header names group.key, one scene per row.'), &
       key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
             'natural_frequency damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period '// &
-            'rattle_class sampling_sufficient film_regime alpha_p_maximum harmonics', any_number, &
+            'rattle_class sampling_sufficient film_regime alpha_p_maximum model_limit harmonics', any_number, &
             'film_minimum film_maximum acceleration_minimum acceleration_maximum steady_film natural_frequency '// &
             'damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period rattle_class '// &
             'film_regime law_contradicted alpha_p_maximum pressure_maximum deflection harmonics orbit_period '// &
-            'periods_solved sampling_sufficient certified', 'scene.task=campaign', &
+            'periods_solved sampling_sufficient certified model_limit velocity_minimum velocity_maximum load_maximum '// &
+            'line_count_is_bound', 'scene.task=campaign', &
             'Recorded of every scene beside number, varied keys and status; certified (1 or 0) solves each again, tighter.'), &
       key_t('campaign', 'samples_per_period', integer_kind, '-', '256', range_t(32.0_dp, .false., 16384.0_dp, .false.), '', &
             'scene.task=campaign', &
-            'Samples of a period that a scene is judged by; sampling_sufficient says where they are too few.'), &
+            'Samples of a period that a scene is judged by; where they are too few, its steps are integrated over.'), &
       key_t('campaign', 'allow_invalid', logical_kind, '', '.false.', any_number, '', 'scene.task=campaign', &
             'Whether scenes that are no valid scenes are recorded as such; else they stop the campaign before it begins.'), &
       key_t('campaign', 'confirm_size', logical_kind, '', '.false.', any_number, '', 'scene.task=campaign', &

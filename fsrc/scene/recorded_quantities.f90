@@ -6,7 +6,8 @@ module recorded_quantities
 
    !> What has to be computed for a quantity beyond the motion itself.
    integer, parameter, public :: needs_nothing = 0, needs_film_range = 1, needs_acceleration_range = 2, needs_spectrum = 3, &
-                                 needs_regime = 4, needs_certificate = 5, need_count = 5
+                                 needs_regime = 4, needs_certificate = 5, needs_velocity_range = 6, needs_load_range = 7, &
+                                 need_count = 7
 
    integer, parameter, public :: &
       record_film_minimum = 1, record_film_maximum = 2, record_acceleration_minimum = 3, record_acceleration_maximum = 4, &
@@ -14,7 +15,9 @@ module recorded_quantities
       record_harmonic_distortion = 9, record_irregular_fraction = 10, record_reversals_per_period = 11, &
       record_rattle_class = 12, record_film_regime = 13, record_law_contradicted = 14, record_alpha_p_maximum = 15, &
       record_pressure_maximum = 16, record_deflection = 17, record_harmonics = 18, record_orbit_period = 19, &
-      record_periods_solved = 20, record_sampling_sufficient = 21, record_certified = 22
+      record_periods_solved = 20, record_sampling_sufficient = 21, record_certified = 22, &
+      record_model_limit = 23, record_velocity_minimum = 24, record_velocity_maximum = 25, record_load_maximum = 26, &
+      record_line_count_is_bound = 27
 
    !> One quantity.
    type, public :: quantity_t
@@ -48,7 +51,12 @@ module recorded_quantities
       quantity_t(record_orbit_period, 'orbit_period', '-', needs_nothing), &
       quantity_t(record_periods_solved, 'periods_solved', '-', needs_nothing), &
       quantity_t(record_sampling_sufficient, 'sampling_sufficient', '-', needs_spectrum), &
-      quantity_t(record_certified, 'certified', '-', needs_certificate)]
+      quantity_t(record_certified, 'certified', '-', needs_certificate), &
+      quantity_t(record_model_limit, 'model_limit', '-', needs_film_range), &
+      quantity_t(record_velocity_minimum, 'velocity_minimum', 'm/s', needs_velocity_range), &
+      quantity_t(record_velocity_maximum, 'velocity_maximum', 'm/s', needs_velocity_range), &
+      quantity_t(record_load_maximum, 'load_maximum', 'N', needs_load_range), &
+      quantity_t(record_line_count_is_bound, 'line_count_is_bound', '-', needs_spectrum)]
 
    public :: quantity_code
 

@@ -14,19 +14,21 @@ module spectral_lines
    type, public :: spectral_lines_t
       !> a_n: single-sided amplitude at n times the forcing frequency, every n below half the samples a period
       real(dp), allocatable :: harmonics(:)
-      !> How many a_n exceed the line threshold times a_1
+      !> How many a_n exceed the line threshold times a_1, and whether there may be more beyond the highest of them
       integer :: line_count = 0
-      !> sqrt(sum of a_n^2 from n = 2)/a_1
+      logical :: count_is_bound = .false.
+      !> sqrt(sum of a_n^2 from n = 2)/a_1, and whether it may be larger
       real(dp) :: harmonic_distortion = 0.0_dp
+      logical :: distortion_is_bound = .false.
       !> Share of the power off the harmonics: 1 - sum a_n^2/(sum over all bins but the mean)
       real(dp) :: irregular_fraction = 0.0_dp
-      !> Whether the samples a period are enough for every line
+      !> Whether the samples a period, or the integrals over the steps, are enough for every line listed
       logical :: sampling_sufficient = .true.
       !> Whether there is any motion: without it the ratios above have no meaning
       logical :: moving = .true.
    end type spectral_lines_t
 
-   public :: find_lines
+   public :: find_lines, find_lines_by_integrals
 
 contains
 
@@ -43,21 +45,67 @@ contains
       !> The lines
       type(spectral_lines_t), intent(out) :: lines
       real(dp), allocatable :: amplitudes(:)
-      real(dp) :: unit, power, harmonic_power, least
-      integer :: resolved, highest
 
       call amplitude_spectrum(acceleration, amplitudes)
+      ! A line stands for two bins of the transform; that at half the samples is one bin, whose square counts twice.
+      call lines_of_bins(amplitudes, periods, (size(acceleration)/periods - 1)/2, mod(size(acceleration), 2) == 0, &
+                         line_threshold, noise_floor, lines)
+      lines%count_is_bound = .not. lines%sampling_sufficient
+      lines%distortion_is_bound = .not. lines%sampling_sufficient
+   end subroutine find_lines
+
+   !> Lines of a window from its amplitudes at all multiples of the frequency over its periods, found by integrals, and its
+   !> power: what lies beyond the highest multiple is power too.
+   subroutine find_lines_by_integrals(amplitudes, periods, power, line_threshold, noise_floor, lines)
+      !> Amplitudes from 0 on, as far as there are whole multiples of the frequency [m/s2]
+      real(dp), intent(in) :: amplitudes(0:)
+      !> Periods in the window
+      integer, intent(in) :: periods
+      !> Twice the mean square of z'' about its mean: the sum of the squares of all lines [m2/s4]
+      real(dp), intent(in) :: power
+      !> A harmonic above this share of the first is a line [-]
+      real(dp), intent(in) :: line_threshold
+      !> Amplitude that the errors of the solution explain [m/s2]
+      real(dp), intent(in) :: noise_floor
+      !> The lines
+      type(spectral_lines_t), intent(out) :: lines
+      real(dp), allocatable :: bins(:)
+      real(dp) :: first
+
+      allocate (bins(0:ubound(amplitudes, 1)), source=amplitudes)
+      call lines_of_bins(bins, periods, ubound(amplitudes, 1)/periods, .false., line_threshold, noise_floor, lines)
+      lines%count_is_bound = .not. lines%sampling_sufficient
+      lines%sampling_sufficient = .true.
+      first = lines%harmonics(1)
+      if (lines%moving .and. first > noise_floor) lines%harmonic_distortion = &
+         max(lines%harmonic_distortion, sqrt(max(0.0_dp, (1.0_dp - lines%irregular_fraction)*(power/first)/first - 1.0_dp)))
+   end subroutine find_lines_by_integrals
+
+   !> Lines of a window from the amplitudes of its bins.
+   subroutine lines_of_bins(amplitudes, periods, resolved, last_is_half, line_threshold, noise_floor, lines)
+      !> Amplitudes from 0 on; on return in another unit
+      real(dp), allocatable, intent(inout) :: amplitudes(:)
+      !> Periods in the window
+      integer, intent(in) :: periods
+      !> Harmonics that are resolved
+      integer, intent(in) :: resolved
+      !> Whether the last bin stands for one bin of the transform alone
+      logical, intent(in) :: last_is_half
+      real(dp), intent(in) :: line_threshold
+      real(dp), intent(in) :: noise_floor
+      type(spectral_lines_t), intent(out) :: lines
+      real(dp) :: unit, power, harmonic_power, least
+      integer :: highest
+
       highest = ubound(amplitudes, 1)
-      resolved = (size(acceleration)/periods - 1)/2
       ! All that follows is in a unit in which no square overflows or vanishes.
       unit = binary_unit(amplitudes)
       amplitudes(:) = amplitudes*(1.0_dp/unit)
       least = noise_floor*(1.0_dp/unit)
       allocate (lines%harmonics(resolved))
       lines%harmonics(:) = amplitudes(periods:resolved*periods:periods)
-      ! A line stands for two bins of the transform; that at half the samples is one bin, whose square counts twice.
       power = sum(amplitudes(1:)**2)
-      if (mod(size(acceleration), 2) == 0) power = power + amplitudes(highest)**2
+      if (last_is_half) power = power + amplitudes(highest)**2
       harmonic_power = sum(lines%harmonics**2)
       lines%moving = sqrt(power) > least
       if (lines%moving) then
@@ -70,6 +118,6 @@ contains
                                      max(least, sampling_tolerance*line_threshold*lines%harmonics(1))
       end if
       lines%harmonics(:) = lines%harmonics*unit
-   end subroutine find_lines
+   end subroutine lines_of_bins
 
 end module spectral_lines

@@ -1,59 +1,89 @@
 !> How far a verdict can be trusted: the window of a scene held against the same window solved tighter.
 module certificate
    use kinds, only: dp
+   use node_extremes, only: seen_acceleration, seen_film
    use rattle_class, only: class_irregular, class_name, class_subharmonic, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    use text, only: integer_text, short_text
+   use window_extremes, only: window_extremes_t
+   use window_record, only: energy_gap, momentum_gap, window_record_t
    implicit none(type, external)
    private
 
-   !> What the comparison says.
+   !> What the comparison says. The errors are those of the numbers beside them, never printed smaller than the tighter
+   !> solution can tell.
    type, public :: certificate_t
       !> Whether there was a tighter solution to compare with
       logical :: exists = .false.
       !> The class stands
       logical :: certified = .false.
-      !> Largest relative difference of the film over the window [-]
+      !> Largest relative difference of the film over the window, its extremes included [-]
       real(dp) :: film_error = 0.0_dp
-      !> Difference of the largest |z''| relative to it [-]
+      !> Errors of the smallest and largest film [m]
+      real(dp) :: film_minimum_error = 0.0_dp
+      real(dp) :: film_maximum_error = 0.0_dp
+      !> Errors of the smallest and largest z'' [m/s2], and the larger of both relative to the largest |z''| [-]
+      real(dp) :: acceleration_minimum_error = 0.0_dp
+      real(dp) :: acceleration_maximum_error = 0.0_dp
       real(dp) :: acceleration_error = 0.0_dp
-      !> Differences of the lines [m/s2]
+      !> Errors of the lines [m/s2]
       real(dp), allocatable :: harmonic_errors(:)
       !> Why it is not certified, or that it is
       character(:), allocatable :: reason
    end type certificate_t
 
-   public :: compare_windows, no_certificate, certificate_word
+   !> Share of the largest difference of its kind that every error has at least: one difference alone may vanish by chance.
+   real(dp), parameter :: least_share = 0.1_dp
+   !> Errors of the tighter solution, in units of its accuracy.
+   real(dp), parameter :: tight_share = 10.0_dp
+   !> Share of the flow of momentum, or of energy, by which a window that closes may miss.
+   real(dp), parameter :: closing_share = 1.0e-3_dp
+
+   public :: compare_windows, no_certificate, certificate_word, closing_sentence
 
 contains
 
    !> Certificate of a window by a tighter one of the same samples.
-   pure subroutine compare_windows(films, tight_films, accelerations, tight_accelerations, verdict, tight_verdict, choice, &
-                                   tolerance, certificate)
+   pure subroutine compare_windows(films, tight_films, extremes, tight_extremes, verdict, tight_verdict, unclosed, choice, &
+                                   tolerance, tight_accuracy, certificate)
       !> Film of the scene and of its tighter solution [m]
       real(dp), intent(in) :: films(:)
       real(dp), intent(in) :: tight_films(:)
-      !> Accelerations of both [m/s2]
-      real(dp), intent(in) :: accelerations(:)
-      real(dp), intent(in) :: tight_accelerations(:)
+      !> Extremes of both
+      type(window_extremes_t), intent(in) :: extremes
+      type(window_extremes_t), intent(in) :: tight_extremes
       !> Verdicts of both
       type(rattle_verdict_t), intent(in) :: verdict
       type(rattle_verdict_t), intent(in) :: tight_verdict
+      !> Why one of the windows does not close; empty if both do
+      character(*), intent(in) :: unclosed
       !> Limits of the classes
       type(spectrum_choice_t), intent(in) :: choice
       !> Film error up to which a regular motion is certified [-]
       real(dp), intent(in) :: tolerance
+      !> Relative accuracy of the tighter solution [-]
+      real(dp), intent(in) :: tight_accuracy
       !> The certificate
       type(certificate_t), intent(out) :: certificate
-      real(dp) :: peak
+      real(dp) :: peak, errors(2)
       integer :: lines
 
       certificate%exists = .true.
-      certificate%film_error = maxval(abs(films - tight_films)/tight_films)
-      peak = maxval(abs(tight_accelerations))
-      if (peak > 0.0_dp) certificate%acceleration_error = abs(maxval(abs(accelerations)) - peak)/peak
+      errors = errors_of(seen_film)
+      certificate%film_minimum_error = errors(1)
+      certificate%film_maximum_error = errors(2)
+      certificate%film_error = max(maxval(abs(films - tight_films)/tight_films), &
+                                   errors(1)/tight_extremes%lowest(seen_film)%value, &
+                                   errors(2)/tight_extremes%highest(seen_film)%value)
+      errors = errors_of(seen_acceleration)
+      certificate%acceleration_minimum_error = errors(1)
+      certificate%acceleration_maximum_error = errors(2)
+      peak = max(abs(tight_extremes%lowest(seen_acceleration)%value), abs(tight_extremes%highest(seen_acceleration)%value))
+      if (peak > 0.0_dp) certificate%acceleration_error = maxval(errors)/peak
       lines = min(size(verdict%lines%harmonics), size(tight_verdict%lines%harmonics))
       certificate%harmonic_errors = abs(verdict%lines%harmonics(:lines) - tight_verdict%lines%harmonics(:lines))
+      certificate%harmonic_errors = max(certificate%harmonic_errors + tight_share*tight_accuracy*tight_verdict%lines%harmonics &
+                                        (:lines), least_share*maxval(certificate%harmonic_errors))
 
       certificate%reason = doubt()
       certificate%certified = len(certificate%reason) == 0
@@ -62,6 +92,19 @@ contains
 
    contains
 
+      !> Errors of the smallest and the largest value of a quantity.
+      pure function errors_of(quantity) result(differences)
+         !> Code of node_extremes
+         integer, intent(in) :: quantity
+         real(dp) :: differences(2)
+         real(dp) :: values(2), sizes(2)
+
+         values = [tight_extremes%lowest(quantity)%value, tight_extremes%highest(quantity)%value]
+         sizes = max(abs(values), tiny(1.0_dp))
+         differences = abs([extremes%lowest(quantity)%value, extremes%highest(quantity)%value] - values)
+         differences = max(differences + tight_share*tight_accuracy*sizes, least_share*maxval(differences/sizes)*sizes)
+      end function errors_of
+
       !> First reason to doubt the class, empty if there is none.
       pure function doubt() result(reason)
          character(:), allocatable :: reason
@@ -69,6 +112,8 @@ contains
          reason = ''
          if (tight_verdict%class /= verdict%class) then
             reason = 'Solved tighter, the class is '//class_name(tight_verdict%class)//'.'
+         else if (len(unclosed) > 0) then
+            reason = unclosed
          else if (verdict%class == class_irregular) then
             ! Irregular motions part from each other; only that they are irregular can stand.
             if (min(verdict%lines%irregular_fraction, tight_verdict%lines%irregular_fraction) < 2.0_dp*choice%irregular_limit) &
@@ -79,15 +124,37 @@ contains
                   abs(verdict%lines%irregular_fraction - tight_verdict%lines%irregular_fraction)) then
             reason = 'The irregular fraction is within its error of its limit.'
          else if (verdict%lines%moving .and. verdict%class /= class_subharmonic) then
-            reason = doubt_of_limits(verdict, certificate%harmonic_errors, choice)
+            reason = doubt_of_limits(verdict, tight_verdict, certificate%harmonic_errors, choice)
          end if
       end function doubt
 
    end subroutine compare_windows
 
+   !> Why a window does not close, empty if it does.
+   pure function closing_sentence(record, frequency, mass) result(reason)
+      !> Record of the window; without one there is nothing to close
+      type(window_record_t), intent(in) :: record
+      !> Frequency of the force [Hz] and mass [kg]
+      real(dp), intent(in) :: frequency
+      real(dp), intent(in) :: mass
+      character(:), allocatable :: reason
+
+      reason = ''
+      if (record%periods == 0) return
+      if (.not. momentum_gap(record, frequency) <= closing_share) then
+         reason = 'The window does not close: the mean of z" is '// &
+                  short_text(record%acceleration_sum/real(record%periods, dp), 3)//' m/s2, while the change of velocity gives '// &
+                  short_text((record%end_velocity - record%start_velocity)*frequency/real(record%periods, dp), 3)//' m/s2.'
+      else if (.not. energy_gap(record, mass) <= closing_share) then
+         reason = 'The window does not close: the film takes '//short_text(-record%film_work, 3)//' J, the forces give '// &
+                  short_text(-record%force_work, 3)//' J.'
+      end if
+   end function closing_sentence
+
    !> Whether a limit of the classes lies within the errors of the lines.
-   pure function doubt_of_limits(verdict, errors, choice) result(reason)
+   pure function doubt_of_limits(verdict, tight_verdict, errors, choice) result(reason)
       type(rattle_verdict_t), intent(in) :: verdict
+      type(rattle_verdict_t), intent(in) :: tight_verdict
       real(dp), intent(in) :: errors(:)
       type(spectrum_choice_t), intent(in) :: choice
       character(:), allocatable :: reason
@@ -100,17 +167,25 @@ contains
             reason = 'The first harmonic is as small as its error.'
             return
          end if
-         distortion_error = (sqrt(sum(errors(2:)**2)) + lines%harmonic_distortion*errors(1))/(a(1) - errors(1))
+         distortion_error = max((sqrt(sum(errors(2:)**2)) + lines%harmonic_distortion*errors(1))/(a(1) - errors(1)), &
+                                abs(lines%harmonic_distortion - tight_verdict%lines%harmonic_distortion))
          if (abs(lines%harmonic_distortion - choice%quiet_limit) <= distortion_error) then
             reason = 'The harmonic distortion is within its error of the quiet limit.'
             return
          end if
-         if (lines%harmonic_distortion < choice%quiet_limit) return
+         if (lines%harmonic_distortion < choice%quiet_limit) then
+            if (lines%distortion_is_bound .or. tight_verdict%lines%distortion_is_bound) &
+               reason = 'The harmonic distortion is a lower bound: more lines than are resolved may lift it over the quiet limit.'
+            return
+         end if
          threshold = choice%line_threshold
          fewest = count(a(:size(errors)) - errors > threshold*(a(1) + errors(1)))
          most = count(a(:size(errors)) + errors > threshold*(a(1) - errors(1)))
-         if (fewest < choice%idle_lines .and. most >= choice%idle_lines) &
+         if (fewest < choice%idle_lines .and. (lines%count_is_bound .or. tight_verdict%lines%count_is_bound)) then
+            reason = 'There are at least '//integer_text(fewest)//' lines, and beyond the highest resolved one there may be more.'
+         else if (fewest < choice%idle_lines .and. most >= choice%idle_lines) then
             reason = 'Within their errors there are '//integer_text(fewest)//' to '//integer_text(most)//' lines.'
+         end if
       end associate
    end function doubt_of_limits
 

@@ -1,9 +1,11 @@
 !> Class of a motion by the spectrum of its acceleration.
 module rattle_class
+   use constants, only: two_pi
    use kinds, only: dp
    use reversals, only: count_reversals, reversal_prominence
    use scene_types, only: spectrum_choice_t
-   use spectral_lines, only: find_lines, spectral_lines_t
+   use spectral_lines, only: find_lines, find_lines_by_integrals, spectral_lines_t
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -16,7 +18,7 @@ module rattle_class
       type(spectral_lines_t) :: lines
    end type rattle_verdict_t
 
-   public :: classify, note_orbit, class_name
+   public :: classify, classify_steps, note_orbit, class_name
 
 contains
 
@@ -46,6 +48,37 @@ contains
 
       if (verdict%class == class_irregular .and. orbit > 1) verdict%class = class_subharmonic
    end subroutine note_orbit
+   !> Classify a window by the integrals over the steps of its motion: however short an impact is, they see it.
+   subroutine classify_steps(record, frequency, choice, noise_floor, verdict)
+      !> Record of all choice%periods periods of the window, with Fourier integrals
+      type(window_record_t), intent(in) :: record
+      !> Frequency of the force [Hz]
+      real(dp), intent(in) :: frequency
+      !> Periods and limits
+      type(spectrum_choice_t), intent(in) :: choice
+      !> Amplitude that the errors of the solution explain [m/s2]
+      real(dp), intent(in) :: noise_floor
+      !> The verdict
+      type(rattle_verdict_t), intent(out) :: verdict
+      real(dp), allocatable :: amplitudes(:)
+      real(dp) :: jump, mean, periods
+      integer :: n
+
+      periods = real(choice%periods, dp)
+      jump = record%end_velocity - record%start_velocity
+      mean = record%acceleration_sum/periods
+      allocate (amplitudes(0:size(record%velocity_integrals)))
+      amplitudes(0) = abs(mean)
+      do n = 1, size(record%velocity_integrals)
+         amplitudes(n) = 2.0_dp*frequency/periods* &
+                         abs(jump + cmplx(0.0_dp, two_pi*real(n, dp)/periods, dp)*record%velocity_integrals(n))
+      end do
+      call find_lines_by_integrals(amplitudes, choice%periods, 2.0_dp*(record%acceleration_square/periods - mean*mean), &
+                                   choice%line_threshold, noise_floor, verdict%lines)
+      verdict%class = class_of(verdict%lines, choice)
+      if (verdict%lines%moving) verdict%reversals_per_period = &
+         real(count_reversals(record%turns(:record%turn_count), reversal_prominence), dp)/periods
+   end subroutine classify_steps
 
    !> Order of the questions: regular at all, rich at all, how rich.
    pure integer function class_of(lines, choice) result(class)

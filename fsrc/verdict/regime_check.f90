@@ -5,12 +5,8 @@ module regime_check
    use kinds, only: dp
    use regime, only: contact_deflection, film_iso_viscous, film_piezo_viscous, film_regime
    use scene_types, only: law_iso_viscous
-   use value_range, only: range_of
    implicit none(type, external)
    private
-
-   !> Samples that are looked at together: their arrays stay in the cache.
-   integer, parameter :: block = 512
 
    !> What the exact film says of a motion.
    type, public :: regime_verdict_t
@@ -34,33 +30,20 @@ module regime_check
 
 contains
 
-   !> Scan the samples of a window for the largest exact pressure and judge the law by it.
-   pure function check_regime(film, law, films, velocities) result(verdict)
+   !> Judge the film law by the largest exact pressure of a motion.
+   pure function check_regime(film, law, largest, thickness) result(verdict)
       !> Film of the scene
       type(film_t), intent(in) :: film
       !> Its law
       integer, intent(in) :: law
-      !> Film thickness of the samples [m]
-      real(dp), intent(in) :: films(:)
-      !> Film velocity of the samples [m/s]
-      real(dp), intent(in) :: velocities(:)
+      !> Largest pressure of the exact iso-viscous film [Pa]
+      real(dp), intent(in) :: largest
+      !> Film thickness where it acts [m]
+      real(dp), intent(in) :: thickness
       type(regime_verdict_t) :: verdict
-      real(dp) :: pressures(block), largest, lowest, highest, alpha_q
-      integer :: first, last, place
+      real(dp) :: alpha_q
 
-      largest = -1.0_dp
-      place = 1
-      do first = 1, size(films), block
-         last = min(first + block - 1, size(films))
-         associate (found => pressures(:last - first + 1))
-            found = exact_pressure(film%radius, film%speed, film%viscosity, films(first:last), velocities(first:last))
-            call range_of(found, lowest, highest)
-            if (highest <= largest) cycle
-            largest = highest
-            place = first - 1 + findloc(found, highest, dim=1)
-         end associate
-      end do
-      verdict%film = films(place)
+      verdict%film = thickness
       verdict%alpha_p_maximum = film%pressure_viscosity*largest
       verdict%pressure_maximum = largest
       if (law /= law_iso_viscous) then

@@ -8,7 +8,7 @@
 program newmark_outcomes
    use errors, only: fault_list_t
    use film_law, only: film_load
-   use fine_window, only: solve_fine_window, window_t
+   use fine_window, only: solve_whole_window, window_t
    use forcing, only: force_of_period
    use kinds, only: dp
    use lane_scenes, only: lane_ending_t
@@ -86,7 +86,7 @@ contains
 
       fine%periods = window
       fine%samples_per_period = 512
-      call solve_fine_window(drawn%scene, drawn%lane, 1.0e-11_dp, periods, drawn%resolved%noise_floor, fine, &
+      call solve_whole_window(drawn%scene, drawn%lane, 1.0e-11_dp, periods, drawn%resolved%noise_floor, fine, &
                              verdict, ending)
       if (.not. is_success(ending%status)) error stop 'newmark_outcomes: a scene cannot be solved'
    end subroutine solve_reference

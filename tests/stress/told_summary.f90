@@ -8,6 +8,7 @@ module told_summary
    use integrate_controlled, only: solve_controlled
    use integrate_motion, only: motion_watcher_t, solve_motion
    use kinds, only: dp
+   use node_extremes, only: seen_acceleration, seen_film
    use rattle_class, only: class_name
    use random_scenes, only: drawn_scene_t
    use sample_recorder, only: sample_recorder_t
@@ -74,7 +75,10 @@ contains
       told%window = result%window_periods
       told%orbit = result%ending%orbit
       told%sampling_sufficient = result%rattle%lines%sampling_sufficient
-      told%extremes = [result%film_minimum, result%film_maximum, result%acceleration_minimum, result%acceleration_maximum]
+      associate (lowest => result%extremes%lowest, highest => result%extremes%highest)
+         told%extremes = [lowest(seen_film)%value, highest(seen_film)%value, lowest(seen_acceleration)%value, &
+                          highest(seen_acceleration)%value]
+      end associate
       n = min(compared_harmonics, size(result%rattle%lines%harmonics))
       told%harmonic_count = n
       told%harmonics(:n) = result%rattle%lines%harmonics(:n)

@@ -1,10 +1,13 @@
 !> Tests of the certificate: what a tighter solution must share with a scene for its class to stand.
 module test_certificate
-   use certificate, only: certificate_t, compare_windows, no_certificate
+   use certificate, only: certificate_t, closing_sentence, compare_windows, no_certificate
    use checks, only: check_list_t
    use kinds, only: dp
+   use node_extremes, only: seen_acceleration, seen_film
    use rattle_class, only: class_creep, class_idle, class_irregular, class_quiet, class_subharmonic, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
+   use window_extremes, only: window_extremes_t
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -28,6 +31,9 @@ contains
       call test_quiet_limit(checks)
       call test_line_count(checks)
       call test_first_harmonic(checks)
+      call test_bounds(checks)
+      call test_closing(checks)
+      call test_chance(checks)
       call test_none(checks)
    end subroutine run_certificate_tests
 
@@ -44,6 +50,39 @@ contains
       verdict%lines%harmonic_distortion = norm2(harmonics(2:))/harmonics(1)
    end function verdict_of
 
+   !> Certificate of windows that close, without velocities: their extremes are those of the samples.
+   subroutine compare(films, tight_films, values, tight_values, verdict, tight, choice, tolerance, certificate, unclosed)
+      real(dp), intent(in) :: films(:)              !> h of the scene [m]
+      real(dp), intent(in) :: tight_films(:)        !> and of its tighter solution [m]
+      real(dp), intent(in) :: values(:)             !> z'' of the scene [m/s2]
+      real(dp), intent(in) :: tight_values(:)       !> and of its tighter solution [m/s2]
+      type(rattle_verdict_t), intent(in) :: verdict !> On the scene
+      type(rattle_verdict_t), intent(in) :: tight   !> On its tighter solution
+      type(spectrum_choice_t), intent(in) :: choice !> Limits
+      real(dp), intent(in) :: tolerance             !> Of the film [-]
+      type(certificate_t), intent(out) :: certificate
+      character(*), optional, intent(in) :: unclosed !> Why a window does not close
+
+      character(:), allocatable :: reason
+
+      reason = ''
+      if (present(unclosed)) reason = unclosed
+      call compare_windows(films, tight_films, extremes_of(films, values), extremes_of(tight_films, tight_values), verdict, &
+         tight, reason, choice, tolerance, 0.0_dp, certificate)
+   end subroutine compare
+
+   !> Extremes of film and acceleration.
+   pure function extremes_of(films, values) result(extremes)
+      real(dp), intent(in) :: films(:)   !> h [m]
+      real(dp), intent(in) :: values(:)  !> z'' [m/s2]
+      type(window_extremes_t) :: extremes
+
+      extremes%lowest(seen_film)%value = minval(films)
+      extremes%highest(seen_film)%value = maxval(films)
+      extremes%lowest(seen_acceleration)%value = minval(values)
+      extremes%highest(seen_acceleration)%value = maxval(values)
+   end function extremes_of
+
    !> Certificate of the same window with other harmonics, expected to stand or to name its doubt.
    subroutine expect(checks, class, harmonics, tight_harmonics, choice, words)
       type(check_list_t), intent(inout) :: checks   !> Collects the results
@@ -55,7 +94,7 @@ contains
 
       type(certificate_t) :: certificate
 
-      call compare_windows(films, films, values, values, verdict_of(class, harmonics, choice), &
+      call compare(films, films, values, values, verdict_of(class, harmonics, choice), &
          verdict_of(class, tight_harmonics, choice), choice, tolerance, certificate)
       call checks%check(certificate%exists .and. (certificate%certified .eqv. words == stands), 'certified or not: '//words)
       call checks%check(index(certificate%reason, words) > 0, words//' (got: '//certificate%reason//')')
@@ -71,7 +110,7 @@ contains
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp, 0.2_dp], choice)
       tight = verdict_of(class_creep, [1.001_dp, 0.498_dp], choice)
-      call compare_windows(films*[1.0_dp, 0.997_dp, 1.001_dp], films, 0.9_dp*values, values, verdict, tight, choice, tolerance, &
+      call compare(films*[1.0_dp, 0.997_dp, 1.001_dp], films, 0.9_dp*values, values, verdict, tight, choice, tolerance, &
          certificate)
       call checks%check_close(certificate%film_error, 0.003_dp, 1.0e-15_dp, 'film error: the largest, either way')
       call checks%check_close(certificate%acceleration_error, 0.1_dp, 1.0e-15_dp, 'acceleration error: of the peaks')
@@ -80,7 +119,7 @@ contains
          'harmonic errors')
       call checks%check(certificate%certified, 'small errors far from the limits')
       tight%class = class_idle
-      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
       call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the class is idle') > 0, 'another class')
    end subroutine test_errors
 
@@ -93,15 +132,15 @@ contains
       type(rattle_verdict_t) :: verdict
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
-      call compare_windows(1.009_dp*films, films, values, values, verdict, verdict, choice, tolerance, certificate)
+      call compare(1.009_dp*films, films, values, values, verdict, verdict, choice, tolerance, certificate)
       call checks%check(certificate%certified, 'film: within the tolerance')
-      call compare_windows(1.011_dp*films, films, values, values, verdict, verdict, choice, tolerance, certificate)
+      call compare(1.011_dp*films, films, values, values, verdict, verdict, choice, tolerance, certificate)
       call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the film differs by 1.1 %') > 0, &
          'film: beyond the tolerance')
       ! A scene at rest has no lines to doubt.
       verdict = verdict_of(class_quiet, [1.0e-20_dp, 0.35e-20_dp], choice)
       verdict%lines%moving = .false.
-      call compare_windows(films, films, 0.0_dp*values, 0.0_dp*values, verdict, verdict, choice, tolerance, certificate)
+      call compare(films, films, 0.0_dp*values, 0.0_dp*values, verdict, verdict, choice, tolerance, certificate)
       call checks%check(certificate%certified, 'film: at rest')
    end subroutine test_film
 
@@ -117,11 +156,11 @@ contains
       clear%lines%irregular_fraction = 0.021_dp
       close_by = clear
       close_by%lines%irregular_fraction = 0.019_dp
-      call compare_windows(2.0_dp*films, films, values, values, clear, clear, choice, tolerance, certificate)
+      call compare(2.0_dp*films, films, values, values, clear, clear, choice, tolerance, certificate)
       call checks%check(certificate%certified, 'irregular: clear of the limit, whatever the film')
-      call compare_windows(films, films, values, values, clear, close_by, choice, tolerance, certificate)
+      call compare(films, films, values, values, clear, close_by, choice, tolerance, certificate)
       call checks%check(.not. certificate%certified, 'irregular: the tighter one is close to the limit')
-      call compare_windows(films, films, values, values, close_by, clear, choice, tolerance, certificate)
+      call compare(films, films, values, values, close_by, clear, choice, tolerance, certificate)
       call checks%check(.not. certificate%certified, 'irregular: the scene is close to the limit')
    end subroutine test_irregular
 
@@ -138,27 +177,27 @@ contains
       verdict%lines%irregular_fraction = 0.012_dp
       tight = verdict_of(class_subharmonic, [3.0e-3_dp, 0.5_dp], choice)
       tight%lines%irregular_fraction = 0.0135_dp
-      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
       call checks%check(certificate%certified, 'subharmonic: the limit is outside the error')
-      call compare_windows(1.011_dp*films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call compare(1.011_dp*films, films, values, values, verdict, tight, choice, tolerance, certificate)
       call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the film differs by 1.1 %') > 0, &
          'subharmonic: beyond the tolerance of the film')
       tight%lines%irregular_fraction = 0.0145_dp
-      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
       call checks%check(.not. certificate%certified .and. index(certificate%reason, 'irregular fraction') > 0, &
          'subharmonic: the limit is within the error')
       tight%class = class_irregular
       tight%lines%irregular_fraction = verdict%lines%irregular_fraction
-      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
       call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the class is irregular') > 0, &
          'subharmonic: irregular if solved tighter')
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
       verdict%lines%irregular_fraction = 0.009_dp
       tight = verdict
-      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
       call checks%check(certificate%certified, 'creep: the irregular limit is outside the error')
       tight%lines%irregular_fraction = 0.0075_dp
-      call compare_windows(films, films, values, values, verdict, tight, choice, tolerance, certificate)
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
       call checks%check(.not. certificate%certified, 'creep: the irregular limit is within the error')
    end subroutine test_subharmonic
 
@@ -208,6 +247,79 @@ contains
       call expect(checks, class_creep, [1.0_dp, 50.0_dp], [2.0_dp, 50.0_dp], choice, 'The first harmonic is as small as its error')
       call expect(checks, class_creep, [1.0_dp, 50.0_dp], [1.9_dp, 50.0_dp], choice, 'within its error of the quiet limit')
    end subroutine test_first_harmonic
+
+   !> Lines and distortion that are lower bounds prove nothing below a limit, and enough above it.
+   subroutine test_bounds(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(certificate_t) :: certificate
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: verdict
+
+      choice%idle_lines = 3
+      verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
+      verdict%lines%count_is_bound = .true.
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate)
+      call checks%check(index(certificate%reason, 'at least 2 lines') > 0, 'bounds: there may be more lines')
+      verdict = verdict_of(class_idle, [1.0_dp, 0.5_dp, 0.4_dp], choice)
+      verdict%lines%count_is_bound = .true.
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate)
+      call checks%check(certificate%certified, 'bounds: enough lines are enough')
+      verdict = verdict_of(class_quiet, [1.0_dp, 0.1_dp], choice)
+      verdict%lines%distortion_is_bound = .true.
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate)
+      call checks%check(index(certificate%reason, 'distortion is a lower bound') > 0, 'bounds: the distortion may be larger')
+      verdict = verdict_of(class_idle, [1.0_dp, 0.5_dp, 0.4_dp], choice)
+      verdict%lines%distortion_is_bound = .true.
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate)
+      call checks%check(certificate%certified, 'bounds: enough distortion is enough')
+   end subroutine test_bounds
+
+   !> A window that does not close is not certified, and says by how much it does not.
+   subroutine test_closing(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(certificate_t) :: certificate
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: verdict
+      type(window_record_t) :: record
+      real(dp), parameter :: frequency = 15.0_dp, mass = 3.0_dp
+
+      verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate, 'It is open.')
+      call checks%check(certificate%reason == 'It is open.' .and. .not. certificate%certified, 'closing: the reason given')
+      call checks%check(closing_sentence(record, frequency, mass) == '', 'closing: no record, no doubt')
+      ! Two periods whose velocity grows by 4 m/s, of which the integral of z'' sees all, or 0.2 % less.
+      record = window_record_t(periods=2, end_velocity=4.0_dp, acceleration_sum=4.0_dp*frequency, &
+         acceleration_size=10.0_dp*frequency)
+      call checks%check(closing_sentence(record, frequency, mass) == '', 'closing: momentum')
+      record%acceleration_sum = 3.98_dp*frequency
+      call checks%check(index(closing_sentence(record, frequency, mass), 'the mean of z"') > 0, 'closing: momentum is missing')
+      record%acceleration_sum = 4.0_dp*frequency
+      ! Kinetic energy 3 4**2/2 = 24 J.
+      record%film_work = -6.0_dp
+      record%force_work = -30.0_dp
+      record%work_size = 36.0_dp
+      call checks%check(closing_sentence(record, frequency, mass) == '', 'closing: energy')
+      record%film_work = -6.04_dp
+      call checks%check(index(closing_sentence(record, frequency, mass), 'J, the forces give') > 0, 'closing: energy is missing')
+   end subroutine test_closing
+
+   !> One difference alone may vanish by chance: no error is a small share of the others of its kind.
+   subroutine test_chance(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(certificate_t) :: certificate
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: verdict, tight
+
+      verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
+      tight = verdict_of(class_creep, [1.0_dp, 0.51_dp], choice)
+      call compare(films, films, values*[1.0_dp, 1.0_dp, 1.1_dp], values, verdict, tight, choice, tolerance, certificate)
+      call checks%check_close(certificate%acceleration_maximum_error, 3.0_dp, 1.0e-13_dp, 'chance: the error of the maximum')
+      call checks%check_close(certificate%acceleration_minimum_error, 1.0_dp, 1.0e-13_dp, 'chance: a tenth of it, relatively')
+      call checks%check_close(certificate%harmonic_errors(1), 0.001_dp, 1.0e-15_dp, 'chance: a tenth of the other line''s error')
+   end subroutine test_chance
 
    !> Without a tighter solution nothing is certified.
    subroutine test_none(checks)

@@ -1,0 +1,240 @@
+!> Extremes of a motion between the nodes of its steps.
+!>
+!> The largest node is near the largest value, not at it. Where a parabola through neighbouring nodes may come out highest,
+!> film and velocity are interpolated in the piece of the step, the quantity follows from them by its own law, and the
+!> parabola is renewed until it stands.
+module node_extremes
+   use film_law, only: film_load
+   use film_pressure, only: exact_pressure
+   use forcing, only: applied_force
+   use kinds, only: dp
+   use lane_scenes, only: lane_scene_t
+   use step_nodes, only: interpolate, node_place, nodes_per_piece
+   use value_range, only: range_of
+   implicit none(type, external)
+   private
+
+   !> Quantities whose extremes are looked for: h [m], z' [m/s], z'' [m/s2], W [N], largest pressure of the exact film [Pa].
+   integer, parameter, public :: seen_film = 1, seen_velocity = 2, seen_acceleration = 3, seen_load = 4, seen_pressure = 5
+   integer, parameter, public :: seen_quantities = 5
+
+   !> How far above its nodes a smooth curve may rise within a piece, as a share of its range there.
+   real(dp), parameter :: between = 0.06_dp
+   !> Error of a parabola through nodes, as a share of the range.
+   real(dp), parameter :: parabola_error = 2.0e-3_dp
+   !> Change of an extreme, as a share of the range, at which it stands.
+   real(dp), parameter :: settled = 1.0e-11_dp
+   integer, parameter :: most_renewals = 12
+
+   !> An extreme and the state there.
+   type, public :: extreme_t
+      real(dp) :: value = 0.0_dp
+      !> h [m] and z' [m/s]
+      real(dp) :: film = 0.0_dp
+      real(dp) :: velocity = 0.0_dp
+      !> When: periods since the window began, and phase
+      integer :: period = 0
+      real(dp) :: phase = 0.0_dp
+      logical :: exists = .false.
+   end type extreme_t
+
+   public :: find_extremes
+
+contains
+
+   !> Smallest and largest value of a quantity over some pieces, kept where they are beyond those found before.
+   pure subroutine find_extremes(scene, quantity, period, start, length, films, velocities, values, lowest, highest)
+      !> The scene
+      type(lane_scene_t), intent(in) :: scene
+      !> Code of the quantity
+      integer, intent(in) :: quantity
+      !> Periods since the window began
+      integer, intent(in) :: period
+      !> Phase where each piece begins, and its length [periods]
+      real(dp), intent(in) :: start(:)
+      real(dp), intent(in) :: length(:)
+      !> h [m], z' [m/s] and the quantity at the nodes, eight a piece
+      real(dp), contiguous, intent(in) :: films(:)
+      real(dp), contiguous, intent(in) :: velocities(:)
+      real(dp), contiguous, intent(in) :: values(:)
+      !> Extremes found so far
+      type(extreme_t), intent(inout) :: lowest
+      type(extreme_t), intent(inout) :: highest
+      real(dp) :: smallest, largest
+
+      call range_of(values, smallest, largest)
+      call find_highest(1.0_dp, largest, largest - smallest, highest)
+      call find_highest(-1.0_dp, -smallest, largest - smallest, lowest)
+
+   contains
+
+      !> Highest value of the quantity times a sign.
+      pure subroutine find_highest(sign_of, top, range, found)
+         real(dp), intent(in) :: sign_of
+         !> Highest node, and range of the nodes
+         real(dp), intent(in) :: top
+         real(dp), intent(in) :: range
+         type(extreme_t), intent(inout) :: found
+         real(dp) :: level, best, estimate, place
+         integer :: i, pass
+
+         ! A first pass finds the highest estimate, a second one renews those that come near it.
+         level = top - between*range
+         if (found%exists) level = max(level, sign_of*found%value - between*range)
+         best = top
+         if (found%exists) best = max(best, sign_of*found%value)
+         do pass = 1, 2
+            do i = 1, size(values)
+               if (sign_of*values(i) < level) cycle
+               if (.not. is_peak(sign_of, i)) cycle
+               call estimate_peak(sign_of, i, estimate, place)
+               if (pass == 1) then
+                  best = max(best, estimate)
+               else if (estimate >= best - parabola_error*range) then
+                  call renew(sign_of, i, place, range, found)
+               end if
+            end do
+         end do
+      end subroutine find_highest
+
+      !> Whether no node beside this one, of the same piece, is higher.
+      pure logical function is_peak(sign_of, i)
+         real(dp), intent(in) :: sign_of
+         integer, intent(in) :: i
+
+         is_peak = .true.
+         if (modulo(i - 1, nodes_per_piece) > 0) is_peak = sign_of*values(i - 1) <= sign_of*values(i)
+         if (is_peak .and. modulo(i, nodes_per_piece) > 0) is_peak = sign_of*values(i + 1) <= sign_of*values(i)
+      end function is_peak
+
+      !> Highest point, within the piece, of the parabola through a node and its neighbours.
+      pure subroutine estimate_peak(sign_of, i, estimate, x)
+         real(dp), intent(in) :: sign_of
+         integer, intent(in) :: i
+         !> Value there, and its place in the piece
+         real(dp), intent(out) :: estimate
+         real(dp), intent(out) :: x
+         integer :: middle, before
+
+         middle = min(max(modulo(i - 1, nodes_per_piece) + 1, 2), nodes_per_piece - 1)
+         before = nodes_per_piece*((i - 1)/nodes_per_piece)
+         associate (y => values(before + middle - 1:before + middle + 1))
+            call top_of_parabola(node_place(middle - 1:middle + 1), sign_of*y, x, estimate)
+         end associate
+      end subroutine estimate_peak
+
+      !> Follow the peak near a place until it stands.
+      pure subroutine renew(sign_of, i, first_place, range, found)
+         real(dp), intent(in) :: sign_of
+         integer, intent(in) :: i
+         real(dp), intent(in) :: first_place
+         real(dp), intent(in) :: range
+         type(extreme_t), intent(inout) :: found
+         type(extreme_t) :: here, best
+         real(dp) :: x(3), y(3), place, estimate
+         integer :: piece, node, j
+
+         piece = (i - 1)/nodes_per_piece + 1
+         node = modulo(i - 1, nodes_per_piece) + 1
+         x(2) = node_place(node)
+         x(1) = 0.0_dp
+         if (node > 1) x(1) = node_place(node - 1)
+         x(3) = 1.0_dp
+         if (node < nodes_per_piece) x(3) = node_place(node + 1)
+         best = at_place(piece, x(2))
+         y(2) = sign_of*best%value
+         do j = 1, 3, 2
+            here = at_place(piece, x(j))
+            y(j) = sign_of*here%value
+            if (y(j) > sign_of*best%value) best = here
+         end do
+         place = min(max(first_place, x(1)), x(3))
+         do j = 1, most_renewals
+            if (minval(abs(place - x)) < 1.0e-9_dp) exit
+            here = at_place(piece, place)
+            if (sign_of*here%value > sign_of*best%value) best = here
+            if (abs(sign_of*here%value - maxval(y)) <= settled*range .and. j > 2) exit
+            call narrow(x, y, place, sign_of*here%value)
+            call top_of_parabola(x, y, place, estimate)
+            place = min(max(place, x(1)), x(3))
+         end do
+         if (.not. found%exists) then
+            found = best
+         else if (sign_of*best%value > sign_of*found%value) then
+            found = best
+         end if
+      end subroutine renew
+
+      !> State and quantity at a place in a piece.
+      pure type(extreme_t) function at_place(piece, x)
+         integer, intent(in) :: piece
+         real(dp), intent(in) :: x
+         real(dp) :: load, by_film, by_velocity
+         integer :: before
+
+         before = nodes_per_piece*(piece - 1)
+         at_place%exists = .true.
+         at_place%period = period
+         at_place%phase = start(piece) + x*length(piece)
+         at_place%film = interpolate(films(before + 1:before + nodes_per_piece), x)
+         at_place%velocity = interpolate(velocities(before + 1:before + nodes_per_piece), x)
+         select case (quantity)
+         case (seen_film)
+            at_place%value = at_place%film
+         case (seen_velocity)
+            at_place%value = at_place%velocity
+         case (seen_pressure)
+            at_place%value = exact_pressure(scene%film%radius, scene%film%speed, scene%film%viscosity, at_place%film, &
+                                            at_place%velocity)
+         case default
+            call film_load(scene%film, at_place%film, at_place%velocity, load, by_film, by_velocity)
+            at_place%value = load
+            if (quantity == seen_acceleration) at_place%value = &
+               (load - scene%weight - applied_force(scene%steady_force, scene%force_amplitude, min(1.0_dp, at_place%phase))) &
+               /scene%mass
+         end select
+      end function at_place
+
+   end subroutine find_extremes
+
+   !> Take a point into three that stand around a peak, and leave out the one that is farthest from it.
+   pure subroutine narrow(x, y, place, value)
+      !> Places, in their order, and values
+      real(dp), intent(inout) :: x(3)
+      real(dp), intent(inout) :: y(3)
+      !> The new one, between the outer two
+      real(dp), intent(in) :: place
+      real(dp), intent(in) :: value
+      real(dp) :: places(4), values(4)
+      integer :: before, highest
+
+      before = count(x < place)
+      places = [x(:before), place, x(before + 1:)]
+      values = [y(:before), value, y(before + 1:)]
+      highest = min(max(maxloc(values, dim=1), 2), 3)
+      x = places(highest - 1:highest + 1)
+      y = values(highest - 1:highest + 1)
+   end subroutine narrow
+
+   !> Highest point of the parabola through three points, between 0 and 1.
+   pure subroutine top_of_parabola(x, y, place, value)
+      !> Places, in their order, and values
+      real(dp), intent(in) :: x(3)
+      real(dp), intent(in) :: y(3)
+      !> Where it is highest, and its value there
+      real(dp), intent(out) :: place
+      real(dp), intent(out) :: value
+      real(dp) :: slope, next_slope, curvature
+
+      slope = (y(2) - y(1))/(x(2) - x(1))
+      next_slope = (y(3) - y(2))/(x(3) - x(2))
+      curvature = (next_slope - slope)/(x(3) - x(1))
+      if (curvature < 0.0_dp) then
+         place = min(max(0.5_dp*(x(1) + x(2)) - 0.5_dp*slope/curvature, 0.0_dp), 1.0_dp)
+      else
+         place = merge(0.0_dp, 1.0_dp, y(1) > y(3))
+      end if
+      value = y(1) + (place - x(1))*(slope + curvature*(place - x(2)))
+   end subroutine top_of_parabola
+
+end module node_extremes

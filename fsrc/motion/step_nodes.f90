@@ -1,0 +1,124 @@
+!> Film and velocity within the steps of a motion, at Gauss's nodes: what happens between samples is seen there.
+!>
+!> A step is as long as its polynomials are good, so eight nodes of it carry all that they know: integrals over a step are
+!> exact to rounding, and interpolation between its nodes is closer than the accuracy of the step. A step is cut into equal
+!> pieces of eight nodes each where oscillations shorter than it are to be integrated.
+module step_nodes
+   use kinds, only: dp
+   use lane_scenes, only: lane_block_t
+   use taylor_step_control, only: order
+   implicit none(type, external)
+   private
+
+   !> Nodes of a piece of a step.
+   integer, parameter, public :: nodes_per_piece = 8
+   !> Their places in the piece, from 0 to 1, and the weights of their integrals.
+   real(dp), parameter :: place(4) = [0.1834346424956498_dp, 0.5255324099163290_dp, 0.7966664774136267_dp, 0.9602898564975363_dp]
+   real(dp), parameter :: share(4) = [0.3626837833783620_dp, 0.3137066458778873_dp, 0.2223810344533745_dp, 0.1012285362903763_dp]
+   real(dp), parameter, public :: node_place(nodes_per_piece) = 0.5_dp + 0.5_dp*[-place(4:1:-1), place]
+   real(dp), parameter, public :: node_weight(nodes_per_piece) = 0.5_dp*[share(4:1:-1), share]
+   !> Barycentric weights of interpolation, (-1)^i sqrt((1 - x^2) w) (Wang and Xiang 2012).
+   real(dp), parameter :: barycentric(nodes_per_piece) = [-1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp] &
+                          *sqrt([(1.0_dp - place(4:1:-1)**2)*share(4:1:-1), (1.0_dp - place**2)*share])
+   !> Pieces for which there is room at first.
+   integer, parameter :: first_room = 64
+
+   !> Nodes of the steps of one period of one motion, piece after piece.
+   type, public :: step_nodes_t
+      !> Pieces
+      integer :: pieces = 0
+      !> Phase where a piece begins, and its length [periods]
+      real(dp), allocatable :: start(:), length(:)
+      !> h [m] and z' [m/s] at the nodes, eight a piece
+      real(dp), allocatable :: films(:), velocities(:)
+   end type step_nodes_t
+
+   public :: take_nodes, interpolate
+
+contains
+
+   !> Add the nodes of the present step of a lane.
+   pure subroutine take_nodes(block, lane, longest_piece, nodes)
+      !> The block, with series and steps
+      type(lane_block_t), intent(in) :: block
+      !> Lane
+      integer, intent(in) :: lane
+      !> Longest piece [periods]
+      real(dp), intent(in) :: longest_piece
+      !> Nodes of the period so far
+      type(step_nodes_t), intent(inout) :: nodes
+      real(dp) :: film_series(0:order), momentum_series(0:order), x(nodes_per_piece), film(nodes_per_piece), &
+                  velocity(nodes_per_piece), length
+      integer :: pieces, piece, before, i, k
+
+      film_series = block%film(lane, :)
+      momentum_series = block%momentum(lane, :)
+      pieces = max(1, ceiling(block%step(lane)/longest_piece))
+      length = block%step(lane)/real(pieces, dp)
+      call provide_room(nodes, nodes%pieces + pieces)
+      do piece = 1, pieces
+         x = (real(piece - 1, dp) + node_place)*length
+         film = film_series(order)
+         velocity = momentum_series(order)
+         do k = order - 1, 0, -1
+            !$omp simd
+            do i = 1, nodes_per_piece
+               film(i) = film(i)*x(i) + film_series(k)
+               velocity(i) = velocity(i)*x(i) + momentum_series(k)
+            end do
+         end do
+         velocity = velocity + block%slip(lane)/sqrt(film)
+         before = nodes_per_piece*nodes%pieces
+         nodes%pieces = nodes%pieces + 1
+         nodes%start(nodes%pieces) = block%phase(lane) + real(piece - 1, dp)*length
+         nodes%length(nodes%pieces) = length
+         nodes%films(before + 1:before + nodes_per_piece) = film*block%film_scale(lane)
+         nodes%velocities(before + 1:before + nodes_per_piece) = velocity*block%velocity_scale(lane)
+      end do
+   end subroutine take_nodes
+
+   !> See that so many pieces have their place.
+   pure subroutine provide_room(nodes, pieces)
+      type(step_nodes_t), intent(inout) :: nodes
+      integer, intent(in) :: pieces
+      integer :: room
+
+      room = 0
+      if (allocated(nodes%start)) room = size(nodes%start)
+      if (room >= pieces) return
+      room = max(first_room, pieces, 2*room)
+      call extend(nodes%start, room)
+      call extend(nodes%length, room)
+      call extend(nodes%films, nodes_per_piece*room)
+      call extend(nodes%velocities, nodes_per_piece*room)
+   end subroutine provide_room
+
+   !> Lengthen an array.
+   pure subroutine extend(numbers, length)
+      real(dp), allocatable, intent(inout) :: numbers(:)
+      integer, intent(in) :: length
+      real(dp), allocatable :: longer(:)
+
+      allocate (longer(length))
+      if (allocated(numbers)) longer(:size(numbers)) = numbers
+      call move_alloc(longer, numbers)
+   end subroutine extend
+
+   !> Value within a piece, from those at its nodes.
+   pure real(dp) function interpolate(values, x)
+      !> Values at the nodes
+      real(dp), intent(in) :: values(nodes_per_piece)
+      !> Place in the piece, from 0 to 1
+      real(dp), intent(in) :: x
+      real(dp) :: distance(nodes_per_piece), factor(nodes_per_piece)
+      integer :: nearest
+
+      distance = x - node_place
+      nearest = minloc(abs(distance), dim=1)
+      interpolate = values(nearest)
+      if (abs(distance(nearest)) < epsilon(1.0_dp)) return
+      factor = barycentric/distance
+      interpolate = sum(factor*values)/sum(factor)
+   end function interpolate
+
+end module step_nodes
