@@ -73,8 +73,9 @@ contains
          call note_orbit(tight_verdict, attracting_period(found))
       end if
       if (present(orbit)) orbit = found
-      unclosed = closing_sentence(window%record, lane%frequency, lane%mass)
-      if (len(unclosed) == 0) unclosed = closing_sentence(tight%record, lane%frequency, lane%mass)
+      unclosed = closing_sentence(window%record, lane%frequency, lane%mass, resolved%noise_floor)
+      if (len(unclosed) == 0) unclosed = &
+         closing_sentence(tight%record, lane%frequency, lane%mass, resolved%noise_floor_at(accuracy))
       if (len(unclosed) == 0 .and. .not. (verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient)) &
          unclosed = too_few_samples(scene, tight)
       associate (stride => tight%samples_per_period/window%samples_per_period)

@@ -131,17 +131,20 @@ contains
    end subroutine compare_windows
 
    !> Why a window does not close, empty if it does.
-   pure function closing_sentence(record, frequency, mass) result(reason)
+   pure function closing_sentence(record, frequency, mass, noise_floor) result(reason)
       !> Record of the window; without one there is nothing to close
       type(window_record_t), intent(in) :: record
       !> Frequency of the force [Hz] and mass [kg]
       real(dp), intent(in) :: frequency
       real(dp), intent(in) :: mass
+      !> Acceleration that the errors of the solution explain [m/s2]
+      real(dp), intent(in) :: noise_floor
       character(:), allocatable :: reason
 
       reason = ''
       if (record%periods == 0) return
-      if (.not. momentum_gap(record, frequency) <= closing_share) then
+      if (.not. momentum_gap(record, frequency)*record%acceleration_size <= &
+          closing_share*record%acceleration_size + noise_floor*real(record%periods, dp)) then
          reason = 'The window does not close: the mean of z" is '// &
                   short_text(record%acceleration_sum/real(record%periods, dp), 3)//' m/s2, while the change of velocity gives '// &
                   short_text((record%end_velocity - record%start_velocity)*frequency/real(record%periods, dp), 3)//' m/s2.'

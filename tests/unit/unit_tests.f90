@@ -25,6 +25,7 @@ program unit_tests
    use test_scene_input, only: run_scene_input_tests
    use test_spectral_lines, only: run_spectral_lines_tests
    use test_text, only: run_text_tests
+   use test_window_record, only: run_window_record_tests
    use test_word_list, only: run_word_list_tests
    use test_value_range, only: run_value_range_tests
    use test_film_fit, only: run_film_fit_tests
@@ -109,6 +110,7 @@ program unit_tests
    call run_newmark_extrapolated_tests(checks)
    call run_lane_motions_tests(checks)
    call run_settling_forecast_tests(checks)
+   call run_window_record_tests(checks)
 
    print '(i0, a, i0, a)', checks%passed, ' passed, ', checks%failed, ' failed'
    if (checks%failed > 0) stop 1, quiet = .true.

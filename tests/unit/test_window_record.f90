@@ -1,0 +1,241 @@
+!> Tests of what the steps of a window tell: extremes between samples, sums by which the window closes, Fourier integrals.
+module test_window_record
+   use canonical_scenes, only: canonical_scene
+   use checks, only: check_list_t, same_bits
+   use film_law, only: film_t, new_film, steady_film
+   use fine_window, only: integral_record
+   use kinds, only: dp
+   use lane_motions, only: solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use node_extremes, only: seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, seen_velocity
+   use rattle_class, only: classify, classify_steps, rattle_verdict_t
+   use scene_lane, only: lane_of_scene
+   use scene_status, only: status_complete
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t, spectrum_choice_t
+   use sample_accelerations, only: accelerations_of_samples
+   use step_nodes, only: interpolate, node_place, node_weight, nodes_per_piece
+   use window_extremes, only: extremes_of_samples, window_extremes_t
+   use window_record, only: energy_gap, momentum_gap, window_record_t
+   implicit none(type, external)
+   private
+
+   !> Samples that miss nothing of the canonical scenes: their extremes are off by (pi n/N)**2/2 of the highest lines.
+   integer, parameter :: fine = 32768
+   real(dp), parameter :: accuracy = 1.0e-9_dp
+
+   public :: run_window_record_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_window_record_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('window_record')
+      call test_nodes(checks)
+      call test_canonical(checks)
+      call test_pieces(checks)
+      call test_impact(checks)
+      call test_returning(checks)
+   end subroutine run_window_record_tests
+
+   !> Eight nodes integrate and interpolate powers up to the fifteenth and the seventh.
+   subroutine test_nodes(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
+      integer :: k, i
+
+      do k = 0, 15
+         call checks%check_close(sum(node_weight*node_place**k), 1.0_dp/real(k + 1, dp), rounding, 'nodes: integral of a power')
+      end do
+      call checks%check(abs(sum(node_weight*node_place**16) - 1.0_dp/17.0_dp) > 1.0e-10_dp, 'nodes: not of the next one')
+      do k = 0, nodes_per_piece - 1
+         do i = 0, 10
+            call checks%check_close(interpolate(node_place**k, 0.1_dp*real(i, dp)), (0.1_dp*real(i, dp))**k, 8.0_dp*rounding, &
+               'nodes: a power between them')
+         end do
+      end do
+      call checks%check_close(interpolate(node_place**3, node_place(2)), node_place(2)**3, 0.0_dp, 'nodes: at a node')
+   end subroutine test_nodes
+
+   !> Lane of a scene, from its steady film.
+   function lane_of(scene) result(lane)
+      type(scene_t), intent(in) :: scene  !> The scene
+      type(lane_scene_t) :: lane
+
+      type(film_t) :: film
+
+      film = new_film(scene)
+      lane = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), 0.0_dp)
+   end function lane_of
+
+   !> All film laws: extremes as those of very many samples, closed windows, lines as those of the samples; Taylor series and
+   !> collocation.
+   subroutine test_canonical(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      character(*), parameter :: names(4) = [character(15) :: 'half-pi', 'solved', 'published piezo', 'exact']
+      type(scene_t) :: scene
+      integer :: law, implicit
+
+      do law = 1, 4
+         do implicit = 0, 1
+            scene = canonical_scene(merge(law_piezo_viscous, law_iso_viscous, law == 3), 512)
+            if (law == 2) scene%film%rupture = rupture_solved
+            if (law == 4) scene%film%model = model_reynolds
+            if (law == 4) scene%kinematics%entrainment_speed = 0.5_dp*1.905_dp
+            call compare_with_samples(checks, scene, implicit == 1, trim(names(law)))
+         end do
+      end do
+   end subroutine test_canonical
+
+   !> Hold the record of two periods against their samples.
+   subroutine compare_with_samples(checks, scene, implicit, name)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(scene_t), intent(in) :: scene           !> The scene
+      logical, intent(in) :: implicit              !> By collocation
+      character(*), intent(in) :: name             !> Of its law
+
+      integer, parameter :: window = 2
+      type(lane_scene_t) :: lane
+      type(lane_ending_t) :: endings(1)
+      type(window_record_t) :: records(1), integrals(1)
+      type(window_extremes_t) :: extremes
+      type(rattle_verdict_t) :: by_samples, by_steps
+      type(spectrum_choice_t) :: choice
+      real(dp), allocatable :: films(:, :), velocities(:, :), accelerations(:)
+      real(dp) :: size_of
+      integer :: quantity
+
+      lane = lane_of(scene)
+      lane%implicit = implicit
+      allocate (films(window*fine, 1), velocities(window*fine, 1), accelerations(window*fine))
+      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=30, samples_per_period=fine, sampled_periods=window), &
+         films, velocities, endings, records=records)
+      call checks%check(endings(1)%status == status_complete .and. records(1)%periods == window, name//': recorded')
+      call accelerations_of_samples(lane, fine, films(:, 1), velocities(:, 1), accelerations)
+      extremes = extremes_of_samples(lane%film, films(:, 1), velocities(:, 1), accelerations)
+      do quantity = 1, seen_quantities
+         size_of = extremes%highest(quantity)%value - extremes%lowest(quantity)%value
+         ! Samples fall short of the extreme, by (pi 100/fine)**2/2 of the range for a hundred lines.
+         call checks%check(records(1)%highest(quantity)%value >= extremes%highest(quantity)%value - 1.0e-8_dp*size_of .and. &
+            records(1)%highest(quantity)%value <= extremes%highest(quantity)%value + 1.0e-6_dp*size_of, name//': highest')
+         call checks%check(records(1)%lowest(quantity)%value <= extremes%lowest(quantity)%value + 1.0e-8_dp*size_of .and. &
+            records(1)%lowest(quantity)%value >= extremes%lowest(quantity)%value - 1.0e-6_dp*size_of, name//': lowest')
+      end do
+      call checks%check(momentum_gap(records(1), lane%frequency) < 1.0e-8_dp, name//': momentum closes')
+      call checks%check(energy_gap(records(1), lane%mass) < 1.0e-8_dp, name//': energy closes')
+      call checks%check_close(records(1)%acceleration_square/real(window, dp)*real(size(accelerations), dp) &
+         /sum(accelerations**2), 1.0_dp, 1.0e-8_dp, name//': mean square')
+
+      choice%periods = window
+      integrals(1) = integral_record(choice, window)
+      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=30, samples_per_period=1, sampled_periods=window, &
+         every_period=.true.), films, velocities, endings, records=integrals)
+      call classify(accelerations, choice, 1.0e-9_dp, by_samples)
+      call classify_steps(integrals(1), lane%frequency, choice, 1.0e-9_dp, by_steps)
+      ! The accelerations of samples follow from the film law, which the steps obey to a hundred times their accuracy.
+      call checks%check(maxval(abs(by_steps%lines%harmonics - by_samples%lines%harmonics(:size(by_steps%lines%harmonics)))) &
+         < 100.0_dp*accuracy*by_samples%lines%harmonics(1), name//': lines by integrals')
+      call checks%check(by_steps%class == by_samples%class .and. by_steps%lines%line_count == by_samples%lines%line_count, &
+         name//': class and lines by integrals')
+      call checks%check_close(by_steps%lines%harmonic_distortion/by_samples%lines%harmonic_distortion, 1.0_dp, 1.0e-8_dp, &
+         name//': distortion by integrals')
+      call checks%check_close(by_steps%reversals_per_period, by_samples%reversals_per_period, 0.0_dp, name//': reversals by steps')
+   end subroutine compare_with_samples
+
+   !> A window recorded in two calls is one recorded in one call, to the last bit.
+   subroutine test_pieces(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(scene_t) :: scene
+      type(lane_scene_t) :: lane
+      type(lane_ending_t) :: endings(1)
+      type(window_record_t) :: whole(1), parts(1)
+      real(dp) :: films(4, 1), velocities(4, 1)
+      integer :: quantity
+
+      scene = canonical_scene(law_iso_viscous, 512)
+      lane = lane_of(scene)
+      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=4, samples_per_period=1, sampled_periods=4), films, &
+         velocities, endings, records=whole)
+      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=3, samples_per_period=1, sampled_periods=3), films, &
+         velocities, endings, records=parts)
+      lane%carried_on = .true.
+      lane%periods_done = 3
+      lane%initial_film = endings(1)%film
+      lane%initial_velocity = endings(1)%velocity
+      lane%initial_momentum = endings(1)%momentum
+      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=4, samples_per_period=1, sampled_periods=1), films, &
+         velocities, endings, records=parts)
+      call checks%check(parts(1)%periods == 4, 'parts: all periods')
+      do quantity = 1, seen_quantities
+         call checks%check(same_bits(parts(1)%highest(quantity)%value, whole(1)%highest(quantity)%value) .and. &
+            same_bits(parts(1)%lowest(quantity)%value, whole(1)%lowest(quantity)%value), 'parts: extremes')
+      end do
+      call checks%check(same_bits(parts(1)%acceleration_sum, whole(1)%acceleration_sum) .and. &
+         same_bits(parts(1)%film_work, whole(1)%film_work), 'parts: sums')
+      call checks%check(same_bits(parts(1)%start_film, whole(1)%start_film) .and. &
+         same_bits(parts(1)%end_velocity, whole(1)%end_velocity), 'parts: ends')
+   end subroutine test_pieces
+
+   !> Ten times the static load at 15 Hz: an impact of a millionth of a period, which 65536 samples a period miss. Values of an
+   !> independent solver to six digits: a_1 = 290.754, a_2 = 152.365, film below 0.1 nm.
+   subroutine test_impact(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(scene_t) :: scene
+      type(lane_scene_t) :: lane
+      type(lane_ending_t) :: endings(1)
+      type(window_record_t) :: records(1)
+      type(rattle_verdict_t) :: verdict
+      type(spectrum_choice_t) :: choice
+      real(dp) :: films(8, 1), velocities(8, 1)
+
+      scene = canonical_scene(law_iso_viscous, 512)
+      scene%load%force_amplitude = 700.0_dp
+      scene%load%frequency = 15.0_dp
+      lane = lane_of(scene)
+      choice%periods = 8
+      records(1) = integral_record(choice, 8)
+      records(1)%wants = .true.
+      call solve_motions([lane], lane_request_t(accuracy=1.0e-8_dp, periods=40, samples_per_period=1, sampled_periods=8, &
+         every_period=.true.), films, velocities, endings, records=records)
+      call classify_steps(records(1), lane%frequency, choice, 1.0e-9_dp, verdict)
+      call checks%check_close(verdict%lines%harmonics(1), 290.754_dp, 1.0e-3_dp, 'impact: first harmonic')
+      call checks%check_close(verdict%lines%harmonics(2), 152.365_dp, 1.0e-3_dp, 'impact: second harmonic')
+      call checks%check(records(1)%lowest(seen_film)%value < 0.1e-9_dp, 'impact: thinnest film')
+      call checks%check(records(1)%highest(seen_velocity)%value - records(1)%lowest(seen_velocity)%value > 5.0_dp, &
+         'impact: jump of the velocity')
+      call checks%check(verdict%lines%count_is_bound .and. verdict%lines%line_count == records(1)%multiples, &
+         'impact: more lines than are resolved')
+      call checks%check(.not. verdict%lines%distortion_is_bound .and. verdict%lines%harmonic_distortion > 1000.0_dp, &
+         'impact: distortion by the whole power')
+      call checks%check(momentum_gap(records(1), lane%frequency) < 1.0e-6_dp, 'impact: momentum closes')
+      call checks%check(energy_gap(records(1), lane%mass) < 1.0e-6_dp, 'impact: energy closes')
+      call checks%check(all(records(1)%highest([seen_acceleration, seen_load, seen_pressure])%value > 1.0e10_dp), &
+         'impact: peaks')
+   end subroutine test_impact
+
+   !> Periods that only return to the last bit are not recorded again, and the sums are those of the periods recorded.
+   subroutine test_returning(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(scene_t) :: scene
+      type(lane_scene_t) :: lane
+      type(lane_ending_t) :: endings(1)
+      type(window_record_t) :: records(1)
+      real(dp) :: films(100, 1), velocities(100, 1)
+
+      scene = canonical_scene(law_iso_viscous, 512)
+      lane = lane_of(scene)
+      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=400, samples_per_period=1, sampled_periods=100), &
+         films, velocities, endings, records=records)
+      call checks%check(endings(1)%samples == 100 .and. records(1)%periods > 0 .and. records(1)%periods < 100, &
+         'returning: fewer periods recorded than sampled')
+      call checks%check(momentum_gap(records(1), lane%frequency) < 1.0e-8_dp .and. energy_gap(records(1), lane%mass) < 1.0e-8_dp, &
+         'returning: the window closes')
+   end subroutine test_returning
+
+end module test_window_record
