@@ -91,8 +91,8 @@ contains
          n = min(n, size(certificate%harmonic_errors))
          told%harmonic_errors(:n) = certificate%harmonic_errors(:n)
          if (n == 0) return
-         told%extreme_errors(:2) = certificate%film_error*told%extremes(:2)
-         told%extreme_errors(3:) = certificate%acceleration_error*maxval(abs(told%extremes(3:)))
+         told%extreme_errors = [certificate%film_minimum_error, certificate%film_maximum_error, &
+                                certificate%acceleration_minimum_error, certificate%acceleration_maximum_error]
       end associate
    end subroutine summary_told
 
