@@ -24,7 +24,7 @@ RATIO = r"Frequency ratio $f/f_\mathrm{exc}$"
 
 @pytest.fixture
 def idle(tmp_path) -> Path:
-    return write_motion(tmp_path / "idle.rattle", lines=LINES)
+    return write_motion(tmp_path / "idle.rattle", lines={0.0: 1.5, **LINES})
 
 
 @pytest.fixture
