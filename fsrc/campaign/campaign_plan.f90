@@ -7,6 +7,7 @@ module campaign_plan
    use sampling, only: chunk_values, method_grid, method_sobol, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, &
                        sample_plan_t
    use scene_types, only: scene_t
+   use signals, only: must_stop
    use text, only: integer_text
    use varied_keys, only: find_varied_key, is_whole, varied_code, varied_key_name
    use varied_scene, only: is_valid_scene, set_varied_keys
@@ -48,6 +49,7 @@ contains
          end do
          if (faults%count() > before) return
          call plan_table(samples%positions, samples%values, plan)
+         plan%known = samples%read
       else
          call form_axes(scene, file, axes, faults)
          if (faults%count() > before) return
@@ -125,8 +127,9 @@ contains
                          ': the base input does not use this key; give it there, or vary the one it uses')
    end subroutine check_position
 
-   !> Scenes that are no valid scenes; the first ones are named as faults unless they are allowed.
-   subroutine count_invalid(scene, file, plan, first, last, invalid, faults)
+   !> Scenes that are no valid scenes; the first ones are named as faults unless they are allowed. All scenes are looked at
+   !> whose values are known, unless the work must stop.
+   subroutine count_invalid(scene, file, plan, first, last, seen, invalid, faults)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
       !> Its input, for the faults
@@ -136,7 +139,9 @@ contains
       !> First and last scene to look at
       integer(int64), intent(in) :: first
       integer(int64), intent(in) :: last
-      !> How many are invalid
+      !> How many were looked at
+      integer(int64), intent(out) :: seen
+      !> How many of them are invalid
       integer(int64), intent(out) :: invalid
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
@@ -148,8 +153,9 @@ contains
       invalid = 0_int64
       trial = scene
       codes = varied_code(plan%positions)
-      do start = first, last, int(block, int64)
-         count = int(min(int(block, int64), last - start + 1_int64))
+      seen = 0_int64
+      do start = first, min(last, plan%known), int(block, int64)
+         count = int(min(int(block, int64), min(last, plan%known) - start + 1_int64))
          if (allocated(values)) deallocate (values)
          allocate (values(size(plan%positions), count))
          call chunk_values(plan, start, values)
@@ -161,6 +167,8 @@ contains
             call faults%add(file, 0, 'campaign', '', 'scene '//integer_text(start + int(i - 1, int64))// &
                             ' is no valid scene; allow_invalid = .true. records it as such')
          end do
+         seen = seen + int(count, int64)
+         if (must_stop()) exit
       end do
       if (invalid > int(most_named, int64) .and. .not. scene%campaign%allow_invalid) &
          call faults%add(file, 0, 'campaign', '', integer_text(invalid)//' scenes are no valid scenes')

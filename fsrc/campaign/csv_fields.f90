@@ -2,6 +2,7 @@
 module csv_fields
    use file_system, only: is_directory, path_exists
    use kinds, only: int64
+   use signals, only: must_stop
    implicit none(type, external)
    private
 
@@ -44,7 +45,8 @@ module csv_fields
 
 contains
 
-   !> Open a file and count its lines; an end without a line feed counts as a line.
+   !> Open a file and count its lines; an end without a line feed counts as a line. Where the work must stop, only some are
+   !> counted.
    subroutine open_text(self, path, lines, message)
       class(csv_text_t), intent(inout) :: self
       !> Path of the file
@@ -83,6 +85,7 @@ contains
             if (self%block(i:i) == line_feed) lines = lines + 1_int64
          end do
          open_end = self%block(self%used:self%used) /= line_feed
+         if (must_stop()) exit
       end do
       if (open_end) lines = lines + 1_int64
       if (self%broken) message = 'it cannot be read to its end'

@@ -6,6 +6,7 @@ module csv_samples
    use errors, only: fault_list_t
    use kinds, only: dp, int64
    use number_text, only: read_strict_integer, read_strict_real
+   use signals, only: must_stop
    use text, only: integer_text
    use varied_keys, only: find_varied_key, is_whole, varied_key_name
    implicit none(type, external)
@@ -20,6 +21,8 @@ module csv_samples
       integer, allocatable :: positions(:)
       !> (column, scene)
       real(dp), allocatable :: values(:, :)
+      !> Scenes that were read: fewer than there are where the reading had to stop
+      integer(int64) :: read = 0_int64
    end type csv_samples_t
 
    public :: read_csv_samples
@@ -133,6 +136,7 @@ contains
 
       columns = size(samples%positions)
       do row = 1_int64, size(samples%values, 2, kind=int64)
+         if (must_stop()) return
          line = int(min(row + 1_int64, int(huge(1), int64)))
          column = 0
          do
@@ -157,6 +161,7 @@ contains
             call faults%add(path, line, '', '', 'the line has '//integer_text(column)// &
                             ' columns, the header '//integer_text(columns))
          end if
+         samples%read = row
          ! What comes after a full list of faults is not told anyway.
          if (faults%not_kept() > 0) return
       end do

@@ -7,16 +7,18 @@ module run_campaign
    use clock, only: wall_seconds
    use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
    use file_system, only: path_exists
+   use key_table, only: find_key
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
    use output_place, only: check_folder, log_path, progress_path, result_path, summary_path
    use ranks, only: abort_ranks, next_ticket, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
-   use sampling, only: sample_plan_t
+   use recorded_quantities, only: needs_certificate, quantities
+   use sampling, only: largest_value, sample_plan_t
    use scene_report, only: law_sentence
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
    use schedule, only: chunk_rows_for
-   use signals, only: caught_signal
+   use signals, only: caught_signal, lift_time_limit, limit_time, must_stop
    use solve_chunk, only: chunk_space_t, solve_scenes
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
@@ -25,11 +27,15 @@ module run_campaign
    implicit none(type, external)
    private
 
+   !> What --check may take to read the scenes, to look at them, and to solve some of them [s]
+   integer, parameter :: reading_limit = 2, looking_limit = 1, trial_limit = 1
+
    public :: run_one_campaign, check_campaign
 
 contains
 
-   !> --check of a campaign: how many scenes, how large the result, how long it may take.
+   !> --check of a campaign: how many scenes, how large the result, how long it may take. However large the campaign is,
+   !> this takes a few seconds: what was not looked at by then is told.
    subroutine check_campaign(scene, file, lines, faults)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
@@ -41,25 +47,58 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(sample_plan_t) :: plan
       type(campaign_layout_t) :: layout
-      type(chunk_space_t) :: space
-      real(dp), allocatable :: rows(:, :)
-      real(dp) :: started
-      integer(int64) :: invalid, first, last
-      integer :: trial
+      integer(int64) :: invalid, first, seen
+      character(:), allocatable :: among
 
       lines = ''
-      call prepare(scene, file, plan, first, last, invalid, layout, faults)
+      call prepare(scene, file, .true., plan, first, seen, invalid, layout, faults)
       if (faults%count() > 0) return
-      trial = int(min(256_int64, last - first + 1_int64))
-      allocate (rows(size(layout%names), trial))
-      started = wall_seconds()
-      call solve_scenes(scene, plan, first + (last - first + 1_int64 - int(trial, int64))/2_int64, space, rows)
-      lines = '! scenes              '//integer_text(last - first + 1_int64)//' ('//integer_text(invalid)//' invalid)'// &
-              new_line('a')// &
-              '! result size         '//short_text(8.0e-6_dp*real(size(layout%names), dp)*real(last - first + 1_int64, dp), 3)// &
-              ' MB'//new_line('a')//'! core time, estimated '// &
-              short_text((wall_seconds() - started)/real(trial, dp)*real(last - first + 1_int64, dp), 2)//' s'
+      among = ''
+      if (seen < layout%scene_count) among = ' among the first '//integer_text(seen)//'; there was no time to look at more'
+      ! Where a table is so long that its lines could not even be counted, none of its scenes was looked at.
+      lines = '! scenes             '//trim(merge(' at least', '         ', seen == 0_int64))//' '// &
+              integer_text(layout%scene_count)//' ('//integer_text(invalid)//' invalid'//among//')'//new_line('a')// &
+              '! result size         '//short_text(8.0e-6_dp*real(size(layout%names), dp)*real(layout%scene_count, dp), 3)// &
+              ' MB'//new_line('a')// &
+              '! chunks              '//integer_text((layout%scene_count - 1_int64)/layout%chunk_rows + 1_int64)//' of at most '// &
+              integer_text(layout%chunk_rows)//' scenes'//new_line('a')// &
+              '! core time, '//core_time_sentence(scene, plan, first, seen, layout)
    end subroutine check_campaign
+
+   !> How long the scenes may take, from trials of 8, 64 and 512 of them, as far as there is time.
+   function core_time_sentence(scene, plan, first, seen, layout) result(sentence)
+      type(scene_t), intent(in) :: scene
+      type(sample_plan_t), intent(in) :: plan
+      !> First scene of this part of the campaign, and scenes of it whose values are known
+      integer(int64), intent(in) :: first
+      integer(int64), intent(in) :: seen
+      type(campaign_layout_t), intent(in) :: layout
+      character(:), allocatable :: sentence
+      type(chunk_space_t) :: space
+      real(dp), allocatable :: rows(:, :)
+      real(dp) :: started, seconds
+      integer(int64) :: trial
+
+      sentence = 'not estimated: no scene could be looked at'
+      if (seen == 0_int64) return
+      call limit_time(trial_limit)
+      trial = min(8_int64, seen)
+      do
+         allocate (rows(size(layout%names), trial))
+         started = wall_seconds()
+         call solve_scenes(scene, plan, first + (seen - trial)/2_int64, space, rows)
+         seconds = (wall_seconds() - started)/real(trial, dp)*real(layout%scene_count, dp)
+         deallocate (rows)
+         if (must_stop()) exit
+         sentence = 'estimated '//short_text(seconds, 2)//' s, from '//integer_text(trial)//' scenes'
+         if (trial == min(512_int64, seen)) exit
+         trial = min(8_int64*trial, seen)
+      end do
+      if (must_stop() .and. trial == min(8_int64, seen)) &
+         sentence = 'more than '//short_text(seconds, 2)//' s: '//integer_text(trial)//' scenes were not solved within '// &
+                    integer_text(trial_limit)//' s'
+      call lift_time_limit()
+   end function core_time_sentence
 
    !> Run a campaign and write its files. All ranks call this.
    subroutine run_one_campaign(scene, file, carry_on, quiet, faults, exit_code, error)
@@ -83,18 +122,20 @@ contains
       type(campaign_progress_t) :: progress
       type(log_t) :: log
       type(error_t), allocatable :: close_error
-      integer(int64) :: first, last, spoilt, invalid
+      integer(int64) :: first, seen, spoilt, invalid
       real(dp) :: started
       logical :: stands
 
       exit_code = exit_bad_input
       started = wall_seconds()
-      call prepare(scene, file, plan, first, last, invalid, layout, faults)
-      if (faults%count() > 0) return
+      call prepare(scene, file, .false., plan, first, seen, invalid, layout, faults)
       spoilt = 0_int64
       if (this_rank() == 0) then
-         call check_folder(scene, file, faults)
-         if (faults%count() == 0) then
+         if (faults%count() == 0) call check_folder(scene, file, faults)
+         if (caught_signal() /= 0) then
+            ! The look at the scenes was cut short: there may be faults that are not known.
+            exit_code = 128 + caught_signal()
+         else if (faults%count() == 0) then
             stands = path_exists(result_path(scene))
             if (carry_on .and. stands) then
                call results%resume(result_path(scene), layout, spoilt, error)
@@ -102,9 +143,9 @@ contains
                call results%create(result_path(scene), layout, scene%output%overwrite .and. .not. carry_on, error)
             end if
             if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)
+            exit_code = exit_complete
             if (allocated(error)) exit_code = error%exit_code
          end if
-         exit_code = merge(exit_code, exit_complete, faults%count() > 0 .or. allocated(error))
       end if
       call share_number(exit_code)
       if (exit_code /= exit_complete) return
@@ -137,27 +178,39 @@ contains
       call share_number(exit_code)
    end subroutine run_one_campaign
 
-   !> What is known before anything is solved. After a fault only the faults are of use.
-   subroutine prepare(scene, file, plan, first, last, invalid, layout, faults)
+   !> What is known before anything is solved; the scenes are cut by the whole campaign, whatever part of it this is. After a
+   !> fault only the faults are of use.
+   subroutine prepare(scene, file, hurried, plan, first, seen, invalid, layout, faults)
       type(scene_t), intent(in) :: scene
       character(*), intent(in) :: file
+      !> Whether to look at no more scenes than there is time for
+      logical, intent(in) :: hurried
       type(sample_plan_t), intent(out) :: plan
-      !> First and last scene of this part of the campaign, and how many of them are invalid
+      !> First scene of this part of the campaign, how many of the part were looked at, and how many of these are invalid
       integer(int64), intent(out) :: first
-      integer(int64), intent(out) :: last
+      integer(int64), intent(out) :: seen
       integer(int64), intent(out) :: invalid
       type(campaign_layout_t), intent(out) :: layout
       type(fault_list_t), intent(inout) :: faults
+      integer(int64) :: last
 
       first = 0_int64
-      last = 0_int64
+      seen = 0_int64
       invalid = 0_int64
+      if (hurried) call limit_time(reading_limit)
       call plan_campaign(scene, file, plan, faults)
+      if (hurried) call lift_time_limit()
       if (faults%count() > 0) return
-      call share_of_part(scene, plan%size, first, last)
-      call count_invalid(scene, file, plan, first, last, invalid, faults)
-      if (faults%count() > 0) return
-      call form_layout(scene, plan, last - first + 1_int64, layout)
+      layout%chunk_rows = int(chunk_rows_for(plan%size, largest_value(plan, find_key('solver', 'periods'), &
+                                                                      real(scene%solver%periods, dp)), &
+                                             any(quantities(scene%campaign%record)%need == needs_certificate)), int64)
+      call share_of_part(scene, plan%size, layout%chunk_rows, first, last)
+      if (hurried) call limit_time(looking_limit)
+      call count_invalid(scene, file, plan, first, last, seen, invalid, faults)
+      if (hurried) call lift_time_limit()
+      layout%input_text = scene%resolved_input
+      layout%scene_count = last - first + 1_int64
+      call record_columns(scene, plan%positions, layout%names, layout%units)
    end subroutine prepare
 
    !> Chunks until none is left, or a signal asks to stop.
@@ -191,6 +244,8 @@ contains
          call results%chunk_bounds(chunk, first_row, last_row)
          allocate (rows(size(layout%names), last_row - first_row + 1_int64))
          call solve_scenes(scene, plan, first + first_row - 1_int64, space, rows)
+         ! A chunk that was stopped is not written: its scenes are solved again when the run is carried on.
+         if (caught_signal() /= 0) exit
          call results%write_chunk(chunk, rows, own_error)
          if (.not. allocated(own_error)) &
             call progress%add(last_row - first_row + 1_int64, &
@@ -251,33 +306,21 @@ contains
    end subroutine close_campaign
 
    !> Scenes of the whole campaign that this part solves, cut at the borders of chunks.
-   pure subroutine share_of_part(scene, scenes, first, last)
+   pure subroutine share_of_part(scene, scenes, chunk, first, last)
       type(scene_t), intent(in) :: scene
+      !> Scenes of the campaign, and of a chunk
       integer(int64), intent(in) :: scenes
+      integer(int64), intent(in) :: chunk
       integer(int64), intent(out) :: first
       integer(int64), intent(out) :: last
-      integer(int64) :: chunk, chunks, parts, part
+      integer(int64) :: chunks, parts, part
 
-      chunk = int(chunk_rows_for(scenes), int64)
       chunks = (scenes - 1_int64)/chunk + 1_int64
       parts = int(scene%campaign%parts, int64)
       part = int(scene%campaign%part, int64)
       first = chunk*(chunks*(part - 1_int64)/parts) + 1_int64
       last = min(scenes, chunk*(chunks*part/parts))
    end subroutine share_of_part
-
-   !> Columns, and how the scenes are cut: by the size of the whole campaign, whatever part of it this is.
-   pure subroutine form_layout(scene, plan, scenes, layout)
-      type(scene_t), intent(in) :: scene
-      type(sample_plan_t), intent(in) :: plan
-      integer(int64), intent(in) :: scenes
-      type(campaign_layout_t), intent(out) :: layout
-
-      layout%input_text = scene%resolved_input
-      layout%scene_count = scenes
-      layout%chunk_rows = int(chunk_rows_for(plan%size), int64)
-      call record_columns(scene, plan%positions, layout%names, layout%units)
-   end subroutine form_layout
 
    !> Scenes in chunks that are done.
    integer(int64) function done_scenes(results)

@@ -8,6 +8,7 @@ module run_tasks
    use run_campaign, only: check_campaign, run_one_campaign
    use scene_reader, only: read_scene
    use scene_types, only: scene_t, task_campaign
+   use signals, only: caught_signal
    use, intrinsic :: omp_lib, only: omp_set_num_threads
    implicit none(type, external)
    private
@@ -62,12 +63,15 @@ contains
       call start_ranks()
       if (command%check) then
          call check_campaign(scene, file, lines, faults)
-         if (this_rank() == 0 .and. faults%count() == 0) then
+         if (caught_signal() /= 0) then
+            exit_code = 128 + caught_signal()
+         else if (faults%count() > 0) then
+            exit_code = exit_bad_input
+         else if (this_rank() == 0) then
             write (output_unit, '(a)', iostat=ignored) '! '//file//': valid'
             write (output_unit, '(a)', iostat=ignored) lines
             write (output_unit, '(a)', advance='no', iostat=ignored) scene%resolved_input
          end if
-         if (faults%count() > 0) exit_code = exit_bad_input
       else
          call run_one_campaign(scene, file, command%resume, command%quiet, faults, exit_code, error)
          if (this_rank() == 0 .and. allocated(error)) write (error_unit, '(a)') error%message

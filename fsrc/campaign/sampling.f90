@@ -21,6 +21,8 @@ module sampling
       integer :: method = method_grid
       !> Number of scenes
       integer(int64) :: size = 0_int64
+      !> Those whose values are known, the first ones: all, but where the reading of a table had to stop
+      integer(int64) :: known = 0_int64
       !> Varied keys by their position in the key table, in the order of the values
       integer, allocatable :: positions(:)
       type(campaign_axis_t), allocatable :: axes(:)
@@ -30,7 +32,7 @@ module sampling
       real(dp), allocatable, private :: table(:, :)
    end type sample_plan_t
 
-   public :: plan_grid, plan_sobol, plan_latin_hypercube, plan_table, scene_values, chunk_values
+   public :: plan_grid, plan_sobol, plan_latin_hypercube, plan_table, scene_values, chunk_values, largest_value
 
 contains
 
@@ -65,6 +67,7 @@ contains
          end if
          plan%size = plan%size*count
       end do
+      plan%known = plan%size
    end subroutine plan_grid
 
    !> Points of Sobol's sequence.
@@ -129,6 +132,7 @@ contains
       plan%positions = positions
       allocate (plan%axes(0))
       plan%size = size(values, 2, kind=int64)
+      plan%known = plan%size
       call move_alloc(values, plan%table)
    end subroutine plan_table
 
@@ -163,6 +167,7 @@ contains
       character(:), allocatable, intent(inout) :: message
 
       plan%size = scene_count
+      plan%known = scene_count
       if (scene_count < 1_int64 .or. scene_count > largest) &
          message = 'the size must be from 1 to '//integer_text(largest)//', it is '//integer_text(scene_count)
    end subroutine take_size
@@ -202,6 +207,28 @@ contains
          end do
       end select
    end subroutine scene_values
+
+   !> Largest value that a key takes in the scenes of a plan, or `base` where it is not varied.
+   pure real(dp) function largest_value(plan, position, base)
+      !> Sound plan
+      type(sample_plan_t), intent(in) :: plan
+      !> Position of the key in the key table
+      integer, intent(in) :: position
+      !> Its value in the base scene
+      real(dp), intent(in) :: base
+      integer :: i
+
+      largest_value = base
+      i = findloc(plan%positions, position, dim=1)
+      if (i == 0) return
+      if (plan%method == method_table) then
+         largest_value = maxval(plan%table(i, :plan%known))
+      else if (allocated(plan%axes(i)%values)) then
+         largest_value = maxval(plan%axes(i)%values)
+      else
+         largest_value = plan%axes(i)%last
+      end if
+   end function largest_value
 
    !> Values of the varied keys in scenes that follow each other.
    pure subroutine chunk_values(plan, first, values)

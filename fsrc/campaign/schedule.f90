@@ -5,8 +5,14 @@ module schedule
    private
 
    integer, parameter :: smallest_chunk = 256, largest_chunk = 8192
+   !> A chunk of fewer scenes leaves lanes of the engine empty, and is done no sooner
+   integer, parameter :: fewest_scenes = 8
    !> Chunks that a large campaign is cut into, at least
    integer(int64), parameter :: wanted_chunks = 512_int64
+   !> Most periods of all scenes of a chunk together. A period takes 10 to 30 microseconds, one of long flights and hard
+   !> impacts up to 330; with a certificate it takes up to sixty times as long. So a chunk is done within a minute and a
+   !> half: a time limit of two minutes always lets a campaign go on.
+   real(dp), parameter :: most_periods = 2.0_dp**18, most_certified_periods = 2.0_dp**13
 
    public :: chunk_rows_for, cost_order
 
@@ -14,14 +20,23 @@ contains
 
    !> Scenes in a chunk. It depends on the campaign alone, never on threads or ranks, so that the bytes of
    !> the result do not: chunks as small as keeps the table of chunks and the hand-outs cheap, since a chunk
-   !> under way is what a kill loses, and what the last worker may have to finish alone.
-   pure integer function chunk_rows_for(scene_count)
+   !> under way is what a signal or a kill loses, and what the last worker may have to finish alone.
+   pure integer function chunk_rows_for(scene_count, periods, certified)
       !> Scenes of the campaign
       integer(int64), intent(in) :: scene_count
+      !> Most periods of a scene
+      real(dp), intent(in) :: periods
+      !> Whether every scene gets a certificate
+      logical, intent(in) :: certified
+      real(dp) :: most
 
       chunk_rows_for = smallest_chunk
       do while (chunk_rows_for < largest_chunk .and. scene_count/wanted_chunks > int(chunk_rows_for, int64))
          chunk_rows_for = 2*chunk_rows_for
+      end do
+      most = merge(most_certified_periods, most_periods, certified)
+      do while (chunk_rows_for > fewest_scenes .and. real(chunk_rows_for, dp)*periods > most)
+         chunk_rows_for = chunk_rows_for/2
       end do
    end function chunk_rows_for
 

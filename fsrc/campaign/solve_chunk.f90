@@ -19,6 +19,7 @@ module solve_chunk
    use scene_status, only: is_success, status_invalid
    use scene_types, only: scene_t, spectrum_choice_t, until_steady
    use schedule, only: cost_order
+   use signals, only: must_stop
    use varied_keys, only: varied_code
    use varied_scene, only: is_valid_scene, set_varied_keys
    use window_extremes, only: extremes_of_record
@@ -47,7 +48,8 @@ module solve_chunk
 
 contains
 
-   !> Rows of consecutive scenes. They depend on the scenes alone, not on how they are cut into chunks.
+   !> Rows of consecutive scenes. They depend on the scenes alone, not on how they are cut into chunks. Where the work must
+   !> stop, the rows are of no use.
    subroutine solve_scenes(base, plan, first, space, rows)
       !> Checked base scene
       type(scene_t), intent(in) :: base
@@ -70,6 +72,7 @@ contains
       scene = base
       scene%resolved_input = ''
       do start = 1, size(rows, 2), batch
+         if (must_stop()) return
          count = min(batch, size(rows, 2) - start + 1)
          call chunk_values(plan, first + int(start - 1, int64), values(:, :count))
          call solve_batch(scene, plan%positions, codes, values(:, :count), first + int(start - 1, int64), needed, space, &
@@ -121,6 +124,7 @@ contains
                                                         records=space%records(:solved))
       coarse = .false.
       do i = 1, size(values, 2)
+         if (must_stop()) return
          associate (scene_number => order(i))
             if (valid(scene_number)) then
                call set_varied_keys(scene, codes, values(:, scene_number))
@@ -147,6 +151,7 @@ contains
          windows = integral_windows(scene, lanes(order(number)), endings(number), space%records(number), requests(order(1)))
       end if
       do i = 1, size(number)
+         if (must_stop()) return
          associate (place => number(i), scene_number => order(number(i)))
             call set_varied_keys(scene, codes, values(:, scene_number))
             if (.not. together) windows = integral_windows(scene, lanes([scene_number]), endings([place]), &

@@ -17,13 +17,13 @@ module integrate_controlled
    use sample_accelerations, only: accelerations_of_samples
    use sample_sink, only: sample_sink_t
    use scene_lane, only: lane_of_scene
-   use scene_status, only: is_success, status_complete, status_steady
+   use scene_status, only: is_success, status_complete, status_interrupted, status_steady
    use scene_types, only: scene_t, until_steady
    use window_record, only: window_record_t
    implicit none(type, external)
    private
 
-   !> Samples of a block: a signal waits no longer than these take.
+   !> Samples of a block: the time limit waits no longer than these take.
    integer, parameter :: block_samples = 65536
    !> Periods of a block without samples.
    integer, parameter :: block_periods = 256
@@ -194,14 +194,22 @@ contains
          request%periods = min(last, lane%periods_done + block)
          call solve_motions([lane], request, no_films, no_velocities, endings, watches)
          ! Where the search ends is known only now: samples, if wanted, are made by solving the block again.
-         if (wants_all) call solve_sampled(scene, lane, endings(1)%periods, sink, sampled, error=error)
-         if (allocated(error)) return
+         if (wants_all) then
+            call solve_sampled(scene, lane, endings(1)%periods, sink, sampled, error=error)
+            if (allocated(error)) return
+            if (sampled%status == status_interrupted) then
+               ! Samples are lacking: the run is carried on from the start of the block.
+               call record_block(scene, sampled, ending)
+               return
+            end if
+         end if
          call record_block(scene, endings(1), ending)
-         if (ending%status /= status_complete) return
+         if (.not. can_go_on(ending%status)) return
          ending%checkpoint = checkpoint_of(endings(1), ending%count%evaluations)
          ending%checkpoint%watch = watches(1)
          ending%checkpoint%orbit = endings(1)%orbit
          call carry_on(ending%checkpoint, lane)
+         if (ending%status /= status_complete) return
          call watcher%period_done(lane%periods_done, scene%solver%periods)
          ending%status = status_of_stop(scene, started)
          if (ending%status /= status_complete) return
@@ -247,11 +255,12 @@ contains
          end if
          if (allocated(error)) return
          call record_block(scene, endings(1), ending)
-         if (ending%status /= status_complete) return
+         if (.not. can_go_on(ending%status)) return
          here = checkpoint_of(endings(1), ending%count%evaluations)
          call carry_on(here, lane)
          ! A search is carried on from where it ended, not from behind it.
          if (scene%solver%until /= until_steady .and. here%periods <= periods - window) ending%checkpoint = here
+         if (ending%status /= status_complete) return
          call watcher%period_done(here%periods, periods)
          ending%record = records(1)
          if (here%periods == periods) return
@@ -259,6 +268,13 @@ contains
          if (ending%status /= status_complete) return
       end do
    end subroutine solve_blocks
+
+   !> Whether a motion can be carried on from where it stands: a signal leaves it at the end of a period.
+   pure logical function can_go_on(status)
+      integer, intent(in) :: status
+
+      can_go_on = status == status_complete .or. status == status_interrupted
+   end function can_go_on
 
    !> Periods of a block with samples.
    pure integer function sampled_block(scene)

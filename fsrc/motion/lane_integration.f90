@@ -20,8 +20,9 @@ module lane_integration
    use period_repetition, only: note_state, orbit_watch_t, watch_from
    use recurrence, only: look_back, recurrence_t
    use settling_forecast, only: forecast_rest
+   use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged, status_steady
+   use signals, only: must_stop
    use step_nodes, only: step_nodes_t, take_nodes
-   use scene_status, only: status_complete, status_film_lost, status_not_converged, status_steady
    use taylor_step_control, only: momentum_weight
    use window_record, only: record_period, start_record, window_record_t
    implicit none(type, external)
@@ -117,6 +118,7 @@ contains
          call next_scene(l, scenes, queue, request, run, endings, watches, records)
       end do
       do while (run%active > 0)
+         if (must_stop()) exit
          if (by_series) then
             call take_series_step(run%series, run%block)
          else
@@ -147,6 +149,7 @@ contains
             call next_scene(l, scenes, queue, request, run, endings, watches, records)
          end do
       end do
+      if (run%active > 0) call interrupt(scenes, queue, run, endings, watches)
    end subroutine integrate_lanes
 
    !> Put the next scene that can start into a lane.
@@ -396,6 +399,33 @@ contains
          watch%last_period = watch%period
       end associate
    end subroutine give_up
+
+   !> Leave the scenes that are under way at the start of their period, and those that wait where they are.
+   pure subroutine interrupt(scenes, queue, run, endings, watches)
+      type(lane_scene_t), intent(in) :: scenes(:)
+      integer, intent(in) :: queue(:)
+      type(lane_run_t), intent(inout) :: run
+      type(lane_ending_t), intent(inout) :: endings(:)
+      type(orbit_watch_t), optional, intent(inout) :: watches(:)
+      integer :: l, i
+
+      do l = 1, lanes
+         if (run%watches(l)%scene == 0) cycle
+         if (run%watches(l)%departure%period > 0) call go_back(l, run)
+         ! What was done of the period does not count: it is solved again when the motion is carried on.
+         run%watches(l)%ending%status = status_interrupted
+         run%samples%written(l) = samples_before(run%watches(l), run%samples)
+         run%block%film(l, 0) = run%watches(l)%film
+         run%block%momentum(l, 0) = run%watches(l)%momentum
+         call finish(l, run, endings, watches)
+      end do
+      do i = run%taken + 1, size(queue)
+         associate (scene => scenes(queue(i)), ending => endings(queue(i)))
+            ending = lane_ending_t(status=status_interrupted, film=scene%initial_film, velocity=scene%initial_velocity, &
+                                   periods=scene%periods_done, momentum=scene%initial_momentum, steps=ending%steps)
+         end associate
+      end do
+   end subroutine interrupt
 
    !> Record the end of a scene.
    pure subroutine finish(lane, run, endings, watches)

@@ -15,9 +15,10 @@ module run_scene
    use sample_recorder, only: sample_recorder_t
    use scene_report, only: report_ending, report_start
    use scene_result, only: judge, scene_result_t
-   use scene_status, only: status_complete, status_not_written
+   use scene_status, only: status_complete, status_interrupted, status_not_written
    use scene_summary, only: write_scene_summary
    use scene_types, only: method_taylor, scene_t
+   use signals, only: caught_signal
    use text, only: integer_text
    use word_list, only: word_t
    implicit none(type, external)
@@ -74,6 +75,8 @@ contains
          call watcher%clear()
          result%solve_seconds = wall_seconds() - started
          if (.not. allocated(error)) call judge(scene, resolved, recorder, result)
+         ! A signal that came meanwhile has cut the certificate short.
+         if (result%judged .and. caught_signal() /= 0) result%ending%status = status_interrupted
          result%judge_seconds = wall_seconds() - started - result%solve_seconds
          call recorder%close(write_error)
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)

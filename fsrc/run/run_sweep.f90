@@ -72,11 +72,12 @@ contains
       failed = 0
       do i = 1, size(scene%sweep%values)
          if (allocated(error)) exit
+         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, row(:, 1), ended)
+         ! A motion under way when the signal came may be half judged.
          if (caught_signal() /= 0) then
             status = status_interrupted
             exit
          end if
-         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, row(:, 1), ended)
          row(1:2, 1) = [scene%sweep%values(i), merge(1.0_dp, -1.0_dp, i <= scene%sweep%outward)]
          row(16, 1) = real(ended, dp)
          if (.not. is_success(ended)) failed = failed + 1

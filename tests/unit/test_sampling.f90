@@ -3,7 +3,7 @@ module test_sampling
    use campaign_axis, only: campaign_axis_t, scale_linear, scale_logarithmic
    use checks, only: check_list_t, same_bits
    use kinds, only: dp, int64
-   use sampling, only: chunk_values, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, sample_plan_t, &
+   use sampling, only: chunk_values, largest_value, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, sample_plan_t, &
       scene_values
    use text, only: integer_text
    implicit none(type, external)
@@ -179,13 +179,21 @@ contains
       type(check_list_t), intent(inout) :: checks
       type(sample_plan_t) :: plan
       real(dp), allocatable :: values(:, :)
+      character(:), allocatable :: message
       real(dp) :: scene(2)
+      integer :: bad_axis
 
       allocate (values, source=reshape([1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp, 5.0_dp, 6.0_dp], [2, 3]))
       call plan_table([21, 22], values, plan)
       call checks%check(plan%size == 3_int64 .and. .not. allocated(values), 'a table moves into its plan')
       call scene_values(plan, 3_int64, scene)
       call checks%check(all(same_bits(scene, [5.0_dp, 6.0_dp])), 'scene of a table')
+      call checks%check(same_bits(largest_value(plan, 21, 9.0_dp), 5.0_dp), 'largest value of a column')
+      call checks%check(same_bits(largest_value(plan, 20, 9.0_dp), 9.0_dp), 'largest value of a key that is not varied')
+      call plan_grid([range_axis(3, scale_linear, 1.0_dp, 2.5_dp, 3)], plan, bad_axis, message)
+      call checks%check(same_bits(largest_value(plan, 3, 9.0_dp), 2.5_dp), 'largest value of a range')
+      call plan_grid([campaign_axis_t(position=3, values=[1.0_dp, 7.0_dp, 2.0_dp])], plan, bad_axis, message)
+      call checks%check(same_bits(largest_value(plan, 3, 9.0_dp), 7.0_dp), 'largest value of a list')
    end subroutine test_table
 
    !> What is refused, and in which words.

@@ -18,6 +18,7 @@ contains
       call checks%start('schedule')
       call test_cost_order(checks)
       call test_chunk_rows(checks)
+      call test_long_scenes(checks)
    end subroutine run_schedule_tests
 
    subroutine test_cost_order(checks)
@@ -41,14 +42,36 @@ contains
    subroutine test_chunk_rows(checks)
       type(check_list_t), intent(inout) :: checks
 
-      call checks%check(chunk_rows_for(1_int64) == 256, 'one scene')
+      call checks%check(rows_of(1_int64) == 256, 'one scene')
       ! 512 chunks of 256, 512 and so on, and their next larger campaign that 512 chunks cannot hold.
-      call checks%check(chunk_rows_for(257_int64*512_int64 - 1_int64) == 256, 'the most scenes for 256')
-      call checks%check(chunk_rows_for(257_int64*512_int64) == 512, 'the fewest scenes for 512')
-      call checks%check(chunk_rows_for(4097_int64*512_int64 - 1_int64) == 4096, 'the most scenes for 4096')
-      call checks%check(chunk_rows_for(4097_int64*512_int64) == 8192, 'the fewest scenes for 8192')
-      call checks%check(chunk_rows_for(1000000_int64) == 2048, 'a million scenes')
-      call checks%check(chunk_rows_for(huge(1_int64)) == 8192, 'beyond any size')
+      call checks%check(rows_of(257_int64*512_int64 - 1_int64) == 256, 'the most scenes for 256')
+      call checks%check(rows_of(257_int64*512_int64) == 512, 'the fewest scenes for 512')
+      call checks%check(rows_of(4097_int64*512_int64 - 1_int64) == 4096, 'the most scenes for 4096')
+      call checks%check(rows_of(4097_int64*512_int64) == 8192, 'the fewest scenes for 8192')
+      call checks%check(rows_of(1000000_int64) == 2048, 'a million scenes')
+      call checks%check(rows_of(huge(1_int64)) == 8192, 'beyond any size')
+
+   contains
+
+      !> Scenes in a chunk if each is so short that its periods do not matter.
+      pure integer function rows_of(scenes)
+         integer(int64), intent(in) :: scenes
+
+         rows_of = chunk_rows_for(scenes, 8.0_dp, .false.)
+      end function rows_of
+
    end subroutine test_chunk_rows
+
+   !> Long scenes make small chunks, 262144 periods at most, 8192 with certificates, but never fewer than 8 scenes.
+   subroutine test_long_scenes(checks)
+      type(check_list_t), intent(inout) :: checks
+
+      call checks%check(chunk_rows_for(1_int64, 1024.0_dp, .false.) == 256, '256 scenes of 1024 periods')
+      call checks%check(chunk_rows_for(1_int64, 1025.0_dp, .false.) == 128, '128 scenes of 1025 periods')
+      call checks%check(chunk_rows_for(huge(1_int64), 400.0_dp, .false.) == 512, '512 scenes of 400 periods')
+      call checks%check(chunk_rows_for(1_int64, 1.0e9_dp, .false.) == 8, '8 scenes at least')
+      call checks%check(chunk_rows_for(1_int64, 32.0_dp, .true.) == 256, '256 certified scenes of 32 periods')
+      call checks%check(chunk_rows_for(1_int64, 33.0_dp, .true.) == 128, '128 certified scenes of 33 periods')
+   end subroutine test_long_scenes
 
 end module test_schedule

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import time
@@ -230,6 +231,70 @@ def test_stopped_campaign_resumes_to_the_same_bytes(
     if codes[-1] != 0:
         assert not package.read(cut).closed
     assert digest(solve(run, tmp_path, "--resume", name="cut")) == whole
+
+
+# Eight motions of a million periods, none of which repeats: the one chunk takes many minutes.
+ENDLESS = {
+    "load": {"force_amplitude": "993.1034482758621"},
+    "solver": {**BASE["solver"], "periods": "1000000"},
+    "campaign": {
+        "vary": "'load.frequency'",
+        "scale": None,
+        "first": "44.2",
+        "last": "44.3",
+        "count": "8",
+        "record": "'film_minimum'",
+    },
+}
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1], ids=lambda n: n.name)
+def test_a_signal_ends_a_campaign_inside_a_chunk(
+    number: int, rattle: Path, scene_text, tmp_path: Path
+) -> None:
+    """The chunk under way is not written; nothing else is lost."""
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 8, 1, **ENDLESS))
+    result = tmp_path / "results" / "scene.rattle"
+    process = subprocess.Popen([rattle, "--quiet", "scene.nml"], cwd=tmp_path)
+    try:
+        while not result.exists():
+            assert process.poll() is None
+            time.sleep(0.01)
+        time.sleep(0.3)
+        process.send_signal(number)
+        assert process.wait(20) == 128 + number
+    finally:
+        process.kill()
+    campaign = package.read_campaign(result)
+    assert not campaign.closed and campaign.row_count == 8 and not campaign.done.any()
+    assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "interrupted"
+
+
+def test_a_signal_ends_the_check_of_a_campaign(rattle: Path, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 8, 1, **ENDLESS))
+    process = subprocess.Popen([rattle, "--check", "scene.nml"], cwd=tmp_path, stdout=subprocess.PIPE)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGTERM)
+    stdout, _ = process.communicate(timeout=20)
+    assert (process.returncode, stdout) == (128 + signal.SIGTERM, b"")
+
+
+def test_check_of_a_campaign_tells_what_it_had_no_time_for(run, scene_text, tmp_path: Path) -> None:
+    """Scenes that take too long, and more scenes than can be looked at."""
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 8, 1, **ENDLESS))
+    ended = run("--check", "scene.nml", cwd=tmp_path)
+    assert ended.returncode == 0
+    assert "! chunks              1 of at most 8 scenes\n" in ended.stdout
+    assert "8 scenes were not solved within 1 s" in ended.stdout
+    many = {"count": "30000000, 30000000", "confirm_size": "t"}
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 2, 2, campaign=many))
+    ended = run("--check", "scene.nml", cwd=tmp_path)
+    assert ended.returncode == 0
+    found = re.search(
+        r"! scenes +900000000000000 \(0 invalid among the first (\d+); there was no", ended.stdout
+    )
+    assert found and int(found[1]) > 1000
+    assert re.search(r"core time, estimated \S+ s, from \d+ scenes\n", ended.stdout)
 
 
 def test_finished_scenes_are_not_solved_again(run, folder: Path) -> None:
