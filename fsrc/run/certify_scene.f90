@@ -80,7 +80,8 @@ contains
          unclosed = too_few_samples(scene, tight)
       associate (stride => tight%samples_per_period/window%samples_per_period)
          call compare_windows(window%films, tight%films(stride::stride), extremes, extremes_of_record(tight%record), verdict, &
-                              tight_verdict, unclosed, scene%spectrum, scene%spectrum%certificate_tolerance, accuracy, certificate)
+                              tight_verdict, unclosed, scene%spectrum, scene%spectrum%certificate_tolerance, accuracy, &
+                              resolved%noise_floor_at(accuracy), certificate)
       end associate
    end subroutine certify
 

@@ -188,10 +188,25 @@ contains
          if (record%periods > 0 .and. lines%sampling_sufficient) lines%sampling_sufficient = &
             samples_agree(lane, accelerations(:record%periods*(size(accelerations)/periods)), record, noise_floor, &
                           lines%harmonics(1))
+         if (record%periods > 0) lines%resolution_error = lines%resolution_error + error_of_ends(lane, accelerations, record)
          lines%count_is_bound = .not. lines%sampling_sufficient
          lines%distortion_is_bound = .not. lines%sampling_sufficient
       end associate
    end subroutine classify_window
+
+   !> Error of the lines of samples of a window that does not return to where it began, by Euler and Maclaurin [m/s2].
+   pure real(dp) function error_of_ends(lane, z, record)
+      type(lane_scene_t), intent(in) :: lane
+      !> z'' of the window [m/s2]
+      real(dp), intent(in) :: z(:)
+      type(window_record_t), intent(in) :: record
+      real(dp) :: start(1)
+      integer :: n
+
+      n = size(z)
+      call accelerations_of_samples(lane, 1, [record%start_film], [record%start_velocity], start)
+      error_of_ends = (abs(z(n) - start(1)) + abs((z(n) - z(n - 1)) - (z(1) - start(1))))/real(n, dp)
+   end function error_of_ends
 
    !> Whether samples have the mean and the power that the steps have, over the periods that were recorded.
    pure logical function samples_agree(lane, z, record, noise_floor, first_harmonic)

@@ -10,6 +10,9 @@ module spectral_lines
    !> else twice the samples would change a line by more than 0.1 %.
    real(dp), parameter :: sampling_tolerance = 1.0e-3_dp
 
+   !> Error of integrals over the steps, relative to the largest harmonic.
+   real(dp), parameter :: integral_error = 1.0e-8_dp
+
    !> Spectrum of a window of whole periods.
    type, public :: spectral_lines_t
       !> a_n: single-sided amplitude at n times the forcing frequency, every n below half the samples a period
@@ -24,6 +27,8 @@ module spectral_lines
       real(dp) :: irregular_fraction = 0.0_dp
       !> Whether the samples a period, or the integrals over the steps, are enough for every line listed
       logical :: sampling_sufficient = .true.
+      !> Error of a harmonic that lines beyond those resolved may make [m/s2]
+      real(dp) :: resolution_error = 0.0_dp
       !> Whether there is any motion: without it the ratios above have no meaning
       logical :: moving = .true.
    end type spectral_lines_t
@@ -76,6 +81,8 @@ contains
       call lines_of_bins(bins, periods, ubound(amplitudes, 1)/periods, .false., line_threshold, noise_floor, lines)
       lines%count_is_bound = .not. lines%sampling_sufficient
       lines%sampling_sufficient = .true.
+      ! Integrals fold nothing back.
+      lines%resolution_error = integral_error*maxval(lines%harmonics)
       first = lines%harmonics(1)
       if (lines%moving .and. first > noise_floor) lines%harmonic_distortion = &
          max(lines%harmonic_distortion, sqrt(max(0.0_dp, (1.0_dp - lines%irregular_fraction)*(power/first)/first - 1.0_dp)))
@@ -114,8 +121,11 @@ contains
          lines%harmonic_distortion = huge(1.0_dp)
          if (lines%harmonics(1) > least) &
             lines%harmonic_distortion = sqrt(sum(lines%harmonics(2:)**2))/lines%harmonics(1)
-         lines%sampling_sufficient = maxval(amplitudes((3*highest)/4 + 1:)) <= &
+         ! Samples fold what lies beyond the highest resolved frequencies back upon the lines.
+         lines%resolution_error = maxval(amplitudes((3*highest)/4 + 1:))
+         lines%sampling_sufficient = lines%resolution_error <= &
                                      max(least, sampling_tolerance*line_threshold*lines%harmonics(1))
+         lines%resolution_error = lines%resolution_error*unit
       end if
       lines%harmonics(:) = lines%harmonics*unit
    end subroutine lines_of_bins

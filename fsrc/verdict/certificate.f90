@@ -32,6 +32,8 @@ module certificate
       character(:), allocatable :: reason
    end type certificate_t
 
+   !> Errors in units of the difference from the tighter solution, which has an error of its own.
+   real(dp), parameter :: margin = 2.0_dp
    !> Share of the largest difference of its kind that every error has at least: one difference alone may vanish by chance.
    real(dp), parameter :: least_share = 0.1_dp
    !> Errors of the tighter solution, in units of its accuracy.
@@ -45,7 +47,7 @@ contains
 
    !> Certificate of a window by a tighter one of the same samples.
    pure subroutine compare_windows(films, tight_films, extremes, tight_extremes, verdict, tight_verdict, unclosed, choice, &
-                                   tolerance, tight_accuracy, certificate)
+                                   tolerance, tight_accuracy, tight_noise, certificate)
       !> Film of the scene and of its tighter solution [m]
       real(dp), intent(in) :: films(:)
       real(dp), intent(in) :: tight_films(:)
@@ -63,27 +65,33 @@ contains
       real(dp), intent(in) :: tolerance
       !> Relative accuracy of the tighter solution [-]
       real(dp), intent(in) :: tight_accuracy
+      !> Acceleration that its errors explain [m/s2]
+      real(dp), intent(in) :: tight_noise
       !> The certificate
       type(certificate_t), intent(out) :: certificate
-      real(dp) :: peak, errors(2)
+      real(dp), allocatable :: differences(:)
+      real(dp) :: peak, errors(2), film_difference
       integer :: lines
 
       certificate%exists = .true.
-      errors = errors_of(seen_film)
+      errors = errors_of(seen_film, 0.0_dp)
       certificate%film_minimum_error = errors(1)
       certificate%film_maximum_error = errors(2)
-      certificate%film_error = max(maxval(abs(films - tight_films)/tight_films), &
-                                   errors(1)/tight_extremes%lowest(seen_film)%value, &
-                                   errors(2)/tight_extremes%highest(seen_film)%value)
-      errors = errors_of(seen_acceleration)
+      film_difference = max(maxval(abs(films - tight_films)/tight_films), &
+                            errors(1)/(margin*tight_extremes%lowest(seen_film)%value), &
+                            errors(2)/(margin*tight_extremes%highest(seen_film)%value))
+      certificate%film_error = margin*film_difference
+      errors = errors_of(seen_acceleration, tight_noise)
       certificate%acceleration_minimum_error = errors(1)
       certificate%acceleration_maximum_error = errors(2)
       peak = max(abs(tight_extremes%lowest(seen_acceleration)%value), abs(tight_extremes%highest(seen_acceleration)%value))
       if (peak > 0.0_dp) certificate%acceleration_error = maxval(errors)/peak
       lines = min(size(verdict%lines%harmonics), size(tight_verdict%lines%harmonics))
-      certificate%harmonic_errors = abs(verdict%lines%harmonics(:lines) - tight_verdict%lines%harmonics(:lines))
-      certificate%harmonic_errors = max(certificate%harmonic_errors + tight_share*tight_accuracy*tight_verdict%lines%harmonics &
-                                        (:lines), least_share*maxval(certificate%harmonic_errors))
+      differences = abs(verdict%lines%harmonics(:lines) - tight_verdict%lines%harmonics(:lines))
+      differences = max(differences + tight_share*tight_accuracy*tight_verdict%lines%harmonics(:lines), &
+                        least_share*maxval(differences)) &
+                    + max(verdict%lines%resolution_error, tight_verdict%lines%resolution_error) + tight_noise
+      certificate%harmonic_errors = margin*differences
 
       certificate%reason = doubt()
       certificate%certified = len(certificate%reason) == 0
@@ -93,16 +101,19 @@ contains
    contains
 
       !> Errors of the smallest and the largest value of a quantity.
-      pure function errors_of(quantity) result(differences)
+      pure function errors_of(quantity, noise) result(differences)
          !> Code of node_extremes
          integer, intent(in) :: quantity
+         !> What the errors of the tighter solution explain
+         real(dp), intent(in) :: noise
          real(dp) :: differences(2)
          real(dp) :: values(2), sizes(2)
 
          values = [tight_extremes%lowest(quantity)%value, tight_extremes%highest(quantity)%value]
          sizes = max(abs(values), tiny(1.0_dp))
          differences = abs([extremes%lowest(quantity)%value, extremes%highest(quantity)%value] - values)
-         differences = max(differences + tight_share*tight_accuracy*sizes, least_share*maxval(differences/sizes)*sizes)
+         differences = margin*(noise + max(differences + tight_share*tight_accuracy*sizes, &
+                                           least_share*maxval(differences/sizes)*sizes))
       end function errors_of
 
       !> First reason to doubt the class, empty if there is none.
@@ -118,13 +129,13 @@ contains
             ! Irregular motions part from each other; only that they are irregular can stand.
             if (min(verdict%lines%irregular_fraction, tight_verdict%lines%irregular_fraction) < 2.0_dp*choice%irregular_limit) &
                reason = 'The irregular fraction is close to its limit.'
-         else if (certificate%film_error > tolerance) then
-            reason = 'Solved tighter, the film differs by '//short_text(100.0_dp*certificate%film_error, 2)//' %.'
+         else if (film_difference > tolerance) then
+            reason = 'Solved tighter, the film differs by '//short_text(100.0_dp*film_difference, 2)//' %.'
          else if (abs(verdict%lines%irregular_fraction - choice%irregular_limit) <= &
                   abs(verdict%lines%irregular_fraction - tight_verdict%lines%irregular_fraction)) then
             reason = 'The irregular fraction is within its error of its limit.'
          else if (verdict%lines%moving .and. verdict%class /= class_subharmonic) then
-            reason = doubt_of_limits(verdict, tight_verdict, certificate%harmonic_errors, choice)
+            reason = doubt_of_limits(verdict, tight_verdict, differences, choice)
          end if
       end function doubt
 

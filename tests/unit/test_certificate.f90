@@ -68,7 +68,7 @@ contains
       reason = ''
       if (present(unclosed)) reason = unclosed
       call compare_windows(films, tight_films, extremes_of(films, values), extremes_of(tight_films, tight_values), verdict, &
-         tight, reason, choice, tolerance, 0.0_dp, certificate)
+         tight, reason, choice, tolerance, 0.0_dp, 0.0_dp, certificate)
    end subroutine compare
 
    !> Extremes of film and acceleration.
@@ -112,10 +112,10 @@ contains
       tight = verdict_of(class_creep, [1.001_dp, 0.498_dp], choice)
       call compare(films*[1.0_dp, 0.997_dp, 1.001_dp], films, 0.9_dp*values, values, verdict, tight, choice, tolerance, &
          certificate)
-      call checks%check_close(certificate%film_error, 0.003_dp, 1.0e-15_dp, 'film error: the largest, either way')
-      call checks%check_close(certificate%acceleration_error, 0.1_dp, 1.0e-15_dp, 'acceleration error: of the peaks')
+      call checks%check_close(certificate%film_error, 0.006_dp, 1.0e-15_dp, 'film error: twice the largest difference, either way')
+      call checks%check_close(certificate%acceleration_error, 0.2_dp, 1.0e-15_dp, 'acceleration error: of the peaks')
       call checks%check(size(certificate%harmonic_errors) == 2, 'harmonic errors: those that both have')
-      call checks%check_close(maxval(abs(certificate%harmonic_errors - [0.001_dp, 0.002_dp])), 0.0_dp, 1.0e-15_dp, &
+      call checks%check_close(maxval(abs(certificate%harmonic_errors - [0.002_dp, 0.004_dp])), 0.0_dp, 1.0e-15_dp, &
          'harmonic errors')
       call checks%check(certificate%certified, 'small errors far from the limits')
       tight%class = class_idle
@@ -326,9 +326,9 @@ contains
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
       tight = verdict_of(class_creep, [1.0_dp, 0.51_dp], choice)
       call compare(films, films, values*[1.0_dp, 1.0_dp, 1.1_dp], values, verdict, tight, choice, tolerance, certificate)
-      call checks%check_close(certificate%acceleration_maximum_error, 3.0_dp, 1.0e-13_dp, 'chance: the error of the maximum')
-      call checks%check_close(certificate%acceleration_minimum_error, 1.0_dp, 1.0e-13_dp, 'chance: a tenth of it, relatively')
-      call checks%check_close(certificate%harmonic_errors(1), 0.001_dp, 1.0e-15_dp, 'chance: a tenth of the other line''s error')
+      call checks%check_close(certificate%acceleration_maximum_error, 6.0_dp, 1.0e-13_dp, 'chance: the error of the maximum')
+      call checks%check_close(certificate%acceleration_minimum_error, 2.0_dp, 1.0e-13_dp, 'chance: a tenth of it, relatively')
+      call checks%check_close(certificate%harmonic_errors(1), 0.002_dp, 1.0e-15_dp, 'chance: a tenth of the other line''s error')
    end subroutine test_chance
 
    !> Without a tighter solution nothing is certified.
