@@ -6,11 +6,12 @@ module run_campaign
    use campaign_record, only: record_columns
    use clock, only: wall_seconds
    use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
-   use file_system, only: path_exists
+   use file_system, only: file_state_t, state_of_path
    use key_table, only: find_key
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
-   use output_place, only: check_folder, log_path, progress_path, result_path, summary_path
+   use output_lock, only: output_lock_t
+   use output_place, only: check_output_place, log_path, progress_path, result_path, stem, summary_path
    use ranks, only: abort_ranks, next_ticket, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
    use recorded_quantities, only: needs_certificate, quantities
    use sampling, only: largest_value, sample_plan_t
@@ -121,23 +122,29 @@ contains
       type(campaign_file_t) :: results
       type(campaign_progress_t) :: progress
       type(log_t) :: log
+      type(output_lock_t) :: lock
       type(error_t), allocatable :: close_error
       integer(int64) :: first, seen, spoilt, invalid
       real(dp) :: started
-      logical :: stands
+      type(file_state_t) :: earlier
 
       exit_code = exit_bad_input
       started = wall_seconds()
       call prepare(scene, file, .false., plan, first, seen, invalid, layout, faults)
       spoilt = 0_int64
       if (this_rank() == 0) then
-         if (faults%count() == 0) call check_folder(scene, file, faults)
+         if (faults%count() == 0) call check_output_place(scene, file, .true., faults)
+         if (faults%count() == 0) call lock%take(stem(scene), error)
+         ! Another run may have written these files since they were looked at.
+         if (faults%count() == 0 .and. .not. allocated(error)) call check_output_place(scene, file, .false., faults)
          if (caught_signal() /= 0) then
             ! The look at the scenes was cut short: there may be faults that are not known.
             exit_code = 128 + caught_signal()
+         else if (allocated(error)) then
+            exit_code = error%exit_code
          else if (faults%count() == 0) then
-            stands = path_exists(result_path(scene))
-            if (carry_on .and. stands) then
+            earlier = state_of_path(result_path(scene))
+            if (carry_on .and. earlier%bytes > 0_int64) then
                call results%resume(result_path(scene), layout, spoilt, error)
             else
                call results%create(result_path(scene), layout, scene%output%overwrite .and. .not. carry_on, error)
@@ -148,7 +155,10 @@ contains
          end if
       end if
       call share_number(exit_code)
-      if (exit_code /= exit_complete) return
+      if (exit_code /= exit_complete) then
+         call lock%release()
+         return
+      end if
       if (this_rank() > 0) call results%join(result_path(scene), layout, error)
       if (allocated(error)) then
          call abort_ranks(error%exit_code)
@@ -175,6 +185,7 @@ contains
          if (allocated(error)) exit_code = error%exit_code
          if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
       end if
+      call lock%release()
       call share_number(exit_code)
    end subroutine run_one_campaign
 
@@ -209,6 +220,7 @@ contains
       call count_invalid(scene, file, plan, first, last, seen, invalid, faults)
       if (hurried) call lift_time_limit()
       layout%input_text = scene%resolved_input
+      layout%source_checksum = plan%table_checksum
       layout%scene_count = last - first + 1_int64
       call record_columns(scene, plan%positions, layout%names, layout%units)
    end subroutine prepare

@@ -4,11 +4,12 @@ module run_tasks
    use batch, only: input_name, print_faults, run_batch
    use command_line, only: command_t
    use errors, only: error_t, exit_bad_input, exit_complete, fault_list_t
-   use ranks, only: end_ranks, start_ranks, this_rank
+   use ranks, only: end_ranks, rank_count, start_ranks, this_rank
    use run_campaign, only: check_campaign, run_one_campaign
    use scene_reader, only: read_scene
    use scene_types, only: scene_t, task_campaign
    use signals, only: caught_signal
+   use text, only: integer_text
    use, intrinsic :: omp_lib, only: omp_set_num_threads
    implicit none(type, external)
    private
@@ -44,9 +45,26 @@ contains
       else if (any(scenes%task == task_campaign)) then
          call run_campaign_task(command, scenes(1), exit_code)
       else
-         call run_batch(command, scenes, exit_code)
+         call run_alone(command, scenes, exit_code)
       end if
    end subroutine run_all_tasks
+
+   !> Scenes take one process: several would all do the same work.
+   subroutine run_alone(command, scenes, exit_code)
+      type(command_t), intent(in) :: command
+      type(scene_t), intent(in) :: scenes(:)
+      integer, intent(out) :: exit_code
+
+      call start_ranks()
+      exit_code = exit_bad_input
+      if (rank_count() == 1) then
+         call run_batch(command, scenes, exit_code)
+      else if (this_rank() == 0) then
+         write (error_unit, '(a)') 'an MPI job of '//integer_text(rank_count())//' processes was started, but only a '// &
+            'campaign can be divided; start motions, sweeps and film tasks without mpirun'
+      end if
+      call end_ranks()
+   end subroutine run_alone
 
    !> Check or run the campaign; rank 0 does the talking.
    subroutine run_campaign_task(command, scene, exit_code)

@@ -2,6 +2,7 @@
 !> on its own, and a scene has the same values whoever asks, alone or in a chunk.
 module sampling
    use campaign_axis, only: axis_count, campaign_axis_t, check_axis, grid_value, spread_value
+   use checksum, only: checksum_of
    use kinds, only: dp, int64
    use latin_hypercube, only: hypercube_point, largest_hypercube_size, latin_hypercube_t, new_latin_hypercube
    use sobol_sequence, only: largest_dimension, largest_sobol_size, new_sobol_sequence, sobol_point, &
@@ -26,6 +27,8 @@ module sampling
       !> Varied keys by their position in the key table, in the order of the values
       integer, allocatable :: positions(:)
       type(campaign_axis_t), allocatable :: axes(:)
+      !> Checksum of the values of a table; 0: there is none
+      integer(int64) :: table_checksum = 0_int64
       type(sobol_sequence_t), private :: sequence
       type(latin_hypercube_t), private :: hypercube
       !> (key, scene)
@@ -133,6 +136,7 @@ contains
       allocate (plan%axes(0))
       plan%size = size(values, 2, kind=int64)
       plan%known = plan%size
+      plan%table_checksum = checksum_of(values)
       call move_alloc(values, plan%table)
    end subroutine plan_table
 

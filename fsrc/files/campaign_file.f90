@@ -8,7 +8,7 @@ module campaign_file
    use campaign_header, only: campaign_layout_t, check_same_campaign, header_for
    use checksum, only: checksum_of
    use errors, only: error_t, exit_bad_input, exit_system, raise
-   use file_system, only: delete_file, first_bytes, path_exists, rename_file
+   use file_system, only: delete_file, file_state_t, first_bytes, path_exists, rename_file, state_of_path
    use kinds, only: dp, int64
    use random_access_file, only: lock_held, lock_refused, random_access_file_t
    use result_format, only: result_magic, row_count_offset, rows_unknown
@@ -65,18 +65,21 @@ contains
       type(error_t), allocatable :: ignored
       character(:), allocatable :: new_path
       character(len(result_magic)) :: magic
+      type(file_state_t) :: state
       integer :: got
       logical :: stood, overtaken, moved
 
       self%path = path
-      stood = path_exists(path)
-      if (stood .and. .not. overwrite) then
+      ! An empty file holds nothing: a run was killed before it wrote there.
+      state = state_of_path(path)
+      stood = state%exists
+      if (state%bytes > 0_int64 .and. .not. overwrite) then
          call raise(error, exit_bad_input, path//' exists; --resume continues it, --overwrite replaces it')
          return
       end if
       if (stood) then
          call first_bytes(path, magic, got)
-         if (got < len(magic) .or. magic /= result_magic) then
+         if (state%bytes > 0_int64 .and. (got < len(magic) .or. magic /= result_magic)) then
             call raise(error, exit_bad_input, path// &
                        ' exists and was not written by rattle; it is never replaced')
             return
@@ -86,16 +89,18 @@ contains
          if (.not. allocated(error)) call old%take_lock(path, error)
       end if
       new_path = path//'.new'
-      if (.not. allocated(error)) call self%file%open(new_path, .true., error)
+      if (.not. allocated(error)) then
+         call self%file%open(new_path, .true., error)
+         ! Nothing has run yet: a place that cannot be written is bad input.
+         if (allocated(error)) error%exit_code = exit_bad_input
+      end if
       if (.not. allocated(error)) call self%take_lock(new_path, error)
       ! Between the opening and the lock another run may have brought this very file to its path.
       overtaken = .not. path_exists(new_path)
       if (.not. (stood .or. overtaken)) overtaken = path_exists(path)
       if (overtaken .and. .not. allocated(error)) &
-         call raise(error, exit_bad_input, path//' is being written by another run')
+         call raise(error, exit_system, path//' is being written by another run')
       if (allocated(error)) then
-         ! Nothing has run yet: a place that cannot be written is bad input.
-         error%exit_code = exit_bad_input
          call self%give_up()
          call old%give_up()
          return
@@ -176,7 +181,7 @@ contains
       call self%file%lock(outcome)
       self%locked = outcome == lock_held
       if (outcome == lock_refused) &
-         call raise(error, exit_bad_input, path//' is being written by another run; wait for its end, or '// &
+         call raise(error, exit_system, path//' is being written by another run; wait for its end, or '// &
                     'choose another name or output directory')
    end subroutine take_lock
 

@@ -1,8 +1,10 @@
 !> Where the files of a scene go, and whether they may go there. Looked at before anything runs.
 module output_place
    use errors, only: fault_list_t
-   use file_system, only: first_bytes, is_directory, is_writable, make_directory, path_exists
+   use byte_file, only: new_path
+   use file_system, only: file_state_t, first_bytes, is_directory, is_writable, make_directory, path_exists, state_of_path
    use log_file, only: log_magic
+   use output_lock, only: lock_path
    use result_format, only: result_magic
    use scene_types, only: compute_profile, scene_t, task_campaign, task_film, task_motion
    use summary_file, only: summary_magic
@@ -10,8 +12,7 @@ module output_place
    implicit none(type, external)
    private
 
-   public :: result_path, profiles_path, state_path, summary_path, log_path, progress_path, check_output_place, &
-             check_folder
+   public :: stem, result_path, profiles_path, state_path, summary_path, log_path, progress_path, check_output_place
 
 contains
 
@@ -79,22 +80,6 @@ contains
          integer_text(scene%campaign%part)//'-of-'//integer_text(scene%campaign%parts)
    end function stem
 
-   !> Make the folder of a campaign; what may stand there already is for its file to say.
-   subroutine check_folder(scene, file, faults)
-      !> Checked scene
-      type(scene_t), intent(in) :: scene
-      !> Its input, for the faults
-      character(*), intent(in) :: file
-      !> Faults are appended
-      type(fault_list_t), intent(inout) :: faults
-      logical :: made
-
-      call make_directory(trim(scene%output%directory), made)
-      if (made) made = is_writable(trim(scene%output%directory))
-      if (.not. made) call faults%add(file, 0, 'output', 'directory', "the folder '"//trim(scene%output%directory)// &
-                                      "' cannot be made or written")
-   end subroutine check_folder
-
    !> Make the folder if it is missing, and see that every file of the scene can be written there.
    subroutine check_output_place(scene, file, may_make, faults)
       !> Checked scene
@@ -132,29 +117,52 @@ contains
          call check_file(profiles_path(scene), result_magic)
       if (scene%task == task_motion) call check_file(state_path(scene), result_magic)
       call check_file(summary_path(scene), summary_magic)
-      call check_file(log_path(scene), log_magic)
+      if (scene%task == task_campaign) call check_file(progress_path(scene), summary_magic)
+      call check_kind(log_path(scene), log_magic, .false.)
+      call check_kind(lock_path(stem(scene)), '', .true.)
 
    contains
 
+      !> A file, and the one beside its place that a killed run may have left.
       subroutine check_file(path, magic)
          character(*), intent(in) :: path
          character(*), intent(in) :: magic
-         character(len(magic)) :: start
-         integer :: got, length
 
-         if (.not. path_exists(path)) return
-         ! Pipes and devices have no length. They are not opened: a pipe would wait for its other end.
-         inquire (file=path, size=length)
-         got = 0
-         if (length >= len(magic)) call first_bytes(path, start, got)
-         if (is_directory(path) .or. got < len(magic) .or. start /= magic) then
+         call check_kind(path, magic, .false.)
+         call check_kind(new_path(path), magic, .true.)
+      end subroutine check_file
+
+      !> What stands there begins with the magic, and may be replaced. An empty file holds nothing that could be lost: a
+      !> run was killed before it wrote there.
+      subroutine check_kind(path, magic, may_stand)
+         character(*), intent(in) :: path
+         character(*), intent(in) :: magic
+         !> Whether it needs no leave to be replaced
+         logical, intent(in) :: may_stand
+         type(file_state_t) :: state
+         character(len(magic)) :: start
+         integer :: got
+         character(:), allocatable :: way_on
+         logical :: ours
+
+         way_on = ''
+         if (scene%task == task_campaign) way_on = '--resume continues it, '
+         state = state_of_path(path)
+         if (.not. state%exists) return
+         ! Pipes and devices are not opened: a pipe would wait for its other end.
+         ours = state%is_file .and. state%bytes == 0
+         if (state%is_file .and. .not. ours .and. len(magic) > 0) then
+            call first_bytes(path, start, got)
+            ours = got == len(magic) .and. start == magic
+         end if
+         if (.not. ours) then
             call faults%add(file, 0, 'output', '', path//' exists and was not written by rattle; it is never replaced')
-         else if (.not. scene%output%overwrite) then
-            call faults%add(file, 0, 'output', 'overwrite', path//' exists; --overwrite replaces it')
+         else if (state%bytes > 0 .and. .not. (may_stand .or. scene%output%overwrite)) then
+            call faults%add(file, 0, 'output', 'overwrite', path//' exists; '//way_on//'--overwrite replaces it')
          else if (.not. is_writable_file(path)) then
             call faults%add(file, 0, 'output', '', path//' exists and may not be replaced')
          end if
-      end subroutine check_file
+      end subroutine check_kind
 
       logical function is_writable_file(path)
          character(*), intent(in) :: path

@@ -5,6 +5,7 @@ module random_access_file
    use errors, only: error_t, exit_system, raise
    use file_descriptor, only: close_descriptor, open_existing, read_and_write, read_bytes, read_only, &
                               synchronise_descriptor, write_bytes
+   use file_system, only: file_state_t, state_of_descriptor, state_of_path
    use kinds, only: dp, int64
    use system_error, only: error_words, interrupted_call, last_error, no_locks, no_such_call, not_supported
    implicit none(type, external)
@@ -26,6 +27,7 @@ module random_access_file
       procedure :: is_open
       procedure :: rename_path
       procedure :: lock
+      procedure :: stands_at
       procedure :: set_size
       procedure :: bytes => file_bytes
       generic :: write_at => write_text_at, write_reals_at, write_longs_at
@@ -154,6 +156,19 @@ contains
          if (cause /= interrupted_call) return
       end do
    end subroutine lock
+
+   !> Whether the open file is the one that stands at a path.
+   logical function stands_at(self, path)
+      class(random_access_file_t), intent(in) :: self
+      !> Any path
+      character(*), intent(in) :: path
+      type(file_state_t) :: open_one, at_path
+
+      open_one = state_of_descriptor(self%descriptor)
+      at_path = state_of_path(path)
+      stands_at = open_one%exists .and. at_path%exists .and. open_one%number == at_path%number .and. &
+                  all(open_one%device == at_path%device)
+   end function stands_at
 
    !> Cut the file to a length, or lengthen it by zeros that take no place on the disk.
    subroutine set_size(self, bytes, error)

@@ -1,15 +1,40 @@
 !> What Fortran lacks of the file system: whole files as text, folders, permissions, terminals.
 !> Thin calls of the C library.
 module file_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int16_t, c_int32_t, c_int64_t, c_null_char
    use file_descriptor, only: close_descriptor, open_existing, read_bytes, read_only, standard_input, standard_output
    use kinds, only: int64
    implicit none(type, external)
    private
 
-   public :: read_whole_file, first_bytes, path_exists, is_directory, is_writable, make_directory, rename_file, &
+   public :: read_whole_file, first_bytes, path_exists, file_state_t, state_of_path, state_of_descriptor, &
+             is_directory, is_writable, make_directory, rename_file, &
              delete_file, is_terminal
 
+   !> What stands at a path.
+   type :: file_state_t
+      logical :: exists = .false.
+      !> Whether it is a file that keeps bytes: no folder, pipe or device
+      logical :: is_file = .false.
+      integer(int64) :: bytes = 0_int64
+      !> Number of the file on its device, and of the device in two parts
+      integer(int64) :: number = 0_int64
+      integer(c_int32_t) :: device(2) = 0_c_int32_t
+   end type file_state_t
+
+   !> The answer of statx, whose layout is the same on all machines.
+   type, bind(c) :: statx_t
+      integer(c_int32_t) :: mask, block_bytes
+      integer(c_int64_t) :: attributes
+      integer(c_int32_t) :: links, user, group
+      integer(c_int16_t) :: mode, unused
+      integer(c_int64_t) :: number, bytes, blocks, attributes_mask
+      integer(c_int32_t) :: times(16), special_device(2), device(2)
+      integer(c_int64_t) :: reserved(14)
+   end type statx_t
+
+   integer(c_int), parameter :: from_working_directory = -100, path_is_empty = 4096, basic_facts = 2047
+   integer, parameter :: type_bits = int(o'170000'), regular_file = int(o'100000')
    integer(c_int), parameter :: test_exists = 0, test_write_and_enter = 3
 
    interface
@@ -19,6 +44,16 @@ module file_system
          integer(c_int), value :: mode
          integer(c_int) :: stat
       end function c_access
+
+      function c_statx(directory, path, flags, mask, facts) bind(c, name='statx') result(stat)
+         import :: c_char, c_int, statx_t
+         integer(c_int), value :: directory
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: flags
+         integer(c_int), value :: mask
+         type(statx_t), intent(out) :: facts
+         integer(c_int) :: stat
+      end function c_statx
 
       function c_mkdir(path, mode) bind(c, name='mkdir') result(stat)
          import :: c_char, c_int
@@ -125,6 +160,36 @@ contains
 
       path_exists = c_access(trim(path)//c_null_char, test_exists) == 0
    end function path_exists
+
+   !> What stands at a path; links are followed.
+   type(file_state_t) function state_of_path(path)
+      !> Any path
+      character(*), intent(in) :: path
+
+      state_of_path = state_of(from_working_directory, trim(path)//c_null_char, 0)
+   end function state_of_path
+
+   !> What an open file is.
+   type(file_state_t) function state_of_descriptor(descriptor)
+      !> Open file
+      integer(c_int), intent(in) :: descriptor
+
+      state_of_descriptor = state_of(descriptor, c_null_char, path_is_empty)
+   end function state_of_descriptor
+
+   type(file_state_t) function state_of(directory, path, flags) result(state)
+      integer(c_int), intent(in) :: directory
+      character(*), intent(in) :: path
+      integer(c_int), intent(in) :: flags
+      type(statx_t) :: facts
+
+      state%exists = c_statx(directory, path, flags, basic_facts, facts) == 0
+      if (.not. state%exists) return
+      state%is_file = iand(int(facts%mode), type_bits) == regular_file
+      state%bytes = facts%bytes
+      state%number = facts%number
+      state%device = facts%device
+   end function state_of
 
    !> Whether a path is a directory.
    logical function is_directory(path)

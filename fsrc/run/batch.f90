@@ -4,7 +4,8 @@ module batch
    use checkpoint, only: checkpoint_t
    use command_line, only: command_t
    use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
-   use output_place, only: check_output_place
+   use output_lock, only: output_lock_t
+   use output_place, only: check_output_place, stem
    use resolved_scene, only: resolve
    use resume, only: load_state
    use run_film, only: run_film_task
@@ -56,19 +57,26 @@ contains
       type(command_t), intent(in) :: command
       type(scene_t), intent(in) :: scenes(:)
       integer, intent(out) :: exit_code
+      type(output_lock_t) :: lock
+      type(fault_list_t) :: faults
       type(error_t), allocatable :: error
       integer :: i, status
 
       exit_code = exit_complete
       do i = 1, size(scenes)
-         select case (scenes(i)%task)
-         case (task_film)
-            call run_film_task(scenes(i), command%quiet, status, error)
-         case (task_sweep)
-            call run_sweep_task(scenes(i), command%quiet, status, error)
-         case default
-            call run_one_scene(scenes(i), command%quiet, command%resume, status, error)
-         end select
+         call lock%take(stem(scenes(i)), error)
+         if (.not. allocated(error)) then
+            ! Another run may have written these files since they were looked at.
+            call check_output_place(scenes(i), input_name(command%files(i)%text), .false., faults)
+            if (faults%count() > 0) then
+               call lock%release()
+               call print_faults(faults)
+               exit_code = exit_bad_input
+               return
+            end if
+            call run_task(scenes(i), command, status, error)
+            call lock%release()
+         end if
          if (allocated(error)) then
             write (error_unit, '(a)') error%message
             exit_code = error%exit_code
@@ -81,6 +89,23 @@ contains
          if (.not. is_success(status)) exit_code = exit_scene_failed
       end do
    end subroutine run_all
+
+   !> Run a scene, a film task or a sweep.
+   subroutine run_task(scene, command, status, error)
+      type(scene_t), intent(in) :: scene
+      type(command_t), intent(in) :: command
+      integer, intent(out) :: status
+      type(error_t), allocatable, intent(out) :: error
+
+      select case (scene%task)
+      case (task_film)
+         call run_film_task(scene, command%quiet, status, error)
+      case (task_sweep)
+         call run_sweep_task(scene, command%quiet, status, error)
+      case default
+         call run_one_scene(scene, command%quiet, command%resume, status, error)
+      end select
+   end subroutine run_task
 
    !> Two scenes of one name and folder would write the same files.
    subroutine check_names(command, scenes, faults)

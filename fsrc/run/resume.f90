@@ -7,7 +7,7 @@
 module resume
    use checkpoint, only: checkpoint_t
    use errors, only: error_t, exit_bad_input, raise
-   use file_system, only: path_exists
+   use file_system, only: file_state_t, state_of_path
    use input_difference, only: first_difference
    use integrate_controlled, only: last_search_period
    use kinds, only: dp, int64
@@ -75,11 +75,13 @@ contains
       type(checkpoint_t), intent(out) :: state
       !> Set if the file is damaged, belongs to another scene or version, or is no state that this run comes through
       type(error_t), allocatable, intent(out) :: error
+      type(file_state_t) :: kept
       type(result_reader_t) :: reader
       character(column_name_bytes), allocatable :: names(:)
       real(dp), allocatable :: row(:, :)
 
-      if (.not. path_exists(state_path(scene))) return
+      kept = state_of_path(state_path(scene))
+      if (kept%bytes == 0_int64) return
       allocate (names, source=column_names(scene))
       allocate (row(size(names), 1))
       call open_earlier(scene, state_path(scene), reader, error)

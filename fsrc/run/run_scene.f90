@@ -53,17 +53,16 @@ contains
       status = status_complete
       started = wall_seconds()
       resolved = resolve(scene)
-      call log%open(log_path(scene), quiet, error)
+      if (carry_on) call load_state(scene, start, error)
+      if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
       call report_start(log, scene, resolved)
-
-      if (carry_on) call load_state(scene, start, error)
       if (start%orbit > 0) then
          call log%line('  found steady by the earlier run; its orbit is solved again from period '//integer_text(start%periods))
       else if (start%periods > 0) then
          call log%line('  carried on from period '//integer_text(start%periods))
       end if
-      if (.not. allocated(error)) call recorder%open(scene, result_path(scene), start%periods, error)
+      call recorder%open(scene, result_path(scene), start%periods, error)
       if (.not. allocated(error)) then
          call watcher%start(log, quiet)
          if (scene%solver%method /= method_taylor) then

@@ -329,8 +329,8 @@ def test_second_run_refuses(rattle: Path, run, scene_text, tmp_path: Path) -> No
         while not (tmp_path / "whole" / "scene.rattle").exists():
             time.sleep(0.01)
         ended = run("--resume", "--output", "whole", "scene.nml", cwd=tmp_path)
-        assert ended.returncode == 2
-        assert "another run" in ended.stderr or "in use" in ended.stderr
+        assert ended.returncode == 3
+        assert "whole/scene is being written by another run" in ended.stderr
     finally:
         first.terminate()
         first.wait(60)

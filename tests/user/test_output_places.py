@@ -71,7 +71,7 @@ def test_result_that_exists(refused, run, scene_text, tmp_path: Path) -> None:
 @pytest.mark.parametrize("overwrite", [[], ["--overwrite"], ["--set", "output.overwrite=.true."]])
 @pytest.mark.parametrize("kind", ["rattle", "summary.nml", "log"])
 @pytest.mark.parametrize(
-    "mine", ["", "R", "my notes\n", "!&summary\n"], ids=["empty", "one letter", "notes", "nearly a summary"]
+    "mine", ["R", "my notes\n", "!&summary\n"], ids=["one letter", "notes", "nearly a summary"]
 )
 def test_file_of_another_kind_is_never_replaced(
     mine: str, kind: str, overwrite: list[str], refused, scene_text, tmp_path: Path
