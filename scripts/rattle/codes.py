@@ -23,14 +23,15 @@ STATUSES = MappingProxyType(
         9: "invalid",
     }
 )
+MODEL_LIMITS = MappingProxyType({0: "within", 1: "too_wide", 2: "too_narrow", 3: "too_wide_and_narrow"})
 NO_OR_YES = MappingProxyType({0: "no", 1: "yes"})
 SUCCESSES = (0, 1)
 
 # Columns whose numbers stand for words.
 CODES: Mapping[str, Mapping[int, str]] = MappingProxyType(
-    {"rattle_class": CLASSES, "film_regime": FILM_REGIMES, "status": STATUSES}
+    {"rattle_class": CLASSES, "film_regime": FILM_REGIMES, "status": STATUSES, "model_limit": MODEL_LIMITS}
 )
-FLAGS = ("law_contradicted", "certified", "sampling_sufficient")
+FLAGS = ("law_contradicted", "certified", "sampling_sufficient", "line_count_is_bound")
 
 
 def words_of(column: str) -> Mapping[int, str] | None:

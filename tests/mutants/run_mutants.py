@@ -26,7 +26,8 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 LIST = Path(__file__).with_name("mutants.txt")
 # Optimised file by file: a file of which only the inside changes is compiled alone and linked anew.
 FLAGS = "-O2 -march=x86-64-v3 -fno-math-errno -fno-trapping-math -fopenmp -fPIC"
-UNIT_LIMIT, USER_LIMIT = 300.0, 900.0  # seconds; an endless loop is noticed, too
+# An endless loop is noticed, too: unit tests may take this many times their usual time, user tests so many s.
+PATIENCE, USER_LIMIT = 6.0, 900.0
 COLUMNS = ("number", "place", "reason", "outcome", "by", "seconds")
 KILLED, SURVIVED, SAME, BROKEN = "killed", "survived", "no difference", "does not build"
 NEAR = "the tests near it"
@@ -154,6 +155,10 @@ class Scratch:
         made = self.make("build/rattle", "build/unit_tests", "build/kernels/built")
         if made.returncode:
             raise SystemExit(f"The unchanged program cannot be built:\n{made.stderr[-2000:]}")
+        started = time.monotonic()
+        if not self._ends_well(["build/unit_tests"], USER_LIMIT):
+            raise SystemExit("The unit tests fail on the unchanged program.")
+        self.unit_limit = PATIENCE * (time.monotonic() - started)
 
     def _run(self, command: Sequence[str], limit: float = 3600.0, **options) -> subprocess.CompletedProcess:
         options = {"cwd": self.place, "env": self.environment, "text": True} | options
@@ -211,7 +216,7 @@ class Scratch:
 
     def unit_tests(self) -> str:
         """What fails, empty if nothing does."""
-        return "" if self._ends_well(["build/unit_tests"], UNIT_LIMIT) else "unit tests"
+        return "" if self._ends_well(["build/unit_tests"], self.unit_limit) else "unit tests"
 
     def user_tests(self, files: Sequence[str]) -> str:
         """The first test that fails, empty if none does."""

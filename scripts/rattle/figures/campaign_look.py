@@ -35,6 +35,7 @@ FLAG_COLOURS = {
     "certified": {0: "#D55E00", 1: "#DCE6EC"},
     "sampling_sufficient": {0: "#D55E00", 1: "#DCE6EC"},
     "law_contradicted": {0: "#DCE6EC", 1: "#D55E00"},
+    "line_count_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
 }
 COLOUR_MAP = "cividis"
 GAP_COLOUR = "#F6F6F6"
