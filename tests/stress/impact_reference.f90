@@ -29,8 +29,6 @@ module impact_reference
 
    !> A period repeats if its states differ by no more than this [-].
    real(dp), parameter :: repeats = 1.0e-7_dp
-   !> Limits of the classes are known that well [-].
-   real(dp), parameter :: margin = 1.0e-3_dp
    real(dp), parameter :: two_pi = 6.28318530717958647692_dp
 
    public :: solve_reference, find_orbit, distance
@@ -38,7 +36,7 @@ module impact_reference
 contains
 
    !> Solve a window from the state where it starts.
-   pure subroutine solve_reference(tooth, rule, tolerance, periods, choice, noise_floor, start, reference)
+   pure subroutine solve_reference(tooth, rule, tolerance, periods, choice, noise_floor, margin, start, reference)
       type(tooth_t), intent(in) :: tooth
       type(lobatto_rule_t), intent(in) :: rule
       !> Of take_step
@@ -49,6 +47,8 @@ contains
       type(spectrum_choice_t), intent(in) :: choice
       !> Amplitude below which nothing moves [m/s2]
       real(dp), intent(in) :: noise_floor
+      !> How well the limits of the classes are known [-]
+      real(dp), intent(in) :: margin
       type(tooth_state_t), intent(in) :: start
       type(impact_reference_t), intent(out) :: reference
       type(impact_window_t) :: window
@@ -74,14 +74,15 @@ contains
          call solve_impact_window(tooth, rule, tolerance, periods, periods, state, window, reference%solved)
          if (.not. reference%solved) return
       end if
-      reference%possible = classes_of(window, choice, noise_floor)
+      reference%possible = classes_of(window, choice, noise_floor, margin)
    end subroutine solve_reference
 
    !> Classes that a window may have.
-   pure function classes_of(window, choice, noise_floor) result(possible)
+   pure function classes_of(window, choice, noise_floor, margin) result(possible)
       type(impact_window_t), intent(in) :: window
       type(spectrum_choice_t), intent(in) :: choice
       real(dp), intent(in) :: noise_floor
+      real(dp), intent(in) :: margin
       logical :: possible(size(possible_classes))
       real(dp) :: a(integrated_lines), harmonic, between, rest, fraction(2), distortion(2)
       integer :: most, fewest

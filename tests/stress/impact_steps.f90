@@ -174,12 +174,15 @@ contains
       solved = error < huge(1.0_dp)
    end subroutine solve_step
 
-   !> What a velocity is small against [m/s].
-   pure real(dp) function unit_of_velocity(tooth, step)
+   !> What a velocity is small against [m/s]: the largest of the step, and what changes the film within a period, or the load
+   !> of (37), whose exponent counts velocities.
+   pure real(dp) function unit_of_velocity(tooth, step) result(unit)
       type(tooth_t), intent(in) :: tooth
       type(tooth_step_t), intent(in) :: step
 
-      unit_of_velocity = maxval(abs(step%velocity)) + two_pi*tooth%frequency*maxval(step%film)
+      unit = two_pi*tooth%frequency*maxval(step%film)
+      if (tooth%film%rate > 0.0_dp) unit = min(unit, 1.0_dp/tooth%film%rate)
+      unit = unit + maxval(abs(step%velocity))
    end function unit_of_velocity
 
    !> Change by what the polynomial through the slopes at the nodes is likely to lack.

@@ -3,13 +3,15 @@
 !> fly far and strike hard. A scene depends on its number and the seed alone.
 module judged_scenes
    use constants, only: standard_gravity
-   use film_law, only: steady_film
+   use film_law, only: new_film, steady_film
    use kinds, only: dp, int64
    use random_numbers, only: next_uniform, random_state_t
    use random_scenes, only: choose_law, draw, draw_scene, drawn_scene_t, laws
    use resolved_scene, only: resolve
    use scene_lane, only: lane_of_scene
-   use scene_types, only: law_piezo_viscous, method_newmark, method_taylor, model_reynolds, scene_t, until_periods, until_steady
+   use scene_types, only: iteration_newton, iteration_successive, law_piezo_viscous, method_newmark, method_taylor, &
+                          model_reynolds, &
+                          predictor_extrapolated, predictor_previous, scene_t, until_periods, until_steady
    implicit none(type, external)
    private
 
@@ -25,7 +27,12 @@ module judged_scenes
    integer, parameter :: law_turns(16) = [1, 2, 4, 5, 6, 1, 5, 5, 2, 1, 4, 5, 2, 6, 5, 3]
    integer(int64), parameter :: gear_stream = 2_int64**40
 
-   public :: draw_judged_scene, is_gear
+   !> Rows of a campaign, and the keys that it varies: forces, frequency and viscosity of a loose gear.
+   integer, parameter, public :: campaign_rows = 32
+   character(*), parameter, public :: campaign_keys(4) = [character(24) :: 'load.steady_force', 'load.force_amplitude', &
+      'load.frequency', 'lubricant.viscosity']
+
+   public :: draw_campaign, draw_judged_scene, is_gear
 
 contains
 
@@ -62,6 +69,50 @@ contains
                                  drawn%scene%film%initial_velocity)
    end subroutine draw_judged_scene
 
+   !> A campaign: a loose gear, values of the varied keys, and the scenes that they make.
+   pure subroutine draw_campaign(seed, number, base, law, values, drawn)
+      !> Any number
+      integer(int64), intent(in) :: seed
+      !> Number of the campaign, from 0 on
+      integer(int64), intent(in) :: number
+      !> Base scene
+      type(scene_t), intent(out) :: base
+      !> Place in law_names
+      integer, intent(out) :: law
+      !> Varied key, row
+      real(dp), intent(out) :: values(size(campaign_keys), campaign_rows)
+      !> The scene of every row
+      type(drawn_scene_t), intent(out) :: drawn(campaign_rows)
+      integer(int64), parameter :: campaign_stream = 2_int64**41
+      type(random_state_t) :: state
+      real(dp) :: ratio
+      integer :: i
+
+      state = random_state_t(seed=seed, stream=campaign_stream + number)
+      call draw_gear(state, base, law)
+      call draw_solver(state, base)
+      base%solver%method = method_taylor
+      base%film%initial_film = 0.0_dp
+      do i = 1, campaign_rows
+         call draw(state, loads, values(1, i))
+         call draw(state, ratios, ratio)
+         values(2, i) = ratio*(values(1, i) + base%load%weight())
+         call draw(state, frequencies, values(3, i))
+         call draw(state, viscosities, values(4, i))
+         associate (scene => drawn(i)%scene)
+            scene = base
+            scene%load%steady_force = values(1, i)
+            scene%load%force_amplitude = values(2, i)
+            scene%load%frequency = values(3, i)
+            scene%lubricant%viscosity = values(4, i)
+         end associate
+         drawn(i)%number = number*int(campaign_rows, int64) + int(i - 1, int64)
+         drawn(i)%resolved = resolve(drawn(i)%scene)
+         drawn(i)%lane = lane_of_scene(drawn(i)%scene, drawn(i)%resolved%film, drawn(i)%resolved%initial_film, &
+                                       drawn(i)%scene%film%initial_velocity)
+      end do
+   end subroutine draw_campaign
+
    !> Place of the law of a scene in law_names.
    pure integer function law_of(scene) result(law)
       type(scene_t), intent(in) :: scene
@@ -79,7 +130,7 @@ contains
       type(random_state_t), intent(inout) :: state
       type(scene_t), intent(inout) :: scene
       integer, intent(out) :: law
-      real(dp) :: number, ratio, film
+      real(dp) :: number, ratio
 
       call next_uniform(state, number)
       law = law_turns(1 + int(real(size(law_turns), dp)*number))
@@ -108,30 +159,29 @@ contains
       scene%film%initial_film = 0.0_dp
       scene%film%initial_velocity = 0.0_dp
       if (number < 0.8_dp) return
-      scene%film%initial_film = 1.0_dp
-      associate (resolved => resolve(scene))
-         film = steady_film(resolved%film, scene%load%static_load())
-      end associate
-      scene%film%initial_film = max(0.0_dp, ratio*film)
+      ! Without a steady film there is none to start off from, and the scene says so.
+      scene%film%initial_film = max(0.0_dp, ratio*steady_film(new_film(scene), scene%load%static_load()))
    end subroutine draw_gear
 
    !> Solver and window.
    pure subroutine draw_solver(state, scene)
       type(random_state_t), intent(inout) :: state
       type(scene_t), intent(inout) :: scene
-      real(dp) :: number(6)
+      real(dp) :: number(9)
       integer :: i
 
       do i = 1, size(number)
          call next_uniform(state, number(i))
       end do
       associate (solver => scene%solver)
-         solver%method = merge(method_newmark, method_taylor, number(1) < 1.0_dp/16.0_dp)
+         solver%method = merge(method_newmark, method_taylor, number(1) < 1.0_dp/8.0_dp)
+         solver%iteration = merge(iteration_newton, iteration_successive, number(7) < 0.75_dp)
+         solver%predictor = merge(predictor_extrapolated, predictor_previous, number(8) < 0.5_dp)
          solver%until = merge(until_steady, until_periods, number(2) < 0.5_dp .and. solver%method == method_taylor)
          solver%accuracy = accuracies(1 + int(8.0_dp*number(3)))
          solver%kept_per_period = samples(1 + int(8.0_dp*number(4)))
          solver%steps_per_period = 512
-         solver%tolerance = 1.0e-14_dp
+         solver%tolerance = merge(1.0e-14_dp, 1.0e-7_dp*10.0_dp**(-4.0_dp*number(9)), number(9) < 0.5_dp)
          solver%iteration_limit = 100
          scene%spectrum%periods = windows(1 + int(4.0_dp*number(5)))
          solver%periods = scene%spectrum%periods + 8 + int(32.0_dp*number(6))

@@ -5,7 +5,13 @@
 !> calls steady is not the one that repeats. What the reference may be off itself, found by solving it with another
 !> tolerance, is allowed for. Where a disturbance of film and force by 1e-9 grows so far that no certificate could
 !> foresee the film (30 times the growth times the accuracy of a certificate, 1e-10, beyond 1 %), nothing can be
-!> asked for but that a motion called irregular is irregular.
+!> asked for but that a motion called irregular is irregular. The same holds where the reference itself comes to other
+!> films with another tolerance.
+!>
+!> A row of a campaign states no errors. It is right if its class is possible, its films are within 30 times its accuracy,
+!> and its accelerations and harmonics within 1 % of the largest and the noise floor of the scene; where disturbances
+!> grow, that times the growth, up to 10 %. A row that is not, and does not say that its samples are too few, is a silent
+!> failure.
 module summary_outcomes
    use impact_reference, only: compared_harmonics, find_orbit, impact_reference_t, possible_classes, solve_reference
    use impact_steps, only: tooth_of_lane, tooth_state_t, tooth_t
@@ -43,7 +49,12 @@ module summary_outcomes
       character(:), allocatable :: fault
    end type told_outcome_t
 
-   public :: outcome_of_summary
+   !> What a row of a campaign may be off in films, over its accuracy, and in accelerations, over the largest [-].
+   real(dp), parameter :: row_ratio = 30.0_dp, row_error = 0.01_dp, row_unforeseeable = 0.1_dp
+   !> How well the limits of the classes are known to a certificate, and to a row [-].
+   real(dp), parameter :: certified_margin = 1.0e-3_dp, row_margin = 2.0e-2_dp
+
+   public :: outcome_of_row, outcome_of_summary
 
 contains
 
@@ -64,7 +75,7 @@ contains
       if (.not. told%judged) return
       outcome%code = merge(told_right, told_uncertain, told%certified)
       outcome%fault = trim(told%reason)
-      call reference_of(drawn, rule, told, usual, 0.0_dp, reference)
+      call reference_of(drawn, rule, told, usual, 0.0_dp, certified_margin, reference)
       if (.not. reference%solved) then
          if (told%certified) outcome%code = told_unjudged
          return
@@ -77,7 +88,7 @@ contains
       own_errors = usual_error*abs(values_of(reference)) + noise(drawn)
       fault = fault_of(told, reference, own_errors, told%certified)
       if (len(fault) > 0) then
-         call reference_of(drawn, rule, told, second, 0.0_dp, tight)
+         call reference_of(drawn, rule, told, second, 0.0_dp, certified_margin, tight)
          if (.not. tight%solved) then
             if (told%certified) outcome%code = told_unjudged
             return
@@ -86,10 +97,10 @@ contains
          fault = fault_of(told, tight, own_errors, told%certified)
       end if
       if (len(fault) > 0) then
-         call reference_of(drawn, rule, told, second, disturbance, disturbed)
+         call reference_of(drawn, rule, told, second, disturbance, certified_margin, disturbed)
          grown = huge(1.0_dp)
          if (disturbed%solved) grown = maxval(abs(log(disturbed%extremes(:2)/tight%extremes(:2))))/disturbance
-         if (grown > foreseeable_growth) then
+         if (grown > foreseeable_growth .or. .not. is_known(tight, reference)) then
             if (told%certified) outcome%code = told_sensitive
             return
          end if
@@ -122,14 +133,85 @@ contains
 
    end subroutine outcome_of_summary
 
-   !> Solve the window of a summary.
-   subroutine reference_of(drawn, rule, told, tolerance, offset, reference)
+   !> Judge a row of a campaign.
+   subroutine outcome_of_row(drawn, rule, told, outcome)
+      !> The scene of the row
+      type(drawn_scene_t), intent(in) :: drawn
+      type(lobatto_rule_t), intent(in) :: rule
+      !> What the row says
+      type(told_t), intent(in) :: told
+      type(told_outcome_t), intent(out) :: outcome
+      type(impact_reference_t) :: reference, tight, disturbed
+      type(told_t) :: row
+      real(dp) :: allowed(quantities), grown
+      character(:), allocatable :: fault
+
+      outcome%fault = trim(told%status)
+      outcome%code = told_status
+      if (.not. told%judged) return
+      outcome%fault = ''
+      outcome%code = told_unjudged
+      call row_reference(drawn, rule, told, usual, 0.0_dp, reference)
+      if (.not. reference%solved) return
+      outcome%code = merge(told_irregular, told_right, told%class == 'irregular' .and. class_is_possible(told, reference))
+      if (outcome%code == told_irregular) return
+      row = told
+      allowed = noise(drawn) + drawn%resolved%noise_floor
+      allowed(:2) = row_ratio*drawn%scene%solver%accuracy*reference%extremes(:2)
+      allowed(3:4) = allowed(3:4) + row_error*maxval(abs(reference%extremes(3:)))
+      allowed(5:) = allowed(5:) + row_error*maxval(reference%harmonics)
+      row%extreme_errors = allowed(:4)
+      row%harmonic_errors = allowed(5:)
+      fault = fault_of(row, reference, 0.0_dp*allowed, .true.)
+      if (len(fault) == 0) return
+      outcome%fault = fault
+      call row_reference(drawn, rule, told, second, 0.0_dp, tight)
+      call row_reference(drawn, rule, told, usual, disturbance, disturbed)
+      if (.not. tight%solved) return
+      grown = huge(1.0_dp)
+      if (disturbed%solved) grown = max(1.0_dp, maxval(abs(log(disturbed%extremes(:2)/reference%extremes(:2))))/disturbance)
+      outcome%code = told_sensitive
+      if (row_ratio*drawn%scene%solver%accuracy*grown > row_unforeseeable .or. .not. is_known(tight, reference)) return
+      row%extreme_errors(:2) = allowed(:2)*grown
+      if (len(fault_of(row, reference, 0.0_dp*allowed, .true.)) == 0) return
+      outcome%code = merge(told_silent, told_uncertain, told%sampling_sufficient)
+      outcome%fault = outcome%fault//', growth '//short_text(grown, 3)
+   end subroutine outcome_of_row
+
+   !> Solve the window of a row: of a steady motion its orbit, since a forecast may have saved the periods before it.
+   subroutine row_reference(drawn, rule, told, tolerance, offset, reference)
       type(drawn_scene_t), intent(in) :: drawn
       type(lobatto_rule_t), intent(in) :: rule
       type(told_t), intent(in) :: told
       real(dp), intent(in) :: tolerance
       !> Relative disturbance of film and force
       real(dp), intent(in) :: offset
+      type(impact_reference_t), intent(out) :: reference
+      type(tooth_t) :: tooth
+      type(tooth_state_t) :: state
+      logical :: found
+
+      call reference_of(drawn, rule, told, tolerance, offset, row_margin, reference)
+      if (told%orbit == 0 .or. .not. reference%solved) return
+      tooth = tooth_of_lane(drawn%lane)
+      tooth%static_load = tooth%static_load + offset*(tooth%static_load + tooth%amplitude)
+      state = reference%start
+      call find_orbit(tooth, rule, tolerance, told%orbit, state, found)
+      reference%solved = .false.
+      if (found) call solve_reference(tooth, rule, tolerance, told%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, &
+                                      row_margin, state, reference)
+   end subroutine row_reference
+
+   !> Solve the window of a summary.
+   subroutine reference_of(drawn, rule, told, tolerance, offset, margin, reference)
+      type(drawn_scene_t), intent(in) :: drawn
+      type(lobatto_rule_t), intent(in) :: rule
+      type(told_t), intent(in) :: told
+      real(dp), intent(in) :: tolerance
+      !> Relative disturbance of film and force
+      real(dp), intent(in) :: offset
+      !> How well the limits of the classes are known
+      real(dp), intent(in) :: margin
       type(impact_reference_t), intent(out) :: reference
       type(tooth_t) :: tooth
       type(tooth_state_t) :: state
@@ -141,7 +223,7 @@ contains
       state%velocity = drawn%lane%initial_velocity
       call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)
       if (solved) call solve_reference(tooth, rule, tolerance, told%window, drawn%scene%spectrum, drawn%resolved%noise_floor, &
-                                       state, reference)
+                                       margin, state, reference)
    end subroutine reference_of
 
    !> Amplitudes that rounding explains [m], [m/s2].
@@ -152,6 +234,15 @@ contains
       noise = 1.0e-11_dp*(drawn%scene%load%static_load() + drawn%scene%load%force_amplitude)/drawn%scene%load%mass
       noise(:2) = 0.0_dp
    end function noise
+
+   !> Whether two solutions of the reference come to the same films.
+   pure logical function is_known(one, other)
+      type(impact_reference_t), intent(in) :: one
+      type(impact_reference_t), intent(in) :: other
+      real(dp), parameter :: known = 0.01_dp
+
+      is_known = all(abs(log(one%extremes(:2)/other%extremes(:2))) < known)
+   end function is_known
 
    !> All that is compared.
    pure function values_of(reference) result(values)
@@ -235,7 +326,8 @@ contains
       state = reference%start
       call find_orbit(tooth, rule, usual, told%orbit, state, found)
       if (.not. found) return
-      call solve_reference(tooth, rule, usual, told%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, state, orbit)
+      call solve_reference(tooth, rule, usual, told%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, &
+                           certified_margin, state, orbit)
       if (.not. orbit%solved) return
       fault = ''
       away = abs(log(told%extremes(:2)/orbit%extremes(:2)))

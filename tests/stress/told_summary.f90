@@ -1,20 +1,26 @@
-!> What the program tells a user of a scene: solved and judged as a single scene is, without its files. The only
-!> file of this study that knows how the program does that.
+!> What the program tells a user of a scene: solved and judged as a single scene is, or as a row of a campaign, without
+!> their files. The only file of this study that knows how the program does that.
 module told_summary
    use certificate, only: certificate_word
    use errors, only: error_t
    use checkpoint, only: checkpoint_t
    use impact_reference, only: compared_harmonics
-   use integrate_controlled, only: solve_controlled
+   use integrate_controlled, only: reserved_periods, solve_controlled
    use integrate_motion, only: motion_watcher_t, solve_motion
-   use kinds, only: dp
+   use kinds, only: dp, int64
    use node_extremes, only: seen_acceleration, seen_film
    use rattle_class, only: class_name
    use random_scenes, only: drawn_scene_t
+   use recorded_quantities, only: record_acceleration_maximum, record_acceleration_minimum, record_film_maximum, &
+                                  record_film_minimum, record_harmonics, record_orbit_period, record_periods_solved, &
+                                  record_rattle_class, record_sampling_sufficient
    use sample_recorder, only: sample_recorder_t
+   use sampling, only: plan_table, sample_plan_t
    use scene_result, only: judge, scene_result_t
    use scene_status, only: is_success, status_name
-   use scene_types, only: method_taylor
+   use scene_types, only: method_taylor, scene_t, task_campaign, until_steady
+   use solve_chunk, only: chunk_space_t, solve_scenes
+   use varied_keys, only: find_varied_key
    implicit none(type, external)
    private
 
@@ -41,7 +47,7 @@ module told_summary
       procedure :: period_done
    end type nobody_t
 
-   public :: summary_told
+   public :: rows_told, summary_told
 
 contains
 
@@ -95,6 +101,57 @@ contains
                                 certificate%acceleration_minimum_error, certificate%acceleration_maximum_error]
       end associate
    end subroutine summary_told
+
+   !> What a campaign tells of scenes that differ from a base in some keys.
+   subroutine rows_told(base, keys, values, told)
+      !> Base scene with its solver
+      type(scene_t), intent(in) :: base
+      !> Varied keys as a user writes them
+      character(*), intent(in) :: keys(:)
+      !> Their values: key, scene
+      real(dp), intent(in) :: values(:, :)
+      !> What is told of each scene
+      type(told_t), intent(out) :: told(:)
+      integer, parameter :: record(9) = [record_film_minimum, record_film_maximum, record_acceleration_minimum, &
+         record_acceleration_maximum, record_rattle_class, record_sampling_sufficient, record_orbit_period, record_periods_solved, &
+         record_harmonics], row_harmonics = 8
+      type(scene_t) :: scene
+      type(sample_plan_t) :: plan
+      type(chunk_space_t), allocatable :: space
+      character(:), allocatable :: message
+      real(dp), allocatable :: table(:, :), rows(:, :)
+      integer :: positions(size(keys)), first, i
+
+      do i = 1, size(keys)
+         call find_varied_key(trim(keys(i)), positions(i), message)
+      end do
+      scene = base
+      scene%task = task_campaign
+      scene%campaign%record = record
+      scene%resolved_input = ''
+      table = values
+      call plan_table(positions, table, plan)
+      first = 2 + size(keys)
+      allocate (rows(first + size(record) - 1 + row_harmonics, size(told)), space)
+      call solve_scenes(scene, plan, 1_int64, space, rows)
+      do i = 1, size(told)
+         associate (row => rows(first:, i))
+            told(i)%status = status_name(nint(row(1)))
+            told(i)%judged = is_success(nint(row(1)))
+            if (.not. told(i)%judged) cycle
+            told(i)%extremes = row(2:5)
+            told(i)%class = class_name(nint(row(6)))
+            told(i)%sampling_sufficient = row(7) > 0.5_dp
+            told(i)%orbit = nint(row(8))
+            told(i)%periods = nint(row(9))
+            told(i)%window = scene%spectrum%periods
+            if (scene%solver%until == until_steady) told(i)%window = reserved_periods(scene%spectrum%periods)
+            if (told(i)%orbit > 0) told(i)%window = told(i)%orbit
+            told(i)%harmonics(:row_harmonics) = row(10:9 + row_harmonics)
+            told(i)%harmonic_count = row_harmonics
+         end associate
+      end do
+   end subroutine rows_told
 
    !> Nobody watches.
    subroutine period_done(self, done, all)

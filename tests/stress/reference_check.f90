@@ -1,0 +1,86 @@
+!> Holds the reference itself against motions that other programs have solved, before it judges anything.
+module reference_check
+   use impact_reference, only: impact_reference_t, solve_reference
+   use impact_steps, only: tooth_of_lane, tooth_state_t, tooth_t
+   use impact_window, only: solve_periods
+   use kinds, only: dp
+   use lobatto_rule, only: lobatto_rule_t
+   use random_scenes, only: choose_law
+   use resolved_scene, only: resolve, resolved_scene_t
+   use scene_lane, only: lane_of_scene
+   use scene_types, only: scene_t
+   implicit none(type, external)
+   private
+
+   !> A motion known to all digits given: law (place in law_names), entrainment speed [m/s], films [m], z'' and its first six
+   !> harmonics [m/s2], of the last of 120 periods.
+   type :: known_t
+      integer :: law
+      real(dp) :: speed
+      real(dp) :: extremes(4)
+      real(dp) :: harmonics(6)
+   end type known_t
+
+   !> The canonical scene of the paper's two films and of the exact ones: R 12.7 mm, l 10 mm, 0.3 Pa s, 2e-8 1/Pa, 3 kg,
+   !> 199.2 N and 205.7 N at 600 Hz.
+   type(known_t), parameter :: known(5) = [ &
+      known_t(1, 1.905_dp, [0.341405e-6_dp, 3.570926e-6_dp, -64.348064_dp, 202.785793_dp], &
+              [21.2023751_dp, 30.5365166_dp, 25.8178690_dp, 22.4385275_dp, 19.3319685_dp, 16.5060500_dp]), &
+      known_t(4, 1.905_dp, [0.837089e-6_dp, 1.827841e-6_dp, -27.155588_dp, 14.733975_dp], &
+              [6.3805133_dp, 8.5944899_dp, 6.5732897_dp, 4.1034383_dp, 2.4808443_dp, 1.5245533_dp]), &
+      known_t(5, 0.9525_dp, [0.400824e-6_dp, 3.478332e-6_dp, -61.644347_dp, 123.573157_dp], &
+              [20.8160154_dp, 28.7555678_dp, 21.6951357_dp, 17.0416711_dp, 13.3297691_dp, 10.3671095_dp]), &
+      known_t(2, 1.905_dp, [0.245194e-6_dp, 4.676586e-6_dp, -82.560498_dp, 387.838543_dp], &
+              [28.9175793_dp, 40.2342318_dp, 35.9704977_dp, 34.0112309_dp, 30.7059169_dp, 27.0072316_dp]), &
+      known_t(5, 1.905_dp, [0.409978e-6_dp, 6.885256e-6_dp, -92.317481_dp, 370.473132_dp], &
+              [42.1753420_dp, 52.7575920_dp, 44.9082798_dp, 38.5704473_dp, 32.4493844_dp, 27.3582296_dp])]
+
+   public :: reference_deviation
+
+contains
+
+   !> Largest deviation of the reference from the known motions, in units of their last digit.
+   function reference_deviation(rule) result(deviation)
+      type(lobatto_rule_t), intent(in) :: rule
+      real(dp) :: deviation
+      real(dp), parameter :: digit(10) = [1.0e-12_dp, 1.0e-12_dp, 1.0e-6_dp, 1.0e-6_dp, 1.0e-7_dp, 1.0e-7_dp, 1.0e-7_dp, &
+                                          1.0e-7_dp, 1.0e-7_dp, 1.0e-7_dp], tolerance = 1.0e-9_dp
+      type(scene_t) :: scene
+      type(resolved_scene_t) :: resolved
+      type(tooth_t) :: tooth
+      type(tooth_state_t) :: state
+      type(impact_reference_t) :: reference
+      logical :: solved
+      integer :: i
+
+      deviation = 0.0_dp
+      do i = 1, size(known)
+         call choose_law(known(i)%law, scene)
+         scene%contact%radius = 0.0127_dp
+         scene%contact%length = 0.010_dp
+         scene%contact%young_modulus = 205.66e9_dp
+         scene%contact%poisson_ratio = 0.3_dp
+         scene%lubricant%viscosity = 0.3_dp
+         scene%lubricant%pressure_viscosity = 2.0e-8_dp
+         scene%kinematics%entrainment_speed = known(i)%speed
+         scene%load%mass = 3.0_dp
+         scene%load%steady_force = 199.2_dp
+         scene%load%force_amplitude = 205.7_dp
+         scene%load%frequency = 600.0_dp
+         scene%load%gravity = 9.80665_dp
+         resolved = resolve(scene)
+         tooth = tooth_of_lane(lane_of_scene(scene, resolved%film, resolved%initial_film, 0.0_dp))
+         state = tooth_state_t(film=resolved%initial_film)
+         call solve_periods(tooth, rule, tolerance, 119, state, solved)
+         if (solved) call solve_reference(tooth, rule, tolerance, 1, scene%spectrum, resolved%noise_floor, 0.0_dp, state, &
+                                          reference)
+         if (.not. (solved .and. reference%solved)) then
+            deviation = huge(1.0_dp)
+            return
+         end if
+         deviation = max(deviation, maxval(abs([reference%extremes, reference%harmonics(:6)] - &
+                                               [known(i)%extremes, known(i)%harmonics])/digit))
+      end do
+   end function reference_deviation
+
+end module reference_check
