@@ -55,7 +55,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(ROOMS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test unit user lint debug python bench stress stress-sample mutants test-cluster clean install help format pages pictures FORCE
+.PHONY: all run test unit user lint debug python bench stress stress-sample faults faults-sample mutants test-cluster clean install help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -69,6 +69,7 @@ help:
 	@echo 'make bench        speed of the program, as a table'
 	@echo 'make stress       100000 random scenes by every engine (SCENES=N)'
 	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
+	@echo 'make faults       runs that meet kills, full disks, failing calls, other runs, damaged and foreign files'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
 	@echo 'make pages        write input/README.md anew from the key table'
 	@echo 'make pictures     draw the pictures of the README anew'
@@ -147,7 +148,7 @@ run: $(BUILD)/rattle $(BUILD)/kernels/built
 
 # --- tests: the unit tests in both builds, then what a user does -------------------------------------
 
-test: unit user stress-sample
+test: unit user stress-sample faults-sample
 
 unit: $(BUILD)/unit_tests
 	@echo 'unit tests, release build'
@@ -197,6 +198,16 @@ stress: $(BUILD)/stress_scenes $(BUILD)/lane_independence
 PART := 1/1
 mutants: $(PYTHON_ENV)/installed
 	@$(PYTHON) tests/mutants/run_mutants.py --part $(PART) --scratch $(BUILD)/mutants
+
+# Kills, full disks, a fault at every output call, two runs at a time, flipped bits, foreign files. Some minutes.
+FAULTS := tests/faults/run_faults.py $(BUILD)/rattle $(BUILD)/faults
+faults: $(BUILD)/rattle $(PYTHON_ENV)/installed
+	@$(PYTHON) $(FAULTS) --every-call
+
+# A sample of it.
+faults-sample: $(BUILD)/rattle $(PYTHON_ENV)/installed
+	@echo 'faults, a sample'
+	@$(PYTHON) $(FAULTS) --tries 1
 
 # Open MPI and Slurm on this machine: array jobs, MPI jobs, time limits, resume. Some minutes; installs with apt.
 test-cluster: $(PYTHON_ENV)/installed

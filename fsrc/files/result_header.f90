@@ -176,7 +176,14 @@ contains
          return
       end if
       call read_parts(file, fixed, header, complete)
-      if (complete) call read_seal(fixed(seal_offset + 1:seal_offset + seal_bytes), header%seal, complete)
+      if (complete) then
+         call read_seal(fixed(seal_offset + 1:seal_offset + seal_bytes), header%seal, complete)
+         if (header%row_count == rows_unknown .and. .not. complete) then
+            ! The disk was full while the seal was written: it covers nothing.
+            header%seal = result_seal_t()
+            complete = .true.
+         end if
+      end if
       if (complete .and. header%table_magic == series_table_magic) &
          complete = header%row_count == rows_unknown .or. header%row_count == header%seal%rows
       if (complete .and. header%table_magic == campaign_table_magic) &

@@ -1,6 +1,8 @@
-!> NAME.summary.nml: one group &summary, readable by Fortran and f90nml. Unknown values are left out.
+!> NAME.summary.nml: one group &summary, readable by Fortran and f90nml. Unknown values are left out. A comment behind
+!> the group holds the checksum of all bytes before it.
 module summary_file
    use byte_file, only: byte_file_t, put_in_place
+   use checksum, only: checksum_of
    use errors, only: error_t
    use kinds, only: dp, int64
    use text, only: integer_text, logical_text, quoted, real_text
@@ -134,10 +136,12 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(byte_file_t) :: file
       type(error_t), allocatable :: close_error
+      character(:), allocatable :: text
 
       call file%open(path, error)
       if (allocated(error)) return
-      call file%put(summary_magic//new_line('a')//self%body//'/'//new_line('a'), error)
+      text = summary_magic//new_line('a')//self%body//'/'//new_line('a')
+      call file%put(text//'! checksum '//integer_text(checksum_of(text))//new_line('a'), error)
       call file%close(close_error)
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
    end subroutine write_beside

@@ -193,8 +193,11 @@ def _read_chunks(stream: BinaryIO, head: bytes, space: int, path: object) -> Chu
 
 
 def _read_seal(raw: bytes, row_count: int, chunks: ChunkTable, path: object) -> Seal:
+    """What the checksums of a series cover; nothing, if the disk was full while it was written."""
     *words, stored = SEAL.unpack(raw)
     seal = Seal(*words)
+    if row_count < 0 and checksum(raw[:-8]) != stored:
+        return Seal()
     expected = seal.rows if chunks.kind == SERIES else chunks.row_limit
     if (
         checksum(raw[:-8]) != stored

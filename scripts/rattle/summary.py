@@ -6,10 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from rattle.checksums import checksum
 from rattle.namelist import NamelistError, parse
 
 Summary = Mapping[str, Any]
 ABSENT = "-"
+CHECKSUM_MARK = b"! checksum "
 
 
 class SummaryError(Exception):
@@ -20,7 +22,11 @@ def read_summary(path: str | Path) -> dict[str, Any]:
     """The keys of a ``NAME.summary.nml``; what the run does not know is not in it."""
     path = Path(path)
     try:
-        groups = parse(path.read_text(encoding="ascii"))
+        raw = path.read_bytes()
+        body, mark, stored = raw.rpartition(CHECKSUM_MARK)
+        if mark and stored != b"%d\n" % checksum(body):
+            raise SummaryError(f"{path} is damaged: it is not what its checksum says.")
+        groups = parse(raw.decode("ascii"))
     except OSError as fault:
         raise SummaryError(f"{path} cannot be read: {fault.strerror or fault}.") from None
     except UnicodeDecodeError:

@@ -216,6 +216,33 @@ def test_damaged_series_is_not_carried_on(run, scene_text, tmp_path: Path) -> No
     assert contents(tmp_path) == before
 
 
+def test_damaged_summary_is_told(run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(scene_text())
+    assert run("scene.nml", cwd=tmp_path).returncode == 0
+    path = tmp_path / "results" / "scene.summary.nml"
+    sound = path.read_bytes()
+    assert package.read_summary(path)["status"] == "complete"
+    for place in range(0, sound.index(b"! checksum"), 29):
+        flipped(path, place)
+        with pytest.raises(package.SummaryError):
+            package.read_summary(path)
+        path.write_bytes(sound)
+
+
+def test_half_of_a_seal_covers_nothing(run, scene_text, tmp_path: Path) -> None:
+    """The disk was full while the checksums of a series in progress went there: its rows can be read."""
+    (tmp_path / "scene.nml").write_text(scene_text())
+    assert run("scene.nml", cwd=tmp_path).returncode == 0
+    path = tmp_path / "results" / "scene.rattle"
+    rows = package.read(path)["acceleration"].tolist()
+    content = path.read_bytes()
+    head = content[:24] + (-1).to_bytes(8, "little", signed=True) + content[32:100]
+    path.write_bytes(head + bytes(20) + content[120:])
+    assert package.read(path)["acceleration"].tolist()[: len(rows)] == rows
+    ended = run("--resume", "--set", "solver.periods=9", "scene.nml", cwd=tmp_path)
+    assert ended.returncode == 2 and "scene.rattle holds 0 rows, fewer than the 33" in ended.stderr
+
+
 @pytest.mark.parametrize("kind", ["state", "rattle"])
 def test_files_of_another_version_are_not_carried_on(kind: str, run, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(scene_text())

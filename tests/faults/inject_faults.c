@@ -1,0 +1,124 @@
+/* Loaded before the C library, this lets the n-th output call of a program fail, or kills the program there.
+
+   Calls count that write, shorten, synchronise, rename, make or close a file below FAULT_FOLDER. FAULT_AT is the
+   call that meets the fault, FAULT_KIND the fault: "error" (that call fails), "full" (from that call on nothing can
+   be made or written), "short" (half of what is to be written is, then the disk is full), "kill" (the program ends
+   before the call), "none". The count of calls goes to the file FAULT_COUNT when the program ends by itself. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+enum verdict { PASS, FAIL, HALF };
+
+static int calls = 0;
+
+static int below_folder(const char *path)
+{
+    const char *folder = getenv("FAULT_FOLDER");
+    return folder != NULL && path != NULL && strstr(path, folder) != NULL;
+}
+
+static int is_output(int descriptor)
+{
+    char link[64], path[4096];
+    ssize_t length;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
+    length = readlink(link, path, sizeof path - 1);
+    if (length < 0) return 0;
+    path[length] = '\0';
+    return below_folder(path);
+}
+
+/* Count a call; `bytes` are those that it needs on the disk. A word of 8 bytes is written whole or not at all. */
+static enum verdict judge(size_t bytes)
+{
+    const char *kind = getenv("FAULT_KIND");
+    int at = getenv("FAULT_AT") != NULL ? atoi(getenv("FAULT_AT")) : 0;
+    int number = __atomic_add_fetch(&calls, 1, __ATOMIC_SEQ_CST);
+    if (kind == NULL || number < at) return PASS;
+    if (strcmp(kind, "full") == 0 && bytes > 0) return FAIL;
+    if (number > at) return PASS;
+    if (strcmp(kind, "kill") == 0) raise(SIGKILL);
+    if (strcmp(kind, "error") == 0) return FAIL;
+    if (strcmp(kind, "short") == 0) return bytes > 8 ? HALF : FAIL;
+    return PASS;
+}
+
+static int failed(void)
+{
+    errno = ENOSPC;
+    return -1;
+}
+
+#define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+
+ssize_t write(int descriptor, const void *bytes, size_t count)
+{
+    enum verdict verdict = is_output(descriptor) ? judge(count) : PASS;
+    if (verdict == HALF) NEXT(write)(descriptor, bytes, count / 2);
+    return verdict == PASS ? NEXT(write)(descriptor, bytes, count) : failed();
+}
+
+ssize_t pwrite(int descriptor, const void *bytes, size_t count, off_t offset)
+{
+    enum verdict verdict = is_output(descriptor) ? judge(count) : PASS;
+    if (verdict == HALF) NEXT(pwrite)(descriptor, bytes, count / 2, offset);
+    return verdict == PASS ? NEXT(pwrite)(descriptor, bytes, count, offset) : failed();
+}
+
+int fsync(int descriptor)
+{
+    return is_output(descriptor) && judge(0) != PASS ? failed() : NEXT(fsync)(descriptor);
+}
+
+int ftruncate(int descriptor, off_t length)
+{
+    return is_output(descriptor) && judge(1) != PASS ? failed() : NEXT(ftruncate)(descriptor, length);
+}
+
+int close(int descriptor)
+{
+    int fails = is_output(descriptor) && judge(0) != PASS;
+    int outcome = NEXT(close)(descriptor);
+    return fails ? failed() : outcome;
+}
+
+int rename(const char *from, const char *to)
+{
+    return below_folder(to) && judge(0) != PASS ? failed() : NEXT(rename)(from, to);
+}
+
+int creat(const char *path, mode_t mode)
+{
+    return below_folder(path) && judge(1) != PASS ? failed() : NEXT(creat)(path, mode);
+}
+
+int open(const char *path, int flags, ...)
+{
+    mode_t mode = 0;
+    if (flags & O_CREAT) {
+        va_list rest;
+        va_start(rest, flags);
+        mode = va_arg(rest, mode_t);
+        va_end(rest);
+        if (below_folder(path) && judge(1) != PASS) return failed();
+    }
+    return NEXT(open)(path, flags, mode);
+}
+
+__attribute__((destructor)) static void tell_count(void)
+{
+    const char *path = getenv("FAULT_COUNT");
+    FILE *file = path != NULL ? fopen(path, "w") : NULL;
+    if (file == NULL) return;
+    fprintf(file, "%d\n", calls);
+    fclose(file);
+}

@@ -1,0 +1,452 @@
+#!/usr/bin/env python3
+"""Lets runs meet kills, full disks, failing calls, other runs, damaged and foreign files.
+
+A try fails if data are lost or silently wrong, if a run ends with exit code 0 and without all its rows, if
+neither --resume nor --overwrite mends what it left, or if a file that is not the program's has changed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+
+import rattle  # noqa: E402
+
+BASE = """&contact radius = 0.0127 length = 0.010 /
+&lubricant viscosity = 0.3 pressure_viscosity = 2.0e-8 /
+&kinematics entrainment_speed = 1.905 /
+&load mass = 3.0 steady_force = 199.2 force_amplitude = 205.7 frequency = 600.0 /
+&film law = 'iso-viscous' /
+&output directory = 'results' /
+"""
+MOTION = """&scene task = 'motion' /
+&solver method = 'newmark' steps_per_period = 32 periods = {periods} /
+&spectrum periods = 2 certify = .false. /
+"""
+STEADY = """&scene task = 'motion' /
+&solver until = 'steady' periods = {periods} /
+&spectrum periods = 2 certify = .false. /
+"""
+SWEEP = """&scene task = 'sweep' /
+&solver periods = 60 /
+&sweep key = 'frequency' first = 500.0 last = 600.0 count = 12 /
+"""
+FILM = """&scene task = 'film' /
+&contact radius = 0.0127 length = 0.010 /
+&lubricant viscosity = 0.3 pressure_viscosity = 2.0e-8 /
+&points film_ratio_range = 35.0e-6, 140.0e-6, 40 speed_groups = 0.45e-6 compute = 'load', 'profile' /
+&output directory = 'results' /
+"""
+CAMPAIGN = """&scene task = 'campaign' /
+&solver periods = 60 accuracy = 1e-6 until = 'steady' /
+&spectrum periods = 8 /
+&campaign vary = 'load.force_amplitude', 'kinematics.entrainment_speed' first = 5.0, 0.5 last = 400.0, 20.0
+   count = 40, 40 samples_per_period = 64 /
+"""
+TABLE = """&scene task = 'campaign' /
+&solver periods = 60 accuracy = 1e-6 until = 'steady' /
+&spectrum periods = 8 /
+&campaign csv = 'table.csv' samples_per_period = 64 /
+"""
+FOREIGN = {"notes.txt": b"my notes\n", "scene.part": b"RATTLE, my own\n"}
+
+
+@dataclass
+class Task:
+    """What is run: an input, and maybe an earlier, shorter run whose files stand there."""
+
+    name: str
+    text: str
+    earlier: str | None = None
+    files: tuple[str, ...] = ("scene.rattle",)
+    expected: dict[str, bytes] = field(default_factory=dict)
+    start: dict[str, bytes] = field(default_factory=dict)
+    seconds: float = 0.0
+    calls: int = 0
+
+    @property
+    def is_campaign(self) -> bool:
+        return self.name in ("campaign", "table")
+
+    @property
+    def command(self) -> tuple[str, ...]:
+        return ("--resume",) if self.earlier else ()
+
+
+TASKS = (
+    Task("motion", BASE + MOTION.format(periods=6000), files=("scene.rattle", "scene.state")),
+    Task(
+        "resumed motion",
+        BASE + MOTION.format(periods=5000),
+        BASE + MOTION.format(periods=3000),
+        ("scene.rattle", "scene.state"),
+    ),
+    Task("steady motion", BASE + STEADY.format(periods=400), files=("scene.rattle", "scene.state")),
+    Task("sweep", BASE + SWEEP),
+    Task("film", FILM, files=("scene.rattle", "scene.profiles.rattle")),
+    Task("campaign", BASE + CAMPAIGN),
+    Task("table", BASE + TABLE),
+)
+
+
+class Study:
+    """The program, a folder to play in, and the score."""
+
+    def __init__(self, program: Path, folder: Path, shim: Path, options: argparse.Namespace) -> None:
+        self.program, self.folder, self.shim = program, folder, shim
+        self.tries, self.every_call = options.tries, options.every_call
+        self.results = folder / "results"
+        self.random = random.Random(options.seed)
+        self.tried: Counter[tuple[str, str]] = Counter()
+        self.failed: Counter[tuple[str, str]] = Counter()
+        self.complaints: list[str] = []
+
+    # --- runs ------------------------------------------------------------------------------------------
+
+    def call(self, *options: str, wait: bool = True, limit: int | None = None, **environment: str):
+        """One run of the program on the input of the folder."""
+        process = subprocess.Popen(
+            [self.program, "--quiet", "--threads", "2", *options, "scene.nml"],
+            cwd=self.folder,
+            env={**os.environ, **environment},
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            preexec_fn=None
+            if limit is None
+            else lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+        )
+        if wait:
+            process.wait(120)
+            process.stderr.close()
+        return process
+
+    def lay_out(self, task: Task) -> None:
+        """The folder as it is before a try."""
+        shutil.rmtree(self.results, ignore_errors=True)
+        self.results.mkdir(parents=True)
+        for name, content in {**task.start, **FOREIGN}.items():
+            (self.results / name).write_bytes(content)
+        (self.folder / "scene.nml").write_text(task.text)
+
+    def prepare(self, task: Task) -> None:
+        """Find out what the task writes undisturbed, how long it takes, and how many calls it makes."""
+        lines = [f"{5.0 + i},{0.5 + 0.01 * i}" for i in range(600)]
+        head = "load.force_amplitude,kinematics.entrainment_speed\n"
+        (self.folder / "table.csv").write_text(head + "\n".join(lines) + "\n")
+        if task.earlier:
+            self.lay_out(task)
+            (self.folder / "scene.nml").write_text(task.earlier)
+            assert self.call().returncode == 0
+            task.start = {
+                path.name: path.read_bytes() for path in self.results.iterdir() if path.name not in FOREIGN
+            }
+        self.lay_out(task)
+        begun = time.perf_counter()
+        assert self.call(*task.command).returncode == 0, task.name
+        task.seconds = time.perf_counter() - begun
+        task.expected = {
+            name: (self.results / name).read_bytes() for name in (*task.files, "scene.summary.nml")
+        }
+        self.lay_out(task)
+        count = self.folder / "count"
+        assert self.call(*task.command, **self.fault("none", 0), FAULT_COUNT=str(count)).returncode == 0
+        task.calls = int(count.read_text())
+
+    def fault(self, kind: str, at: int) -> dict[str, str]:
+        return {
+            "LD_PRELOAD": str(self.shim),
+            "FAULT_FOLDER": "results/",
+            "FAULT_KIND": kind,
+            "FAULT_AT": str(at),
+        }
+
+    # --- judging ---------------------------------------------------------------------------------------
+
+    def score(self, what: str, task: Task, faults: list[str], note: str = "") -> None:
+        self.tried[what, task.name] += 1
+        if faults:
+            self.failed[what, task.name] += 1
+            self.complaints.append(f"{what}, {task.name}{', ' + note if note else ''}: {'; '.join(faults)}")
+
+    def complete(self, task: Task) -> list[str]:
+        """Whether everything is there, to the last bit; of the summary what does not hang on the moment."""
+        faults = []
+        for name, content in task.expected.items():
+            path = self.results / name
+            if not path.exists():
+                faults.append(f"{name} is missing")
+            elif timeless(path.read_bytes(), task) != timeless(content, task):
+                faults.append(f"{name} is not what it should be")
+        return faults
+
+    def kept(self, task: Task) -> list[str]:
+        """Whether the earlier files are as they were, or complete new ones; and those of others unchanged."""
+        faults = self.kept_foreign()
+        for name, content in task.start.items():
+            path = self.results / name
+            if name not in task.expected:
+                continue
+            now = path.read_bytes() if path.exists() else b""
+            if now != content and timeless(now, task) != timeless(task.expected[name], task):
+                faults.append(f"the earlier {name} is lost")
+        return faults
+
+    def readable(self, task: Task) -> list[str]:
+        """Whether what can be read of a result is part of what should be there."""
+        path = self.results / "scene.rattle"
+        if not path.exists() or path.stat().st_size == 0:
+            return []
+        try:
+            found, done = rows_of(path, task.is_campaign)
+        except rattle.ResultError:
+            return ["the result cannot be read"]
+        candidates = [task.expected["scene.rattle"], task.start.get("scene.rattle", b"")]
+        for content in filter(None, candidates):
+            beside = self.folder / "expected.rattle"
+            beside.write_bytes(content)
+            expected, _ = rows_of(beside, task.is_campaign)
+            if (
+                len(found) <= len(expected)
+                and found[done].tobytes() == expected[: len(found)][done].tobytes()
+            ):
+                return []
+        return ["rows that can be read are wrong"]
+
+    def mended(self, task: Task) -> list[str]:
+        """Whether the run can be carried on or begun anew, to the undisturbed result."""
+        if self.call("--resume").returncode == 0:
+            return [f"--resume: {fault}" for fault in self.complete(task) + self.kept_foreign()]
+        if self.call("--overwrite").returncode == 0:
+            return [f"--overwrite: {fault}" for fault in self.complete(task) + self.kept_foreign()]
+        return ["neither --resume nor --overwrite mends it"]
+
+    def kept_foreign(self) -> list[str]:
+        changed = [name for name, content in FOREIGN.items() if (self.results / name).read_bytes() != content]
+        return [f"the foreign {name} has changed" for name in changed]
+
+    def after(self, task: Task, code: int) -> list[str]:
+        """All that must hold after a run that a fault has met."""
+        if code == 0:
+            return self.complete(task) + self.kept_foreign() + self.litter()
+        return self.kept(task) + self.readable(task) + self.mended(task) + self.litter()
+
+    def litter(self) -> list[str]:
+        left = [path.name for path in self.results.iterdir() if path.suffix in (".new", ".lock")]
+        return [f"{name} is left behind" for name in left]
+
+    # --- faults ----------------------------------------------------------------------------------------
+
+    def kills(self, task: Task) -> None:
+        """SIGKILL at random moments."""
+        for _ in range(self.tries):
+            self.lay_out(task)
+            process = self.call(*task.command, wait=False)
+            time.sleep(self.random.uniform(0.0, 1.1 * task.seconds))
+            process.kill()
+            code = process.wait(60)
+            process.stderr.close()
+            self.score("kill at a random moment", task, self.after(task, code))
+
+    def full_disks(self, task: Task) -> None:
+        """No file may grow beyond a random size."""
+        largest = max(len(content) for content in task.expected.values())
+        for _ in range(self.tries):
+            self.lay_out(task)
+            limit = int(largest * self.random.random() ** 2)
+            code = self.call(*task.command, limit=limit).returncode
+            faults = [] if code in (0, 2, 3) else [f"exit code {code}"]
+            self.score("full disk", task, faults + self.after(task, code), f"{limit} bytes")
+
+    def failing_calls(self, task: Task) -> None:
+        """A fault at every output call, or at as many of them as there are tries."""
+        for what, kind in (
+            ("a call fails", "error"),
+            ("nothing can be written from a call on", "full"),
+            ("half of a write", "short"),
+            ("kill at a call", "kill"),
+        ):
+            numbers = range(1, task.calls + 1)
+            if not self.every_call:
+                numbers = self.random.sample(numbers, min(self.tries, task.calls))
+            for number in numbers:
+                self.lay_out(task)
+                code = self.call(*task.command, **self.fault(kind, number)).returncode
+                allowed = (0, 2, 3) if kind != "kill" else (-signal.SIGKILL, 0)
+                faults = [] if code in allowed else [f"exit code {code}"]
+                self.score(what, task, faults + self.after(task, code), f"call {number} of {task.calls}")
+
+    def two_at_a_time(self, task: Task) -> None:
+        """Two runs of the same input, the second some moment after the first."""
+        for _ in range(self.tries):
+            self.lay_out(task)
+            processes = [self.call(*task.command, wait=False)]
+            time.sleep(self.random.uniform(0.0, 1.1 * task.seconds) * self.random.choice((0.0, 0.1, 1.0)))
+            processes.append(self.call("--resume", wait=False))
+            codes = []
+            for process in processes:
+                codes.append(process.wait(120))
+                process.stderr.close()
+            faults = [f"exit codes {codes}"] if 0 not in codes or set(codes) - {0, 2, 3} else []
+            self.score("two runs at a time", task, faults + self.after(task, 0), str(codes))
+
+    def flips(self, task: Task) -> None:
+        """One flipped bit in a file: told, or nothing that is read has changed."""
+        for name in (*task.files, "scene.summary.nml"):
+            for _ in range(self.tries):
+                self.lay_out(task)
+                for other, content in task.expected.items():
+                    (self.results / other).write_bytes(content)
+                content = bytearray(task.expected[name])
+                # Every second flip goes to the header, where a small part of a large file stands.
+                end = len(content) if self.random.random() < 0.5 else min(len(content), 2048)
+                place = self.random.randrange(end)
+                content[place] ^= 1 << self.random.randrange(8)
+                (self.results / name).write_bytes(content)
+                faults = self.read_after_flip(task, name)
+                if task.name.endswith("motion") and not name.endswith("nml"):
+                    faults += self.resume_after_flip(task)
+                self.score(f"flipped bit, {name.removeprefix('scene.')}", task, faults, f"byte {place}")
+
+    def read_after_flip(self, task: Task, name: str) -> list[str]:
+        path = self.results / name
+        beside = self.folder / ("expected." + name.partition(".")[2])
+        beside.write_bytes(task.expected[name])
+        try:
+            if name.endswith(".nml"):
+                changed = rattle.read_summary(path) != rattle.read_summary(beside)
+            else:
+                changed = facts_of(path, task.is_campaign) != facts_of(beside, task.is_campaign)
+        except (rattle.ResultError, rattle.SummaryError):
+            return []
+        return ["what is read has changed without a word"] if changed else []
+
+    def resume_after_flip(self, task: Task) -> list[str]:
+        code = self.call("--resume").returncode
+        if code == 0:
+            return self.complete(task)
+        if code != 2:
+            return [f"exit code {code} of --resume"]
+        return self.mended(task)
+
+    def foreign_files(self, task: Task) -> None:
+        """A file of somebody else at a name that the run would write."""
+        names = [*task.expected, "scene.log", "scene.lock", "scene.rattle.new", "scene.summary.nml.new"]
+        names += ["scene.progress.nml"] if task.is_campaign else []
+        for number in range(self.tries):
+            self.lay_out(task)
+            name = names[number % len(names)]
+            mine = self.random.randbytes(self.random.randrange(1, 400))
+            (self.results / name).write_bytes(mine)
+            option = self.random.choice(([], ["--resume"], ["--overwrite"]))
+            code = self.call(*option).returncode
+            faults = [] if (self.results / name).read_bytes() == mine else [f"the foreign {name} has changed"]
+            faults += [] if code == 2 else [f"exit code {code}"]
+            self.score("foreign file in the way", task, faults + self.kept_foreign())
+
+    def table(self) -> Iterator[str]:
+        tasks = [task.name for task in TASKS]
+        yield "| fault | " + " | ".join(tasks) + " | tried | failed |"
+        yield "|---|" + "---:|" * (len(tasks) + 2)
+        for what in dict.fromkeys(what for what, _ in self.tried):
+            cells = [str(self.tried[what, task] or "") for task in tasks]
+            tried = sum(self.tried[what, task] for task in tasks)
+            failed = sum(self.failed[what, task] for task in tasks)
+            yield f"| {what} | {' | '.join(cells)} | {tried} | {failed} |"
+        yield f"| **all** | {' | ' * (len(tasks) - 1)} | {self.tried.total()} | **{self.failed.total()}** |"
+
+
+def timeless(content: bytes, task: Task) -> bytes:
+    """A file without what differs from run to run: times, and counts of a single run of a campaign."""
+    if not content.startswith(b"&summary"):
+        return content
+    words = (
+        rb"wall_seconds|checksum|scenes_failed_in_this_run" if task.is_campaign else rb"wall_seconds|checksum"
+    )
+    return re.sub(rb"(?m)^.*(" + words + rb").*$", b"", content)
+
+
+def rows_of(path: Path, is_campaign: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Rows that can be read, and which of them count."""
+    if is_campaign:
+        campaign = rattle.read_campaign(path)
+        rows = np.array(campaign.rows)
+        return rows, campaign.done[: len(rows)]
+    result = rattle.read(path)
+    rows = np.column_stack([np.array(result[name]) for name in result.names])
+    return rows, np.ones(len(rows), dtype=bool)
+
+
+def facts_of(path: Path, is_campaign: bool) -> tuple:
+    """All that a reader gives."""
+    rows, done = rows_of(path, is_campaign)
+    if is_campaign:
+        read = rattle.read_campaign(path)
+        more = ()
+    else:
+        read = rattle.read(path)
+        more = (read.coarse, *(read.extremes[name].tobytes() for name in read.names))
+    words = (read.names, tuple(read.units.values()), read.input_text, read.program_version, read.closed)
+    return (rows.tobytes(), done.tobytes(), *words, *more)
+
+
+FAULTS: dict[str, Callable[[Study, Task], None]] = {
+    "kills": Study.kills,
+    "disks": Study.full_disks,
+    "calls": Study.failing_calls,
+    "pairs": Study.two_at_a_time,
+    "flips": Study.flips,
+    "foreign": Study.foreign_files,
+}
+
+
+def main() -> None:
+    options = parse_options()
+    folder = options.folder.resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    shim = folder / "inject_faults.so"
+    subprocess.run(
+        ["gcc", "-O1", "-shared", "-fPIC", "-o", shim, HERE / "inject_faults.c", "-ldl"], check=True
+    )
+    study = Study(options.program.resolve(), folder, shim, options)
+    for task in TASKS:
+        study.prepare(task)
+        for name in options.only:
+            FAULTS[name](study, task)
+            print(f"{task.name}: {name}, {study.failed.total()} failed so far", file=sys.stderr, flush=True)
+    print("\n".join(study.table()))
+    for complaint in study.complaints[:40]:
+        print(complaint, file=sys.stderr)
+    sys.exit(study.failed.total() > 0)
+
+
+def parse_options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program", type=Path, help="the program, build/rattle")
+    parser.add_argument("folder", type=Path, help="folder to play in; it is emptied first")
+    parser.add_argument("--tries", type=int, default=16, help="tries of each fault and task (16)")
+    parser.add_argument("--every-call", action="store_true", help="a fault at every output call, not at some")
+    parser.add_argument("--seed", type=int, default=1, help="of the random choices (1)")
+    parser.add_argument("--only", nargs="+", choices=list(FAULTS), default=list(FAULTS), help="faults to try")
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    main()
