@@ -67,7 +67,7 @@ help:
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
 	@echo 'make python       Python environment and the module of the Fortran kernels'
 	@echo 'make bench        speed of the program, as a table'
-	@echo 'make stress       100000 random scenes by every engine (SCENES=N)'
+	@echo 'make stress       100000 random scenes: what users are told of them, and every engine (SCENES=N)'
 	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
 	@echo 'make faults       runs that meet kills, full disks, failing calls, other runs, damaged and foreign files'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
@@ -188,9 +188,11 @@ bench: $(PYTHON_ENV)/installed
 	@$(PYTHON) tests/benchmarks/bench_skips.py $(NATIVE_BUILD)/rattle
 	@$(PEER_ENV)/bin/python $(PEERS)/bench_campaign.py $(NATIVE_BUILD)/rattle
 
-# Random scenes by every engine against a tighter solution: right, or a status that says why not. About an hour.
+# Random scenes: what their summaries and rows of campaigns tell, against a solution that resolves impacts, and every engine
+# against a tighter solution. About an hour and a half on two cores; tests/stress/README.md says what the columns mean.
 SCENES := 100000
-stress: $(BUILD)/stress_scenes $(BUILD)/lane_independence
+stress: $(BUILD)/stress_summaries $(BUILD)/stress_scenes $(BUILD)/lane_independence
+	@$(BUILD)/stress_summaries --scenes $(SCENES) --failures $(BUILD)/stress_failures.txt
 	@$(BUILD)/stress_scenes --scenes $(SCENES) --csv $(BUILD)/stress.csv
 	@$(BUILD)/lane_independence --scenes 3000
 
@@ -253,9 +255,10 @@ pages: $(BUILD)/rattle
 	@$(BUILD)/rattle --keys > input/README.md
 
 # A sample of the stress study: a silent failure fails it.
-stress-sample: $(BUILD)/stress_scenes
+stress-sample: $(BUILD)/stress_summaries $(BUILD)/stress_scenes
 	@echo 'stress, a sample'
-	@$(BUILD)/stress_scenes --scenes 500 --csv $(BUILD)/stress_sample.csv
+	@$(BUILD)/stress_summaries --scenes 120 --campaigns 1
+	@$(BUILD)/stress_scenes --scenes 300 --csv $(BUILD)/stress_sample.csv
 
 # --- style -------------------------------------------------------------------------------------------
 
