@@ -1,18 +1,21 @@
 !> rattle: transient oil film and tooth motion of a loose gear pair, and the class of its rattle.
 program main
-   use, intrinsic :: iso_fortran_env, only: output_unit
+   use, intrinsic :: iso_fortran_env, only: compiler_version, error_unit
    use batch, only: print_faults
    use command_line, only: command_t, read_arguments, usage_text
-   use errors, only: exit_bad_input, exit_complete, fault_list_t
+   use errors, only: exit_bad_input, exit_complete, exit_scene_failed, exit_system, fault_list_t
    use key_page, only: page_text, template_text
    use key_table, only: known_group, nearest_group
+   use ranks, only: parallel_words
+   use register_width, only: wide_registers
    use run_tasks, only: run_all_tasks
    use signals, only: catch_signals
+   use text_output, only: lost_text, put_line, put_text
    use version, only: program_version
    implicit none(type, external)
    type(command_t) :: command
    type(fault_list_t) :: faults
-   integer :: exit_code, ignored
+   integer :: exit_code
 
    exit_code = exit_complete
    call read_arguments(command, faults)
@@ -23,13 +26,16 @@ program main
       call print_faults(faults)
       exit_code = exit_bad_input
    else if (command%help) then
-      write (output_unit, '(a)') usage_text()
+      call put_line(usage_text())
    else if (command%version) then
-      write (output_unit, '(a)') 'rattle '//program_version
+      call put_line('rattle '//program_version)
+      call put_line('built '//parallel_words//', '//trim(merge('for registers of eight numbers', &
+                                                               'for registers of four numbers ', wide_registers))// &
+                    ', by '//compiler_version())
    else if (command%template) then
-      write (output_unit, '(a)', advance='no') template_text(command%template_group)
+      call put_text(template_text(command%template_group))
    else if (command%page) then
-      write (output_unit, '(a)', advance='no') page_text()
+      call put_text(page_text())
    else if (size(command%files) == 0) then
       call faults%add('rattle', 0, '', '', 'no input file is given'//new_line('a')//usage_text())
       call print_faults(faults)
@@ -38,6 +44,9 @@ program main
       call catch_signals()
       call run_all_tasks(command, exit_code)
    end if
-   flush (output_unit, iostat=ignored)
+   if (len(lost_text()) > 0) then
+      write (error_unit, '(a)') lost_text()//' could not be written; the disk may be full, or nobody reads any more'
+      if (exit_code == exit_complete .or. exit_code == exit_scene_failed) exit_code = exit_system
+   end if
    stop exit_code, quiet = .true.
 end program main

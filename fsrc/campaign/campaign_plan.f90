@@ -10,7 +10,7 @@ module campaign_plan
    use signals, only: must_stop
    use text, only: integer_text
    use varied_keys, only: find_varied_key, is_whole, varied_code, varied_key_name
-   use varied_scene, only: is_valid_scene, set_varied_keys
+   use varied_scene, only: is_valid_scene, set_varied_keys, why_invalid
    implicit none(type, external)
    private
 
@@ -164,14 +164,29 @@ contains
             if (is_valid_scene(trial, plan%positions, values(:, i))) cycle
             invalid = invalid + 1_int64
             if (scene%campaign%allow_invalid .or. invalid > int(most_named, int64)) cycle
-            call faults%add(file, 0, 'campaign', '', 'scene '//integer_text(start + int(i - 1, int64))// &
-                            ' is no valid scene; allow_invalid = .true. records it as such')
+            call name_invalid(start + int(i - 1, int64), why_invalid(trial, plan%positions, values(:, i)))
          end do
          seen = seen + int(count, int64)
          if (must_stop()) exit
       end do
       if (invalid > int(most_named, int64) .and. .not. scene%campaign%allow_invalid) &
          call faults%add(file, 0, 'campaign', '', integer_text(invalid)//' scenes are no valid scenes')
+
+   contains
+
+      !> A scene of a table is named by its line there.
+      subroutine name_invalid(number, why)
+         integer(int64), intent(in) :: number
+         character(*), intent(in) :: why
+         character(*), parameter :: remedy = '; &campaign allow_invalid = .true. records it as an invalid scene'
+
+         if (len(scene%campaign%csv) > 0) then
+            call faults%add(scene%campaign%csv, int(min(number + 1_int64, int(huge(1), int64))), '', '', why//remedy)
+         else
+            call faults%add(file, 0, 'campaign', '', 'scene '//integer_text(number)//' is no valid scene: '//why//remedy)
+         end if
+      end subroutine name_invalid
+
    end subroutine count_invalid
 
 end module campaign_plan

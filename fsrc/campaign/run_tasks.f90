@@ -1,16 +1,17 @@
 !> What a call asks for: a campaign, or scenes one after the other.
 module run_tasks
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use batch, only: input_name, print_faults, run_batch
-   use command_line, only: command_t
+   use command_line, only: command_t, most_threads
    use errors, only: error_t, exit_bad_input, exit_complete, fault_list_t
-   use ranks, only: end_ranks, rank_count, start_ranks, this_rank
+   use ranks, only: end_ranks, is_foreign_job, rank_count, start_ranks, this_rank
    use run_campaign, only: check_campaign, run_one_campaign
    use scene_reader, only: read_scene
    use scene_types, only: scene_t, task_campaign
    use signals, only: caught_signal
    use text, only: integer_text
-   use, intrinsic :: omp_lib, only: omp_set_num_threads
+   use text_output, only: put_line, put_text
+   use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_set_num_threads
    implicit none(type, external)
    private
 
@@ -26,7 +27,7 @@ contains
       integer, intent(out) :: exit_code
       type(scene_t), allocatable :: scenes(:)
       type(fault_list_t) :: faults
-      integer :: i
+      integer :: i, threads
 
       if (command%threads > 0) call omp_set_num_threads(command%threads)
       allocate (scenes(size(command%files)))
@@ -34,6 +35,12 @@ contains
          call read_scene(command%files(i)%text, command%overrides, scenes(i), faults)
       end do
       exit_code = exit_bad_input
+      if (is_foreign_job()) call faults%add('rattle', 0, '', '', 'a launcher started several copies of this program, which was '// &
+                                            'built without MPI: each would do all the work. MPI=1 make builds it with MPI')
+      threads = omp_get_max_threads()
+      if (threads > most_threads()) call faults%add('OMP_NUM_THREADS', 0, '', '', integer_text(threads)// &
+                                                    ' threads are asked for; at most '//integer_text(most_threads())// &
+                                                    ' are allowed on this machine')
       if (faults%count() == 0 .and. size(scenes) > 1) then
          do i = 1, size(scenes)
             if (scenes(i)%task == task_campaign) call faults%add(input_name(command%files(i)%text), 0, 'scene', 'task', &
@@ -74,7 +81,6 @@ contains
       type(fault_list_t) :: faults
       type(error_t), allocatable :: error
       character(:), allocatable :: lines, file
-      integer :: ignored
 
       file = input_name(command%files(1)%text)
       exit_code = exit_complete
@@ -86,9 +92,9 @@ contains
          else if (faults%count() > 0) then
             exit_code = exit_bad_input
          else if (this_rank() == 0) then
-            write (output_unit, '(a)', iostat=ignored) '! '//file//': valid'
-            write (output_unit, '(a)', iostat=ignored) lines
-            write (output_unit, '(a)', advance='no', iostat=ignored) scene%resolved_input
+            call put_line('! '//file//': valid')
+            call put_line(lines)
+            call put_text(scene%resolved_input)
          end if
       else
          call run_one_campaign(scene, file, command%resume, command%quiet, faults, exit_code, error)

@@ -1,9 +1,11 @@
 !> Puts the values of varied keys into a scene, and says whether they make one.
 module varied_scene
-   use input_key, only: in_range
+   use input_key, only: allowed_text, in_range
    use key_table, only: keys
    use kinds, only: dp
    use scene_types, only: scene_t
+   use text, only: integer_text, real_text
+   use varied_keys, only: varied_key_name
    use varied_keys, only: vary_accuracy, vary_entrainment_speed, vary_force_amplitude, vary_frequency, vary_gravity, &
                           vary_idle_lines, vary_initial_film, vary_initial_velocity, vary_irregular_limit, vary_length, &
                           vary_line_threshold, vary_mass, vary_poisson_ratio, vary_pressure_viscosity, vary_quiet_limit, &
@@ -13,7 +15,7 @@ module varied_scene
    implicit none(type, external)
    private
 
-   public :: set_varied_keys, is_valid_scene
+   public :: set_varied_keys, is_valid_scene, why_invalid
 
 contains
 
@@ -126,5 +128,32 @@ contains
          is_valid_scene = is_valid_scene .and. in_range(keys(positions(i)), values(i))
       end do
    end function is_valid_scene
+
+   !> What is wrong with a scene that is not valid: the first of its varied keys whose value is not allowed, or the rule that
+   !> the scene as a whole breaks.
+   pure function why_invalid(scene, positions, values) result(words)
+      !> The scene with its values set
+      type(scene_t), intent(in) :: scene
+      !> Varied keys, by their positions in the key table
+      integer, intent(in) :: positions(:)
+      !> Their values
+      real(dp), intent(in) :: values(:)
+      character(:), allocatable :: words
+      integer :: i
+
+      do i = 1, size(positions)
+         if (in_range(keys(positions(i)), values(i))) cycle
+         words = varied_key_name(positions(i))//': '//real_text(values(i))//' is not allowed; allowed: '// &
+                 allowed_text(keys(positions(i)))
+         return
+      end do
+      if (.not. scene%load%static_load() > 0.0_dp) then
+         words = 'load.steady_force: the static load steady_force + mass*gravity must be positive'
+      else if (.not. scene%kinematics%entrainment_speed > 0.0_dp) then
+         words = 'kinematics: the sum of both surface speeds must be positive'
+      else
+         words = 'solver.periods: at least &spectrum periods ('//integer_text(scene%spectrum%periods)//') must be solved'
+      end if
+   end function why_invalid
 
 end module varied_scene

@@ -1,7 +1,10 @@
 !> Log of a scene: every line goes to the terminal and to NAME.log alike.
 module log_file
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use errors, only: error_t, exit_system, raise
+   use file_descriptor, only: close_descriptor, open_replacing
+   use system_error, only: error_words, last_error
+   use text_output, only: note_lost_text, put_line, write_line
+   use, intrinsic :: iso_c_binding, only: c_int
    implicit none(type, external)
    private
 
@@ -11,7 +14,8 @@ module log_file
    !> An open log.
    type, public :: log_t
       private
-      integer :: unit = -1
+      integer(c_int) :: descriptor = -1_c_int
+      character(:), allocatable :: path
       logical :: to_terminal = .true.
    contains
       procedure :: open => open_log
@@ -30,14 +34,11 @@ contains
       logical, intent(in) :: quiet
       !> Set if the log cannot be written
       type(error_t), allocatable, intent(out) :: error
-      character(200) :: message
-      integer :: stat
 
       self%to_terminal = .not. quiet
-      open (newunit=self%unit, file=path, status='replace', action='write', iostat=stat, iomsg=message)
-      if (stat == 0) return
-      self%unit = -1
-      call raise(error, exit_system, path//' cannot be written: '//trim(message))
+      self%path = path
+      self%descriptor = open_replacing(path)
+      if (self%descriptor < 0_c_int) call raise(error, exit_system, path//' cannot be written: '//error_words(last_error()))
    end subroutine open_log
 
    !> Write a line.
@@ -45,21 +46,20 @@ contains
       class(log_t), intent(in) :: self
       !> The line
       character(*), intent(in) :: text
-      integer :: ignored
 
-      if (self%to_terminal) write (output_unit, '(a)', iostat=ignored) text
-      if (self%unit == -1) return
-      write (self%unit, '(a)', iostat=ignored) text
-      flush (self%unit, iostat=ignored)
+      if (self%to_terminal) call put_line(text)
+      if (self%descriptor >= 0_c_int) call write_line(self%descriptor, text, self%path)
    end subroutine log_line
 
    !> Close the log.
    subroutine close_log(self)
       class(log_t), intent(inout) :: self
-      integer :: ignored
+      logical :: closed
 
-      if (self%unit /= -1) close (self%unit, iostat=ignored)
-      self%unit = -1
+      if (self%descriptor < 0_c_int) return
+      call close_descriptor(self%descriptor, closed)
+      if (.not. closed) call note_lost_text(self%path)
+      self%descriptor = -1_c_int
    end subroutine close_log
 
 end module log_file

@@ -1,6 +1,7 @@
 !> Errors as values: one error, and a list of faults found in an input.
 !> Only the main program turns them into an exit code.
 module errors
+   use printable_text, only: printable
    use text, only: integer_text
    implicit none(type, external)
    private
@@ -58,7 +59,8 @@ contains
       error%message = message
    end subroutine raise
 
-   !> Append a fault as 'file:line: &group key: message'; what is not known is left out.
+   !> Append a fault as 'file:line: &group key: message'; what is not known is left out, and words of the input are shown as
+   !> a terminal may see them.
    pure subroutine add_fault(self, file, line, group, key, message)
       class(fault_list_t), intent(inout) :: self
       !> Name of the input, as the user gave it
@@ -84,14 +86,14 @@ contains
          grown(:self%used) = self%faults
          call move_alloc(grown, self%faults)
       end if
-      place = file
+      place = printable(file, .false.)
       if (line > 0) place = place//':'//integer_text(line)
       place = place//':'
       if (len(group) > 0) place = place//' &'//group
       if (len(key) > 0) place = place//' '//key
       if (len(group) > 0 .or. len(key) > 0) place = place//':'
       self%used = self%used + 1
-      self%faults(self%used)%sentence = place//' '//message
+      self%faults(self%used)%sentence = place//' '//printable(message, .true.)
       self%faults(self%used)%line = line
    end subroutine add_fault
 

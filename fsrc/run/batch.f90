@@ -1,6 +1,6 @@
 !> All scenes of a call: everything is checked before anything runs.
 module batch
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use checkpoint, only: checkpoint_t
    use command_line, only: command_t
    use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
@@ -17,6 +17,7 @@ module batch
    use scene_types, only: scene_t, task_film, task_motion, task_sweep
    use signals, only: caught_signal
    use text, only: integer_text
+   use text_output, only: put_line, put_text
    implicit none(type, external)
    private
 
@@ -158,13 +159,12 @@ contains
    subroutine show_resolved(command, scenes)
       type(command_t), intent(in) :: command
       type(scene_t), intent(in) :: scenes(:)
-      integer :: i, ignored
+      integer :: i
 
       do i = 1, size(scenes)
-         write (output_unit, '(a)', iostat=ignored) '! '//input_name(command%files(i)%text)//': valid; '//law_sentence(scenes(i))
-         if (scenes(i)%task /= task_film) &
-            write (output_unit, '(a)', iostat=ignored) resolved_lines(scenes(i), resolve(scenes(i)))
-         write (output_unit, '(a)', advance='no', iostat=ignored) scenes(i)%resolved_input
+         call put_line('! '//input_name(command%files(i)%text)//': valid; '//law_sentence(scenes(i)))
+         if (scenes(i)%task /= task_film) call put_line(resolved_lines(scenes(i), resolve(scenes(i))))
+         call put_text(scenes(i)%resolved_input)
       end do
    end subroutine show_resolved
 

@@ -4,8 +4,9 @@ module command_line
    use input_key, only: list_kind, text_kind
    use key_table, only: find_key, keys
    use scene_reader, only: override_t
-   use text, only: lower, quoted, quoted_words
+   use text, only: integer_text, lower, quoted, quoted_words
    use word_list, only: word_t
+   use, intrinsic :: omp_lib, only: omp_get_num_procs
    implicit none(type, external)
    private
 
@@ -22,7 +23,7 @@ module command_line
       character(:), allocatable :: template_group
    end type command_t
 
-   public :: read_arguments, usage_text
+   public :: read_arguments, usage_text, most_threads
 
 contains
 
@@ -106,8 +107,12 @@ contains
          text = argument_text(i)
          stat = merge(0, 1, verify(text, '0123456789') == 0 .and. len(text) > 0 .and. len(text) < 6)
          if (stat == 0) read (text, *, iostat=stat) command%threads
-         if (stat /= 0 .or. command%threads < 1) &
+         if (stat /= 0 .or. command%threads < 1) then
             call faults%add(argument//' '//text, 0, '', '', 'a positive number of threads is needed')
+         else if (command%threads > most_threads()) then
+            call faults%add(argument//' '//text, 0, '', '', 'at most '//integer_text(most_threads())// &
+                            ' threads are allowed on this machine')
+         end if
       end subroutine read_threads
 
       !> Turn group.key=value into namelist text.
@@ -129,6 +134,13 @@ contains
 
    end subroutine read_arguments
 
+   !> Most threads of a campaign: beyond a few for every core more of them only cost memory, up to a crash.
+   integer function most_threads()
+      integer, parameter :: always_allowed = 256, threads_per_core = 4
+
+      most_threads = max(always_allowed, threads_per_core*omp_get_num_procs())
+   end function most_threads
+
    !> Value of an override; quotes around a text may be left out, the shell has eaten them.
    pure function value_of(group, key, given) result(value)
       character(*), intent(in) :: group
@@ -138,7 +150,8 @@ contains
       integer :: position
 
       value = given
-      position = find_key(lower(group), lower(key))
+      ! An element of a list is a value like the list itself: vary(1) takes what vary takes.
+      position = find_key(lower(group), lower(key(:scan(key//'(', '(') - 1)))
       if (position == 0 .or. len(given) == 0) return
       if (scan(given(1:1), '''"') > 0) return
       if (keys(position)%kind == text_kind) value = quoted(given)

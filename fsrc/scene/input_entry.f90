@@ -82,11 +82,13 @@ contains
       character(*), intent(in) :: file
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
+      type(entry_t) :: before
       integer :: length
 
       ! The default of a list is no beginning of it.
       length = 0
       if (entry%given) length = list_length(key, entry)
+      before = entry
       entry%given = .true.
       entry%file = file
       entry%line = assignment%line
@@ -107,16 +109,21 @@ contains
             call refuse('takes one value, '//integer_text(size(assignment%values))//' are given')
             return
          end if
-      else if (assignment%first_element > 1 .and. assignment%first_element /= length + 1) then
+      else if (assignment%first_element > length + 1) then
          call refuse('elements must be given one after the other; element '//integer_text(length + 1)//' comes next')
          return
       end if
-      if (assignment%first_element <= 1) then
+      if (length == 0 .or. assignment%first_element <= length) then
          entry%words = ''
          entry%numbers = [real(dp) ::]
-         entry%columns = [numbers_t ::]
+         deallocate (entry%columns)
+         allocate (entry%columns(0))
+         call add_elements(before, 1, min(assignment%first_element - 1, length), entry)
       end if
       call add_values(key, assignment%values, entry, faults)
+      ! An element that was given before is replaced; those behind it stay.
+      if (assignment%first_element > 0 .and. .not. entry%faulty) &
+         call add_elements(before, list_length(key, entry) + 1, length, entry)
       if (.not. entry%faulty) entry%present = .true.
 
    contains
@@ -129,6 +136,41 @@ contains
       end subroutine refuse
 
    end subroutine set_entry
+
+   !> Put the elements first to last of another list behind those of a list; none if last is smaller.
+   pure subroutine add_elements(before, first, last, entry)
+      type(entry_t), intent(in) :: before
+      integer, intent(in) :: first
+      integer, intent(in) :: last
+      type(entry_t), intent(inout) :: entry
+      type(word_t), allocatable :: words(:)
+      integer :: i
+
+      if (last < first) return
+      if (last <= size(before%numbers)) entry%numbers = [entry%numbers, before%numbers(first:last)]
+      do i = first, min(last, size(before%columns))
+         call append_column(entry%columns, before%columns(i)%numbers)
+      end do
+      allocate (words, source=split_words(before%words))
+      do i = first, min(last, size(words))
+         entry%words = trim(adjustl(entry%words//' '//words(i)%text))
+      end do
+   end subroutine add_elements
+
+   !> Put a column behind those of a table.
+   pure subroutine append_column(columns, numbers)
+      type(numbers_t), allocatable, intent(inout) :: columns(:)
+      real(dp), intent(in) :: numbers(:)
+      type(numbers_t), allocatable :: grown(:)
+      integer :: i
+
+      allocate (grown(size(columns) + 1))
+      do i = 1, size(columns)
+         call move_alloc(columns(i)%numbers, grown(i)%numbers)
+      end do
+      grown(size(grown))%numbers = numbers
+      call move_alloc(grown, columns)
+   end subroutine append_column
 
    !> Elements that a list has so far.
    pure integer function list_length(key, entry)
@@ -174,7 +216,7 @@ contains
          numbers(i) = entry%number
       end do
       if (key%kind == reals_kind) entry%numbers = [entry%numbers, numbers]
-      if (key%kind == table_kind) entry%columns = [entry%columns, numbers_t(numbers)]
+      if (key%kind == table_kind) call append_column(entry%columns, numbers)
    end subroutine add_values
 
    !> Read one value as its key asks.

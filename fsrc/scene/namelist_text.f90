@@ -42,7 +42,7 @@ contains
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       type(scanner_t) :: scanner
-      character(:), allocatable :: group
+      character(:), allocatable :: group, text
       integer :: i, stray_line, used
       logical :: sound
 
@@ -53,13 +53,14 @@ contains
          call faults%add(file, 0, '', '', 'the file is empty; a scene needs at least its required groups')
          return
       end if
-      call check_characters(content, file, first_line, faults, sound)
+      text = with_line_feeds(content)
+      call check_characters(text, file, first_line, faults, sound)
       if (.not. sound) then
          assignments = assignments(:0)
          return
       end if
 
-      scanner = new_scanner(content, first_line)
+      scanner = new_scanner(text, first_line)
       stray_line = -2
       do
          call scanner%skip_blanks()
@@ -228,6 +229,26 @@ contains
       end if
       assignment%sound = sound
    end subroutine scan_values
+
+   !> Text whose lines all end with a line feed, as they do on Unix: those of Windows end with one behind a carriage return,
+   !> those of old Macs with a carriage return alone.
+   pure function with_line_feeds(content) result(text)
+      character(*), intent(in) :: content
+      character(:), allocatable :: text
+      character(*), parameter :: carriage_return = achar(13), line_feed = achar(10)
+      integer :: i, used
+
+      text = content
+      used = 0
+      do i = 1, len(content)
+         if (content(i:i) == line_feed .and. i > 1) then
+            if (content(i - 1:i - 1) == carriage_return) cycle
+         end if
+         used = used + 1
+         text(used:used) = merge(line_feed, content(i:i), content(i:i) == carriage_return)
+      end do
+      text = text(:used)
+   end function with_line_feeds
 
    !> Binary files and stray control characters are one fault, not hundreds.
    subroutine check_characters(content, file, first_line, faults, sound)

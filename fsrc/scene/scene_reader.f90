@@ -68,6 +68,11 @@ contains
       call input%set_all(assignments, file, .false., faults)
       do i = 1, size(overrides)
          call scan_namelists(overrides(i)%text, overrides(i)%source, 0, assignments, faults)
+         ! The group itself counts as one; a value that goes on with keys or groups of its own sets more.
+         if (size(assignments) > 2) then
+            call faults%add(overrides(i)%source, 0, '', '', 'one key is set at a time; give an option of its own to each')
+            cycle
+         end if
          call input%set_all(assignments, overrides(i)%source, .true., faults)
       end do
       if (is_input) call check_together(input, faults)

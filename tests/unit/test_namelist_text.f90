@@ -19,6 +19,7 @@ contains
       call checks%start('namelist_text')
       call test_sound(checks)
       call test_values(checks)
+      call test_line_ends(checks)
       call test_many(checks)
       call test_faults(checks)
    end subroutine run_namelist_text_tests
@@ -97,6 +98,28 @@ contains
       call checks%check(in_order, 'they keep their order while the list grows')
       call checks%check(size(assignments(151)%values) == 40, 'many values')
    end subroutine test_many
+
+   !> Lines end as on Unix, Windows or an old Mac: a comment ends with its line, and faults have the same places.
+   subroutine test_line_ends(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      character(2), parameter :: ends(3) = [character(2) :: achar(10), achar(13)//achar(10), achar(13)]
+      type(assignment_t), allocatable :: assignments(:)
+      type(fault_list_t) :: faults
+      character(:), allocatable :: line_end
+      integer :: i
+
+      do i = 1, size(ends)
+         line_end = trim(ends(i))
+         call read_text('! comment'//line_end//'&g k=1 ! one'//line_end//line_end//'m=2 /'//line_end//'stray', assignments, &
+                        faults)
+         call checks%check(size(assignments) == 2, 'a comment swallows nothing')
+         if (size(assignments) /= 2) cycle
+         call checks%check(assignments(1)%line == 2 .and. assignments(2)%line == 4, 'lines are counted')
+         call checks%check(faults%count() == i, 'one fault behind the group')
+         if (faults%count() == i) call checks%check(index(faults%sentence(i), 'f:5:') == 1, 'in the fifth line')
+      end do
+   end subroutine test_line_ends
 
    !> Every fault is found at its line, and the text after it is still read.
    subroutine test_faults(checks)

@@ -27,7 +27,9 @@ program unit_tests
    use test_text, only: run_text_tests
    use test_window_record, only: run_window_record_tests
    use test_word_list, only: run_word_list_tests
+   use test_printable_text, only: run_printable_text_tests
    use test_stopping, only: run_stopping_tests
+   use test_text_output, only: run_text_output_tests
    use test_value_range, only: run_value_range_tests
    use test_film_fit, only: run_film_fit_tests
    use test_film_point, only: run_film_point_tests
@@ -60,7 +62,9 @@ program unit_tests
    type(check_list_t) :: checks
 
    call run_text_tests(checks)
+   call run_printable_text_tests(checks)
    call run_stopping_tests(checks)
+   call run_text_output_tests(checks)
    call run_word_list_tests(checks)
    call run_value_range_tests(checks)
    call run_elementary_functions_tests(checks)

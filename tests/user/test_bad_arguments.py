@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -27,6 +28,16 @@ ARGUMENTS = [
     (["--set", "scene.name=a/b"], "--set scene.name=a/b: &scene name: 'a/b' is not allowed"),
     (["--set", "load.steady_force=-100"], "--set load.steady_force=-100: &load steady_force: the static"),
     (["--set", "spectrum.periods=4"], "scene.nml:23: &solver periods: at least &spectrum periods (4)"),
+    (
+        ["--set", "load.mass=4 force_amplitude=1"],
+        "--set load.mass=4 force_amplitude=1: one key is set at a time",
+    ),
+    (["--set", "load.mass=4\nforce_amplitude=1"], "--set load.mass=4\\x0Aforce_amplitude=1: one key is set"),
+    (["--set", "load.mass=4 / &film rupture='solved'"], "--set load.mass=4 / &film rupture='solved'"),
+    (["--threads", "0"], "--threads 0: a positive number of threads is needed"),
+    (["--threads", "99999"], "--threads 99999: at most "),
+    (["--threads", "100000"], "--threads 100000: a positive number of threads is needed"),
+    (["\x1b[31m.nml"], "\\x1B[31m.nml: there is no such file"),
     (["--output", ""], "--output : &output directory: '' is not allowed"),
     (["--output", "d" * 513], f"--output {'d' * 513}: &output directory: "),
     (["--overwrit"], "--overwrit: unknown option; rattle --help lists all"),
@@ -49,6 +60,26 @@ def test_fault_of_the_command_line_is_told_once(refused, scene_text, tmp_path: P
     for name in ("a.nml", "b.nml"):
         (tmp_path / name).write_text(scene_text())
     assert len(refused("a.nml", "b.nml", "--set", "load.mass=heavy")) == 1
+
+
+def test_threads_of_the_environment_are_bounded(refused, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(scene_text())
+    faults = refused("scene.nml", env={**os.environ, "OMP_NUM_THREADS": "99999"})
+    assert len(faults) == 1 and faults[0].startswith("OMP_NUM_THREADS: 99999 threads are asked for; at most ")
+
+
+def test_a_launcher_of_several_copies_is_refused_without_mpi(
+    run, refused, scene_text, tmp_path: Path
+) -> None:
+    """What mpirun and srun leave in the environment of their processes stands for them."""
+    if "with MPI" in run("--version", cwd=tmp_path).stdout:
+        pytest.skip("this build shares the work of an MPI job")
+    (tmp_path / "scene.nml").write_text(scene_text())
+    for name, value in (("OMPI_COMM_WORLD_SIZE", "2"), ("PMI_SIZE", "3"), ("PMIX_RANK", "1")):
+        faults = refused("scene.nml", env={**os.environ, name: value})
+        assert len(faults) == 1 and "built without MPI" in faults[0] and "MPI=1 make" in faults[0]
+    alone = {**os.environ, "OMPI_COMM_WORLD_SIZE": "1", "PMIX_RANK": "0"}
+    assert run("scene.nml", cwd=tmp_path, env=alone).returncode == 0
 
 
 def test_no_arguments(refused) -> None:

@@ -297,6 +297,29 @@ def test_check_of_a_campaign_tells_what_it_had_no_time_for(run, scene_text, tmp_
     assert re.search(r"core time, estimated \S+ s, from \d+ scenes\n", ended.stdout)
 
 
+def test_override_of_one_element_keeps_the_others(run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 5, 7))
+    counts = ("--set", "campaign.count(1)=3", "--set", "campaign.vary(2)=load.mass")
+    ended = run("--check", *counts, "scene.nml", cwd=tmp_path)
+    assert ended.returncode == 0
+    assert "   count = 3.0, 7.0\n" in ended.stdout
+    assert "   vary = 'load.force_amplitude', 'load.mass'\n" in ended.stdout
+
+
+def test_invalid_scenes_are_named_with_key_and_place(refused, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 2, 1, campaign={"first": "-5.0, 1.0"}))
+    name = "scene.nml: &campaign: scene 1 is no valid scene: load.force_amplitude: -5.0 is not allowed"
+    faults = refused("scene.nml", "--set", "campaign.count=2,2")
+    assert faults[0].startswith(name) and len(faults) == 2
+    (tmp_path / "table.csv").write_text("load.mass,load.steady_force\n3,10\n-3,10\n1,-50\n")
+    none = dict.fromkeys(("vary", "scale", "first", "last", "count"))
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, campaign={**none, "csv": "'table.csv'"}))
+    faults = refused("scene.nml")
+    assert [fault.split(" ")[0] for fault in faults] == ["table.csv:3:", "table.csv:4:"]
+    assert "load.mass: -3.0 is not allowed; allowed: a number > 0.0" in faults[0]
+    assert "the static load steady_force + mass*gravity must be positive" in faults[1]
+
+
 def test_finished_scenes_are_not_solved_again(run, folder: Path) -> None:
     solve(run, folder)
     ended = run("--resume", "--output", "whole", "scene.nml", cwd=folder)

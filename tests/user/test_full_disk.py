@@ -7,8 +7,9 @@ import subprocess
 import warnings
 from pathlib import Path
 
+import pytest
 from campaign_runs import grid, solve
-from outcomes import digest
+from outcomes import digest, summary_of
 
 # Some hundred kilobytes stay beside the ballast. The finished file is copied out of the file system.
 SMALL_FILE_SYSTEM = """
@@ -56,6 +57,32 @@ def test_full_file_system_keeps_what_was_written(run, rattle: Path, scene_text, 
     assert (tmp_path / "code").read_text() == "3\n"
     assert (tmp_path / "words").read_text() == f"small/scene.rattle cannot be written: {words}\n"
     assert digest(tmp_path / "finished.rattle") == whole
+
+
+@pytest.mark.parametrize(
+    "arguments", ["--template", "--keys", "--help", "--version", "--check scene.nml", "scene.nml"]
+)
+def test_words_that_cannot_be_written_are_missed(
+    arguments: str, rattle: Path, scene_text, tmp_path: Path
+) -> None:
+    """Standard output on a full disk: code 3 and a sentence; the files of a scene are complete."""
+    (tmp_path / "scene.nml").write_text(scene_text())
+    with Path("/dev/full").open("w") as full:
+        ended = subprocess.run(
+            [rattle, *arguments.split()],
+            cwd=tmp_path,
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert ended.returncode == 3
+    assert (
+        ended.stderr.startswith("the standard output could not be written") and ended.stderr.count("\n") == 1
+    )
+    if arguments == "scene.nml":
+        assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "complete"
+        assert "steady film" in (tmp_path / "results" / "scene.log").read_text()
 
 
 def test_full_disk_keeps_what_was_written(run, rattle: Path, scene_text, tmp_path: Path) -> None:

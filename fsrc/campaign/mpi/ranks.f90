@@ -7,13 +7,21 @@ module ranks
    private
 
    public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &
-             close_tickets, sum_over_ranks
+             close_tickets, sum_over_ranks, is_foreign_job
+
+   !> What --version says
+   character(*), parameter, public :: parallel_words = 'with MPI'
 
    type(MPI_Win) :: window
    logical :: window_open = .false.
    integer(int64), pointer :: counter(:)
 
 contains
+
+   !> Processes that a launcher of MPI jobs started share the work.
+   logical function is_foreign_job()
+      is_foreign_job = .false.
+   end function is_foreign_job
 
    !> Start MPI and put the counter of tickets on rank 0. Only one thread at a time calls MPI.
    subroutine start_ranks()

@@ -5,11 +5,38 @@ module ranks
    private
 
    public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &
-             close_tickets, sum_over_ranks
+             close_tickets, sum_over_ranks, is_foreign_job
+
+   !> What --version says
+   character(*), parameter, public :: parallel_words = 'without MPI'
 
    integer(int64) :: tickets = 0_int64
 
 contains
+
+   !> Whether a launcher of MPI jobs has started this process beside others: without MPI they cannot share the work.
+   logical function is_foreign_job()
+      character(*), parameter :: names(4) = [character(24) :: 'OMPI_COMM_WORLD_SIZE', 'PMI_SIZE', 'MV2_COMM_WORLD_SIZE', &
+                                             'MPI_LOCALNRANKS']
+      integer :: i
+
+      is_foreign_job = number_in('PMIX_RANK') > 0
+      do i = 1, size(names)
+         if (number_in(trim(names(i))) > 1) is_foreign_job = .true.
+      end do
+   end function is_foreign_job
+
+   !> A whole number in the environment, 0 if there is none.
+   integer function number_in(name)
+      character(*), intent(in) :: name
+      character(16) :: value
+      integer :: stat
+
+      number_in = 0
+      call get_environment_variable(name, value, status=stat)
+      if (stat == 0 .and. verify(trim(value), '0123456789') == 0) read (value, *, iostat=stat) number_in
+      if (stat /= 0) number_in = 0
+   end function number_in
 
    !> Nothing to start.
    subroutine start_ranks()
