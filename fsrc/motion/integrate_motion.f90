@@ -6,7 +6,7 @@ module integrate_motion
    use errors, only: error_t
    use film_law, only: film_kernel, film_t, kernel_half_pi, kernel_reynolds_iso, kernel_reynolds_piezo, &
                        kernel_solved_fast, kernel_solved_successive, load_half_pi, load_piezo, load_reynolds_iso, &
-                       load_reynolds_piezo, load_solved_fast, load_solved_successive
+                       load_reynolds_piezo, load_solved_fast, load_solved_successive, steady_film
    use forcing, only: applied_force, force_of_period
    use kinds, only: dp, int64
    use newmark_extrapolated, only: advance_extrapolated, extrapolation_t, new_extrapolation
@@ -17,6 +17,7 @@ module integrate_motion
    use scene_types, only: iteration_newton, method_newmark_extrapolated, predictor_extrapolated, scene_t, until_steady
    use signals, only: caught_signal
    use window_record, only: window_record_t
+   use settling_rate, only: settling_of
    implicit none(type, external)
    private
 
@@ -119,9 +120,10 @@ contains
       logical :: extrapolated, searching
       integer(int64) :: first_step
       integer :: period, last_period, window, steps, done
-      real(dp) :: started
+      real(dp) :: started, rest_film
 
       started = wall_seconds()
+      rest_film = steady_film(film, scene%load%static_load())
       method = newmark_of(scene)
       steps = scene%solver%samples_per_period()
       extrapolated = scene%solver%method == method_newmark_extrapolated
@@ -176,7 +178,7 @@ contains
          if (allocated(error) .or. ending%status /= status_complete) return
          ending%periods = period
          if (searching) then
-            call look_back(state, initial_film, method%frequency, last_period - period, states, ending%orbit)
+            call look_back(film, rest_film, method, state, initial_film, last_period - period, states, ending%orbit)
             searching = ending%orbit == 0
             if (.not. searching) then
                window = ending%orbit
@@ -195,11 +197,14 @@ contains
    end subroutine run_periods
 
    !> Take the state at the end of a period: does the motion repeat?
-   pure subroutine look_back(state, initial_film, frequency, periods_left, states, orbit)
+   pure subroutine look_back(film, rest_film, method, state, initial_film, periods_left, states, orbit)
+      type(film_t), intent(in) :: film
+      !> Film that carries the static load [m]
+      real(dp), intent(in) :: rest_film
+      type(newmark_t), intent(in) :: method
       type(motion_state_t), intent(in) :: state
-      !> Film at t = 0 [m] and frequency of the force [Hz], that scale the states
+      !> Film at t = 0, that scales the states [m]
       real(dp), intent(in) :: initial_film
-      real(dp), intent(in) :: frequency
       !> Periods in which the orbit must find room
       integer, intent(in) :: periods_left
       type(orbit_watch_t), intent(inout) :: states
@@ -207,8 +212,9 @@ contains
       integer, intent(out) :: orbit
       real(dp) :: distance
 
-      call note_state(states, state%film/initial_film, state%velocity/(initial_film*frequency), 1.0_dp/two_pi, &
-                      repetition_tolerance, orbit, distance)
+      call note_state(states, state%film/initial_film, state%velocity/(initial_film*method%frequency), 1.0_dp/two_pi, &
+                      settling_of(film, state%film, rest_film, method%mass, method%frequency), repetition_tolerance, orbit, &
+                      distance)
       if (orbit > periods_left) orbit = 0
    end subroutine look_back
 

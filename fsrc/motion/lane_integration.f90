@@ -23,6 +23,7 @@ module lane_integration
    use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged, status_steady
    use signals, only: must_stop
    use step_nodes, only: step_nodes_t, take_nodes
+   use settling_rate, only: settling_of, settling_t
    use taylor_step_control, only: momentum_weight
    use window_record, only: record_period, start_record, window_record_t
    implicit none(type, external)
@@ -269,8 +270,8 @@ contains
          ! A run without samples is one to be carried on: there the last state counts like the others.
          if (request%until_steady .and. (watch%period < watch%sample_from .or. request%sampled_periods == 0)) then
             weight = momentum_weight(watch%film, block%damping_rate(lane), block%force(lane))
-            call note_state(watch%states, watch%film, watch%momentum, weight, repetition_share*request%accuracy, orbit, &
-                            distance)
+            call note_state(watch%states, watch%film, watch%momentum, weight, settling_of_lane(lane, run), &
+                            repetition_share*request%accuracy, orbit, distance)
             if (orbit > 0) then
                watch%ending%orbit = orbit
                watch%ending%distance = distance
@@ -287,6 +288,23 @@ contains
             call begin_period(lane, run, records)
       end associate
    end subroutine end_period
+
+   !> How the film of a lane settles from where it is.
+   pure type(settling_t) function settling_of_lane(lane, run)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(in) :: run
+      real(dp) :: frequency, mass
+
+      associate (block => run%block)
+         frequency = block%velocity_scale(lane)/block%film_scale(lane)
+         mass = block%force_scale(lane)/(block%film_scale(lane)*frequency*frequency)
+         settling_of_lane = settling_of(run%films(lane), run%watches(lane)%film*block%film_scale(lane), &
+                                        block%film_scale(lane), mass, frequency)
+         ! The momentum of Lienard's form holds the damping.
+         if (block%slip(lane) > 0.0_dp) settling_of_lane%damping = 0.0_dp
+      end associate
+   end function settling_of_lane
 
    !> Skip the periods in which the motion only returns to the state it is in, to the last bit: whole cycles up to where
    !> sampling begins, and at the end those whose samples are the ones of the cycle before. Their steps count like the others.

@@ -4,7 +4,7 @@ module lane_motions
    use film_series, only: has_series
    use kinds, only: dp
    use lane_integration, only: integrate_lanes
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use lane_scenes, only: lane_ending_t, lane_accuracy, lane_request_t, lane_scene_t
    use period_repetition, only: orbit_watch_t
    use scene_status, only: status_film_lost, status_not_converged
    use window_record, only: window_record_t
@@ -39,7 +39,7 @@ contains
       allocate (rest, source=scenes)
       allocate (explicit(size(scenes)), left(size(scenes)), number(size(scenes)))
       number(:) = [(i, i=1, size(scenes))]
-      explicit(:) = has_series(scenes%film, request%accuracy) .and. .not. scenes%implicit
+      explicit(:) = has_series(scenes%film, lane_accuracy(scenes, request%accuracy)) .and. .not. scenes%implicit
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)

@@ -17,6 +17,7 @@ module lane_scenes
    use load_expansion, only: load_expansion_t
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
+   use settling_rate, only: settling_of, settling_t
    use taylor_step_control, only: order
    implicit none(type, external)
    private
@@ -129,7 +130,7 @@ module lane_scenes
    !> First step of a period by collocation [periods]
    real(dp), parameter :: first_step = 1.0_dp/64.0_dp
 
-   public :: place_block, load_scene, rest_lane, start_period, state_of_lane, start_status, reference_film
+   public :: place_block, load_scene, rest_lane, start_period, state_of_lane, start_status, reference_film, lane_accuracy
 
 contains
 
@@ -144,6 +145,25 @@ contains
       if (.not. reference_film > 0.0_dp) reference_film = scene%first_film
       if (.not. reference_film > 0.0_dp) reference_film = scene%initial_film
    end function reference_film
+
+   !> Accuracy to which the periods of a motion are solved [-]. Where the film settles slowly, the errors of many periods add up
+   !> before they are forgotten.
+   elemental real(dp) function lane_accuracy(scene, accuracy)
+      !> The scene
+      type(lane_scene_t), intent(in) :: scene
+      !> Relative accuracy of the film asked for [-]
+      real(dp), intent(in) :: accuracy
+      !> No step is better than rounding
+      real(dp), parameter :: best_accuracy = 1.0e-13_dp
+      type(settling_t) :: settling
+      real(dp) :: film
+
+      lane_accuracy = accuracy
+      film = reference_film(scene)
+      if (.not. (film > 0.0_dp .and. ieee_is_finite(film))) return
+      settling = settling_of(scene%film, film, film, scene%mass, scene%frequency)
+      lane_accuracy = min(accuracy, max(accuracy*settling%rate, best_accuracy))
+   end function lane_accuracy
 
    !> Whether the motion can start: `status_complete`, or why not.
    pure integer function start_status(scene)
@@ -196,7 +216,7 @@ contains
       block%load(lane) = (scene%steady_force + scene%weight)/force_scale
       block%amplitude(lane) = scene%force_amplitude/force_scale
       block%force(lane) = abs(block%load(lane)) + abs(block%amplitude(lane))
-      block%accuracy(lane) = accuracy
+      block%accuracy(lane) = lane_accuracy(scene, accuracy)
       block%film(lane, 0) = scene%initial_film/film_scale
       block%momentum(lane, 0) = scene%initial_velocity/block%velocity_scale(lane)
       if (by_series .and. scene%film%kernel == kernel_piezo) then

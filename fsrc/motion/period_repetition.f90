@@ -15,8 +15,15 @@
 !> differences of successive states, a, b and c, tell the second ratio. Where the map is linear it turns a, b into b, c and
 !> the area of their parallelogram shrinks by the product of both ratios; what of c stands across b belongs to the slow
 !> direction, and has its own sum to come.
+!>
+!> Where the film takes many periods to settle, its steps may stay below the errors of the states all along, and their ratios mean
+!> nothing; nor does it help that a state is met again to the last bit, for it may move by less. But there the force moves the
+!> film little in a period, and its law tells how far it has to go (module settling_rate): with steps of film and velocity d_h
+!> and d_v, damping d and stiffness k, the mean force is off by d_v + d d_h, the film by that over k, and the film swings about
+!> its rest by d_h over the root of k.
 module period_repetition
    use kinds, only: dp
+   use settling_rate, only: settling_t
    use taylor_step_control, only: film_weight
    implicit none(type, external)
    private
@@ -42,6 +49,9 @@ module period_repetition
       real(dp) :: film(0:kept - 1) = 0.0_dp
       real(dp) :: momentum(0:kept - 1) = 0.0_dp
    end type orbit_watch_t
+
+   !> A film that settles at a lower rate does so slowly [1/periods].
+   real(dp), parameter :: slow_rate = 0.7_dp
 
    public :: watch_from, note_state, state_of_age
 
@@ -73,7 +83,7 @@ contains
    end function state_of_age
 
    !> Take the state at the end of a period.
-   pure subroutine note_state(watch, film, momentum, momentum_weight, tolerance, orbit, distance)
+   pure subroutine note_state(watch, film, momentum, momentum_weight, settling, tolerance, orbit, distance)
       !> Watcher of this motion
       type(orbit_watch_t), intent(inout) :: watch
       !> Scaled film H [-]
@@ -82,6 +92,8 @@ contains
       real(dp), intent(in) :: momentum
       !> Film that a momentum of one counts as [-]
       real(dp), intent(in) :: momentum_weight
+      !> How the film settles by its law
+      type(settling_t), intent(in) :: settling
       !> Distance from the repeating motion that is small enough [-]
       real(dp), intent(in) :: tolerance
       !> Periods after which the motion repeats, 0 as long as that is not known
@@ -100,7 +112,11 @@ contains
       orbit = 0
       do periods = 1, last
          if (watch%count < 4*periods) exit
-         distance = orbit_distance(watch, periods, momentum_weight, tolerance)
+         if (settling%rate < slow_rate) then
+            distance = creeping_distance(watch, periods, settling)
+         else
+            distance = orbit_distance(watch, periods, momentum_weight, tolerance)
+         end if
          if (distance > tolerance) cycle
          orbit = periods
          call shorten(watch, momentum_weight, tolerance, orbit)
@@ -126,6 +142,31 @@ contains
          return
       end do
    end subroutine shorten
+
+   !> Distance from a motion that repeats after `orbit` periods where the film settles slowly: the largest of three, lest one is
+   !> small by chance.
+   pure real(dp) function creeping_distance(watch, orbit, settling)
+      type(orbit_watch_t), intent(in) :: watch
+      integer, intent(in) :: orbit
+      !> How the film settles by its law
+      type(settling_t), intent(in) :: settling
+      real(dp) :: step(2), newer(2), older(2), stiffness
+      integer :: age
+
+      creeping_distance = huge(1.0_dp)
+      stiffness = settling%stiffness*real(orbit, dp)
+      if (.not. stiffness > 0.0_dp) return
+      creeping_distance = 0.0_dp
+      newer = state_of_age(watch, 0)
+      do age = 1, 3
+         older = state_of_age(watch, age*orbit)
+         step = max(abs(newer - older), rounding*abs(newer))*sign(1.0_dp, newer - older)
+         creeping_distance = max(creeping_distance, abs(step(2) + settling%damping*step(1))/stiffness, &
+                                 abs(step(1))/sqrt(stiffness))
+         newer = older
+      end do
+      creeping_distance = creeping_distance/film_weight(newer(1))
+   end function creeping_distance
 
    !> Bound of the distance from a motion that repeats after `orbit` periods, huge where there is none.
    pure real(dp) function orbit_distance(watch, orbit, momentum_weight, tolerance)

@@ -2,8 +2,10 @@
 !> The film stays near one, where its weight is a half.
 module test_period_repetition
    use checks, only: check_list_t
+   use film_law, only: film_t, kernel_half_pi
    use kinds, only: dp
    use period_repetition, only: note_state, orbit_watch_t, watch_from
+   use settling_rate, only: settling_of, settling_t
    implicit none(type, external)
    private
 
@@ -26,6 +28,7 @@ contains
       call test_half_still(checks)
       call test_turns(checks)
       call test_pairs(checks)
+      call test_slow_films(checks)
    end subroutine run_period_repetition_tests
 
    !> Note films one after another, with momenta if given; the first that repeats ends it.
@@ -44,7 +47,7 @@ contains
       orbit = 0
       distance = huge(1.0_dp)
       do place = 1, ubound(films, 1)
-         call note_state(watch, films(place), momenta(place), momentum_weight, tolerance, orbit, distance)
+         call note_state(watch, films(place), momenta(place), momentum_weight, settling_t(), tolerance, orbit, distance)
          if (orbit > 0) return
       end do
       place = ubound(films, 1)
@@ -213,5 +216,59 @@ contains
          end do
       end do
    end subroutine test_pairs
+
+   !> h'' + d h' + k h = 0 is that far from rest that its amplitude tells, however little it moves in a period: films that creep or
+   !> swing, with multipliers up to 0.9999, from states whose steps a period are below any tolerance of their ratios.
+   subroutine test_slow_films(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: dampings(4) = [0.02_dp, 0.3_dp, 10.0_dp, 1.0e4_dp], rates(4) = [1.0e-4_dp, 0.013_dp, 0.1_dp, 0.6_dp]
+      real(dp), parameter :: tolerance = 1.0e-7_dp
+      type(settling_t) :: settling
+      real(dp) :: fast, left(0:1), distance, film, momentum
+      integer :: orbit, i, r, start, mean
+      complex(dp) :: roots(2), parts(2), root
+      type(orbit_watch_t) :: watch
+
+      do i = 1, size(dampings)
+         do r = 1, size(rates)
+            ! Creeping: roots -r and r - d. Swinging: k = r^2.
+            fast = dampings(i) - rates(r)
+            settling = settling_t(rates(r)*fast, dampings(i), rates(r))
+            if (fast < rates(r)) settling%stiffness = rates(r)**2
+            root = sqrt(cmplx(0.25_dp*dampings(i)**2 - settling%stiffness, 0.0_dp, dp))
+            roots = [-0.5_dp*dampings(i) + root, -0.5_dp*dampings(i) - root]
+            do start = 0, 2
+               ! Film and velocity that the start is away by; the slow direction alone is the second.
+               film = merge(0.0_dp, 1.0e-3_dp, start == 0)
+               momentum = merge(1.0e-3_dp, merge(-1.0e-3_dp*rates(r), 0.0_dp, start == 1), start == 0)
+               parts(1) = (momentum - roots(2)*film)/(roots(1) - roots(2))
+               parts(2) = film - parts(1)
+               watch = watch_from(1.0_dp + film, momentum)
+               orbit = 0
+               do mean = 1, 1000000
+                  left(0) = real(sum(parts*exp(roots*mean)), dp)
+                  left(1) = real(sum(parts*roots*exp(roots*mean)), dp)
+                  call note_state(watch, 1.0_dp + left(0), left(1), 1.0_dp/(2.0_dp + dampings(i)), settling, tolerance, orbit, &
+                                  distance)
+                  if (orbit > 0) exit
+               end do
+               call checks%check(orbit > 0, 'slow films: found')
+               distance = hypot(left(0), left(1)/sqrt(settling%stiffness))/film_weight_at_one
+               if (fast >= rates(r)) distance = abs(left(0))/film_weight_at_one
+               call checks%check(distance <= 1.6_dp*tolerance, 'slow films: not too early')
+               call checks%check(distance >= 1.0e-3_dp*tolerance .or. dampings(i) > 1.0_dp, 'slow films: not much too late')
+            end do
+         end do
+      end do
+      ! A step below the last bit is still a step of a film that has nothing to bring it back.
+      watch = watch_from(1.0_dp, 0.0_dp)
+      do i = 1, 40
+         call note_state(watch, 1.0_dp, 0.0_dp, 1.0_dp, settling_t(1.0e-12_dp, 1.0_dp, 1.0e-12_dp), tolerance, orbit, distance)
+         call checks%check(orbit == 0, 'slow films: less than the last bit')
+      end do
+      call note_state(watch, 1.0_dp, 0.0_dp, 1.0_dp, settling_t(1.0e-5_dp, 1.0_dp, 1.0e-5_dp), tolerance, orbit, distance)
+      call checks%check(orbit == 1 .and. distance > 0.0_dp .and. distance < tolerance, 'slow films: the last bit is near enough')
+   end subroutine test_slow_films
 
 end module test_period_repetition

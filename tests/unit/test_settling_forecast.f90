@@ -11,6 +11,7 @@ module test_settling_forecast
    use scene_status, only: status_steady
    use scene_types, only: law_iso_viscous, scene_t
    use settling_forecast, only: forecast_rest
+   use settling_rate, only: settling_t
    implicit none(type, external)
    private
 
@@ -49,7 +50,7 @@ contains
       watch = watch_from(rest(1) + away(1), rest(2) + away(2))
       do i = 2, states
          away = matmul(map, away)
-         call note_state(watch, rest(1) + away(1), rest(2) + away(2), weight, 0.0_dp, orbit, distance)
+         call note_state(watch, rest(1) + away(1), rest(2) + away(2), weight, settling_t(), 0.0_dp, orbit, distance)
       end do
       call forecast_rest(watch, weight, orbit, film, momentum)
       found = orbit > 0

@@ -57,6 +57,7 @@ program unit_tests
    use test_newmark_extrapolated, only: run_newmark_extrapolated_tests
    use test_lane_motions, only: run_lane_motions_tests
    use test_settling_forecast, only: run_settling_forecast_tests
+   use test_slow_motions, only: run_slow_motions_tests
    implicit none(type, external)
 
    type(check_list_t) :: checks
@@ -117,6 +118,7 @@ program unit_tests
    call run_lane_motions_tests(checks)
    call run_settling_forecast_tests(checks)
    call run_window_record_tests(checks)
+   call run_slow_motions_tests(checks)
 
    print '(i0, a, i0, a)', checks%passed, ' passed, ', checks%failed, ' failed'
    if (checks%failed > 0) stop 1, quiet = .true.
