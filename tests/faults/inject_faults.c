@@ -3,7 +3,8 @@
    Calls count that write, shorten, synchronise, rename, make or close a file below FAULT_FOLDER. FAULT_AT is the
    call that meets the fault, FAULT_KIND the fault: "error" (that call fails), "full" (from that call on nothing can
    be made or written), "short" (half of what is to be written is, then the disk is full), "kill" (the program ends
-   before the call), "none". The count of calls goes to the file FAULT_COUNT when the program ends by itself. */
+   before the call), "none". Each call leaves a line in the file FAULT_TRACE: its name and the file that it meets.
+   With FAULT_CLOCK the clock of the program goes on by so many milliseconds whenever it is read. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -14,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
+#include <time.h>
 #include <unistd.h>
 
 enum verdict { PASS, FAIL, HALF };
@@ -26,7 +28,16 @@ static int below_folder(const char *path)
     return folder != NULL && path != NULL && strstr(path, folder) != NULL;
 }
 
-static int is_output(int descriptor)
+static void trace(const char *call, const char *path)
+{
+    const char *file = getenv("FAULT_TRACE");
+    FILE *stream = file != NULL ? fopen(file, "a") : NULL;
+    if (stream == NULL) return;
+    fprintf(stream, "%s %s\n", call, strrchr(path, '/') + 1);
+    fclose(stream);
+}
+
+static int is_output(int descriptor, const char *call)
 {
     char link[64], path[4096];
     ssize_t length;
@@ -34,7 +45,16 @@ static int is_output(int descriptor)
     length = readlink(link, path, sizeof path - 1);
     if (length < 0) return 0;
     path[length] = '\0';
-    return below_folder(path);
+    if (!below_folder(path)) return 0;
+    trace(call, path);
+    return 1;
+}
+
+static int is_output_path(const char *path, const char *call)
+{
+    if (!below_folder(path)) return 0;
+    trace(call, path);
+    return 1;
 }
 
 /* Count a call; `bytes` are those that it needs on the disk. A word of 8 bytes is written whole or not at all. */
@@ -62,43 +82,43 @@ static int failed(void)
 
 ssize_t write(int descriptor, const void *bytes, size_t count)
 {
-    enum verdict verdict = is_output(descriptor) ? judge(count) : PASS;
+    enum verdict verdict = is_output(descriptor, "write") ? judge(count) : PASS;
     if (verdict == HALF) NEXT(write)(descriptor, bytes, count / 2);
     return verdict == PASS ? NEXT(write)(descriptor, bytes, count) : failed();
 }
 
 ssize_t pwrite(int descriptor, const void *bytes, size_t count, off_t offset)
 {
-    enum verdict verdict = is_output(descriptor) ? judge(count) : PASS;
+    enum verdict verdict = is_output(descriptor, "pwrite") ? judge(count) : PASS;
     if (verdict == HALF) NEXT(pwrite)(descriptor, bytes, count / 2, offset);
     return verdict == PASS ? NEXT(pwrite)(descriptor, bytes, count, offset) : failed();
 }
 
 int fsync(int descriptor)
 {
-    return is_output(descriptor) && judge(0) != PASS ? failed() : NEXT(fsync)(descriptor);
+    return is_output(descriptor, "fsync") && judge(0) != PASS ? failed() : NEXT(fsync)(descriptor);
 }
 
 int ftruncate(int descriptor, off_t length)
 {
-    return is_output(descriptor) && judge(1) != PASS ? failed() : NEXT(ftruncate)(descriptor, length);
+    return is_output(descriptor, "ftruncate") && judge(1) != PASS ? failed() : NEXT(ftruncate)(descriptor, length);
 }
 
 int close(int descriptor)
 {
-    int fails = is_output(descriptor) && judge(0) != PASS;
+    int fails = is_output(descriptor, "close") && judge(0) != PASS;
     int outcome = NEXT(close)(descriptor);
     return fails ? failed() : outcome;
 }
 
 int rename(const char *from, const char *to)
 {
-    return below_folder(to) && judge(0) != PASS ? failed() : NEXT(rename)(from, to);
+    return is_output_path(to, "rename") && judge(0) != PASS ? failed() : NEXT(rename)(from, to);
 }
 
 int creat(const char *path, mode_t mode)
 {
-    return below_folder(path) && judge(1) != PASS ? failed() : NEXT(creat)(path, mode);
+    return is_output_path(path, "creat") && judge(1) != PASS ? failed() : NEXT(creat)(path, mode);
 }
 
 int open(const char *path, int flags, ...)
@@ -109,16 +129,19 @@ int open(const char *path, int flags, ...)
         va_start(rest, flags);
         mode = va_arg(rest, mode_t);
         va_end(rest);
-        if (below_folder(path) && judge(1) != PASS) return failed();
+        if (is_output_path(path, "open") && judge(1) != PASS) return failed();
     }
     return NEXT(open)(path, flags, mode);
 }
 
-__attribute__((destructor)) static void tell_count(void)
+int clock_gettime(clockid_t clock, struct timespec *time)
 {
-    const char *path = getenv("FAULT_COUNT");
-    FILE *file = path != NULL ? fopen(path, "w") : NULL;
-    if (file == NULL) return;
-    fprintf(file, "%d\n", calls);
-    fclose(file);
+    static long long read_times = 0;
+    const char *step = getenv("FAULT_CLOCK");
+    long long milliseconds;
+    if (step == NULL) return NEXT(clock_gettime)(clock, time);
+    milliseconds = 1000000 + atoll(step) * __atomic_add_fetch(&read_times, 1, __ATOMIC_SEQ_CST);
+    time->tv_sec = milliseconds / 1000;
+    time->tv_nsec = milliseconds % 1000 * 1000000;
+    return 0;
 }

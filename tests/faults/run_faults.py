@@ -165,9 +165,10 @@ class Study:
             name: (self.results / name).read_bytes() for name in (*task.files, "scene.summary.nml")
         }
         self.lay_out(task)
-        count = self.folder / "count"
-        assert self.call(*task.command, **self.fault("none", 0), FAULT_COUNT=str(count)).returncode == 0
-        task.calls = int(count.read_text())
+        trace = self.folder / "trace"
+        trace.unlink(missing_ok=True)
+        assert self.call(*task.command, **self.fault("none", 0), FAULT_TRACE=str(trace)).returncode == 0
+        task.calls = len(trace.read_text().splitlines())
 
     def fault(self, kind: str, at: int) -> dict[str, str]:
         return {

@@ -280,6 +280,23 @@ def test_steady_run_is_finished_for_good(method: str, run, scene_text, tmp_path:
     assert ended.returncode == 2 and "before" in ended.stderr
 
 
+@pytest.mark.parametrize("method", ["newmark", "newmark-extrapolated"])
+def test_orbit_must_fit_into_the_longer_run(method: str, run, scene_text, tmp_path: Path) -> None:
+    """The state stands at the start of the orbit: a run takes it up if it holds the whole of it."""
+    (tmp_path / "scene.nml").write_text(settling(scene_text, "published-iso", method))
+    carry_on(run, tmp_path)
+    state = package.read(tmp_path / "chained" / "scene.state")
+    start, orbit = int(state["periods"][0]), int(state["orbit"][0])
+    assert start > 0 and orbit >= 1
+    end = start + orbit
+    shorter = ("--resume", "--output", "chained", "--set", f"solver.periods={end - 1}", "scene.nml")
+    ended = run(*shorter, cwd=tmp_path)
+    assert ended.returncode == 2
+    assert f"is at period {start}; the window of this run would begin before" in ended.stderr
+    told = carry_on(run, tmp_path, "--set", f"solver.periods={end}")
+    assert "found steady by the earlier run" in told
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_interrupted_search_goes_on(method: str, rattle: Path, run, scene_text, tmp_path: Path) -> None:
     """A signal is heard while the search goes on, and the search carried on ends like one left alone."""

@@ -1,0 +1,102 @@
+"""Every output call of a run is looked after: its failure is told, and what a kill may lose is bounded."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import rattle as package
+
+RESULTS = ("scene.rattle", "scene.state", "scene.summary.nml")
+
+
+@pytest.fixture(scope="module")
+def shim(repository: Path, tmp_path_factory) -> Path:
+    """A library that lets an output call fail, or tells which there are."""
+    library = tmp_path_factory.mktemp("shim") / "inject_faults.so"
+    source = repository / "tests" / "faults" / "inject_faults.c"
+    subprocess.run(["gcc", "-shared", "-fPIC", "-o", library, source, "-ldl"], check=True)
+    return library
+
+
+@pytest.fixture
+def meet(shim: Path, rattle: Path, scene_text, tmp_path: Path) -> Callable:
+    """Run the scene in a folder of its own with a fault; its end and its output calls."""
+    (tmp_path / "scene.nml").write_text(
+        scene_text(solver={"periods": "100"}, spectrum={"certify": ".false."})
+    )
+
+    def call(folder: str, **fault: object) -> tuple[subprocess.CompletedProcess[str], list[str]]:
+        trace = tmp_path / f"{folder}.trace"
+        words = {"FAULT_FOLDER": f"{folder}/", "FAULT_KIND": "none", "FAULT_TRACE": trace, **fault}
+        ended = subprocess.run(
+            [rattle, "--quiet", "--output", folder, "scene.nml"],
+            cwd=tmp_path,
+            env={**os.environ, "LD_PRELOAD": str(shim), **{key: str(word) for key, word in words.items()}},
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=60,
+        )
+        return ended, trace.read_text().splitlines()
+
+    return call
+
+
+def test_failure_of_every_call_is_told(meet, tmp_path: Path) -> None:
+    """Of all calls for series, state and summary; nothing incomplete looks complete."""
+    whole, calls = meet("whole")
+    assert whole.returncode == 0
+    names = {call.split()[0] for call in calls}
+    assert names >= {"creat", "write", "pwrite", "fsync", "close", "rename"}
+    tried = 0
+    for number, call in enumerate(calls, 1):
+        file = call.split()[1].removesuffix(".new")
+        if file not in RESULTS:
+            continue
+        tried += 1
+        folder = f"call_{number}"
+        ended, _ = meet(folder, FAULT_KIND="error", FAULT_AT=number)
+        assert ended.returncode == 3, call
+        assert ended.stderr == f"{folder}/{file} cannot be written: No space left on device\n", call
+        summary = tmp_path / folder / "scene.summary.nml"
+        assert not summary.exists() or "not_written" in summary.read_text(), call
+        # The last step is that of the summary: all else is complete and in its place then.
+        last = call == "rename scene.summary.nml"
+        assert (tmp_path / folder / "scene.state").exists() == last, call
+        assert not list((tmp_path / folder).glob("*.new"))
+    assert tried >= 15
+
+
+@pytest.mark.parametrize(("step", "least", "most"), [(0, 2, 2), (3000, 101, 105), (300, 9, 30)])
+def test_rows_go_to_the_disk_every_two_seconds(step: int, least: int, most: int, meet) -> None:
+    """The clock goes on by some milliseconds whenever it is read; checksums go with the rows."""
+    ended, calls = meet("timed", FAULT_CLOCK=step)
+    assert ended.returncode == 0
+    assert least <= calls.count("pwrite scene.rattle") <= most
+
+
+def test_killed_run_has_the_rows_of_its_last_flush(meet, tmp_path: Path) -> None:
+    """They are covered by checksums: a flipped bit among them is seen."""
+    _, calls = meet("whole")
+    expected = package.read(tmp_path / "whole" / "scene.rattle")["acceleration"]
+    number = [
+        place
+        for place, call in enumerate(meet("timed", FAULT_CLOCK=3000)[1], 1)
+        if call == "pwrite scene.rattle"
+    ][60]
+    meet("killed", FAULT_CLOCK=3000, FAULT_KIND="kill", FAULT_AT=number)
+    path = tmp_path / "killed" / "scene.rattle"
+    killed = package.read(path)
+    assert not killed.closed
+    assert 60 * 32 <= killed.row_count < expected.size
+    assert killed["acceleration"].tolist() == expected[: killed.row_count].tolist()
+    content = bytearray(path.read_bytes())
+    content[-32 * 32 * 3] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(package.ResultError, match="are not what their checksum says"):
+        package.read(path)["acceleration"]
