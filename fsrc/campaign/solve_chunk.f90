@@ -17,7 +17,7 @@ module solve_chunk
    use sampling, only: chunk_values, sample_plan_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: is_success, status_invalid
-   use scene_types, only: scene_t, spectrum_choice_t, until_steady
+   use scene_types, only: scene_t, until_steady
    use schedule, only: cost_order
    use signals, only: must_stop
    use varied_keys, only: varied_code
@@ -99,7 +99,6 @@ contains
       type(lane_ending_t) :: endings(size(values, 2))
       real(dp) :: costs(size(values, 2))
       type(window_record_t), allocatable :: windows(:)
-      type(spectrum_choice_t) :: choice
       integer, allocatable :: number(:)
       integer :: order(size(values, 2)), i, solved
       logical :: valid(size(values, 2)), coarse(size(values, 2)), together
@@ -161,9 +160,8 @@ contains
             space%judged%success = .true.
             associate (window => windows(merge(i, 1, together)))
                if (window%periods > 0) then
-                  choice = scene%spectrum
-                  choice%periods = window%window_periods
-                  call classify_steps(window, scene%load%frequency, choice, space%judged%resolved%noise_floor, space%judged%rattle)
+                  call classify_steps(window, scene%load%frequency, scene%spectrum, space%judged%resolved%noise_floor, &
+                                      space%judged%rattle)
                else
                   call judge_by_samples(scene, lanes(scene_number), needed, place, merge(place, 1, together), space)
                end if
@@ -202,7 +200,7 @@ contains
       do i = 1, size(lanes)
          again(i) = window_again(lanes(i), records(i))
          again(i)%periods_done = request%periods - periods(i)
-         windows(i) = integral_record(scene%spectrum, periods(i))
+         windows(i) = integral_record(scene%spectrum)
       end do
       allocate (films(request%periods, size(lanes)), velocities(request%periods, size(lanes)), source=0.0_dp)
       call solve_motions(again, request, films, velocities, ended, records=windows)

@@ -7,7 +7,7 @@ module film_pressure
    implicit none(type, external)
    private
 
-   public :: pressure_group, pressure_group_maximum, pressure_scale, exact_pressure, barus_pressure
+   public :: pressure_group, pressure_group_maximum, pressure_scale, exact_pressure, exact_pressures, barus_pressure
 
 contains
 
@@ -66,6 +66,24 @@ contains
       call peak_pressure_group(squeeze_group(radius, speed, film, velocity), peak, peak_by_a)
       pressure = pressure_scale(radius, speed, viscosity, film)*peak
    end function exact_pressure
+
+   !> Largest pressures of many films. The loop stands by itself to run in full registers.
+   pure subroutine exact_pressures(radius, speed, viscosity, films, velocities, pressures)
+      !> Equivalent radius R [m]
+      real(dp), intent(in) :: radius
+      !> Speed u of the film's model [m/s]
+      real(dp), intent(in) :: speed
+      !> Viscosity at ambient pressure eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> Film thicknesses h0 [m]
+      real(dp), intent(in) :: films(:)
+      !> Film velocities w = dh0/dt, as many [m/s]
+      real(dp), intent(in) :: velocities(:)
+      !> Largest pressures p, as many [Pa]
+      real(dp), intent(out) :: pressures(:)
+
+      pressures = exact_pressure(radius, speed, viscosity, films, velocities)
+   end subroutine exact_pressures
 
    !> alpha q of (31) for alpha p < 1; huge where no rigid piezo-viscous film exists.
    elemental real(dp) function barus_pressure(alpha_p) result(alpha_q)

@@ -7,17 +7,18 @@
 !>     integral of z'' dt  =  change of z'                           (the mean of z'' of a periodic motion is zero)
 !>     integral of W dh - integral of (F + m g) dh  =  change of m z'**2/2     (gears: dissipated energy = work of the force)
 !>
-!> hold within the errors of the steps, and the amplitude of z'' at n/p times the frequency, p the periods of the window, is
+!> hold within the errors of the steps, and the Fourier coefficients of z'' are
 !>
-!>     a_n = 2/(p T) |change of z' + i w_n integral of z' exp(-i w_n t) dt| ,   w_n = 2 pi n/(p T)
+!>     c_n = 1/T (change of z' + 2 pi i n/T integral of z' exp(-2 pi i n t/T) dt)
 !>
-!> by parts: the velocity of an impact is a step, and no integral misses it.
+!> for one period T, by parts: the velocity of an impact is a step, and no integral misses it. The line at n times the frequency
+!> is 2 |mean of c_n over the periods|, and what the c_n vary by from period to period is power off the harmonics.
 module window_record
    use constants, only: two_pi
    use film_law, only: film_loads
-   use film_pressure, only: exact_pressure
-   use forcing, only: applied_force
+   use film_pressure, only: exact_pressures
    use kinds, only: dp
+   use lane_functions, only: lane_cosine_sine, lanes
    use lane_scenes, only: lane_scene_t
    use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
                             seen_velocity
@@ -26,15 +27,14 @@ module window_record
    private
 
    !> Pieces that are looked at together: their arrays stay in the cache.
-   integer, parameter :: block_pieces = 64
+   integer, parameter :: block_pieces = 64, block_nodes = nodes_per_piece*block_pieces
 
    !> Record of a window.
    type, public :: window_record_t
-      !> What is asked for: which extremes, by the codes of node_extremes; the highest multiple of the frequency that Fourier
-      !> integrals are wanted for, 0: none, and the periods of the window, whose reciprocal is their spacing
+      !> What is asked for: which extremes, by the codes of node_extremes, and the highest multiple of the frequency that Fourier
+      !> coefficients are wanted for, 0: none
       logical :: wants(seen_quantities) = .true.
       integer :: multiples = 0
-      integer :: window_periods = 1
       !> Longest piece of a step [periods]
       real(dp) :: longest_piece = 1.0_dp
       !> Shortest piece met [periods]
@@ -58,8 +58,11 @@ module window_record
       real(dp) :: film_work = 0.0_dp
       real(dp) :: force_work = 0.0_dp
       real(dp) :: work_size = 0.0_dp
-      !> Integrals of z' exp(-i w_n t) over the time in periods, n from 1 to multiples*window_periods [m/s]
-      complex(dp), allocatable :: velocity_integrals(:)
+      !> Sums over the periods of T c_n and of |T c_n|**2, n from 0 to multiples [m/s], [m2/s2]
+      complex(dp), allocatable :: line_sums(:)
+      real(dp), allocatable :: line_squares(:)
+      !> Integrals of z' exp(-2 pi i n t/T) over the time in periods, of the present period [m/s]
+      complex(dp), allocatable :: integrals(:)
       !> Values of z'' at its turns from node to node, where Fourier integrals are wanted [m/s2]
       real(dp), allocatable :: turns(:)
       integer :: turn_count = 0
@@ -80,11 +83,12 @@ contains
       !> The record
       type(window_record_t), intent(inout) :: record
 
-      record = window_record_t(wants=record%wants, multiples=record%multiples, window_periods=record%window_periods, &
-                               longest_piece=record%longest_piece, start_film=film, start_velocity=velocity, &
-                               start_momentum=momentum, start_implicit=implicit)
-      if (record%multiples > 0) allocate (record%velocity_integrals(record%multiples*record%window_periods), &
-                                          source=(0.0_dp, 0.0_dp))
+      record = window_record_t(wants=record%wants, multiples=record%multiples, longest_piece=record%longest_piece, &
+                               start_film=film, start_velocity=velocity, start_momentum=momentum, start_implicit=implicit, &
+                               end_velocity=velocity)
+      if (record%multiples == 0) return
+      allocate (record%line_sums(0:record%multiples), record%integrals(record%multiples), source=(0.0_dp, 0.0_dp))
+      allocate (record%line_squares(0:record%multiples), source=0.0_dp)
    end subroutine start_record
 
    !> Add a period, and forget its nodes.
@@ -105,9 +109,28 @@ contains
                             nodes%velocities(nodes_per_piece*(first - 1) + 1:nodes_per_piece*last), record)
       end do
       nodes%pieces = 0
+      if (record%multiples > 0) call add_coefficients(end_velocity - record%end_velocity, record)
       record%periods = record%periods + 1
       record%end_velocity = end_velocity
    end subroutine record_period
+
+   !> Add the Fourier coefficients of a period.
+   pure subroutine add_coefficients(change, record)
+      !> Change of z' over the period [m/s]
+      real(dp), intent(in) :: change
+      type(window_record_t), intent(inout) :: record
+      complex(dp) :: coefficient
+      integer :: n
+
+      record%line_sums(0) = record%line_sums(0) + change
+      record%line_squares(0) = record%line_squares(0) + change*change
+      do n = 1, record%multiples
+         coefficient = change + cmplx(0.0_dp, two_pi*real(n, dp), dp)*record%integrals(n)
+         record%line_sums(n) = record%line_sums(n) + coefficient
+         record%line_squares(n) = record%line_squares(n) + coefficient%re**2 + coefficient%im**2
+      end do
+      record%integrals = (0.0_dp, 0.0_dp)
+   end subroutine add_coefficients
 
    !> Add some pieces of steps.
    pure subroutine record_pieces(scene, start, length, films, velocities, record)
@@ -119,7 +142,7 @@ contains
       real(dp), contiguous, intent(in) :: films(:)
       real(dp), contiguous, intent(in) :: velocities(:)
       type(window_record_t), intent(inout) :: record
-      real(dp), dimension(nodes_per_piece*block_pieces) :: phases, weights, values, loads, forces
+      real(dp), dimension(block_nodes) :: phases, weights, values, loads, forces, cosine, sine
       real(dp) :: sums(6), period
       integer :: n, i, before
 
@@ -129,11 +152,17 @@ contains
          phases(before + 1:before + nodes_per_piece) = start(i) + node_place*length(i)
          weights(before + 1:before + nodes_per_piece) = node_weight*length(i)
       end do
+      ! Whole vectors: what fills them up weighs nothing.
+      phases(n + 1:) = 0.0_dp
+      weights(n + 1:) = 0.0_dp
+      do i = 1, n, lanes
+         call lane_cosine_sine(phases(i:i + lanes - 1), cosine(i:i + lanes - 1), sine(i:i + lanes - 1))
+      end do
       call film_loads(scene%film, films, velocities, loads(:n))
       sums = 0.0_dp
       !$omp simd
       do i = 1, n
-         forces(i) = applied_force(scene%steady_force, scene%force_amplitude, phases(i)) + scene%weight
+         forces(i) = scene%steady_force + scene%force_amplitude*cosine(i) + scene%weight
          values(i) = (loads(i) - forces(i))/scene%mass
       end do
       !$omp simd reduction(+: sums)
@@ -155,7 +184,7 @@ contains
       record%work_size = record%work_size + sums(6)*period
 
       if (record%multiples > 0) then
-         call add_integrals(real(record%periods, dp), phases(:n), weights(:n)*velocities, record)
+         call add_integrals(weights(:n)*velocities, cosine, sine, record%integrals)
          call add_turns(values(:n), record)
       end if
       call search(seen_film, films, record)
@@ -163,7 +192,7 @@ contains
       call search(seen_acceleration, values(:n), record)
       call search(seen_load, loads(:n), record)
       if (record%wants(seen_pressure)) then
-         values(:n) = exact_pressure(scene%film%radius, scene%film%speed, scene%film%viscosity, films, velocities)
+         call exact_pressures(scene%film%radius, scene%film%speed, scene%film%viscosity, films, velocities, values(:n))
          call search(seen_pressure, values(:n), record)
       end if
 
@@ -181,38 +210,32 @@ contains
 
    end subroutine record_pieces
 
-   !> Add nodes to the Fourier integrals. The powers of exp(-2 pi i t/p) follow from each other by products.
-   pure subroutine add_integrals(period, phases, weighted, record)
-      !> Periods of the window before this one
-      real(dp), intent(in) :: period
-      !> Phases of the nodes [periods]
-      real(dp), contiguous, intent(in) :: phases(:)
+   !> Add nodes to the Fourier integrals. The powers of exp(-2 pi i t/T) follow from each other by products.
+   pure subroutine add_integrals(weighted, cosine, sine, integrals)
       !> z' times the weight of the node [m/s]
-      real(dp), contiguous, intent(in) :: weighted(:)
-      type(window_record_t), intent(inout) :: record
-      real(dp), dimension(size(phases)) :: cosine, sine, real_part, imaginary_part
-      real(dp) :: angle, next, real_sum, imaginary_sum
-      integer :: i, n
+      real(dp), intent(in) :: weighted(:)
+      !> Of 2 pi times the phases of the nodes
+      real(dp), intent(in) :: cosine(block_nodes)
+      real(dp), intent(in) :: sine(block_nodes)
+      complex(dp), intent(inout) :: integrals(:)
+      real(dp), dimension(block_nodes) :: real_part, imaginary_part
+      real(dp) :: next, real_sum, imaginary_sum
+      integer :: i, k
 
-      do i = 1, size(phases)
-         angle = two_pi*(period + phases(i))/real(record%window_periods, dp)
-         cosine(i) = cos(angle)
-         sine(i) = -sin(angle)
-      end do
-      real_part = weighted
+      real_part(:size(weighted)) = weighted
       imaginary_part = 0.0_dp
-      do n = 1, size(record%velocity_integrals)
+      do k = 1, size(integrals)
          real_sum = 0.0_dp
          imaginary_sum = 0.0_dp
          !$omp simd private(next) reduction(+: real_sum, imaginary_sum)
-         do i = 1, size(phases)
-            next = real_part(i)*cosine(i) - imaginary_part(i)*sine(i)
-            imaginary_part(i) = real_part(i)*sine(i) + imaginary_part(i)*cosine(i)
+         do i = 1, size(weighted)
+            next = real_part(i)*cosine(i) + imaginary_part(i)*sine(i)
+            imaginary_part(i) = imaginary_part(i)*cosine(i) - real_part(i)*sine(i)
             real_part(i) = next
             real_sum = real_sum + real_part(i)
             imaginary_sum = imaginary_sum + imaginary_part(i)
          end do
-         record%velocity_integrals(n) = record%velocity_integrals(n) + cmplx(real_sum, imaginary_sum, dp)
+         integrals(k) = integrals(k) + cmplx(real_sum, imaginary_sum, dp)
       end do
    end subroutine add_integrals
 

@@ -17,8 +17,8 @@ module fine_window
    integer, parameter :: most_samples_per_period = 16384, most_samples = 8388608
    !> Piece of a step [periods] that is too short for so many samples to follow what happens there.
    real(dp), parameter :: least_piece = 0.25_dp/real(most_samples_per_period, dp)
-   !> Highest multiple of the frequency that is integrated for, and most pieces that a window may have for it.
-   integer, parameter :: usual_multiples = 128, least_multiples = 40, most_integrals = 16384
+   !> Highest multiple of the frequency that is integrated for, as many as a summary lists.
+   integer, parameter :: usual_multiples = 40
    !> Oscillations that the eight nodes of a piece of a step integrate to eight digits.
    real(dp), parameter :: oscillations_per_piece = 1.27_dp
    !> Share of the first harmonic by which the mean of the samples may miss the change of velocity, and of the power by which
@@ -116,10 +116,9 @@ contains
       type(lane_request_t) :: request
       type(lane_ending_t) :: endings(1)
       type(window_record_t) :: records(1)
-      type(spectrum_choice_t) :: choice
       real(dp) :: films(window%periods, 1), velocities(window%periods, 1)
 
-      records(1) = integral_record(scene%spectrum, window%periods)
+      records(1) = integral_record(scene%spectrum)
       request%accuracy = accuracy
       request%periods = window%periods
       request%sampled_periods = window%periods
@@ -127,22 +126,17 @@ contains
       request%every_period = .true.
       call solve_motions([window_again(lane, window%record)], request, films, velocities, endings, records=records)
       if (.not. is_success(endings(1)%status)) return
-      choice = scene%spectrum
-      choice%periods = window%periods
-      call classify_steps(records(1), scene%load%frequency, choice, noise_floor, verdict)
+      call classify_steps(records(1), scene%load%frequency, scene%spectrum, noise_floor, verdict)
    end subroutine judge_by_integrals
 
    !> An empty record that asks for Fourier integrals.
-   pure function integral_record(spectrum, periods) result(record)
+   pure function integral_record(spectrum) result(record)
       !> Limits of the classes
       type(spectrum_choice_t), intent(in) :: spectrum
-      !> Periods of the window
-      integer, intent(in) :: periods
       type(window_record_t) :: record
 
       record%wants = .false.
-      record%multiples = min(max(usual_multiples, 2*spectrum%idle_lines), max(least_multiples, most_integrals/periods))
-      record%window_periods = periods
+      record%multiples = max(usual_multiples, 2*spectrum%idle_lines)
       record%longest_piece = oscillations_per_piece/real(record%multiples, dp)
    end function integral_record
 

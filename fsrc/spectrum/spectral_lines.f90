@@ -59,13 +59,13 @@ contains
       lines%distortion_is_bound = .not. lines%sampling_sufficient
    end subroutine find_lines
 
-   !> Lines of a window from its amplitudes at all multiples of the frequency over its periods, found by integrals, and its
-   !> power: what lies beyond the highest multiple is power too.
-   subroutine find_lines_by_integrals(amplitudes, periods, power, line_threshold, noise_floor, lines)
-      !> Amplitudes from 0 on, as far as there are whole multiples of the frequency [m/s2]
-      real(dp), intent(in) :: amplitudes(0:)
-      !> Periods in the window
-      integer, intent(in) :: periods
+   !> Lines of a window from harmonics found by integrals over its steps, and its power: what lies beyond the highest harmonic is
+   !> power too.
+   pure subroutine find_lines_by_integrals(harmonics, irregular_fraction, power, line_threshold, noise_floor, lines)
+      !> a_1, a_2, ... [m/s2]
+      real(dp), intent(in) :: harmonics(:)
+      !> Share of the power off the harmonics, up to the highest of them
+      real(dp), intent(in) :: irregular_fraction
       !> Twice the mean square of z'' about its mean: the sum of the squares of all lines [m2/s4]
       real(dp), intent(in) :: power
       !> A harmonic above this share of the first is a line [-]
@@ -74,18 +74,20 @@ contains
       real(dp), intent(in) :: noise_floor
       !> The lines
       type(spectral_lines_t), intent(out) :: lines
-      real(dp), allocatable :: bins(:)
-      real(dp) :: first
+      real(dp) :: tail
 
-      allocate (bins(0:ubound(amplitudes, 1)), source=amplitudes)
-      call lines_of_bins(bins, periods, ubound(amplitudes, 1)/periods, .false., line_threshold, noise_floor, lines)
-      lines%count_is_bound = .not. lines%sampling_sufficient
-      lines%sampling_sufficient = .true.
-      ! Integrals fold nothing back.
-      lines%resolution_error = integral_error*maxval(lines%harmonics)
-      first = lines%harmonics(1)
-      if (lines%moving .and. first > noise_floor) lines%harmonic_distortion = &
-         max(lines%harmonic_distortion, sqrt(max(0.0_dp, (1.0_dp - lines%irregular_fraction)*(power/first)/first - 1.0_dp)))
+      allocate (lines%harmonics, source=harmonics)
+      lines%resolution_error = integral_error*maxval(harmonics)
+      lines%moving = sqrt(max(0.0_dp, power)) > noise_floor
+      if (.not. lines%moving) return
+      lines%irregular_fraction = irregular_fraction
+      lines%line_count = count(harmonics > line_threshold*harmonics(1))
+      tail = maxval(harmonics((3*size(harmonics))/4 + 1:))
+      lines%count_is_bound = tail > max(noise_floor, sampling_tolerance*line_threshold*harmonics(1))
+      lines%harmonic_distortion = huge(1.0_dp)
+      if (harmonics(1) > noise_floor) lines%harmonic_distortion = &
+         max(norm2(harmonics(2:)/harmonics(1)), &
+             sqrt(max(0.0_dp, (1.0_dp - irregular_fraction)*(power/harmonics(1))/harmonics(1) - 1.0_dp)))
    end subroutine find_lines_by_integrals
 
    !> Lines of a window from the amplitudes of its bins.

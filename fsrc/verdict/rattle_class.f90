@@ -1,6 +1,5 @@
 !> Class of a motion by the spectrum of its acceleration.
 module rattle_class
-   use constants, only: two_pi
    use kinds, only: dp
    use reversals, only: count_reversals, reversal_prominence
    use scene_types, only: spectrum_choice_t
@@ -50,31 +49,30 @@ contains
    end subroutine note_orbit
    !> Classify a window by the integrals over the steps of its motion: however short an impact is, they see it.
    subroutine classify_steps(record, frequency, choice, noise_floor, verdict)
-      !> Record of all choice%periods periods of the window, with Fourier integrals
+      !> Record of all periods of the window, with Fourier coefficients
       type(window_record_t), intent(in) :: record
       !> Frequency of the force [Hz]
       real(dp), intent(in) :: frequency
-      !> Periods and limits
+      !> Limits
       type(spectrum_choice_t), intent(in) :: choice
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> The verdict
       type(rattle_verdict_t), intent(out) :: verdict
-      real(dp), allocatable :: amplitudes(:)
-      real(dp) :: jump, mean, periods
-      integer :: n
+      real(dp) :: mean, periods, off_harmonics, all_multiples
 
-      periods = real(choice%periods, dp)
-      jump = record%end_velocity - record%start_velocity
+      periods = real(record%periods, dp)
       mean = record%acceleration_sum/periods
-      allocate (amplitudes(0:size(record%velocity_integrals)))
-      amplitudes(0) = abs(mean)
-      do n = 1, size(record%velocity_integrals)
-         amplitudes(n) = 2.0_dp*frequency/periods* &
-                         abs(jump + cmplx(0.0_dp, two_pi*real(n, dp)/periods, dp)*record%velocity_integrals(n))
-      end do
-      call find_lines_by_integrals(amplitudes, choice%periods, 2.0_dp*(record%acceleration_square/periods - mean*mean), &
-                                   choice%line_threshold, noise_floor, verdict%lines)
+      associate (sums => record%line_sums, squares => record%line_squares, n => record%multiples)
+         ! What varies from period to period is off the harmonics; of the mean of z'' only that.
+         off_harmonics = 0.5_dp*max(0.0_dp, squares(0)/periods - abs(sums(0)/periods)**2) &
+                         + max(0.0_dp, sum(squares(1:)/periods - abs(sums(1:)/periods)**2))
+         all_multiples = off_harmonics + sum(abs(sums(1:)/periods)**2)
+         call find_lines_by_integrals(2.0_dp*frequency/periods*abs(sums(1:n)), &
+                                      off_harmonics/max(all_multiples, tiny(1.0_dp)), &
+                                      2.0_dp*(record%acceleration_square/periods - mean*mean), choice%line_threshold, &
+                                      noise_floor, verdict%lines)
+      end associate
       verdict%class = class_of(verdict%lines, choice)
       if (verdict%lines%moving) verdict%reversals_per_period = &
          real(count_reversals(record%turns(:record%turn_count), reversal_prominence), dp)/periods

@@ -2,7 +2,7 @@
 !> the samples where each is a step of its own (Newmark's method).
 module window_extremes
    use film_law, only: film_loads, film_t
-   use film_pressure, only: exact_pressure
+   use film_pressure, only: exact_pressures
    use kinds, only: dp
    use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, seen_velocity
    use value_range, only: range_of
@@ -53,7 +53,7 @@ contains
             call note(h, w, accelerations(first:last), extremes%lowest(seen_acceleration), extremes%highest(seen_acceleration))
             call film_loads(film, h, w, part)
             call note(h, w, part, extremes%lowest(seen_load), extremes%highest(seen_load))
-            part = exact_pressure(film%radius, film%speed, film%viscosity, h, w)
+            call exact_pressures(film%radius, film%speed, film%viscosity, h, w, part)
             call note(h, w, part, extremes%lowest(seen_pressure), extremes%highest(seen_pressure))
          end associate
       end do

@@ -130,7 +130,7 @@ contains
          /sum(accelerations**2), 1.0_dp, 1.0e-8_dp, name//': mean square')
 
       choice%periods = window
-      integrals(1) = integral_record(choice, window)
+      integrals(1) = integral_record(choice)
       call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=30, samples_per_period=1, sampled_periods=window, &
          every_period=.true.), films, velocities, endings, records=integrals)
       call classify(accelerations, choice, 1.0e-9_dp, by_samples)
@@ -198,7 +198,7 @@ contains
       scene%load%frequency = 15.0_dp
       lane = lane_of(scene)
       choice%periods = 8
-      records(1) = integral_record(choice, 8)
+      records(1) = integral_record(choice)
       records(1)%wants = .true.
       call solve_motions([lane], lane_request_t(accuracy=1.0e-8_dp, periods=40, samples_per_period=1, sampled_periods=8, &
          every_period=.true.), films, velocities, endings, records=records)
