@@ -1,8 +1,9 @@
 !> Pressure of the exact iso-viscous film, the corrected (16), and the reduced-pressure relation (31).
 module film_pressure
    use film_integrals, only: pressure_integrals
+   use iso_viscous_sums, only: film_block
    use kinds, only: dp
-   use reynolds_iso_viscous, only: peak_pressure_group
+   use reynolds_iso_viscous, only: peak_block, peak_pressure_group
    use rupture, only: squeeze_group
    implicit none(type, external)
    private
@@ -67,7 +68,7 @@ contains
       pressure = pressure_scale(radius, speed, viscosity, film)*peak
    end function exact_pressure
 
-   !> Largest pressures of many films. The loop stands by itself to run in full registers.
+   !> Largest pressures of many films, in full registers.
    pure subroutine exact_pressures(radius, speed, viscosity, films, velocities, pressures)
       !> Equivalent radius R [m]
       real(dp), intent(in) :: radius
@@ -81,8 +82,15 @@ contains
       real(dp), intent(in) :: velocities(:)
       !> Largest pressures p, as many [Pa]
       real(dp), intent(out) :: pressures(:)
+      real(dp) :: a(film_block)
+      integer :: first, last
 
-      pressures = exact_pressure(radius, speed, viscosity, films, velocities)
+      do first = 1, size(films), film_block
+         last = min(first + film_block - 1, size(films))
+         a(:last - first + 1) = squeeze_group(radius, speed, films(first:last), velocities(first:last))
+         call peak_block(last - first + 1, a, pressures(first:last))
+         pressures(first:last) = pressure_scale(radius, speed, viscosity, films(first:last))*pressures(first:last)
+      end do
    end subroutine exact_pressures
 
    !> alpha q of (31) for alpha p < 1; huge where no rigid piezo-viscous film exists.

@@ -24,7 +24,7 @@ module reynolds_iso_viscous
 
    public :: rupture_tangent_fast, rupture_tangent_slope, rupture_angle
    public :: iso_viscous_load, iso_viscous_load_array
-   public :: peak_pressure_group, peak_pressure_block
+   public :: peak_pressure_group, peak_block, peak_pressure_block
 
 contains
 
@@ -145,6 +145,27 @@ contains
       dpeak_da = fall*fall*sum_table(peak_slope_table, sign(1.0_dp, a), v)
 
    end subroutine peak_pressure_group
+
+   !> Highest pressure group, of one block of films.
+   pure subroutine peak_block(m, a, peak)
+      !> Number of films, at most film_block.
+      integer, intent(in) :: m
+      !> Squeeze groups A [-].
+      real(dp), intent(in) :: a(m)
+      !> Highest pressure groups [-], positive.
+      real(dp), intent(out) :: peak(m)
+
+      real(dp) :: v(film_block), lead(film_block), fall(film_block), share(film_block)
+      integer :: i
+
+      call locate_block(m, a, v, lead, fall, share)
+      call sum_block(m, peak_table, a, v, peak)
+      !$omp simd
+      do i = 1, m
+         peak(i) = lead(i)*(fall(i)*fall(i)*fall(i))*(share(i)*share(i))*peak(i)
+      end do
+
+   end subroutine peak_block
 
    !> Highest pressure group and its slope, of one block of films.
    pure subroutine peak_pressure_block(m, a, peak, dpeak_da)

@@ -13,6 +13,7 @@ module run_scene
    use resolved_scene, only: resolve, resolved_scene_t
    use resume, only: load_state, save_state
    use sample_recorder, only: sample_recorder_t
+   use scene_lane, only: lane_of_scene
    use scene_report, only: report_ending, report_start
    use scene_result, only: judge, scene_result_t
    use scene_status, only: status_complete, status_interrupted, status_not_written
@@ -77,6 +78,9 @@ contains
          ! A signal that came meanwhile has cut the certificate short.
          if (result%judged .and. caught_signal() /= 0) result%ending%status = status_interrupted
          result%judge_seconds = wall_seconds() - started - result%solve_seconds
+         if (result%judged) call recorder%add_extremes( &
+            lane_of_scene(scene, resolved%film, resolved%initial_film, scene%film%initial_velocity), result%ending%record, &
+            result%ending%periods - result%window_periods, result%series_coarse)
          call recorder%close(write_error)
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
          if (.not. allocated(error)) call save_state(scene, result%ending%checkpoint, error)

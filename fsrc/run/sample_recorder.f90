@@ -2,12 +2,17 @@
 !> in its file. A scene without a series keeps nothing beyond the window, however long it runs.
 module sample_recorder
    use errors, only: error_t, exit_bad_input, raise
+   use film_law, only: film_load
+   use forcing, only: applied_force
    use kinds, only: dp, int64
+   use lane_scenes, only: lane_scene_t
+   use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_velocity
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use sample_sink, only: sample_sink_t
    use scene_types, only: column_acceleration, column_applied_force, column_film_thickness, &
                           column_names, column_squeeze_velocity, column_time, column_units, scene_t
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -28,6 +33,7 @@ module sample_recorder
       procedure :: open => open_recorder
       procedure :: take => take_samples
       procedure :: begin_window
+      procedure :: add_extremes
       procedure :: close => close_recorder
    end type sample_recorder_t
 
@@ -142,32 +148,87 @@ contains
       real(dp), intent(in) :: velocity(:)
       real(dp), intent(in) :: acceleration(:)
       type(error_t), allocatable, intent(out) :: error
-      integer :: column, first, i, last
+      real(dp), allocatable :: times(:)
+      integer :: first, i, last
 
       first = 1 + int(modulo(-first_step, int(self%stride, int64)))
       last = (size(film) - first)/self%stride + 1
       if (first > size(film)) return
+      times = [(real(first_step + first - 1 + (i - 1)*self%stride, dp)/self%steps_per_second, i=1, last)]
+      call fill_rows(self, times, force(first::self%stride), film(first::self%stride), velocity(first::self%stride), &
+                     acceleration(first::self%stride), self%rows)
+      call self%writer%write_rows(self%rows(:, :last), error)
+   end subroutine write_series
+
+   !> Rows of the chosen columns.
+   pure subroutine fill_rows(self, times, force, film, velocity, acceleration, rows)
+      class(sample_recorder_t), intent(in) :: self
+      real(dp), intent(in) :: times(:)
+      real(dp), intent(in) :: force(:)
+      real(dp), intent(in) :: film(:)
+      real(dp), intent(in) :: velocity(:)
+      real(dp), intent(in) :: acceleration(:)
+      real(dp), intent(inout) :: rows(:, :)
+      integer :: column, last
+
+      last = size(times)
       do column = 1, size(self%columns)
          select case (self%columns(column))
          case (column_time)
-            do i = 1, last
-               self%rows(column, i) = real(first_step + first - 1 + (i - 1)*self%stride, dp)/self%steps_per_second
-            end do
+            rows(column, :last) = times
          case (column_applied_force)
-            self%rows(column, :last) = force(first::self%stride)
+            rows(column, :last) = force
          case (column_film_thickness)
-            self%rows(column, :last) = film(first::self%stride)
+            rows(column, :last) = film
          case (column_squeeze_velocity)
-            self%rows(column, :last) = velocity(first::self%stride)
+            rows(column, :last) = velocity
          case (column_acceleration)
-            self%rows(column, :last) = acceleration(first::self%stride)
+            rows(column, :last) = acceleration
          case default
             ! Film load, read off the equation of motion (1), which the sample fulfils.
-            self%rows(column, :last) = self%mass*(acceleration(first::self%stride) + self%gravity) + force(first::self%stride)
+            rows(column, :last) = self%mass*(acceleration + self%gravity) + force
          end select
       end do
-      call self%writer%write_rows(self%rows(:, :last), error)
-   end subroutine write_series
+   end subroutine fill_rows
+
+   !> Put the extremes of the window, which fall between samples, behind the rows of the series, and say there whether the series
+   !> is coarser than the motion.
+   subroutine add_extremes(self, lane, record, first_period, coarse)
+      class(sample_recorder_t), intent(inout) :: self
+      !> The scene
+      type(lane_scene_t), intent(in) :: lane
+      !> What the steps of the window tell; nothing where each sample is a step of its own
+      type(window_record_t), intent(in) :: record
+      !> Periods before the window
+      integer, intent(in) :: first_period
+      !> Whether the samples are too few for the motion
+      logical, intent(in) :: coarse
+      type(extreme_t) :: found(6), kept(6)
+      real(dp) :: rows(size(self%columns), 6), force(6), load(6), by_film, by_velocity
+      integer :: i, n, next
+
+      if (.not. self%series) return
+      if (coarse) call self%writer%mark_coarse()
+      associate (quantities => [seen_film, seen_velocity, seen_acceleration])
+         found = [record%lowest(quantities), record%highest(quantities)]
+      end associate
+      ! In the order of time, each state once.
+      n = 0
+      do while (any(found%exists))
+         next = minloc(real(found%period, dp) + found%phase, dim=1, mask=found%exists)
+         n = n + 1
+         kept(n) = found(next)
+         found%exists = found%exists .and. .not. (found%period == kept(n)%period .and. abs(found%phase - kept(n)%phase) <= 0.0_dp)
+      end do
+      if (n == 0) return
+      do i = 1, n
+         force(i) = applied_force(lane%steady_force, lane%force_amplitude, min(1.0_dp, kept(i)%phase))
+         call film_load(lane%film, kept(i)%film, kept(i)%velocity, load(i), by_film, by_velocity)
+      end do
+      call fill_rows(self, (real(first_period + kept(:n)%period, dp) + kept(:n)%phase)/lane%frequency, force(:n), kept(:n)%film, &
+                     kept(:n)%velocity, (load(:n) - lane%weight - force(:n))/lane%mass, rows)
+      call self%writer%write_extremes(rows(:, :n))
+   end subroutine add_extremes
 
    !> Complete the series. Where an earlier one stands it is beside its place, until place_files puts it there.
    subroutine close_recorder(self, error)

@@ -138,8 +138,12 @@ contains
       ! The accelerations of samples follow from the film law, which the steps obey to a hundred times their accuracy.
       call checks%check(maxval(abs(by_steps%lines%harmonics - by_samples%lines%harmonics(:size(by_steps%lines%harmonics)))) &
          < 100.0_dp*accuracy*by_samples%lines%harmonics(1), name//': lines by integrals')
-      call checks%check(by_steps%class == by_samples%class .and. by_steps%lines%line_count == by_samples%lines%line_count, &
+      ! Forty multiples are integrated for; where lines lie beyond them, their count is a lower bound.
+      call checks%check(by_steps%class == by_samples%class .and. by_steps%lines%line_count == min(by_samples%lines%line_count, &
+         count(by_samples%lines%harmonics(:integrals(1)%multiples) > 0.01_dp*by_samples%lines%harmonics(1))), &
          name//': class and lines by integrals')
+      call checks%check(by_steps%lines%count_is_bound .or. by_steps%lines%line_count == by_samples%lines%line_count, &
+         name//': fewer lines are a lower bound')
       call checks%check_close(by_steps%lines%harmonic_distortion/by_samples%lines%harmonic_distortion, 1.0_dp, 1.0e-8_dp, &
          name//': distortion by integrals')
       call checks%check_close(by_steps%reversals_per_period, by_samples%reversals_per_period, 0.0_dp, name//': reversals by steps')
