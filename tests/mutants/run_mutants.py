@@ -15,6 +15,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 import time
 from collections import Counter
 from collections.abc import Sequence
@@ -140,6 +141,7 @@ class Scratch:
             "RATTLE_PROGRAM": str(place / "build" / "rattle"),
             "SYSTEM_LOOKED_AT": "yes",
             "PYTHONDONTWRITEBYTECODE": "1",
+            "GFORTRAN_UNBUFFERED_PRECONNECTED": "yes",
         }
         listed = self._run(["git", "ls-files", "-z"], cwd=REPOSITORY).stdout.split("\0")
         for name in filter(None, listed):
@@ -155,8 +157,9 @@ class Scratch:
         made = self.make("build/rattle", "build/unit_tests", "build/kernels/built")
         if made.returncode:
             raise SystemExit(f"The unchanged program cannot be built:\n{made.stderr[-2000:]}")
+        self.unit_limit = USER_LIMIT
         started = time.monotonic()
-        if not self._ends_well(["build/unit_tests"], USER_LIMIT):
+        if self.unit_tests():
             raise SystemExit("The unit tests fail on the unchanged program.")
         self.unit_limit = PATIENCE * (time.monotonic() - started)
 
@@ -215,8 +218,22 @@ class Scratch:
         return self.make("build/kernels/built").returncode == 0
 
     def unit_tests(self) -> str:
-        """What fails, empty if nothing does."""
-        return "" if self._ends_well(["build/unit_tests"], self.unit_limit) else "unit tests"
+        """The first failure, empty if there is none; what comes after it is not waited for."""
+        ended = subprocess.Popen(
+            ["build/unit_tests"], cwd=self.place, env=self.environment, text=True, stdout=subprocess.PIPE
+        )
+        patience = threading.Timer(self.unit_limit, ended.kill)
+        patience.start()
+        try:
+            for line in ended.stdout:
+                if line.startswith("FAILED"):
+                    return f"unit tests: {line.split(' ', 1)[1].partition(':')[0]}"
+            return "unit tests" if ended.wait() else ""
+        finally:
+            patience.cancel()
+            ended.kill()
+            ended.wait()
+            ended.stdout.close()
 
     def user_tests(self, files: Sequence[str]) -> str:
         """The first test that fails, empty if none does."""
@@ -245,12 +262,6 @@ class Scratch:
             blind |= set(PYTHON_ALONE)
         rest = [name for name in every if name not in near and name not in blind]
         return tuple([f"tests/user/test_{name}.py" for name in names] for names in (near, rest))
-
-    def _ends_well(self, command: Sequence[str], limit: float) -> bool:
-        try:
-            return self._run(command, limit).returncode == 0
-        except subprocess.TimeoutExpired:
-            return False
 
 
 def calls_python(file: Path) -> bool:
@@ -286,13 +297,17 @@ def judge(mutant: Mutant, scratch: Scratch, near_only: bool) -> tuple[str, str]:
 
 
 def run(mutants: Sequence[Mutant], scratch: Scratch, path: Path, near_only: bool) -> Counter[str]:
-    """Judge the mutants one after another; each has its row in the CSV as soon as it is known."""
+    """Judge those that have no row in the CSV yet, one after another, and write a row for each."""
     outcomes: Counter[str] = Counter()
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("w", newline="", encoding="ascii") as stream:
+    known = {(row["place"], row["reason"]) for row in rows_of(path)} if path.exists() else set()
+    with path.open("a", newline="", encoding="ascii") as stream:
         writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(COLUMNS)
+        if stream.tell() == 0:
+            writer.writerow(COLUMNS)
         for mutant in mutants:
+            if (mutant.path, mutant.reason) in known:
+                continue
             started = time.monotonic()
             outcome, found = SAME, mutant.no_difference
             if not mutant.no_difference:
@@ -305,12 +320,17 @@ def run(mutants: Sequence[Mutant], scratch: Scratch, path: Path, near_only: bool
     return outcomes
 
 
+def rows_of(path: Path) -> list[dict[str, str]]:
+    """Results that stand in a CSV."""
+    with path.open(newline="", encoding="ascii") as stream:
+        return list(csv.DictReader(stream))
+
+
 def table(paths: Sequence[Path]) -> str:
     """Results of several parts in Markdown: a line for each room, then the survivors. Later results count."""
     found = {}
     for path in paths:
-        with path.open(newline="", encoding="ascii") as stream:
-            found.update({(row["place"], row["reason"]): row for row in csv.DictReader(stream)})
+        found.update({(row["place"], row["reason"]): row for row in rows_of(path)})
     order = [(one.path, one.reason) for one in read_list()]
     rows = [found[key] for key in order if key in found]
     counts: dict[str, Counter[str]] = {}

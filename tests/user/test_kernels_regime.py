@@ -23,6 +23,15 @@ def test_contact_and_regime_formulas():
     assert film == pytest.approx(1e-6 * line_load / (0.3 * 1.905 * 0.0127), rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("g_v", "g_e", "films"),
+    [(2.0, 3.0, (4.9, 2.635086, 7.465497, 4.115564)), (10.0, 0.5, (4.9, 7.705037, 1.780482, 8.814224))],
+)
+def test_limiting_films_are_those_of_johnson(g_v, g_e, films):
+    """4.9, 1.66 g_v^(2/3), 3.10 g_e^0.8 and 2.65 g_v^0.54 g_e^0.06, worked out by hand."""
+    assert kernels.limiting_films(g_v, g_e) == pytest.approx(films, rel=1e-6)
+
+
 def test_regimes_are_words():
     g_v, g_e = np.array([[0.1, 1e3], [1.0, 10.0]]), np.array([[0.1, 0.1], [50.0, 1.0]])
     codes = kernels.mapped_regime(g_v, g_e)
