@@ -19,6 +19,7 @@ from rattle.namelist import NamelistError, parse
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 NAME = re.compile(r"[A-Za-z0-9._-]+")
+MOST_ARRAY_TASKS = 10_000
 DIRECTIVE_SAFE = re.compile(r'[^"\n%\\]*')
 
 
@@ -231,6 +232,16 @@ def opened(path: Path) -> Campaign:
     return campaign
 
 
+def array_tasks(text: str) -> int:
+    """The count of tasks of an array job; Slurm counts them below 4000001, and most clusters allow far fewer."""
+    count = command.positive(text)
+    if count > MOST_ARRAY_TASKS:
+        raise argparse.ArgumentTypeError(
+            f"{text} tasks are more than any cluster takes; at most {MOST_ARRAY_TASKS} are allowed"
+        )
+    return count
+
+
 def time_limit(text: str) -> str:
     try:
         if job_script.seconds_of(text) > 0:
@@ -278,9 +289,7 @@ def add_slurm(commands: argparse._SubParsersAction) -> None:
     )
     job.add_argument("input", type=Path, metavar="FILE.nml", help="input with a group &campaign")
     kind = job.add_mutually_exclusive_group()
-    kind.add_argument(
-        "--array", type=command.positive, metavar="N", help="N tasks, each a part of the scenes"
-    )
+    kind.add_argument("--array", type=array_tasks, metavar="N", help="N tasks, each a part of the scenes")
     kind.add_argument("--ranks", type=command.positive, metavar="N", help="one job of N MPI ranks")
     job.add_argument("--threads", type=command.positive, default=1, metavar="N", help="threads a task (1)")
     job.add_argument("--time", type=time_limit, metavar="HH:MM:SS", help="time limit of the job")

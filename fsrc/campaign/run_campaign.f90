@@ -49,19 +49,21 @@ contains
       type(sample_plan_t) :: plan
       type(campaign_layout_t) :: layout
       integer(int64) :: invalid, first, seen
+      integer(int64) :: chunks
       character(:), allocatable :: among
 
       lines = ''
       call prepare(scene, file, .true., plan, first, seen, invalid, layout, faults)
       if (faults%count() > 0) return
+      chunks = (layout%scene_count + layout%chunk_rows - 1_int64)/layout%chunk_rows
       among = ''
       if (seen < layout%scene_count) among = ' among the first '//integer_text(seen)//'; there was no time to look at more'
       ! Where a table is so long that its lines could not even be counted, none of its scenes was looked at.
-      lines = '! scenes             '//trim(merge(' at least', '         ', seen == 0_int64))//' '// &
+      lines = '! scenes             '//trim(merge(' at least', '         ', seen == 0_int64 .and. chunks > 0_int64))//' '// &
               integer_text(layout%scene_count)//' ('//integer_text(invalid)//' invalid'//among//')'//new_line('a')// &
               '! result size         '//short_text(8.0e-6_dp*real(size(layout%names), dp)*real(layout%scene_count, dp), 3)// &
               ' MB'//new_line('a')// &
-              '! chunks              '//integer_text((layout%scene_count - 1_int64)/layout%chunk_rows + 1_int64)//' of at most '// &
+              '! chunks              '//integer_text(chunks)//' of at most '// &
               integer_text(layout%chunk_rows)//' scenes'//new_line('a')// &
               '! core time, '//core_time_sentence(scene, plan, first, seen, layout)
    end subroutine check_campaign

@@ -33,10 +33,12 @@ def merge(paths: Sequence[Path], output: Path) -> int:
     for part in parts:
         if output.exists() and output.samefile(part.path):
             raise CommandError(f"{output} is one of the parts itself; give another --output.")
-    faults = _unfinished(parts) or _differing(parts) or _disordered(parts)
+    # Where there are more parts than chunks, some hold no scene.
+    holding = [part for part in parts if part.row_count > 0]
+    faults = _unfinished(parts) or _differing(parts) or _disordered(holding) + _lacking(parts)
     if faults:
         raise CommandError("the parts cannot be joined:\n  " + "\n  ".join(faults))
-    parts = sorted(parts, key=_first)
+    parts = sorted(holding, key=_first)
     _write(parts, output)
     return sum(part.row_count for part in parts)
 
@@ -61,8 +63,8 @@ def _unfinished(parts: Sequence[Campaign]) -> list[str]:
                 f"{part.path} is not finished: {done} of its {count} chunks are done; "
                 "rattle --resume goes on."
             )
-        elif part.row_count == 0:
-            faults.append(f"{part.path} holds no scene.")
+    if not faults and not any(part.row_count for part in parts):
+        faults.append("none of them holds a scene.")
     return faults
 
 
@@ -140,11 +142,14 @@ def _disordered(parts: Sequence[Campaign]) -> list[str]:
             if end < last.scene_count
             else f"{before} holds scenes up to {end}, but the campaign has {last.scene_count}."
         )
-    held = {part.part for part in parts}
-    lacking = [str(number) for number in range(1, last.parts + 1) if number not in held]
-    if lacking:
-        faults.append(f"of {last.parts} parts these are not given: {', '.join(lacking)}.")
     return faults
+
+
+def _lacking(parts: Sequence[Campaign]) -> list[str]:
+    """Parts of the division that are not given."""
+    held = {part.part for part in parts}
+    lacking = [str(number) for number in range(1, parts[0].parts + 1) if number not in held]
+    return [f"of {parts[0].parts} parts these are not given: {', '.join(lacking)}."] if lacking else []
 
 
 def _first(part: Campaign) -> int:

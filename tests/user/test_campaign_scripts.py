@@ -80,6 +80,14 @@ def test_array_job(campaign_input, tmp_path):
     assert 'exec scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"' in text
 
 
+def test_absurd_array_is_refused(campaign_input, tmp_path):
+    command = ("campaign.py", "slurm", "map.nml", "--program", "/opt/rattle", "--array")
+    refused = call_script(*command, 10_000_000, cwd=tmp_path)
+    assert refused.returncode == 2 and "10000000 tasks are more than any cluster takes" in refused.stderr
+    assert not (tmp_path / "map.slurm").exists()
+    assert call_script(*command, 10_000, cwd=tmp_path).returncode == 0
+
+
 def test_mpi_job(campaign_input, tmp_path):
     text = script_text(
         tmp_path, "--ranks", 64, "--threads", 2, "--output", "out", "--launcher", "srun --mpi=pmix"

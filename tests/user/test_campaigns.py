@@ -51,6 +51,22 @@ def test_threads_and_parts_give_the_same_bytes(run, folder: Path) -> None:
     assert digest(folder / "joined.rattle") == digest(whole)
 
 
+def test_more_parts_than_chunks_merge(run, folder: Path) -> None:
+    """Four chunks in six parts: two parts hold no scene, and the others are the whole."""
+    whole = solve(run, folder)
+    for part in range(1, 7):
+        options = ["--set", "campaign.parts=6", "--set", f"campaign.part={part}"]
+        ended = run("--output", "parts", *options, "scene.nml", cwd=folder, timeout=120.0)
+        assert ended.returncode == 0, ended.stderr
+    parts = [folder / "parts" / f"scene.part-{part}-of-6.rattle" for part in range(1, 7)]
+    assert [package.read_campaign(part).row_count for part in parts].count(0) == 2
+    merged = call_script("campaign.py", "merge", *parts, "--output", "joined.rattle", cwd=folder)
+    assert merged.returncode == 0, merged.stderr
+    assert digest(folder / "joined.rattle") == digest(whole)
+    merged = call_script("campaign.py", "merge", *parts[1:], "--output", "lacking.rattle", cwd=folder)
+    assert merged.returncode == 2 and "of 6 parts these are not given: 1" in merged.stderr
+
+
 @pytest.mark.parametrize(
     ("row", "samples", "tolerance"), [(464, 512, 1e-6), (110, 64, 0.0), (629, 64, 1e-6), (899, 4096, 1e-6)]
 )
@@ -60,8 +76,9 @@ def test_a_scene_of_a_campaign_is_the_single_scene(
     """The same kernels: film range and harmonics of a row come out of a single run.
 
     Idle, creep, and two irregular scenes. A single scene takes as many samples as its lines need, a
-    campaign those that it was given, or integrals over the steps: the idle one has more lines to show alone. One settles slowly; the
-    campaign forecasts where, and comes to the same motion within the accuracy.
+    campaign those that it was given, or integrals over the steps: the idle one has more lines to show
+    alone. One settles slowly; the campaign forecasts where, and comes to the same motion within the
+    accuracy.
     """
     result = package.read(solve(run, folder))
     changes = {
