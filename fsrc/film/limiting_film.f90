@@ -7,8 +7,8 @@ module limiting_film
    implicit none(type, external)
    private
 
-   !> Films between these ratios h* are looked at.
-   real(dp), parameter :: thinnest = 1.0e-15_dp, thickest = 1.0e3_dp
+   !> Thinnest film h* that is looked at.
+   real(dp), parameter :: thinnest = 1.0e-15_dp
 
    public :: limiting_film_ratio
 
@@ -25,7 +25,8 @@ contains
       integer :: pass
 
       thin = log(thinnest)
-      thick = log(thickest)
+      ! Of this film A is below 0.3 and B half of what it may be without squeeze, if it is no thinner than the radius.
+      thick = log(max(1.0_dp, 100.0_dp*min(abs(squeeze_ratio), 1.0e100_dp)**2, 2.0_dp*speed_group**(2.0_dp/3.0_dp)))
       if (.not. (alpha_p(thin) >= 1.0_dp .and. alpha_p(thick) <= 1.0_dp)) then
          limit = ieee_value(limit, ieee_quiet_nan)
          return

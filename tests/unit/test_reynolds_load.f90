@@ -23,6 +23,7 @@ contains
       call test_martin(checks)
       call test_slopes(checks)
       call test_static_film(checks)
+      call test_stiffness_of_separation(checks)
    end subroutine run_reynolds_load_tests
 
    !> Without squeeze W = 2.4475 l eta0 u_r R/h0, Martin's result.
@@ -36,6 +37,25 @@ contains
       call checks%check_close(load/(length*viscosity*speed*radius/1.0e-6_dp), 2.447484246956685_dp, 1.0e-14_dp, 'Martin')
       call checks%check_close(by_film*1.0e-6_dp/load, -1.0_dp, 1.0e-14_dp, 'stiffness of a film that falls with 1/h')
    end subroutine test_martin
+
+   !> Stiffness of the iso-viscous film on fast separation, where Phi and A Phi'/2 cancel: Phi + A Phi'/2 with 120 digits.
+   subroutine test_stiffness_of_separation(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: groups(6) = [20.0_dp, 30.0_dp, 50.0_dp, 100.0_dp, 2.0e3_dp, 1.0e6_dp]
+      real(dp), parameter :: stiffnesses(6) = [2.2322539221216354159e-6_dp, 4.4369740427599335785e-7_dp, &
+         5.7687673511405720902e-8_dp, 3.6103627528502475037e-9_dp, 2.2574930426881723031e-14_dp, 3.6119929453099705433e-25_dp]
+      real(dp) :: load, by_film, by_velocity
+      integer :: i
+
+      do i = 1, size(groups)
+         call reynolds_iso_viscous_load(1.0_dp, 1.0_dp, 1.0_dp, groups(i), load, by_film, by_velocity)
+         call checks%check_close(-by_film/stiffnesses(i), 1.0_dp, 1.0e-12_dp, 'stiffness on fast separation')
+         ! On either side of the group from which the series is taken.
+         call reynolds_iso_viscous_load(1.0_dp, 1.0_dp, 1.0_dp, 20.0_dp*(1.0_dp + epsilon(1.0_dp)), load, by_film, by_velocity)
+         call checks%check_close(-by_film/stiffnesses(1), 1.0_dp, 1.0e-12_dp, 'stiffness where its series begins')
+      end do
+   end subroutine test_stiffness_of_separation
 
    !> Slopes of both films, approaching, resting and separating.
    subroutine test_slopes(checks)
