@@ -56,6 +56,7 @@ program unit_tests
    use test_newmark_lanes, only: run_newmark_lanes_tests
    use test_newmark_extrapolated, only: run_newmark_extrapolated_tests
    use test_lane_motions, only: run_lane_motions_tests
+   use test_periodic_orbit, only: run_periodic_orbit_tests
    use test_settling_forecast, only: run_settling_forecast_tests
    use test_slow_motions, only: run_slow_motions_tests
    implicit none(type, external)
@@ -116,6 +117,7 @@ program unit_tests
    call run_newmark_lanes_tests(checks)
    call run_newmark_extrapolated_tests(checks)
    call run_lane_motions_tests(checks)
+   call run_periodic_orbit_tests(checks)
    call run_settling_forecast_tests(checks)
    call run_window_record_tests(checks)
    call run_slow_motions_tests(checks)

@@ -1,0 +1,144 @@
+!> Tests of the finder of periodic motions, from states that are not on them.
+module test_periodic_orbit
+   use canonical_scenes, only: canonical_scene
+   use checks, only: check_list_t
+   use film_law, only: film_t, new_film, steady_film
+   use kinds, only: dp
+   use lane_motions, only: solve_motions
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use period_map, only: map_states
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
+   use scene_lane, only: lane_of_scene
+   use scene_types, only: law_iso_viscous, scene_t
+   implicit none(type, external)
+   private
+
+   public :: run_periodic_orbit_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_periodic_orbit_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('periodic_orbit')
+      call test_off_the_orbit(checks)
+      call test_multipliers(checks)
+      call test_periods(checks)
+      call test_attracting(checks)
+   end subroutine run_periodic_orbit_tests
+
+   !> Canonical published iso-viscous scene with another force and speed, from its steady film.
+   function lane_of(amplitude, speed) result(lane)
+      real(dp), intent(in) :: amplitude   !> F0 [N]
+      real(dp), intent(in) :: speed       !> Entrainment speed [m/s]
+      type(lane_scene_t) :: lane
+      type(scene_t) :: scene
+      type(film_t) :: film
+
+      scene = canonical_scene(law_iso_viscous, 512)
+      scene%load%force_amplitude = amplitude
+      scene%kinematics%entrainment_speed = speed
+      film = new_film(scene)
+      lane = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), 0.0_dp)
+   end function lane_of
+
+   !> State after many periods.
+   function settled(lane, periods) result(ending)
+      type(lane_scene_t), intent(in) :: lane   !> The scene
+      integer, intent(in) :: periods           !> Periods
+      type(lane_ending_t) :: ending
+      type(lane_ending_t) :: endings(1)
+      real(dp) :: none(0, 1)
+
+      none = 0.0_dp
+      call solve_motions([lane], lane_request_t(accuracy=1.0e-12_dp, periods=periods), none, none, endings)
+      ending = endings(1)
+   end function settled
+
+   !> The motion is found from states beside it, in film and velocity, either way, with the distance of the larger; and it is another
+   !> one beyond the nearness.
+   subroutine test_off_the_orbit(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(lane_scene_t) :: lane
+      type(lane_ending_t) :: true
+      type(periodic_orbit_t) :: orbit
+      real(dp), parameter :: shares(2, 4) = reshape([0.005_dp, 0.0_dp, -0.005_dp, 0.0_dp, 0.0_dp, 0.005_dp, 0.001_dp, -0.005_dp], &
+                                                    [2, 4])
+      real(dp) :: film, velocity, scale
+      integer :: i
+
+      lane = lane_of(205.7_dp, 1.905_dp)
+      true = settled(lane, 120)
+      scale = true%film*2.0_dp*acos(-1.0_dp)*lane%frequency
+      do i = 1, size(shares, 2)
+         film = true%film*(1.0_dp + shares(1, i))
+         velocity = true%velocity + scale*shares(2, i)
+         orbit = find_periodic_orbit(lane, film, velocity, 0.02_dp)
+         call checks%check(orbit%period == 1, 'off the orbit: found')
+         call checks%check_close(orbit%film/true%film, 1.0_dp, 1.0e-9_dp, 'off the orbit: its film')
+         call checks%check_close((orbit%velocity - true%velocity)/scale, 0.0_dp, 1.0e-9_dp, 'off the orbit: its velocity')
+         call checks%check_close(orbit%distance, maxval(abs(shares(:, i))), 1.0e-8_dp, 'off the orbit: how far')
+         orbit = find_periodic_orbit(lane, film, velocity, 0.0045_dp)
+         call checks%check(orbit%period == 0, 'off the orbit: too far away')
+      end do
+   end subroutine test_off_the_orbit
+
+   !> Multipliers against differences of another step, extrapolated.
+   subroutine test_multipliers(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(lane_scene_t) :: lane
+      type(lane_ending_t) :: true
+      type(periodic_orbit_t) :: orbit
+      real(dp) :: trace(2), step, film_step, velocity_step, films(4), velocities(4)
+      integer :: i
+      logical :: mapped
+
+      lane = lane_of(100.0_dp, 8.0_dp)
+      true = settled(lane, 200)
+      orbit = find_periodic_orbit(lane, 1.001_dp*true%film, true%velocity, 0.02_dp)
+      do i = 1, 2
+         step = 5.0e-4_dp*real(i, dp)
+         film_step = step*true%film
+         velocity_step = film_step*2.0_dp*acos(-1.0_dp)*lane%frequency
+         films = true%film + [film_step, -film_step, 0.0_dp, 0.0_dp]
+         velocities = true%velocity + [0.0_dp, 0.0_dp, velocity_step, -velocity_step]
+         call map_states(lane, 1, 1.0e-12_dp, films, velocities, mapped)
+         trace(i) = (films(1) - films(2))/(2.0_dp*film_step) + (velocities(3) - velocities(4))/(2.0_dp*velocity_step)
+      end do
+      call checks%check(orbit%period == 1 .and. mapped, 'multipliers: found')
+      call checks%check_close(real(sum(orbit%multipliers), dp), (4.0_dp*trace(1) - trace(2))/3.0_dp, 2.0e-8_dp, &
+                              'multipliers: their sum is the trace')
+   end subroutine test_multipliers
+
+   !> Motions of two to eight periods are found with their own period, from beside them.
+   subroutine test_periods(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      integer, parameter :: periods(3) = [2, 4, 8]
+      real(dp), parameter :: amplitudes(3) = [452.75_dp, 455.0_dp, 362.75_dp]
+      real(dp), parameter :: speeds(3) = [8.405158309469508_dp, 15.736063383946137_dp, 13.830057843624784_dp]
+      type(lane_scene_t) :: lane
+      type(lane_ending_t) :: true
+      type(periodic_orbit_t) :: orbit
+      integer :: i
+
+      do i = 1, size(periods)
+         lane = lane_of(amplitudes(i), speeds(i))
+         true = settled(lane, 800)
+         orbit = find_periodic_orbit(lane, true%film*(1.0_dp + 1.0e-5_dp), true%velocity, 1.0e-3_dp)
+         call checks%check(orbit%period == periods(i) .and. attracting_period(orbit) == periods(i), 'periods: its own')
+         call checks%check_close(orbit%film/true%film, 1.0_dp, 1.0e-7_dp, 'periods: its film')
+      end do
+   end subroutine test_periods
+
+   !> Only a motion that others approach is one that they will repeat.
+   subroutine test_attracting(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      complex(dp), parameter :: inside = (-0.99_dp, 0.0_dp), outside = (-1.01_dp, 0.0_dp), small = (0.1_dp, 0.0_dp)
+
+      call checks%check(attracting_period(periodic_orbit_t(period=2, multipliers=[inside, small])) == 2, 'attracting: stable')
+      call checks%check(attracting_period(periodic_orbit_t(period=2, multipliers=[outside, small])) == 0, 'attracting: unstable')
+      call checks%check(attracting_period(periodic_orbit_t()) == 0, 'attracting: none')
+   end subroutine test_attracting
+
+end module test_periodic_orbit
