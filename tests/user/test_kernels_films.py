@@ -86,7 +86,7 @@ def test_barus_pressure_and_limiting_film():
 @pytest.mark.parametrize("a", [-3.0, 0.1, 30.0, 4.1e4])
 @pytest.mark.parametrize("share", [0.5, 1.136, 40.0])
 def test_limiting_film_of_any_point(a: float, share: float):
-    """On the way to thicker films alpha p falls below 1 at last, however fast the film of the point separates."""
+    """On the way to thicker films alpha p falls below 1 at last, however fast the film separates."""
     film = 1e-4
     speed = share * kernels.critical_pressure_group(a) * film**1.5 / (6.0 * np.sqrt(2.0))
     squeeze = 0.25 * a * np.sqrt(2.0 * film)
