@@ -127,6 +127,7 @@ contains
       type(output_lock_t) :: lock
       type(error_t), allocatable :: close_error
       integer(int64) :: first, seen, spoilt, invalid
+      integer :: i
       real(dp) :: started
       type(file_state_t) :: earlier
 
@@ -172,6 +173,9 @@ contains
          call log%line(log_magic//program_version//', campaign '//trim(scene%name)//': '//integer_text(layout%scene_count)// &
                        ' scenes, '//law_sentence(scene)//'; '//integer_text(rank_count())//' ranks of '// &
                        integer_text(omp_get_max_threads())//' threads')
+         do i = 1, size(scene%warnings)
+            call log%line('  '//scene%warnings(i)%text)
+         end do
          if (spoilt > 0) call log%line('  '//integer_text(spoilt)//' chunks of the earlier run were damaged; they are solved again')
          if (.not. results%is_locked()) call log%line('  warning: this file system knows no locks; see that no other run '// &
                                                       'writes here')

@@ -81,6 +81,7 @@ contains
       type(fault_list_t) :: faults
       type(error_t), allocatable :: error
       character(:), allocatable :: lines, file
+      integer :: i
 
       file = input_name(command%files(1)%text)
       exit_code = exit_complete
@@ -93,6 +94,9 @@ contains
             exit_code = exit_bad_input
          else if (this_rank() == 0) then
             call put_line('! '//file//': valid')
+            do i = 1, size(scene%warnings)
+               call put_line('! '//scene%warnings(i)%text)
+            end do
             call put_line(lines)
             call put_text(scene%resolved_input)
          end if

@@ -159,10 +159,13 @@ contains
    subroutine show_resolved(command, scenes)
       type(command_t), intent(in) :: command
       type(scene_t), intent(in) :: scenes(:)
-      integer :: i
+      integer :: i, j
 
       do i = 1, size(scenes)
          call put_line('! '//input_name(command%files(i)%text)//': valid; '//law_sentence(scenes(i)))
+         do j = 1, size(scenes(i)%warnings)
+            call put_line('! '//scenes(i)%warnings(j)%text)
+         end do
          if (scenes(i)%task /= task_film) call put_line(resolved_lines(scenes(i), resolve(scenes(i))))
          call put_text(scenes(i)%resolved_input)
       end do

@@ -31,8 +31,12 @@ contains
       type(scene_t), intent(in) :: scene
       !> What will be solved
       character(*), intent(in) :: words
+      integer :: i
 
       call log%line(log_magic//program_version//', scene '//trim(scene%name)//': '//words)
+      do i = 1, size(scene%warnings)
+         call log%line('  '//scene%warnings(i)%text)
+      end do
    end subroutine report_head
 
    !> Head of a motion: what will be solved, and what is known beforehand.

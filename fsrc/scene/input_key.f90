@@ -40,12 +40,14 @@ module input_key
       character(240) :: sentence
       !> Value in the template where there is no default
       character(16) :: example = ''
+      !> Numbers that an engineer may mean, wide; others are taken, with a warning
+      type(range_t) :: sensible = range_t()
    end type key_t
 
    !> Longest name of a scene, and longest text of any key.
    integer, parameter, public :: name_limit = 64, path_limit = 512
 
-   public :: in_range, is_list, allowed_text
+   public :: in_range, is_list, allowed_text, is_sensible, sensible_text
 
 contains
 
@@ -59,6 +61,27 @@ contains
       in_range = merge(number > key%range%lower, number >= key%range%lower, key%range%lower_open) .and. &
                  merge(number < key%range%upper, number <= key%range%upper, key%range%upper_open)
    end function in_range
+
+   !> Whether an engineer may mean this number.
+   pure logical function is_sensible(key, number)
+      !> Any key of the table
+      type(key_t), intent(in) :: key
+      !> Finite number
+      real(dp), intent(in) :: number
+
+      is_sensible = number >= key%sensible%lower .and. number <= key%sensible%upper
+   end function is_sensible
+
+   !> Sensible numbers in words, empty where any number is.
+   pure function sensible_text(key) result(words)
+      !> Any key of the table
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: words
+
+      words = ''
+      if (key%sensible%upper < huge(1.0_dp)) &
+         words = real_text(key%sensible%lower)//' to '//real_text(key%sensible%upper)//' '//trim(key%unit)
+   end function sensible_text
 
    !> Whether a key holds several values.
    pure logical function is_list(key)

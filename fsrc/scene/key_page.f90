@@ -1,6 +1,6 @@
 !> The key table as text: a commented input (--template) and the page of all keys (--keys).
 module key_page
-   use input_key, only: allowed_text, key_t, list_kind, text_kind
+   use input_key, only: allowed_text, key_t, list_kind, sensible_text, text_kind
    use key_table, only: keys, starts_group
    use text, only: quoted, quoted_words
    implicit none(type, external)
@@ -58,11 +58,12 @@ contains
       text = '# Input keys'//end_of_line//end_of_line// &
              'An input is a file of namelist groups. SI units throughout; `!` begins a comment. This page is written by'// &
              end_of_line//'`rattle --keys`, a commented input by `rattle --template`. Every key of every ready scene in'// &
-             end_of_line//'this folder is explained here.'//end_of_line
+             end_of_line//'this folder is explained here. A number that is allowed but not sensible is taken with a warning'// &
+             end_of_line//'in --check and log: it may be in another unit.'//end_of_line
       do i = 1, size(keys)
          if (starts_group(i)) text = text//end_of_line//'## &'//trim(keys(i)%group)//end_of_line//end_of_line// &
-                                     '| key | unit | default | allowed | meaning |'//end_of_line// &
-                                     '|---|---|---|---|---|'//end_of_line
+                                     '| key | unit | default | allowed | sensible | meaning |'//end_of_line// &
+                                     '|---|---|---|---|---|---|'//end_of_line
          text = text//page_row(keys(i))
       end do
       text = text//class_text()
@@ -71,15 +72,17 @@ contains
    function page_row(key) result(text)
       type(key_t), intent(in) :: key
       character(:), allocatable :: text
-      character(:), allocatable :: default, meaning
+      character(:), allocatable :: default, meaning, sensible
 
+      sensible = sensible_text(key)
+      if (len(sensible) == 0) sensible = '-'
       default = trim(key%default)
       if (default == 'required') default = '**required**'
       if (default == '') default = '-'
       meaning = trim(key%sentence)
       if (key%used_when /= '') meaning = meaning//' Only with `'//trim(key%used_when)//'`.'
       text = '| `'//trim(key%name)//'` | '//trim(key%unit)//' | '//default//' | '//allowed_text(key)//' | '// &
-             meaning//' |'//end_of_line
+             sensible//' | '//meaning//' |'//end_of_line
    end function page_row
 
    !> How the class is found, and why the limits are what they are.

@@ -26,50 +26,66 @@ module key_table
             'motions along a key, each from the one before; campaign, many motions that differ in some keys.'), &
       key_t('contact', 'radius', real_kind, 'm', '', positive, '', '', &
             'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', &
-            example='0.0127'), &
+            example='0.0127', &
+            sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp)), &
       key_t('contact', 'radius_1', real_kind, 'm', '', positive, '', '', &
-            'Radius of the first tooth flank; 1/R = 1/radius_1 + 1/radius_2 (2).'), &
+            'Radius of the first tooth flank; 1/R = 1/radius_1 + 1/radius_2 (2).', &
+            sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp)), &
       key_t('contact', 'radius_2', real_kind, 'm', '', positive, '', '', &
-            'Radius of the second tooth flank.'), &
+            'Radius of the second tooth flank.', &
+            sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp)), &
       key_t('contact', 'length', real_kind, 'm', 'required', positive, '', '', &
             'Length l of the line contact.', &
-            example='0.010'), &
+            example='0.010', &
+            sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp)), &
       key_t('contact', 'young_modulus', real_kind, 'Pa', '205.66e9', positive, '', '', &
-            'Young''s modulus E of the teeth, for the deflection (4); with the default Poisson ratio E* is 226 GPa.'), &
+            'Young''s modulus E of the teeth, for the deflection (4); with the default Poisson ratio E* is 226 GPa.', &
+            sensible=range_t(lower=1.0e8_dp, upper=1.0e12_dp)), &
       key_t('contact', 'poisson_ratio', real_kind, '-', '0.3', poisson, '', '', &
             'Poisson ratio of the teeth; E* = E/(1 - nu^2) (3).'), &
       key_t('lubricant', 'viscosity', real_kind, 'Pa s', 'required', positive, '', '', &
             'Dynamic viscosity eta0 at ambient pressure.', &
-            example='0.3'), &
+            example='0.3', &
+            sensible=range_t(lower=1.0e-4_dp, upper=20.0_dp)), &
       key_t('lubricant', 'pressure_viscosity', real_kind, '1/Pa', 'required', positive, '', '', &
             'Barus coefficient alpha (29): the piezo-viscous laws and the regime check need it.', &
-            example='2.0e-8'), &
+            example='2.0e-8', &
+            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp)), &
       key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'barus roelands', '', &
             'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29); roelands only in a film task with '// &
             'model = numerical.'), &
       key_t('kinematics', 'entrainment_speed', real_kind, 'm/s', '', positive, '', '', &
             'Entrainment speed U, the mean of the two surface speeds; give this, rolling_speed, or both surface speeds.', &
-            example='1.905'), &
+            example='1.905', &
+            sensible=range_t(lower=1.0e-3_dp, upper=300.0_dp)), &
       key_t('kinematics', 'rolling_speed', real_kind, 'm/s', '', positive, '', '', &
-            'Sum u_r of the two surface speeds, twice the entrainment speed.'), &
+            'Sum u_r of the two surface speeds, twice the entrainment speed.', &
+            sensible=range_t(lower=2.0e-3_dp, upper=600.0_dp)), &
       key_t('kinematics', 'surface_speed_1', real_kind, 'm/s', '', any_number, '', '', &
-            'Surface speed of the first flank; the sum of both must be positive.'), &
+            'Surface speed of the first flank; the sum of both must be positive.', &
+            sensible=range_t(lower=-300.0_dp, upper=300.0_dp)), &
       key_t('kinematics', 'surface_speed_2', real_kind, 'm/s', '', any_number, '', '', &
-            'Surface speed of the second flank.'), &
+            'Surface speed of the second flank.', &
+            sensible=range_t(lower=-300.0_dp, upper=300.0_dp)), &
       key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
             'Equivalent mass m of the impacting tooth pair.', &
-            example='3.0'), &
+            example='3.0', &
+            sensible=range_t(lower=1.0e-4_dp, upper=1.0e3_dp)), &
       key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Steady force Q of (34), of either sign as long as Q + m g is positive.', &
-            example='199.2'), &
+            example='199.2', &
+            sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp)), &
       key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Amplitude F0 of the oscillating force of (34).', &
-            example='205.7'), &
+            example='205.7', &
+            sensible=range_t(lower=0.0_dp, upper=1.0e6_dp)), &
       key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
             'Frequency f_exc of the oscillating force.', &
-            example='600.0'), &
+            example='600.0', &
+            sensible=range_t(lower=0.1_dp, upper=1.0e5_dp)), &
       key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', 'scene.task=motion|sweep|campaign', &
-            'Acceleration of free fall g.'), &
+            'Acceleration of free fall g.', &
+            sensible=range_t(lower=0.0_dp, upper=100.0_dp)), &
       key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', 'scene.task=motion|sweep|campaign', &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
             example='iso-viscous'), &
@@ -82,9 +98,11 @@ module key_table
       key_t('film', 'rupture_solver', text_kind, '', 'fast', any_number, 'fast successive', 'film.rupture=solved', &
             'Root finder of (18): fast takes a table good to rounding, successive the paper''s substitution; same root.'), &
       key_t('film', 'initial_film', real_kind, 'm', '', positive, '', 'scene.task=motion|sweep|campaign', &
-            'Film at t = 0; absent: the steady film under Q + m g.'), &
+            'Film at t = 0; absent: the steady film under Q + m g.', &
+            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-2_dp)), &
       key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion|sweep|campaign', &
-            'Film velocity dh/dt at t = 0, negative on approach.'), &
+            'Film velocity dh/dt at t = 0, negative on approach.', &
+            sensible=range_t(lower=-100.0_dp, upper=100.0_dp)), &
       key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark newmark-extrapolated taylor', &
             'scene.task=motion|sweep|campaign', &
             'Time integration: taylor (error-controlled series, implicit where the film is stiff), the paper''s newmark, or '// &

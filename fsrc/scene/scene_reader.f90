@@ -93,6 +93,7 @@ contains
       if (scene%task == task_campaign) scene%campaign = read_campaign(input)
       scene%output = read_output(input)
       scene%resolved_input = resolved_text(input, trim(scene%name))
+      scene%warnings = input%warnings()
    end subroutine read_scene
 
    !> How faults call an input.

@@ -228,6 +228,8 @@ module scene_types
       type(sweep_t) :: sweep
       type(campaign_choice_t) :: campaign
       type(output_t) :: output
+      !> What is allowed but hardly meant, a line each
+      type(word_t), allocatable :: warnings(:)
       !> All keys with their resolved values as namelist text, without places on this machine
       character(:), allocatable :: resolved_input
    end type scene_t
