@@ -111,8 +111,9 @@ contains
       if (allocated(self%checksums)) deallocate (self%checksums)
       allocate (self%checksums(self%header%chunk_count), source=0_int64)
       call self%file%set_size(0_int64, error)
-      if (.not. allocated(error)) call self%file%set_size(self%header%header_bytes, error)
+      ! The header first: a run killed here leaves a file that is empty or known as ours.
       if (.not. allocated(error)) call self%file%write_at(0_int64, header_text(self%header), error)
+      if (.not. allocated(error)) call self%file%set_size(self%header%header_bytes, error)
       if (.not. allocated(error)) call self%file%synchronise(error)
       if (.not. allocated(error)) then
          call rename_file(new_path, path, moved)

@@ -92,6 +92,10 @@ say "64 x 256 scenes took $spent ms on one core; the long campaign has 64 x $spe
 write_input long 64 "$speeds"
 "$program" --quiet --threads 2 --output alone long.nml > alone.log 2>&1 || { tail alone.log; give_up 'long campaign'; }
 
+say 'a motion under mpirun'
+mpirun -n 2 "$program" --quiet --output refused "$repository/input/creep.nml" > refused.log 2>&1 && fail 'a motion ran twice'
+grep -q 'only a campaign can be divided' refused.log && [ ! -e refused ] || { cat refused.log; fail 'no refusal of a motion'; }
+
 say 'an array job of three parts'
 write_script array short --array 3 --time 00:10:00
 job=$(submit array/short.slurm)

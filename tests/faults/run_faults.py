@@ -58,7 +58,7 @@ CAMPAIGN = """&scene task = 'campaign' /
 &solver periods = 60 accuracy = 1e-6 until = 'steady' /
 &spectrum periods = 8 /
 &campaign vary = 'load.force_amplitude', 'kinematics.entrainment_speed' first = 5.0, 0.5 last = 400.0, 20.0
-   count = 40, 40 samples_per_period = 64 /
+   count = 24, 24 samples_per_period = 64 /
 """
 TABLE = """&scene task = 'campaign' /
 &solver periods = 60 accuracy = 1e-6 until = 'steady' /
@@ -428,6 +428,8 @@ def main() -> None:
     )
     study = Study(options.program.resolve(), folder, shim, options)
     for task in TASKS:
+        if task.name not in options.tasks:
+            continue
         study.prepare(task)
         for name in options.only:
             FAULTS[name](study, task)
@@ -446,6 +448,8 @@ def parse_options() -> argparse.Namespace:
     parser.add_argument("--every-call", action="store_true", help="a fault at every output call, not at some")
     parser.add_argument("--seed", type=int, default=1, help="of the random choices (1)")
     parser.add_argument("--only", nargs="+", choices=list(FAULTS), default=list(FAULTS), help="faults to try")
+    names = [task.name for task in TASKS]
+    parser.add_argument("--tasks", nargs="+", choices=names, default=names, help="tasks to try them on")
     return parser.parse_args()
 
 

@@ -126,6 +126,17 @@ def test_empty_file_of_a_campaign_is_ours(kind: str, run, scene_text, tmp_path: 
     assert package.read_campaign(tmp_path / "results" / "scene.rattle").closed
 
 
+@pytest.mark.parametrize("kind", ["rattle", "summary.nml"])
+def test_zeros_beside_the_place_of_a_file_are_ours(kind: str, run, scene_text, tmp_path: Path) -> None:
+    """A crash of the machine leaves zeros where bytes were on their way to the disk."""
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 5, 5))
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / f"scene.{kind}.new").write_bytes(bytes(4096))
+    ended = run("--resume", "scene.nml", cwd=tmp_path)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert not (tmp_path / "results" / f"scene.{kind}.new").exists()
+
+
 @pytest.mark.parametrize("kind", ["rattle", "state", "summary.nml"])
 def test_half_of_a_new_file_is_replaced(kind: str, run, scene_text, tmp_path: Path) -> None:
     """A crash amid the writing leaves half a file beside its place, and a file in its place untouched."""
