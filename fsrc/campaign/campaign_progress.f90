@@ -16,6 +16,8 @@ module campaign_progress
    !> Progress so far. Threads add to the counts; the first of them tells.
    type, public :: campaign_progress_t
       integer(int64) :: scenes = 0_int64, done_before = 0_int64, done = 0_int64, failed = 0_int64
+      !> Scenes whose motion leaves what the model can mean, and whose lines no samples follow and no integrals could be had for
+      integer(int64) :: beyond_model = 0_int64, undersampled = 0_int64
       logical :: quiet = .false.
       character(:), allocatable :: path
       logical, private :: on_terminal = .false.
@@ -51,16 +53,23 @@ contains
    end subroutine start
 
    !> Count solved scenes.
-   subroutine add(self, done, failed)
+   subroutine add(self, done, failed, beyond_model, undersampled)
       class(campaign_progress_t), intent(inout) :: self
       !> Scenes solved, and those of them that failed
       integer(int64), intent(in) :: done
       integer(int64), intent(in) :: failed
+      !> Scenes that leave what the model can mean, and scenes whose lines are not resolved
+      integer(int64), intent(in) :: beyond_model
+      integer(int64), intent(in) :: undersampled
 
       !$omp atomic
       self%done = self%done + done
       !$omp atomic
       self%failed = self%failed + failed
+      !$omp atomic
+      self%beyond_model = self%beyond_model + beyond_model
+      !$omp atomic
+      self%undersampled = self%undersampled + undersampled
    end subroutine add
 
    !> Tell, if it is time to.

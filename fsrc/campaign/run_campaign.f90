@@ -186,6 +186,8 @@ contains
       call wait_for_ranks()
       progress%done = sum_over_ranks(progress%done)
       progress%failed = sum_over_ranks(progress%failed)
+      progress%beyond_model = sum_over_ranks(progress%beyond_model)
+      progress%undersampled = sum_over_ranks(progress%undersampled)
       if (this_rank() == 0) then
          call close_campaign(scene, layout, invalid, started, results, progress, log, allocated(error), exit_code, close_error)
          if (allocated(error)) exit_code = error%exit_code
@@ -267,7 +269,9 @@ contains
          call results%write_chunk(chunk, rows, own_error)
          if (.not. allocated(own_error)) &
             call progress%add(last_row - first_row + 1_int64, &
-                              count(.not. is_success(nint(rows(status_column, :))), kind=int64))
+                              count(.not. is_success(nint(rows(status_column, :))), kind=int64), &
+                              flagged(layout%names == 'model_limit', rows, 1.0_dp), &
+                              flagged(layout%names == 'sampling_sufficient', -rows, 0.0_dp))
          deallocate (rows)
          if (allocated(own_error)) then
             !$omp critical (campaign_error)
@@ -281,6 +285,20 @@ contains
       end do
       !$omp end parallel
    end subroutine solve_chunks
+
+   !> Rows in which a column is not below a limit, 0 where it is not recorded. What is unknown, NaN, counts as below.
+   pure integer(int64) function flagged(is_column, rows, limit)
+      !> Whether a column is the one
+      logical, intent(in) :: is_column(:)
+      !> One column of this array is the row of a scene
+      real(dp), intent(in) :: rows(:, :)
+      real(dp), intent(in) :: limit
+      integer :: column
+
+      flagged = 0_int64
+      column = findloc(is_column, .true., dim=1)
+      if (column > 0) flagged = count(rows(column, :) >= limit, kind=int64)
+   end function flagged
 
    !> Close the file and say what became of the campaign.
    subroutine close_campaign(scene, layout, invalid, started, results, progress, log, not_written, exit_code, error)
@@ -311,9 +329,15 @@ contains
       call summary%add('scenes_done', progress%done_before + progress%done)
       call summary%add('scenes_invalid', invalid)
       call summary%add('scenes_failed_in_this_run', progress%failed)
+      call summary%add('scenes_beyond_model_in_this_run', progress%beyond_model)
+      call summary%add('scenes_undersampled_in_this_run', progress%undersampled)
       call summary%add('wall_seconds', wall_seconds() - started)
       call summary%write(summary_path(scene), summary_error)
       if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+      if (progress%beyond_model > 0) call log%line('  warning: '//integer_text(progress%beyond_model)//' scenes leave what the '// &
+         'model can mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
+      if (progress%undersampled > 0) call log%line('  warning: the lines of '//integer_text(progress%undersampled)// &
+         ' scenes are not resolved (column sampling_sufficient); raise campaign.samples_per_period')
       call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
       call log%close()

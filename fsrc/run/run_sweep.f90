@@ -58,7 +58,7 @@ contains
       type(result_writer_t) :: writer
       type(error_t), allocatable :: close_error, summary_error
       real(dp) :: started, film, velocity, row(size(names), 1)
-      integer :: i, failed, ended
+      integer :: i, failed, ended, beyond_model
 
       status = status_complete
       started = wall_seconds()
@@ -70,6 +70,7 @@ contains
       film = 0.0_dp
       velocity = 0.0_dp
       failed = 0
+      beyond_model = 0
       do i = 1, size(scene%sweep%values)
          if (allocated(error)) exit
          call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, row(:, 1), ended)
@@ -81,6 +82,7 @@ contains
          row(1:2, 1) = [scene%sweep%values(i), merge(1.0_dp, -1.0_dp, i <= scene%sweep%outward)]
          row(16, 1) = real(ended, dp)
          if (.not. is_success(ended)) failed = failed + 1
+         if (row(18, 1) > 0.0_dp) beyond_model = beyond_model + 1
          call writer%write_rows(row, error)
          call watcher%period_done(i, size(scene%sweep%values))
       end do
@@ -95,6 +97,8 @@ contains
       if (allocated(error)) then
          call log%line('  '//error%message)
       else
+         if (beyond_model > 0) call log%line('  warning: '//integer_text(beyond_model)//' motions leave what the model can '// &
+            'mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
          call log%line('  '//integer_text(failed)//' motions failed; '//short_text(wall_seconds() - started, 3)//' s: '// &
                        status_sentence(status))
          call log%line('  '//result_path(scene))

@@ -5,7 +5,7 @@ module scene_report
    use key_table, only: choice_word
    use kinds, only: dp
    use log_file, only: log_magic, log_t
-   use model_limits, only: model_limit_sentence, within_model
+   use model_limits, only: model_limit, model_limit_sentence, within_model
    use node_extremes, only: seen_acceleration, seen_film
    use output_place, only: result_path, summary_path
    use rattle_class, only: class_name
@@ -103,6 +103,7 @@ contains
       type(resolved_scene_t), intent(in) :: resolved
       character(:), allocatable :: lines
       character(1), parameter :: end_of_line = new_line('a')
+      integer :: limit
 
       if (resolved%steady_film > 0.0_dp) then
          lines = '! steady film                          '//short_text(resolved%steady_film, 10)//' m'//end_of_line// &
@@ -116,6 +117,10 @@ contains
       if (resolved%initial_film > 0.0_dp) lines = lines// &
                  '! film at t = 0                        '//short_text(resolved%initial_film, 10)//' m'//end_of_line// &
                  '! squeeze group A at t = 0             '//short_text(resolved%initial_squeeze_group, 5)//end_of_line
+      limit = model_limit(min(resolved%steady_film, resolved%initial_film), max(resolved%steady_film, resolved%initial_film), &
+                          resolved%film%radius)
+      if (resolved%initial_film > 0.0_dp .and. limit /= within_model) &
+         lines = lines//'! warning: at rest '//model_limit_sentence(limit)//' (model_limit)'//end_of_line
       lines = lines//'! A, B and alpha p are those of the exact film with u = '//short_text(resolved%film%speed, 6)//' m/s, '// &
               speed_meaning(scene)
    end function resolved_lines
@@ -207,7 +212,7 @@ contains
       else if (.not. result%lines_by_integrals) then
          sentence = sentence//key//' = '//integer_text(result%samples_per_period)//' would do, as many as gave the lines here'
       else
-         sentence = sentence//'no number up to 16384 would do. The lines here are integrals over the steps'
+         sentence = sentence//key//' up to 16384 would not do. The lines here are integrals over the steps'
       end if
       if (scene%output%series) &
          sentence = sentence//' (series_coarse; the rows of the extremes stand in the series)'

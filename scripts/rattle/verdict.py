@@ -31,6 +31,11 @@ def classify(
     """
     from rattle import kernels
 
+    if result.coarse:
+        raise ResultError(
+            f"{result.path} is coarser than its motion: its samples carry no class. The summary has the class, from the "
+            "steps of the solution."
+        )
     samples = result.samples("acceleration", result.window(periods))
     limits = thresholds(result, overrides)
     try:

@@ -81,6 +81,8 @@ def _draw_single(
 
 
 def _verdict_words(result: Result, window: int | None) -> str:
+    if result.coarse:
+        return "of samples too few for the motion, see its summary"
     verdict = classify(result, window)
     return f"{verdict['line_count']} lines, class {verdict['rattle_class']}"
 

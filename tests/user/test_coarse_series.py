@@ -1,0 +1,166 @@
+"""A motion with impacts that no equidistant samples follow: series, figures, CSV and summary agree, or say why not."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pytest
+from campaign_runs import BASE
+from outcomes import summary_of
+from script_calls import call_script
+
+import rattle as package
+from rattle.figures import acceleration_spectrum
+from rattle.verdict import classify
+
+IMPACT = {
+    "load": {"force_amplitude": "700", "frequency": "15"},
+    "solver": {
+        "method": "'taylor'",
+        "steps_per_period": None,
+        "accuracy": "1e-8",
+        "samples_per_period": "512",
+        "periods": "12",
+    },
+    "spectrum": {"periods": "2"},
+}
+
+
+@pytest.fixture
+def impact(run, scene_text, tmp_path: Path):
+    """A result and its summary."""
+
+    def solve(**changes: dict[str, str]):
+        (tmp_path / "impact.nml").write_text(scene_text(**(IMPACT | changes)))
+        done = run("impact.nml", cwd=tmp_path)
+        assert done.returncode == 0, done.stdout + done.stderr
+        folder = tmp_path / "results"
+        return package.read(folder / "impact.rattle"), summary_of(folder / "impact.summary.nml"), done.stdout
+
+    return solve
+
+
+@pytest.mark.parametrize("until", ["'periods'", "'steady'"])
+def test_extremes_of_the_summary_stand_in_the_series(until: str, impact) -> None:
+    """Both ways to end a run; the samples alone miss the impact by powers of ten."""
+    columns = "'time', 'film_thickness', 'squeeze_velocity', 'acceleration', 'film_load', 'applied_force'"
+    result, summary, _ = impact(
+        solver=IMPACT["solver"] | {"until": until, "periods": "40"}, output={"columns": columns}
+    )
+    assert result.coarse and summary["series_coarse"]
+    for column, key in [
+        ("film_thickness", "film"),
+        ("squeeze_velocity", "velocity"),
+        ("acceleration", "acceleration"),
+    ]:
+        assert result.extremes[column].min() == pytest.approx(summary[f"{key}_minimum"], rel=1e-12)
+        assert result.extremes[column].max() == pytest.approx(summary[f"{key}_maximum"], rel=1e-12)
+    assert result["acceleration"].max() < 1e-3 * summary["acceleration_maximum"]
+    load = 3.0 * (result.extremes["acceleration"] + 9.80665) + result.extremes["applied_force"]
+    assert result.extremes["film_load"] == pytest.approx(load, rel=1e-12)
+    # They are states of the window, in the order of time.
+    times = result.extremes["time"]
+    assert (times[1:] > times[:-1]).all()
+    end = result["time"][-1]
+    assert end - summary["window_periods"] / 15.0 <= times[0] and times[-1] <= end * (1.0 + 1e-12)
+
+
+def test_log_says_what_the_samples_miss(impact) -> None:
+    """The key, and that no number of samples would do; and what the model cannot mean."""
+    _, summary, told = impact()
+    assert "solver.samples_per_period" in told and "integrals over the steps" in told
+    assert "at least 40 lines" in told and summary["line_count_is_bound"]
+    assert not summary["harmonic_distortion_is_bound"] and summary["sampling_sufficient"]
+    assert summary["model_limit"] == "too_wide_and_narrow"
+    assert "beyond a tenth of the radius" in told and "below 1 nm" in told
+
+
+def test_number_of_samples_that_is_named_does(impact) -> None:
+    """A motion that needs some thousand samples: with as many as the log names the series is fine, and the lines are the same."""
+    _, coarse, told = impact(load={}, solver=IMPACT["solver"] | {"samples_per_period": "64"})
+    assert coarse["series_coarse"] and not coarse["lines_by_integrals"]
+    samples = int(told.split("solver.samples_per_period = ")[1].split(" ")[0])
+    result, fine, _ = impact(
+        load={}, solver=IMPACT["solver"] | {"samples_per_period": str(samples)}, output={"overwrite": "t"}
+    )
+    assert not fine["series_coarse"] and not result.coarse
+    assert fine["harmonics"] == pytest.approx(coarse["harmonics"], rel=1e-12)
+    assert fine["acceleration_maximum"] == coarse["acceleration_maximum"]
+    assert fine["model_limit"] == "within"
+
+
+def test_newmark_says_how_many_steps_would_do(impact) -> None:
+    """Its steps are its samples: too few of them are no certificate."""
+    newmark = {"method": "'newmark'", "steps_per_period": "64", "tolerance": "1e-14", "periods": "40"}
+    result, summary, told = impact(load={}, solver=newmark)
+    assert result.coarse and summary["series_coarse"] and not summary["sampling_sufficient"]
+    assert summary["certificate"] == "uncertain"
+    assert "solver.steps_per_period" in told
+    assert summary["line_count_is_bound"] and summary["harmonic_distortion_is_bound"]
+    assert len(result.extremes["time"]) == 0
+
+
+def test_export_has_the_rows_of_the_extremes(impact, tmp_path: Path) -> None:
+    """In the order of time."""
+    result, summary, _ = impact()
+    done = call_script("export.py", str(result.path), "--output", str(tmp_path / "impact.csv"))
+    assert done.returncode == 0, done.stderr
+    with (tmp_path / "impact.csv").open(encoding="utf-8") as stream:
+        rows = list(csv.reader(line for line in stream if not line.startswith("#")))
+    heads = [head.split("[")[0].strip() for head in rows[0]]
+    times = [float(row[heads.index("time")]) for row in rows[1:]]
+    assert times == sorted(times) and len(times) == len(result["time"]) + len(result.extremes["time"])
+    assert max(float(row[heads.index("acceleration")]) for row in rows[1:]) == summary["acceleration_maximum"]
+
+
+def test_samples_that_are_too_few_carry_no_class(impact) -> None:
+    """Neither the script nor the figure judges them."""
+    result, _, _ = impact()
+    with pytest.raises(package.ResultError, match="coarser than its motion"):
+        classify(result)
+    done = call_script("classify.py", str(result.path))
+    assert done.returncode != 0 and "coarser than its motion" in done.stderr
+    figure = acceleration_spectrum.draw([result], ["impact"], None)
+    assert "too few for the motion" in figure.axes[0].get_title()
+
+
+def test_check_names_films_that_the_model_cannot_mean(run, scene_text, tmp_path: Path) -> None:
+    """A start beyond a tenth of the radius is known before anything runs."""
+    (tmp_path / "wide.nml").write_text(scene_text(film={"initial_film": "2e-3"}))
+    told = run("--check", "wide.nml", cwd=tmp_path)
+    assert told.returncode == 0 and "beyond a tenth of the radius" in told.stdout
+    (tmp_path / "plain.nml").write_text(scene_text())
+    assert "model_limit" not in run("--check", "plain.nml", cwd=tmp_path).stdout
+
+
+def test_campaigns_and_sweeps_count_what_the_model_cannot_mean(run, scene_text, tmp_path: Path) -> None:
+    """In the log, and row by row."""
+    campaign = {
+        "vary(1)": "'load.frequency'",
+        "scale(1)": "'linear'",
+        "first(1)": "15",
+        "last(1)": "600",
+        "count(1)": "2",
+    }
+    changes = BASE | {"load": {"force_amplitude": "700"}}
+    text = scene_text(**changes, campaign=campaign)
+    (tmp_path / "map.nml").write_text(text)
+    told = run("map.nml", cwd=tmp_path)
+    assert told.returncode == 0, told.stdout + told.stderr
+    result = package.read(tmp_path / "results" / "map.rattle")
+    beyond = int((result["model_limit"] > 0).sum())
+    assert result["model_limit"][0] == 3 and beyond >= 1
+    assert f"{beyond} scenes leave what the model can mean" in told.stdout
+    assert (result["sampling_sufficient"] == 1).all() and "not resolved" not in told.stdout
+    # The true class and first harmonic of the impact, by an independent solver.
+    assert result["rattle_class"][0] == 3 and result["harmonic_1"][0] == pytest.approx(290.75366, rel=1e-6)
+    sweep = {"key": "'frequency'", "first": "15", "last": "20", "count": "2"}
+    solver = {"steps_per_period": None, "method": None, "periods": "100"}
+    text = scene_text(scene={"task": "'sweep'"}, load={"force_amplitude": "700"}, solver=solver, sweep=sweep)
+    (tmp_path / "sweep.nml").write_text(text)
+    told = run("sweep.nml", cwd=tmp_path)
+    assert told.returncode == 0, told.stdout + told.stderr
+    assert "motions leave what the model can mean" in told.stdout
+    swept = package.read(tmp_path / "results" / "sweep.rattle")
+    assert swept["acceleration_maximum"][0] == pytest.approx(9.082065e10, rel=1e-6)
