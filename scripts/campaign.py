@@ -233,7 +233,7 @@ def opened(path: Path) -> Campaign:
 
 
 def array_tasks(text: str) -> int:
-    """The count of tasks of an array job; Slurm counts them below 4000001, and most clusters allow far fewer."""
+    """The count of tasks of an array job, if a cluster may take so many."""
     count = command.positive(text)
     if count > MOST_ARRAY_TASKS:
         raise argparse.ArgumentTypeError(
