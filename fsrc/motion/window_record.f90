@@ -122,10 +122,10 @@ contains
       complex(dp) :: coefficient
       integer :: n
 
-      record%line_sums(0) = record%line_sums(0) + change
+      record%line_sums(0) = record%line_sums(0) + cmplx(change, 0.0_dp, dp)
       record%line_squares(0) = record%line_squares(0) + change*change
       do n = 1, record%multiples
-         coefficient = change + cmplx(0.0_dp, two_pi*real(n, dp), dp)*record%integrals(n)
+         coefficient = cmplx(change, 0.0_dp, dp) + cmplx(0.0_dp, two_pi*real(n, dp), dp)*record%integrals(n)
          record%line_sums(n) = record%line_sums(n) + coefficient
          record%line_squares(n) = record%line_squares(n) + coefficient%re**2 + coefficient%im**2
       end do

@@ -105,11 +105,25 @@ contains
          end_of_line//'   has 30 such lines, 21 even with the exact film; the canonical creep scene has 12; 20 lies between.'// &
          end_of_line//'4. creep otherwise.'//end_of_line//end_of_line// &
          'A class counts only if it does not change when the time step and the tolerance shrink: see the figure on'// &
-         end_of_line//'the tolerance in the README. `sampling_sufficient` in the summary is false where the samples a'// &
-         end_of_line//'period are too few for the highest lines. A scene without motion (below 1e-12 of the load over'// &
-         end_of_line//'the mass) is quiet and has no ratios.'//end_of_line//end_of_line// &
+         end_of_line//'the tolerance in the README. A scene without motion (below 1e-12 of the load over the mass) is'// &
+         end_of_line//'quiet and has no ratios.'//end_of_line//end_of_line// &
+         'An impact may be a millionth of a period long and fall between all samples. The extremes in the summary are'// &
+         end_of_line//'those of the steps of the solution and of the polynomials between their ends. Where the samples of a'// &
+         end_of_line//'motion by the default method miss its lines (their mean or their power is not that of the steps),'// &
+         end_of_line//'twice as many are taken, up to 16384 a period, and else the first 40 lines come from integrals over'// &
+         end_of_line//'the steps (`lines_by_integrals`). `line_count_is_bound` and `harmonic_distortion_is_bound` say where'// &
+         end_of_line//'there may be more. `series_coarse` says that the series is coarser than the motion: its extremes'// &
+         end_of_line//'stand in rows behind the others, and its samples carry no class. `sampling_sufficient` is false where'// &
+         end_of_line//'the lines are those of too few samples (Newmark''s method). A class is certified only if the window'// &
+         end_of_line//'closes: the integral of the acceleration is the change of velocity, and the work of the film is that'// &
+         end_of_line//'of the forces. Errors are twice the difference from a tighter solution, and what that may be off by.'// &
+         end_of_line//end_of_line// &
+         '`model_limit` says where a motion leaves what the model can mean: `too_wide` (the film grows beyond a tenth'// &
+         end_of_line//'of the radius, where the parabolic gap of a line contact ends), `too_narrow` (it falls below 1 nm,'// &
+         end_of_line//'where no oil film is left), or both; in tables 1, 2 and 3, and 0 within the model.'// &
+         end_of_line//end_of_line// &
          '## How the regime is found'//end_of_line//end_of_line// &
-         'After the motion the exact pressure of the iso-viscous film is taken at every sample of the window. Below'// &
+         'After the motion the exact pressure of the iso-viscous film is taken over the window. Below'// &
          end_of_line//'alpha p = 0.1 the film is iso-viscous (the exact piezo-viscous load is then 3.2 % higher), below 1'// &
          end_of_line//'piezo-viscous; from 1 on no piezo-viscous film of rigid flanks exists, and neither does where the'// &
          end_of_line//'flanks give way by more than a tenth of the film (4): elastohydrodynamic. `law_contradicted` is'// &

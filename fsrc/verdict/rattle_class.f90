@@ -65,9 +65,9 @@ contains
       mean = record%acceleration_sum/periods
       associate (sums => record%line_sums, squares => record%line_squares, n => record%multiples)
          ! What varies from period to period is off the harmonics; of the mean of z'' only that.
-         off_harmonics = 0.5_dp*max(0.0_dp, squares(0)/periods - abs(sums(0)/periods)**2) &
-                         + max(0.0_dp, sum(squares(1:)/periods - abs(sums(1:)/periods)**2))
-         all_multiples = off_harmonics + sum(abs(sums(1:)/periods)**2)
+         off_harmonics = 0.5_dp*max(0.0_dp, squares(0)/periods - (abs(sums(0))/periods)**2) &
+                         + max(0.0_dp, sum(squares(1:)/periods - (abs(sums(1:))/periods)**2))
+         all_multiples = off_harmonics + sum((abs(sums(1:))/periods)**2)
          call find_lines_by_integrals(2.0_dp*frequency/periods*abs(sums(1:n)), &
                                       off_harmonics/max(all_multiples, tiny(1.0_dp)), &
                                       2.0_dp*(record%acceleration_square/periods - mean*mean), choice%line_threshold, &

@@ -33,8 +33,8 @@ def classify(
 
     if result.coarse:
         raise ResultError(
-            f"{result.path} is coarser than its motion: its samples carry no class. The summary has the class, from the "
-            "steps of the solution."
+            f"{result.path} is coarser than its motion: its samples carry no class. "
+            "The summary has the class, from the steps of the solution."
         )
     samples = result.samples("acceleration", result.window(periods))
     limits = thresholds(result, overrides)

@@ -1,4 +1,4 @@
-"""A motion with impacts that no equidistant samples follow: series, figures, CSV and summary agree, or say why not."""
+"""Impacts that no equidistant samples follow: series, figures, CSV and summary agree, or say why not."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def test_log_says_what_the_samples_miss(impact) -> None:
 
 
 def test_number_of_samples_that_is_named_does(impact) -> None:
-    """A motion that needs some thousand samples: with as many as the log names the series is fine, and the lines are the same."""
+    """With as many samples as the log names the series is fine, and the lines are the same."""
     _, coarse, told = impact(load={}, solver=IMPACT["solver"] | {"samples_per_period": "64"})
     assert coarse["series_coarse"] and not coarse["lines_by_integrals"]
     samples = int(told.split("solver.samples_per_period = ")[1].split(" ")[0])
