@@ -3,7 +3,7 @@ module log_file
    use errors, only: error_t, exit_system, raise
    use file_descriptor, only: close_descriptor, open_replacing
    use system_error, only: error_words, last_error
-   use text_output, only: note_lost_text, put_line, write_line
+   use text_output, only: lost_text, note_lost_text, put_line, write_line
    use, intrinsic :: iso_c_binding, only: c_int
    implicit none(type, external)
    private
@@ -41,14 +41,14 @@ contains
       if (self%descriptor < 0_c_int) call raise(error, exit_system, path//' cannot be written: '//error_words(last_error()))
    end subroutine open_log
 
-   !> Write a line.
+   !> Write a line. Where one was lost none follows: a log is known by its first line.
    subroutine log_line(self, text)
       class(log_t), intent(in) :: self
       !> The line
       character(*), intent(in) :: text
 
       if (self%to_terminal) call put_line(text)
-      if (self%descriptor >= 0_c_int) call write_line(self%descriptor, text, self%path)
+      if (self%descriptor >= 0_c_int .and. lost_text() /= self%path) call write_line(self%descriptor, text, self%path)
    end subroutine log_line
 
    !> Close the log.

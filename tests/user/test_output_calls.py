@@ -72,6 +72,18 @@ def test_failure_of_every_call_is_told(meet, tmp_path: Path) -> None:
     assert tried >= 15
 
 
+def test_log_that_lost_its_first_line_stops_nobody(meet, run, tmp_path: Path) -> None:
+    """A log is known by its first line: where that was lost, none follows."""
+    calls = meet("whole")[1]
+    number = calls.index("write scene.log") + 1
+    ended, _ = meet("again", FAULT_KIND="error", FAULT_AT=number)
+    assert ended.returncode == 3 and "again/scene.log" in ended.stderr
+    assert (tmp_path / "again" / "scene.log").read_bytes() == b""
+    assert run("--resume", "--output", "again", "scene.nml", cwd=tmp_path).returncode == 0
+    first, second = ((tmp_path / name / "scene.rattle").read_bytes() for name in ("whole", "again"))
+    assert first == second
+
+
 @pytest.mark.parametrize(("step", "least", "most"), [(0, 2, 2), (3000, 101, 105), (300, 9, 30)])
 def test_rows_go_to_the_disk_every_two_seconds(step: int, least: int, most: int, meet) -> None:
     """The clock goes on by some milliseconds whenever it is read; checksums go with the rows."""
