@@ -25,6 +25,8 @@ module node_extremes
    !> Change of an extreme, as a share of the range, at which it stands.
    real(dp), parameter :: settled = 1.0e-11_dp
    integer, parameter :: most_renewals = 12
+   !> Distance of two places in a piece that are the same.
+   real(dp), parameter :: known = 1.0e-9_dp
 
    !> An extreme and the state there.
    type, public :: extreme_t
@@ -149,8 +151,13 @@ contains
             if (y(j) > sign_of*best%value) best = here
          end do
          place = min(max(first_place, x(1)), x(3))
+         ! The first parabola may lead to a point that is known already, as to the end of the piece: these three know better.
+         if (minval(abs(place - x)) < known) then
+            call top_of_parabola(x, y, place, estimate)
+            place = min(max(place, x(1)), x(3))
+         end if
          do j = 1, most_renewals
-            if (minval(abs(place - x)) < 1.0e-9_dp) exit
+            if (minval(abs(place - x)) < known) exit
             here = at_place(piece, place)
             if (sign_of*here%value > sign_of*best%value) best = here
             if (abs(sign_of*here%value - maxval(y)) <= settled*range .and. j > 2) exit

@@ -7,7 +7,8 @@ module test_window_record
    use kinds, only: dp
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use node_extremes, only: seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, seen_velocity
+   use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
+                            seen_velocity
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: status_complete
@@ -33,6 +34,7 @@ contains
 
       call checks%start('window_record')
       call test_nodes(checks)
+      call test_peaks(checks)
       call test_canonical(checks)
       call test_pieces(checks)
       call test_impact(checks)
@@ -58,6 +60,33 @@ contains
       end do
       call checks%check_close(interpolate(node_place**3, node_place(2)), node_place(2)**3, 0.0_dp, 'nodes: at a node')
    end subroutine test_nodes
+
+   !> A peak is found wherever it lies in its piece, also between the last node and the end.
+   subroutine test_peaks(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer, parameter :: places = 40
+      real(dp), parameter :: nearest = 1.0e-4_dp
+      type(lane_scene_t) :: scene
+      type(extreme_t) :: lowest, highest
+      real(dp) :: peak, velocities(nodes_per_piece), films(nodes_per_piece)
+      integer :: i
+
+      films = 1.0_dp
+      do i = 0, places
+         peak = nearest + (1.0_dp - 2.0_dp*nearest)*real(i, dp)/real(places, dp)
+         ! Not a parabola, which three nodes would know.
+         velocities = cos(0.5_dp*(node_place - peak)) + 0.01_dp*(node_place - peak)**3
+         lowest = extreme_t()
+         highest = extreme_t()
+         call find_extremes(scene, seen_velocity, 0, [0.0_dp], [1.0_dp], films, velocities, velocities, lowest, highest)
+         call checks%check_close(highest%value, 1.0_dp, 1.0e-11_dp, 'a peak between nodes')
+         lowest = extreme_t()
+         highest = extreme_t()
+         call find_extremes(scene, seen_velocity, 0, [0.0_dp], [1.0_dp], films, -velocities, -velocities, lowest, highest)
+         call checks%check_close(lowest%value, -1.0_dp, 1.0e-11_dp, 'a trough between nodes')
+      end do
+   end subroutine test_peaks
 
    !> Lane of a scene, from its steady film.
    function lane_of(scene) result(lane)
