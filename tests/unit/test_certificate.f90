@@ -233,8 +233,12 @@ contains
       call expect(checks, class_creep, [1.0_dp, 0.5_dp, 0.009_dp], [1.0_dp, 0.5_dp, 0.0085_dp], choice, stands)
       choice%idle_lines = 4
       call expect(checks, class_creep, [1.0_dp, 0.5_dp, 0.011_dp], [1.0_dp, 0.5_dp, 0.0125_dp], choice, stands)
-      ! A quiet motion is quiet with any number of lines.
+      ! The error of the first line moves the threshold, too.
       choice%idle_lines = 3
+      choice%line_threshold = 0.5_dp
+      call expect(checks, class_creep, [1.0_dp, 2.0_dp, 0.5_dp], [1.1_dp, 2.0_dp, 0.5_dp], choice, doubt)
+      choice%line_threshold = 0.01_dp
+      ! A quiet motion is quiet with any number of lines.
       call expect(checks, class_quiet, [1.0_dp, 0.1_dp, 0.011_dp], [1.0_dp, 0.1_dp, 0.0125_dp], choice, stands)
    end subroutine test_line_count
 

@@ -7,6 +7,7 @@ module test_regime_check
    use regime, only: film_elastohydrodynamic, film_iso_viscous, film_piezo_viscous
    use node_extremes, only: seen_pressure
    use regime_check, only: check_regime, regime_verdict_t, steady_alpha_p
+   use regime_words, only: regime_sentence
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, scene_t
    use window_extremes, only: extremes_of_samples, window_extremes_t
    implicit none(type, external)
@@ -31,6 +32,7 @@ contains
       call test_regimes(checks)
       call test_exact_piezo_viscous(checks)
       call test_deep(checks)
+      call test_sentences(checks)
    end subroutine run_regime_check_tests
 
    !> B of a film thickness: 6 sqrt(2) (u eta0 alpha/R)/(h/R)^(3/2).
@@ -228,5 +230,34 @@ contains
          'soft flanks')
       call checks%check(verdict%pressure_exists, 'soft flanks: q exists')
    end subroutine test_deep
+
+   !> Each sentence has its numbers in the unit that it names.
+   subroutine test_sentences(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call expect(0.05_dp, 2.0e-7_dp, 'alpha p = 0.0500; the flanks give way by 20 % of the film, limit 10 %')
+      call expect(0.05_dp, 0.9e-7_dp, 'alpha p = 0.0500; below 0.1 pressure hardly thickens the oil')
+      call expect(0.5_dp, 0.9e-7_dp, 'alpha p = 0.500; from 0.1 on pressure thickens the oil')
+      call expect(1.0_dp, 0.9e-7_dp, 'alpha p = 1.00; from 1 on there is no piezo-viscous film of rigid flanks')
+
+   contains
+
+      !> A film of a micrometre.
+      subroutine expect(alpha_p, deflection, ending)
+         real(dp), intent(in) :: alpha_p     !> Largest alpha p
+         real(dp), intent(in) :: deflection  !> Of the flanks [m]
+         character(*), intent(in) :: ending  !> Of the sentence
+
+         type(regime_verdict_t) :: verdict
+         character(:), allocatable :: sentence
+
+         verdict%alpha_p_maximum = alpha_p
+         verdict%deflection = deflection
+         verdict%film = 1.0e-6_dp
+         sentence = regime_sentence(verdict)
+         call checks%check(index(sentence, ending, back=.true.) == len(sentence) - len(ending) + 1, sentence)
+      end subroutine expect
+
+   end subroutine test_sentences
 
 end module test_regime_check
