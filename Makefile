@@ -115,6 +115,9 @@ $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(
 # them scalar.
 $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o: private FFLAGS += $(if $(DEBUG),,-fno-inline)
 
+# Elementary functions run in full registers only as part of the loops that call them, which the compiler finds too long.
+$(BUILD)/lane_functions.o $(BUILD)/elementary_functions.o: private FFLAGS += -finline-limit=4000
+
 $(BUILD)/version.o: private FFLAGS += -cpp -DPROGRAM_VERSION='"$(VERSION)"'
 $(BUILD)/version.o: fsrc/VERSION
 

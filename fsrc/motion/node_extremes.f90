@@ -25,8 +25,8 @@ module node_extremes
    !> Change of an extreme, as a share of the range, at which it stands.
    real(dp), parameter :: settled = 1.0e-11_dp
    integer, parameter :: most_renewals = 12
-   !> Distance of two places in a piece that are the same.
-   real(dp), parameter :: known = 1.0e-9_dp
+   !> Places in a piece that are the same.
+   real(dp), parameter :: same_place = 1.0e-9_dp
 
    !> An extreme and the state there.
    type, public :: extreme_t
@@ -93,7 +93,7 @@ contains
                if (pass == 1) then
                   best = max(best, estimate)
                else if (estimate >= best - parabola_error*range) then
-                  call renew(sign_of, i, place, range, found)
+                  call renew(sign_of, i, range, found)
                end if
             end do
          end do
@@ -126,10 +126,9 @@ contains
       end subroutine estimate_peak
 
       !> Follow the peak near a place until it stands.
-      pure subroutine renew(sign_of, i, first_place, range, found)
+      pure subroutine renew(sign_of, i, range, found)
          real(dp), intent(in) :: sign_of
          integer, intent(in) :: i
-         real(dp), intent(in) :: first_place
          real(dp), intent(in) :: range
          type(extreme_t), intent(inout) :: found
          type(extreme_t) :: here, best
@@ -150,20 +149,17 @@ contains
             y(j) = sign_of*here%value
             if (y(j) > sign_of*best%value) best = here
          end do
-         place = min(max(first_place, x(1)), x(3))
-         ! The first parabola may lead to a point that is known already, as to the end of the piece: these three know better.
-         if (minval(abs(place - x)) < known) then
+         do j = 1, most_renewals
             call top_of_parabola(x, y, place, estimate)
             place = min(max(place, x(1)), x(3))
-         end if
-         do j = 1, most_renewals
-            if (minval(abs(place - x)) < known) exit
+            ! The parabola may point at an end of the piece while the peak stands beside it.
+            if (abs(place - x(1)) < same_place) place = x(1) + 0.25_dp*(x(2) - x(1))
+            if (abs(place - x(3)) < same_place) place = x(3) + 0.25_dp*(x(2) - x(3))
+            if (minval(abs(place - x)) < same_place) exit
             here = at_place(piece, place)
             if (sign_of*here%value > sign_of*best%value) best = here
             if (abs(sign_of*here%value - maxval(y)) <= settled*range .and. j > 2) exit
             call narrow(x, y, place, sign_of*here%value)
-            call top_of_parabola(x, y, place, estimate)
-            place = min(max(place, x(1)), x(3))
          end do
          if (.not. found%exists) then
             found = best
