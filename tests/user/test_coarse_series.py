@@ -122,7 +122,7 @@ def test_samples_that_are_too_few_carry_no_class(impact) -> None:
     done = call_script("classify.py", str(result.path))
     assert done.returncode != 0 and "coarser than its motion" in done.stderr
     figure = acceleration_spectrum.draw([result], ["impact"], None)
-    assert "too few for the motion" in figure.axes[0].get_title()
+    assert "too few samples" in figure.axes[0].get_title()
 
 
 def test_check_names_films_that_the_model_cannot_mean(run, scene_text, tmp_path: Path) -> None:

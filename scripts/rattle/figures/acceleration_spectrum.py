@@ -82,7 +82,7 @@ def _draw_single(
 
 def _verdict_words(result: Result, window: int | None) -> str:
     if result.coarse:
-        return "of samples too few for the motion, see its summary"
+        return "too few samples"
     verdict = classify(result, window)
     return f"{verdict['line_count']} lines, class {verdict['rattle_class']}"
 
