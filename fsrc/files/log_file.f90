@@ -2,6 +2,7 @@
 module log_file
    use errors, only: error_t, exit_system, raise
    use file_descriptor, only: close_descriptor, open_replacing
+   use file_system, only: delete_file, file_state_t, state_of_path
    use system_error, only: error_words, last_error
    use text_output, only: lost_text, note_lost_text, put_line, write_line
    use, intrinsic :: iso_c_binding, only: c_int
@@ -51,15 +52,18 @@ contains
       if (self%descriptor >= 0_c_int .and. lost_text() /= self%path) call write_line(self%descriptor, text, self%path)
    end subroutine log_line
 
-   !> Close the log.
+   !> Close the log. One that lost its first word is taken away: no later run could tell that it was a log.
    subroutine close_log(self)
       class(log_t), intent(inout) :: self
+      type(file_state_t) :: state
       logical :: closed
 
       if (self%descriptor < 0_c_int) return
       call close_descriptor(self%descriptor, closed)
       if (.not. closed) call note_lost_text(self%path)
       self%descriptor = -1_c_int
+      state = state_of_path(self%path)
+      if (state%bytes < len(log_magic)) call delete_file(self%path)
    end subroutine close_log
 
 end module log_file

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import resource
 import shutil
 import subprocess
 from pathlib import Path
@@ -79,6 +80,24 @@ def test_failed_first_run_says_so(rattle: Path, run, scene_text, tmp_path: Path)
     assert not package.read(results / "scene.rattle").closed
     assert run("--resume", "scene.nml", cwd=tmp_path).returncode == 0
     assert package.read(results / "scene.rattle").closed
+
+
+@pytest.mark.parametrize("limit", [0, 1, 6, 7, 100])
+def test_full_disk_from_the_start_stops_nobody(
+    limit: int, rattle: Path, run, scene_text, tmp_path: Path
+) -> None:
+    """Whatever a few bytes make of the log and the first file, the next run is not kept from its work."""
+    (tmp_path / "scene.nml").write_text(scene_text())
+    ended = subprocess.run(
+        [rattle, "--quiet", "scene.nml"],
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+    )
+    assert ended.returncode == 3
+    assert run("--resume", "scene.nml", cwd=tmp_path).returncode == 0
+    assert package.read(tmp_path / "results" / "scene.rattle").closed
 
 
 @pytest.mark.parametrize("task", ["film", "sweep"])
