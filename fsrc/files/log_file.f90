@@ -63,7 +63,8 @@ contains
       if (.not. closed) call note_lost_text(self%path)
       self%descriptor = -1_c_int
       state = state_of_path(self%path)
-      if (state%bytes < len(log_magic)) call delete_file(self%path)
+      ! A log that was led to a device is none of ours to take away.
+      if (state%is_file .and. state%bytes < len(log_magic)) call delete_file(self%path)
    end subroutine close_log
 
 end module log_file

@@ -1,6 +1,7 @@
 !> Tests of words that cannot be written.
 module test_text_output
    use checks, only: check_list_t
+   use file_system, only: path_exists
    use errors, only: error_t
    use log_file, only: log_t
    use text_output, only: lost_text
@@ -42,6 +43,7 @@ contains
       call log%line('three')
       call log%close()
       call checks%check(lost_text() == '/dev/full', 'a line is lost')
+      call checks%check(path_exists('/dev/full'), 'the device of a log stays')
    end subroutine run_text_output_tests
 
 end module test_text_output
