@@ -72,7 +72,7 @@ NEAREST_TESTS = {
     "fsrc/campaign": ("varied_keys", "columns", "refused_tasks", "campaigns", "carrying_on", "odd_inputs"),
     "fsrc/bindings": ("kernels*",),
     "fsrc/main.f90": ("commands", "run_endings"),
-    "scripts/rattle/figures": ("drawn_*",),
+    "scripts/rattle/figures": ("drawn_*", "history", "coarse_series"),
     "scripts/rattle/kernels": ("kernels*",),
     "scripts/rattle/merge.py": ("campaign_merge",),
     "scripts/rattle/job_script.py": ("campaign_scripts",),

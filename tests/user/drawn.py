@@ -33,7 +33,7 @@ def bars(axes: Axes) -> list[tuple[np.ndarray, np.ndarray]]:
     found = []
     for lines in axes.collections:
         if isinstance(lines, LineCollection):
-            segments = np.array(lines.get_segments())
+            segments = np.array(lines.get_segments()).reshape(-1, 2, 2)
             assert (segments[:, 0, 1] == 0.0).all()
             assert (segments[:, 0, 0] == segments[:, 1, 0]).all()
             found.append((segments[:, 1, 0], segments[:, 1, 1]))

@@ -183,15 +183,21 @@ def write_motion(
     without: str | None = None,
     closed: bool = True,
     extremes: Sequence[Sequence[float]] = (),
+    coarse: bool = False,
+    film_lines: dict[float, float] | None = None,
 ) -> Path:
-    """A made-up motion: `lines` maps f/f_exc to the amplitude of the acceleration [m/s2]."""
+    """A made-up motion: `lines` maps f/f_exc to the amplitude of the acceleration [m/s2].
+
+    `film_lines` maps it to amplitudes of the film [um], beside the one that it has anyway.
+    """
     samples = steps_per_period // stride
     phase = np.arange(periods * samples + 1) / samples
     angle = 2.0 * np.pi * phase
     data = {
         "time": phase / 500.0,
         "applied_force": 200.0 + 150.0 * np.cos(angle),
-        "film_thickness": 1e-6 * (1.0 - 0.4 * np.cos(angle)),
+        "film_thickness": 1e-6
+        * (1.0 - 0.4 * np.cos(angle) + sum(a * np.cos(r * angle) for r, a in (film_lines or {}).items())),
         "acceleration": sum(a * np.cos(ratio * angle) for ratio, a in lines.items()),
     }
     columns = [(column, unit) for column, unit in MOTION_COLUMNS if column != without]
@@ -205,4 +211,4 @@ def write_motion(
         stride=stride,
     )
     rows = np.column_stack([data[column] for column, _ in columns])
-    return write_result(path, columns, rows, input_text=text, closed=closed, extremes=extremes)
+    return write_result(path, columns, rows, input_text=text, closed=closed, extremes=extremes, coarse=coarse)

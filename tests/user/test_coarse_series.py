@@ -5,13 +5,15 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
+import drawn
+import numpy as np
 import pytest
 from campaign_runs import BASE
 from outcomes import summary_of
 from script_calls import call_script
 
 import rattle as package
-from rattle.figures import acceleration_spectrum
+from rattle.figures import acceleration, acceleration_spectrum, style
 from rattle.verdict import classify
 
 IMPACT = {
@@ -123,6 +125,81 @@ def test_samples_that_are_too_few_carry_no_class(impact) -> None:
     assert done.returncode != 0 and "coarser than its motion" in done.stderr
     figure = acceleration_spectrum.draw([result], ["impact"], None)
     assert "too few samples" in figure.axes[0].get_title()
+
+
+def harmonics_drawn(figure) -> list[np.ndarray]:
+    """Heights at whole multiples of the frequency, by panel; there are no others."""
+    panels = []
+    for axes in figure.axes:
+        places, heights = np.hstack(drawn.bars(axes))
+        assert places.tolist() == list(range(1, 41))
+        panels.append(heights)
+    return panels
+
+
+def test_figure_10_draws_the_lines_of_the_summary(impact) -> None:
+    """They are integrals over the steps here; those of the samples miss 93 in 100 of the second harmonic."""
+    result, summary, _ = impact()
+    with style.house_style():
+        figure = acceleration_spectrum.draw([result], ["impact"], None)
+    for heights in harmonics_drawn(figure):
+        assert heights.tolist() == summary["harmonics"]
+    assert figure.axes[0].get_ylim() == pytest.approx((0.0, 1.08 * 290.75366), rel=1e-6)
+    assert drawn.rules(figure.axes[1], "y") == [0.01 * summary["harmonics"][0]]
+    assert figure.axes[0].get_title(loc="left").splitlines()[1:] == [
+        "Scene impact, published iso-viscous film; at least 40 lines, class idle",
+        "Series of too few samples; lines of the summary, integrals over the steps",
+    ]
+    again = acceleration_spectrum.draw([result], ["impact"], 2)
+    assert harmonics_drawn(again)[0].tolist() == summary["harmonics"]
+
+
+def test_figure_10_says_how_many_samples_gave_the_lines(impact) -> None:
+    result, summary, _ = impact(load={}, solver=IMPACT["solver"] | {"samples_per_period": "64"})
+    with style.house_style():
+        figure = acceleration_spectrum.draw([result], ["impact"], None)
+        both = acceleration_spectrum.draw([result, result], ["one", "two"], None)
+    assert harmonics_drawn(figure)[0].tolist() == summary["harmonics"]
+    title = figure.axes[0].get_title(loc="left")
+    assert f"; {summary['line_count']} lines, class {summary['rattle_class']}\n" in title
+    assert title.endswith(f"lines of the summary, of {summary['samples_per_period']} samples a period")
+    assert drawn.legend_words(both) == ["one, by its summary", "two, by its summary"]
+    for axes in both.axes:
+        for _, heights in drawn.bars(axes):
+            assert heights.tolist() == summary["harmonics"]
+
+
+@pytest.mark.parametrize("lacking", ["summary", "window", "better lines"])
+def test_figure_10_says_where_no_better_lines_are_known(lacking: str, impact) -> None:
+    """Without the summary, of another window, and of Newmark's method, whose steps are its samples."""
+    newmark = {"method": "'newmark'", "steps_per_period": "64", "tolerance": "1e-14", "periods": "40"}
+    changes = {"load": {}, "solver": newmark} if lacking == "better lines" else {}
+    result, _, _ = impact(**changes)
+    if lacking == "summary":
+        result.summary_path.unlink()
+    window = 1 if lacking == "window" else None
+    with style.house_style():
+        figure = acceleration_spectrum.draw([result], ["impact"], window)
+        both = acceleration_spectrum.draw([result, result], ["one", "two"], window)
+    assert (
+        figure.axes[0]
+        .get_title(loc="left")
+        .endswith("; too few samples\nThe lines are those of the samples, not of the motion")
+    )
+    assert drawn.legend_words(both) == ["one, too few samples", "two, too few samples"]
+
+
+def test_figure_8_shows_the_impact_of_every_period(impact) -> None:
+    """The window holds the extremes of one period alone; the others repeat it."""
+    result, summary, _ = impact(solver=IMPACT["solver"] | {"periods": "20"}, spectrum={"periods": "8"})
+    with style.house_style():
+        (axes,) = acceleration.draw([result], ["impact"], 4).axes
+    time, values = max(drawn.curves(axes), key=lambda curve: curve[0].size)
+    high = values == summary["acceleration_maximum"]
+    assert np.floor(time[high] * 0.015).tolist() == [0.0, 1.0, 2.0, 3.0]
+    assert np.diff(time[high]) == pytest.approx(1e3 / 15.0, rel=1e-6)
+    assert axes.get_ylim()[1] > summary["acceleration_maximum"]
+    assert axes.get_title(loc="left").endswith("the extremes between them stand in every period")
 
 
 def test_check_names_films_that_the_model_cannot_mean(run, scene_text, tmp_path: Path) -> None:

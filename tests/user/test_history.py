@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import drawn
 import numpy as np
 import pytest
 from result_writer import write_motion
 
 import rattle
-from rattle.figures import acceleration, film_and_force
+from rattle.figures import acceleration, film_and_force, style
 from rattle.figures.spectra import column_spectrum
 
 # Behind the 20th period, in the last of the periods drawn, and long before; the period lasts 2 ms.
-EXTREMES = [[0.005, 1.0, 2e-6, 500.0], [0.03351, 2.0, 9e-6, -700.0], [0.03999, 3.0, 1e-9, 900.0]]
+EXTREMES = [[0.00501, 1.0, 2e-6, 500.0], [0.03351, 2.0, 9e-6, -700.0], [0.03999, 3.0, 1e-9, 900.0]]
+
+FILMLESS = [[time, force, value] for time, force, _, value in EXTREMES]
 
 
 @pytest.fixture
@@ -49,3 +52,74 @@ def test_spectra_take_the_regular_rows_alone(result, tmp_path):
         strict=True,
     ):
         np.testing.assert_array_equal(one, other)
+
+
+# --- series that are coarser than their motion ---------------------------------------------------------
+
+
+def coarse(tmp_path: Path, name: str = "a", **options) -> rattle.Result:
+    options = {"lines": {1.0: 5.0}, "extremes": EXTREMES, "coarse": True} | options
+    return rattle.read(write_motion(tmp_path / f"{name}.rattle", **options))
+
+
+def between(points: np.ndarray) -> np.ndarray:
+    """The points that are no samples."""
+    steps = points[:, 0] * 128 / 2.0
+    return points[np.abs(steps - np.round(steps)) > 1e-6]
+
+
+@pytest.mark.parametrize(
+    ("draw", "place", "scale", "column"),
+    [(acceleration.draw, 0, 1.0, 3), (film_and_force.draw, 0, 1e6, 2), (film_and_force.draw, 1, 1.0, 1)],
+    ids=["acceleration", "film", "force"],
+)
+def test_every_period_that_repeats_has_the_extremes(tmp_path, draw, place, scale, column):
+    """Also those of a period that stands before all that are drawn."""
+    made = draw([coarse(tmp_path)], ["a"], 4)
+    points = curve(made.axes[place])
+    expected = [
+        (1e3 * (row[0] % 0.002) + 2.0 * period, scale * row[column])
+        for period in range(4)
+        for row in sorted(EXTREMES, key=lambda row: row[0] % 0.002)
+    ]
+    np.testing.assert_allclose(between(points), expected, rtol=1e-9)
+    assert (np.diff(points[:, 0]) > 0).all() and len(points) == 4 * 128 + 1 + 12
+    words = "\nSeries of too few samples; the extremes between them stand in every period"
+    assert made.axes[0].get_title().endswith(words)
+
+
+def test_a_period_with_other_films_has_not_the_extremes(tmp_path):
+    """Every second period is the same here."""
+    made = acceleration.draw([coarse(tmp_path, film_lines={0.5: 1e-3})], ["a"], 4)
+    expected = [(1.01, 500.0), (1.51, -700.0), (3.99, 900.0), (5.01, 500.0), (5.51, -700.0), (7.99, 900.0)]
+    np.testing.assert_allclose(between(curve(made.axes[0])), expected, rtol=1e-9)
+    words = "\nSeries of too few samples; between them -700 to 900 m/s$^2$, not all drawn"
+    assert made.axes[0].get_title().endswith(words)
+    film = film_and_force.draw([coarse(tmp_path, film_lines={0.5: 1e-3})], ["a"], 4)
+    words = r"between them 0.001 to 9 $\mathrm{\mu}$m, not all drawn"
+    assert film.axes[0].get_title().endswith(words)
+
+
+def test_films_that_differ_by_less_than_a_line_are_the_same(tmp_path):
+    points = between(curve(acceleration.draw([coarse(tmp_path, film_lines={0.5: 2e-5})], ["a"], 4).axes[0]))
+    assert len(points) == 12
+
+
+def test_without_films_the_extremes_stand_in_their_own_periods_alone(tmp_path):
+    made = acceleration.draw([coarse(tmp_path, without="film_thickness", extremes=FILMLESS)], ["a"], 4)
+    np.testing.assert_allclose(between(curve(made.axes[0])), [(1.51, -700.0), (7.99, 900.0)], rtol=1e-9)
+    assert "not all drawn" in made.axes[0].get_title()
+
+
+def test_a_coarse_series_without_extremes_says_so(tmp_path):
+    """Those of Newmark's method: its samples are its steps."""
+    made = acceleration.draw([coarse(tmp_path, extremes=())], ["a"], 4)
+    assert not len(between(curve(made.axes[0])))
+    assert made.axes[0].get_title().endswith("too few samples; what lies between them is not known")
+
+
+def test_an_overlay_names_the_coarse_run(tmp_path, result):
+    with style.house_style():
+        made = acceleration.draw([coarse(tmp_path, "b"), result], ["b", "a"], 4)
+    assert drawn.legend_words(made) == ["b, too few samples", "a"]
+    assert "too few" not in acceleration.draw([result], ["a"], 4).axes[0].get_title()

@@ -10,9 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rattle.figures import style
-from rattle.figures.labels import overlay_title, title
-from rattle.figures.spectra import column_spectrum
+from rattle.figures.labels import FEW_SAMPLES, curve_label, overlay_title, title
+from rattle.figures.spectra import better_summary, column_spectrum, harmonics_of
 from rattle.result import Result
+from rattle.summary import Summary
 from rattle.verdict import classify, thresholds
 
 SUBJECT = "Spectrum of the acceleration"
@@ -26,14 +27,24 @@ def draw(results: Sequence[Result], labels: Sequence[str], window: int | None) -
     """A linear panel as in the paper, and a logarithmic one that shows every line that counts."""
     figure = Figure(figsize=(style.WIDTH, 4.6))
     linear, logarithmic = figure.subplots(2, 1, sharex=True)
-    spectra = [column_spectrum(result, "acceleration", window) for result in results]
+    summaries = [better_summary(result, window) for result in results]
+    spectra = [
+        harmonics_of(summary) if summary else column_spectrum(result, "acceleration", window)
+        for result, summary in zip(results, summaries, strict=True)
+    ]
     largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
     if len(results) == 1:
         _draw_single(figure, (linear, logarithmic), results[0], spectra[0])
-        linear.set_title(f"{title(SUBJECT, results[0], labels[0])}; {_verdict_words(results[0], window)}")
+        linear.set_title(
+            f"{title(SUBJECT, results[0], labels[0])}; {_verdict_words(results[0], summaries[0], window)}"
+        )
         logarithmic.set_xlabel(style.RATIO_LABEL)
     else:
-        _draw_overlay((linear, logarithmic), labels, spectra)
+        names = [
+            f"{label}, by its summary" if summary else curve_label(result, label)
+            for result, summary, label in zip(results, summaries, labels, strict=True)
+        ]
+        _draw_overlay((linear, logarithmic), names, spectra)
         linear.set_title(overlay_title(SUBJECT, results))
         logarithmic.set_xlabel(f"{style.RATIO_LABEL}; runs side by side")
         style.legend_below(figure, linear)
@@ -80,11 +91,17 @@ def _draw_single(
     style.legend_below(figure, panels[0], labels=handles)
 
 
-def _verdict_words(result: Result, window: int | None) -> str:
-    if result.coarse:
-        return "too few samples"
-    verdict = classify(result, window)
-    return f"{verdict['line_count']} lines, class {verdict['rattle_class']}"
+def _verdict_words(result: Result, summary: Summary | None, window: int | None) -> str:
+    if result.coarse and not summary:
+        return f"{FEW_SAMPLES}\nThe lines are those of the samples, not of the motion"
+    verdict = summary or classify(result, window)
+    bound = "at least " if verdict.get("line_count_is_bound") else ""
+    words = f"{bound}{verdict['line_count']} lines, class {verdict['rattle_class']}"
+    if not summary:
+        return words
+    more_samples = f"of {summary['samples_per_period']} samples a period"
+    source = "integrals over the steps" if summary["lines_by_integrals"] else more_samples
+    return f"{words}\nSeries of {FEW_SAMPLES}; lines of the summary, {source}"
 
 
 def _draw_overlay(

@@ -7,17 +7,45 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
+from rattle.figures.labels import FEW_SAMPLES
 from rattle.figures.style import PERIOD_COLOUR
-from rattle.result import Result
+from rattle.result import TIME, Result
+
+FILM = "film_thickness"
+SAME_FILMS = 1e-4  # of their range; a smaller difference is thinner than the line that shows it
 
 
 def last_periods(
     result: Result, name: str, periods: int, scale: float = 1.0
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Time since the start of the last `periods` [ms] and the scaled column `name`, with the extreme rows."""
+    """Time since the start of the last `periods` [ms] and the scaled column `name`, with the extreme rows.
+
+    Where the series is coarser than its motion, each period that repeats one with extreme rows has them too.
+    """
     rows = result.window(periods, with_start=True)
-    time, values = result.merged(("time", name), rows)
+    time, values = result.merged((TIME, name), rows)
+    if result.coarse and TIME in result:
+        extreme, others = np.nonzero(_repetitions(result, periods))
+        drawn = result.whole_periods - periods + others
+        shifted = result.extremes[TIME][extreme] + (drawn - _own_periods(result)[extreme]) / result.frequency
+        order = np.argsort(shifted)
+        places = np.searchsorted(time, shifted[order], side="right")
+        time = np.insert(time, places, shifted[order])
+        values = np.insert(values, places, result.extremes[name][extreme[order]])
     return 1e3 * (time - time[0]), scale * values
+
+
+def coarse_words(result: Result, name: str, periods: int, unit: str, scale: float = 1.0) -> str:
+    """What the histories of a series that is coarser than its motion do not show; nothing if it is not."""
+    if not result.coarse:
+        return ""
+    if TIME not in result or not result.extremes[TIME].size:
+        return f"Series of {FEW_SAMPLES}; what lies between them is not known"
+    drawn = np.arange(result.whole_periods - periods, result.whole_periods)
+    if (_repetitions(result, periods) | (_own_periods(result)[:, None] == drawn)).all():
+        return f"Series of {FEW_SAMPLES}; the extremes between them stand in every period"
+    least, largest = (scale * function(result.extremes[name]) for function in (np.min, np.max))
+    return f"Series of {FEW_SAMPLES}; between them {least:.4g} to {largest:.4g} {unit}, not all drawn"
 
 
 def period_rules(axes: Axes, results: Sequence[Result], periods: int) -> None:
@@ -36,3 +64,27 @@ def time_label(results: Sequence[Result], periods: int) -> str:
         return label
     start = 1e3 * float(results[0].samples("time", results[0].window(periods, with_start=True))[0])
     return f"{label}, from $t$ = {start:.2f} ms"
+
+
+def _own_periods(result: Result) -> np.ndarray:
+    """The period in which each extreme row stands, counted from the start of the run."""
+    count = np.floor(result.extremes[TIME] * result.frequency).astype(int)
+    return np.minimum(count, result.whole_periods - 1)
+
+
+def _repetitions(result: Result, periods: int) -> np.ndarray:
+    """For each extreme row, which of the last `periods` repeat the period that it stands in, itself left out.
+
+    Films must be the same: the accelerations of two flights are alike even where their impacts are not.
+    """
+    own = _own_periods(result)
+    last, count = result.whole_periods, result.samples_per_period
+    repeated = np.zeros((own.size, periods), dtype=bool)
+    if FILM not in result or not own.size:
+        return repeated
+    first = min(int(own.min()), last - periods)
+    films = result.samples(FILM, slice(1 + first * count, 1 + last * count)).reshape(-1, count)
+    shown = films[last - periods - first :]
+    for row, theirs in zip(repeated, films[own - first], strict=True):
+        row[:] = np.abs(shown - theirs).max(axis=1) <= SAME_FILMS * np.ptp(theirs)
+    return repeated & (own[:, None] != np.arange(last - periods, last))

@@ -12,6 +12,8 @@ from matplotlib.figure import Figure
 from rattle.figures import style
 from rattle.result import Result
 
+FEW_SAMPLES = "too few samples"
+
 
 def run_labels(results: Sequence[Result]) -> list[str]:
     """Scene names; runs of equal name are told apart by their directory, then by their order."""
@@ -48,12 +50,22 @@ def overlay_title(subject: str, results: Sequence[Result]) -> str:
     return f"{subject}\n{len(results)} runs, {' and '.join(films)}"
 
 
+def curve_label(result: Result, label: str) -> str:
+    """A run label in the legend of several."""
+    return f"{label}, {FEW_SAMPLES}" if result.coarse else label
+
+
 def name_runs(
-    figure: Figure, axes: Axes, subject: str, results: Sequence[Result], labels: Sequence[str]
+    figure: Figure,
+    axes: Axes,
+    subject: str,
+    results: Sequence[Result],
+    labels: Sequence[str],
+    note: str = "",
 ) -> None:
-    """Title the axes; several runs are told apart by a legend below."""
+    """Title the axes, with a note on a single run; several runs are told apart by a legend below."""
     if len(results) == 1:
-        axes.set_title(title(subject, results[0], labels[0]))
+        axes.set_title("\n".join(filter(None, (title(subject, results[0], labels[0]), note))))
     else:
         axes.set_title(overlay_title(subject, results))
         style.legend_below(figure, axes)

@@ -5,6 +5,25 @@ from __future__ import annotations
 import numpy as np
 
 from rattle.result import Result, ResultError
+from rattle.summary import Summary, read_summary
+
+
+def better_summary(result: Result, window: int | None) -> Summary | None:
+    """The summary of a series that is coarser than its motion, where it knows the lines of the same window.
+
+    They come from more samples than the series has, or from integrals over the steps of the solution.
+    """
+    if not result.coarse or not result.summary_path.exists():
+        return None
+    summary = read_summary(result.summary_path)
+    resolved = summary.get("sampling_sufficient", False) and "harmonics" in summary
+    return summary if resolved and window in (None, summary["window_periods"]) else None
+
+
+def harmonics_of(summary: Summary) -> tuple[np.ndarray, np.ndarray]:
+    """Frequency ratio and amplitudes [m/s2] of the harmonics that a summary lists, behind a mean of zero."""
+    amplitudes = np.concatenate(([0.0], np.atleast_1d(np.asarray(summary["harmonics"], dtype=float))))
+    return np.arange(float(amplitudes.size)), amplitudes
 
 
 def column_spectrum(result: Result, name: str, window: int | None) -> tuple[np.ndarray, np.ndarray]:
