@@ -22,8 +22,8 @@ module node_extremes
    real(dp), parameter :: between = 0.06_dp
    !> Error of a parabola through nodes, as a share of the range.
    real(dp), parameter :: parabola_error = 2.0e-3_dp
-   !> Change of an extreme, as a share of the range, at which it stands.
-   real(dp), parameter :: settled = 1.0e-11_dp
+   !> Change of an extreme, as a share of the range, behind which the next one would be a hundred times smaller.
+   real(dp), parameter :: settled = 1.0e-9_dp
    integer, parameter :: most_renewals = 12
    !> Places in a piece that are the same.
    real(dp), parameter :: same_place = 1.0e-9_dp
@@ -66,7 +66,8 @@ contains
 
       call range_of(values, smallest, largest)
       call find_highest(1.0_dp, largest, largest - smallest, highest)
-      call find_highest(-1.0_dp, -smallest, largest - smallest, lowest)
+      ! The largest pressure of the film is never asked where it is smallest.
+      if (quantity /= seen_pressure) call find_highest(-1.0_dp, -smallest, largest - smallest, lowest)
 
    contains
 
@@ -77,25 +78,27 @@ contains
          real(dp), intent(in) :: top
          real(dp), intent(in) :: range
          type(extreme_t), intent(inout) :: found
-         real(dp) :: level, best, estimate, place
-         integer :: i, pass
+         real(dp) :: level, best, place
+         real(dp), dimension(size(values)) :: estimates
+         integer, dimension(size(values)) :: peaks
+         integer :: i, count_of_peaks
 
-         ! A first pass finds the highest estimate, a second one renews those that come near it.
+         ! The highest estimate is found first; then those that come near it are renewed.
          level = top - between*range
          if (found%exists) level = max(level, sign_of*found%value - between*range)
          best = top
          if (found%exists) best = max(best, sign_of*found%value)
-         do pass = 1, 2
-            do i = 1, size(values)
-               if (sign_of*values(i) < level) cycle
-               if (.not. is_peak(sign_of, i)) cycle
-               call estimate_peak(sign_of, i, estimate, place)
-               if (pass == 1) then
-                  best = max(best, estimate)
-               else if (estimate >= best - parabola_error*range) then
-                  call renew(sign_of, i, range, found)
-               end if
-            end do
+         count_of_peaks = 0
+         do i = 1, size(values)
+            if (sign_of*values(i) < level) cycle
+            if (.not. is_peak(sign_of, i)) cycle
+            count_of_peaks = count_of_peaks + 1
+            peaks(count_of_peaks) = i
+            call estimate_peak(sign_of, i, estimates(count_of_peaks), place)
+            best = max(best, estimates(count_of_peaks))
+         end do
+         do i = 1, count_of_peaks
+            if (estimates(i) >= best - parabola_error*range) call renew(sign_of, peaks(i), range, found)
          end do
       end subroutine find_highest
 
@@ -137,17 +140,18 @@ contains
 
          piece = (i - 1)/nodes_per_piece + 1
          node = modulo(i - 1, nodes_per_piece) + 1
-         x(2) = node_place(node)
-         x(1) = 0.0_dp
-         if (node > 1) x(1) = node_place(node - 1)
-         x(3) = 1.0_dp
-         if (node < nodes_per_piece) x(3) = node_place(node + 1)
-         best = at_place(piece, x(2))
-         y(2) = sign_of*best%value
+         x = [0.0_dp, node_place(node), 1.0_dp]
+         y(2) = sign_of*values(i)
+         best = extreme_t(values(i), films(i), velocities(i), period, start(piece) + x(2)*length(piece), .true.)
          do j = 1, 3, 2
-            here = at_place(piece, x(j))
-            y(j) = sign_of*here%value
-            if (y(j) > sign_of*best%value) best = here
+            if (node + j - 2 >= 1 .and. node + j - 2 <= nodes_per_piece) then
+               x(j) = node_place(node + j - 2)
+               y(j) = sign_of*values(i + j - 2)
+            else
+               here = at_place(piece, x(j))
+               y(j) = sign_of*here%value
+               if (y(j) > sign_of*best%value) best = here
+            end if
          end do
          do j = 1, most_renewals
             call top_of_parabola(x, y, place, estimate)
@@ -179,8 +183,8 @@ contains
          at_place%exists = .true.
          at_place%period = period
          at_place%phase = start(piece) + x*length(piece)
-         at_place%film = interpolate(films(before + 1:before + nodes_per_piece), x)
-         at_place%velocity = interpolate(velocities(before + 1:before + nodes_per_piece), x)
+         call interpolate(films(before + 1:before + nodes_per_piece), velocities(before + 1:before + nodes_per_piece), x, &
+                          at_place%film, at_place%velocity)
          select case (quantity)
          case (seen_film)
             at_place%value = at_place%film

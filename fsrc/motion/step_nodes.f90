@@ -47,8 +47,8 @@ contains
       real(dp), intent(in) :: longest_piece
       !> Nodes of the period so far
       type(step_nodes_t), intent(inout) :: nodes
-      real(dp) :: film_series(0:order), momentum_series(0:order), x(nodes_per_piece), film(nodes_per_piece), &
-                  velocity(nodes_per_piece), length
+      real(dp), dimension(nodes_per_piece) :: x, film, velocity, odd_film, odd_velocity
+      real(dp) :: film_series(0:order), momentum_series(0:order), length
       integer :: pieces, piece, before, i, k
 
       film_series = block%film(lane, :)
@@ -58,16 +58,26 @@ contains
       call provide_room(nodes, nodes%pieces + pieces)
       do piece = 1, pieces
          x = (real(piece - 1, dp) + node_place)*length
+         ! Even and odd powers apart: four sums that do not wait for each other.
          film = film_series(order)
          velocity = momentum_series(order)
-         do k = order - 1, 0, -1
+         odd_film = film_series(order - 1)
+         odd_velocity = momentum_series(order - 1)
+         do k = order - 2, 2, -2
             !$omp simd
             do i = 1, nodes_per_piece
-               film(i) = film(i)*x(i) + film_series(k)
-               velocity(i) = velocity(i)*x(i) + momentum_series(k)
+               film(i) = film(i)*(x(i)*x(i)) + film_series(k)
+               velocity(i) = velocity(i)*(x(i)*x(i)) + momentum_series(k)
+               odd_film(i) = odd_film(i)*(x(i)*x(i)) + film_series(k - 1)
+               odd_velocity(i) = odd_velocity(i)*(x(i)*x(i)) + momentum_series(k - 1)
             end do
          end do
-         velocity = velocity + block%slip(lane)/sqrt(film)
+         !$omp simd
+         do i = 1, nodes_per_piece
+            film(i) = film(i)*(x(i)*x(i)) + (odd_film(i)*x(i) + film_series(0))
+            velocity(i) = velocity(i)*(x(i)*x(i)) + (odd_velocity(i)*x(i) + momentum_series(0))
+            velocity(i) = velocity(i) + block%slip(lane)/sqrt(film(i))
+         end do
          before = nodes_per_piece*nodes%pieces
          nodes%pieces = nodes%pieces + 1
          nodes%start(nodes%pieces) = block%phase(lane) + real(piece - 1, dp)*length
@@ -104,21 +114,30 @@ contains
       call move_alloc(longer, numbers)
    end subroutine extend
 
-   !> Value within a piece, from those at its nodes.
-   pure real(dp) function interpolate(values, x)
-      !> Values at the nodes
-      real(dp), intent(in) :: values(nodes_per_piece)
+   !> Film and velocity within a piece, from those at its nodes.
+   pure subroutine interpolate(films, velocities, x, film, velocity)
+      !> h [m] and z' [m/s] at the nodes
+      real(dp), intent(in) :: films(nodes_per_piece)
+      real(dp), intent(in) :: velocities(nodes_per_piece)
       !> Place in the piece, from 0 to 1
       real(dp), intent(in) :: x
+      !> h [m] and z' [m/s] there
+      real(dp), intent(out) :: film
+      real(dp), intent(out) :: velocity
       real(dp) :: distance(nodes_per_piece), factor(nodes_per_piece)
       integer :: nearest
 
       distance = x - node_place
-      nearest = minloc(abs(distance), dim=1)
-      interpolate = values(nearest)
-      if (abs(distance(nearest)) < epsilon(1.0_dp)) return
-      factor = barycentric/distance
-      interpolate = sum(factor*values)/sum(factor)
-   end function interpolate
+      if (any(abs(distance) < epsilon(1.0_dp))) then
+         nearest = minloc(abs(distance), dim=1)
+         film = films(nearest)
+         velocity = velocities(nearest)
+      else
+         factor = barycentric/distance
+         factor = factor/sum(factor)
+         film = sum(factor*films)
+         velocity = sum(factor*velocities)
+      end if
+   end subroutine interpolate
 
 end module step_nodes

@@ -212,12 +212,20 @@ contains
       !> a_1 [m/s2]
       real(dp), intent(in) :: first_harmonic
       real(dp) :: start(1), count, mean, power, true_mean, true_power
+      integer :: i
 
       count = real(size(z), dp)
       call accelerations_of_samples(lane, 1, [record%start_film], [record%start_velocity], start)
       ! By the trapezium, which leaves no error where the motion is smooth and repeats.
-      mean = (sum(z) - 0.5_dp*(z(size(z)) - start(1)))/count
-      power = (sum(z**2) - 0.5_dp*(z(size(z))**2 - start(1)**2))/count
+      mean = -0.5_dp*(z(size(z)) - start(1))
+      power = -0.5_dp*(z(size(z))**2 - start(1)**2)
+      !$omp simd reduction(+: mean, power)
+      do i = 1, size(z)
+         mean = mean + z(i)
+         power = power + z(i)*z(i)
+      end do
+      mean = mean/count
+      power = power/count
       true_mean = (record%end_velocity - record%start_velocity)*lane%frequency/real(record%periods, dp)
       true_power = record%acceleration_square/real(record%periods, dp)
       samples_agree = abs(mean - true_mean) <= mean_share*first_harmonic + noise_floor .and. &

@@ -2,6 +2,7 @@
 module test_window_record
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t, same_bits
+   use constants, only: two_pi
    use film_law, only: film_t, new_film, steady_film
    use fine_window, only: integral_record
    use kinds, only: dp
@@ -14,9 +15,9 @@ module test_window_record
    use scene_status, only: status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t, spectrum_choice_t
    use sample_accelerations, only: accelerations_of_samples
-   use step_nodes, only: interpolate, node_place, node_weight, nodes_per_piece
+   use step_nodes, only: interpolate, node_place, node_weight, nodes_per_piece, step_nodes_t
    use window_extremes, only: extremes_of_samples, window_extremes_t
-   use window_record, only: energy_gap, momentum_gap, window_record_t
+   use window_record, only: energy_gap, momentum_gap, record_period, start_record, window_record_t
    implicit none(type, external)
    private
 
@@ -39,6 +40,7 @@ contains
       call test_pieces(checks)
       call test_impact(checks)
       call test_returning(checks)
+      call test_coefficients(checks)
    end subroutine run_window_record_tests
 
    !> Eight nodes integrate and interpolate powers up to the fifteenth and the seventh.
@@ -46,6 +48,7 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
+      real(dp) :: film, velocity
       integer :: k, i
 
       do k = 0, 15
@@ -54,11 +57,14 @@ contains
       call checks%check(abs(sum(node_weight*node_place**16) - 1.0_dp/17.0_dp) > 1.0e-10_dp, 'nodes: not of the next one')
       do k = 0, nodes_per_piece - 1
          do i = 0, 10
-            call checks%check_close(interpolate(node_place**k, 0.1_dp*real(i, dp)), (0.1_dp*real(i, dp))**k, 8.0_dp*rounding, &
-               'nodes: a power between them')
+            call interpolate(node_place**k, -node_place**k, 0.1_dp*real(i, dp), film, velocity)
+            call checks%check_close(film, (0.1_dp*real(i, dp))**k, 8.0_dp*rounding, 'nodes: a power between them')
+            call checks%check_close(velocity, -film, 0.0_dp, 'nodes: the velocity like the film')
          end do
       end do
-      call checks%check_close(interpolate(node_place**3, node_place(2)), node_place(2)**3, 0.0_dp, 'nodes: at a node')
+      call interpolate(node_place**3, node_place, node_place(2), film, velocity)
+      call checks%check_close(film, node_place(2)**3, 0.0_dp, 'nodes: at a node')
+      call checks%check_close(velocity, node_place(2), 0.0_dp, 'nodes: velocity at a node')
    end subroutine test_nodes
 
    !> A peak is found wherever it lies in its piece, also between the last node and the end.
@@ -150,6 +156,8 @@ contains
          ! Samples fall short of the extreme, by (pi 100/fine)**2/2 of the range for a hundred lines.
          call checks%check(records(1)%highest(quantity)%value >= extremes%highest(quantity)%value - 1.0e-8_dp*size_of .and. &
             records(1)%highest(quantity)%value <= extremes%highest(quantity)%value + 1.0e-6_dp*size_of, name//': highest')
+         ! Nobody asks where the largest pressure of the film is smallest.
+         if (quantity == seen_pressure) cycle
          call checks%check(records(1)%lowest(quantity)%value <= extremes%lowest(quantity)%value + 1.0e-8_dp*size_of .and. &
             records(1)%lowest(quantity)%value >= extremes%lowest(quantity)%value - 1.0e-6_dp*size_of, name//': lowest')
       end do
@@ -270,5 +278,48 @@ contains
       call checks%check(momentum_gap(records(1), lane%frequency) < 1.0e-8_dp .and. energy_gap(records(1), lane%mass) < 1.0e-8_dp, &
          'returning: the window closes')
    end subroutine test_returning
+
+   !> T c_n of velocities whose Fourier coefficients are known: c_n = 1/T (change of z' + 2 pi i n/T integral of z' exp(-2 pi i n
+   !> t/T) dt). A ramp has a constant z'', so all of them are nought; sine and cosine of the k-th multiple give pi k and pi k i.
+   subroutine test_coefficients(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer, parameter :: pieces = 100
+      real(dp), parameter :: rounding = 1.0e-12_dp
+      type(lane_scene_t) :: lane
+      type(step_nodes_t) :: nodes
+      type(window_record_t) :: record
+      complex(dp) :: expected
+      real(dp) :: phases(nodes_per_piece*pieces)
+      integer :: multiples, n, k, i
+
+      lane = lane_of(canonical_scene(law_iso_viscous, 512))
+      nodes%start = [(real(i, dp)/real(pieces, dp), i=0, pieces - 1)]
+      nodes%length = [(1.0_dp/real(pieces, dp), i=1, pieces)]
+      do i = 1, pieces
+         phases(nodes_per_piece*(i - 1) + 1:nodes_per_piece*i) = nodes%start(i) + node_place*nodes%length(i)
+      end do
+      nodes%films = [(1.0e-6_dp, i=1, size(phases))]
+      do multiples = 3, 8
+         record = window_record_t(multiples=multiples)
+         call start_record(1.0e-6_dp, 0.0_dp, 0.0_dp, .false., record)
+         nodes%pieces = pieces
+         nodes%velocities = phases
+         call record_period(lane, 1.0_dp, nodes, record)
+         call checks%check(abs(record%line_sums(0) - 1.0_dp) < rounding, 'coefficients: mean of a ramp')
+         call checks%check(all(abs(record%line_sums(1:)) < rounding), 'coefficients: of a ramp')
+         do k = 1, multiples
+            call start_record(1.0e-6_dp, 0.0_dp, 0.0_dp, .false., record)
+            nodes%pieces = pieces
+            nodes%velocities = sin(two_pi*real(k, dp)*phases) + 2.0_dp*cos(two_pi*real(k, dp)*phases)
+            call record_period(lane, 0.0_dp, nodes, record)
+            do n = 0, multiples
+               expected = merge(cmplx(0.5_dp, 1.0_dp, dp)*two_pi*real(k, dp), (0.0_dp, 0.0_dp), n == k)
+               call checks%check(abs(record%line_sums(n) - expected) < rounding*two_pi*real(multiples, dp), &
+                  'coefficients: of sine and cosine')
+            end do
+         end do
+      end do
+   end subroutine test_coefficients
 
 end module test_window_record
