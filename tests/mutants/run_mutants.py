@@ -10,8 +10,10 @@ from __future__ import annotations
 
 import argparse
 import csv
+import math
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -27,7 +29,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 LIST = Path(__file__).with_name("mutants.txt")
 # Optimised file by file: a file of which only the inside changes is compiled alone and linked anew.
 FLAGS = "-O2 -march=x86-64-v3 -fno-math-errno -fno-trapping-math -fopenmp -fPIC"
-# An endless loop is noticed, too: unit tests may take this many times their usual time, user tests so many s.
+# An endless loop is noticed: unit tests may take this many times their processor time, user tests so many s.
 PATIENCE, USER_LIMIT = 6.0, 900.0
 COLUMNS = ("number", "place", "reason", "outcome", "by", "seconds")
 KILLED, SURVIVED, SAME, BROKEN = "killed", "survived", "no difference", "does not build"
@@ -58,7 +60,15 @@ NEAREST_TESTS = {
     "fsrc/orbit": ("columns", "tasks", "scenes_at_rest"),
     "fsrc/spectrum": ("kernels_spectrum", "classify_script", "tasks"),
     "fsrc/verdict": ("kernels*", "tasks", "classify_script", "scenes_at_rest"),
-    "fsrc/files": ("written_files", "carrying_on", "output_places", "run_endings", "campaigns", "full_disk"),
+    "fsrc/files": (
+        "output_calls",
+        "written_files",
+        "carrying_on",
+        "output_places",
+        "run_endings",
+        "campaigns",
+        "full_disk",
+    ),
     "fsrc/run": (
         "columns",
         "refused_tasks",
@@ -184,11 +194,12 @@ class Scratch:
         made = self.make("build/rattle", "build/unit_tests", "build/kernels/built")
         if made.returncode:
             raise SystemExit(f"The unchanged program cannot be built:\n{made.stderr[-2000:]}")
-        self.unit_limit = USER_LIMIT
-        started = time.monotonic()
+        self.unit_limit = round(USER_LIMIT)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         if self.unit_tests():
             raise SystemExit("The unit tests fail on the unchanged program.")
-        self.unit_limit = PATIENCE * (time.monotonic() - started)
+        used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        self.unit_limit = math.ceil(PATIENCE * used)
 
     def _run(self, command: Sequence[str], limit: float = 3600.0, **options) -> subprocess.CompletedProcess:
         options = {"cwd": self.place, "env": self.environment, "text": True} | options
@@ -249,10 +260,11 @@ class Scratch:
 
     def unit_tests(self) -> str:
         """The first failure, empty if there is none; what comes after it is not waited for."""
+        limited = f"ulimit -t {self.unit_limit} && exec build/unit_tests"
         ended = subprocess.Popen(
-            ["build/unit_tests"], cwd=self.place, env=self.environment, text=True, stdout=subprocess.PIPE
+            ["sh", "-c", limited], cwd=self.place, env=self.environment, text=True, stdout=subprocess.PIPE
         )
-        patience = threading.Timer(self.unit_limit, ended.kill)
+        patience = threading.Timer(USER_LIMIT, ended.kill)
         patience.start()
         try:
             for line in ended.stdout:

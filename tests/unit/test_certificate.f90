@@ -34,6 +34,7 @@ contains
       call test_bounds(checks)
       call test_closing(checks)
       call test_chance(checks)
+      call test_tighter_errors(checks)
       call test_none(checks)
    end subroutine run_certificate_tests
 
@@ -334,6 +335,28 @@ contains
       call checks%check_close(certificate%acceleration_minimum_error, 2.0_dp, 1.0e-13_dp, 'chance: a tenth of it, relatively')
       call checks%check_close(certificate%harmonic_errors(1), 0.002_dp, 1.0e-15_dp, 'chance: a tenth of the other line''s error')
    end subroutine test_chance
+
+   !> The tighter solution has errors, too: solutions that agree to the last bit do not make a number exact.
+   subroutine test_tighter_errors(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: accuracy = 1.0e-10_dp, noise = 1.0e-6_dp
+      type(certificate_t) :: certificate
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: verdict
+
+      verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
+      call compare_windows(films, films, extremes_of(films, values), extremes_of(films, values), verdict, verdict, '', choice, &
+         tolerance, accuracy, noise, certificate)
+      call checks%check(certificate%film_error > accuracy, 'tighter errors: film')
+      call checks%check(certificate%film_minimum_error > accuracy*minval(films) .and. &
+         certificate%film_maximum_error > accuracy*maxval(films), 'tighter errors: extremes of the film')
+      call checks%check(certificate%acceleration_minimum_error > noise + accuracy*abs(minval(values)) .and. &
+         certificate%acceleration_maximum_error > noise + accuracy*maxval(values), 'tighter errors: extremes of the acceleration')
+      call checks%check(all(certificate%harmonic_errors > noise + accuracy*verdict%lines%harmonics), 'tighter errors: lines')
+      call checks%check(certificate%film_error < 100.0_dp*accuracy .and. &
+         all(certificate%harmonic_errors < 100.0_dp*(noise + accuracy*verdict%lines%harmonics)), 'tighter errors: not by far')
+   end subroutine test_tighter_errors
 
    !> Without a tighter solution nothing is certified.
    subroutine test_none(checks)

@@ -8,7 +8,7 @@ module test_settling_forecast
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use period_repetition, only: note_state, orbit_watch_t, watch_from
    use scene_lane, only: lane_of_scene
-   use scene_status, only: status_steady
+   use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, scene_t
    use settling_forecast, only: forecast_rest
    use settling_rate, only: settling_t
@@ -32,6 +32,7 @@ contains
       call test_linear_maps(checks)
       call test_refusals(checks)
       call test_motions(checks)
+      call test_failed_excursions(checks)
    end subroutine run_settling_forecast_tests
 
    !> Forecast from the first states of x -> rest + M (x - rest).
@@ -114,17 +115,11 @@ contains
       type(lane_scene_t) :: lanes(4)
       type(lane_request_t) :: request
       type(lane_ending_t) :: plain(4), ahead(4)
-      type(scene_t) :: scene
-      type(film_t) :: film
       real(dp) :: films(8*samples, 4), others(8*samples, 4), velocities(8*samples, 4)
       integer :: i
 
       do i = 1, 4
-         scene = canonical_scene(law_iso_viscous, samples)
-         scene%kinematics%entrainment_speed = speeds(i)
-         scene%load%force_amplitude = 150.0_dp
-         film = new_film(scene)
-         lanes(i) = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), 0.0_dp)
+         lanes(i) = canonical_lane(speeds(i), 150.0_dp)
       end do
       request%accuracy = accuracy
       request%periods = 400
@@ -141,5 +136,48 @@ contains
                               'the same motion')
       call checks%check(sum(ahead%periods) < 0.6*sum(plain%periods), 'sooner')
    end subroutine test_motions
+
+   !> Motions that never settle are sometimes forecast to. Behind a forecast that failed they are what they were, to the
+   !> last bit, period by period; only the steps of the way there and back are more.
+   subroutine test_failed_excursions(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      real(dp), parameter :: speeds(4) = [55.0_dp, 58.0_dp, 43.0_dp, 46.0_dp], forces(4) = [160.0_dp, 220.0_dp, 240.0_dp, 280.0_dp]
+      integer, parameter :: samples = 16
+      type(lane_scene_t) :: lanes(4)
+      type(lane_request_t) :: request
+      type(lane_ending_t) :: plain(4), ahead(4)
+      real(dp) :: films(8*samples, 4), others(8*samples, 4), velocities(8*samples, 4)
+      integer :: i
+
+      do i = 1, 4
+         lanes(i) = canonical_lane(speeds(i), forces(i))
+      end do
+      request%periods = 120
+      request%samples_per_period = samples
+      request%sampled_periods = 8
+      request%until_steady = .true.
+      call solve_motions(lanes, request, films, velocities, plain)
+      request%forecast = .true.
+      call solve_motions(lanes, request, others, velocities, ahead)
+      call checks%check(all(plain%status == status_complete .and. ahead%status == status_complete), 'none is steady')
+      call checks%check(all(ahead%steps > plain%steps), 'each went to where it was forecast to settle')
+      call checks%check(all(ahead%periods == plain%periods), 'the periods are those of the motion')
+      call checks%check(all(abs(films - others) <= 0.0_dp), 'the same motion to the last bit')
+   end subroutine test_failed_excursions
+
+   !> The canonical scene with another speed and force, from its steady film on.
+   function canonical_lane(speed, force) result(lane)
+      real(dp), intent(in) :: speed  !> Entrainment speed [m/s]
+      real(dp), intent(in) :: force  !> Force amplitude [N]
+      type(lane_scene_t) :: lane
+      type(scene_t) :: scene
+      type(film_t) :: film
+
+      scene = canonical_scene(law_iso_viscous, 64)
+      scene%kinematics%entrainment_speed = speed
+      scene%load%force_amplitude = force
+      film = new_film(scene)
+      lane = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), 0.0_dp)
+   end function canonical_lane
 
 end module test_settling_forecast

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from campaign_runs import grid
 
 import rattle as package
 
@@ -25,16 +26,19 @@ def shim(repository: Path, tmp_path_factory) -> Path:
 
 @pytest.fixture
 def meet(shim: Path, rattle: Path, scene_text, tmp_path: Path) -> Callable:
-    """Run the scene in a folder of its own with a fault; its end and its output calls."""
+    """Run the scene, or the campaign, in a folder of its own with a fault; its end and its output calls."""
     (tmp_path / "scene.nml").write_text(
         scene_text(solver={"periods": "100"}, spectrum={"certify": ".false."})
     )
+    (tmp_path / "map.nml").write_text(grid(scene_text, 5, 4))
 
-    def call(folder: str, **fault: object) -> tuple[subprocess.CompletedProcess[str], list[str]]:
+    def call(
+        folder: str, scene: str = "scene", **fault: object
+    ) -> tuple[subprocess.CompletedProcess[str], list[str]]:
         trace = tmp_path / f"{folder}.trace"
         words = {"FAULT_FOLDER": f"{folder}/", "FAULT_KIND": "none", "FAULT_TRACE": trace, **fault}
         ended = subprocess.run(
-            [rattle, "--quiet", "--output", folder, "scene.nml"],
+            [rattle, "--quiet", "--threads", "1", "--output", folder, f"{scene}.nml"],
             cwd=tmp_path,
             env={**os.environ, "LD_PRELOAD": str(shim), **{key: str(word) for key, word in words.items()}},
             capture_output=True,
@@ -70,6 +74,22 @@ def test_failure_of_every_call_is_told(meet, tmp_path: Path) -> None:
         assert (tmp_path / folder / "scene.state").exists() == last, call
         assert not list((tmp_path / folder).glob("*.new"))
     assert tried >= 15
+
+
+def test_failure_of_every_call_of_a_campaign_is_told(meet, tmp_path: Path) -> None:
+    """Also when its file is closed: a disk across the network may say only then that it is full."""
+    whole, calls = meet("whole", "map")
+    assert whole.returncode == 0
+    numbers = [number for number, call in enumerate(calls, 1) if call.split()[1].startswith("map.rattle")]
+    assert {calls[number - 1].split()[0] for number in numbers} >= {"pwrite", "fsync", "close"}
+    for number in numbers:
+        folder, call = f"call_{number}", calls[number - 1]
+        ended, _ = meet(folder, "map", FAULT_KIND="error", FAULT_AT=number)
+        assert ended.returncode == 3, call
+        told = ended.stderr.replace(".new", "")
+        assert f"{folder}/map.rattle cannot be written: " in told, call
+        summary = tmp_path / folder / "map.summary.nml"
+        assert not summary.exists() or "'complete'" not in summary.read_text(), call
 
 
 @pytest.mark.parametrize("kind", ["error", "short"])

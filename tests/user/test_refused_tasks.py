@@ -81,6 +81,18 @@ def test_the_referee_needs_an_even_number_of_cells(cells, code, run, scene_text,
     assert ("&points cells: an even number is needed" in ended.stderr) == (code == 2)
 
 
+@pytest.mark.parametrize(("count", "code"), [("5000000", 0), ("5000001", 2), ("10000001", 2)])
+def test_ten_million_points_are_enough(count, code, run, scene_text, tmp_path: Path):
+    """Two speed groups, and as many films as that leaves room for."""
+    groups = {"load": None, "solver": None, "spectrum": None, "kinematics": None, "film": {"law": None}}
+    points = {"film_ratio_range": f"1e-5, 1e-4, {count}", "speed_groups": "0.4e-6, 0.5e-6"}
+    (tmp_path / "film.nml").write_text(scene_text(scene={"task": "'film'"}, points=points, **groups))
+    ended = run("--check", "film.nml", cwd=tmp_path)
+    assert ended.returncode == code, ended.stderr
+    assert ("&points film_ratio_range: " in ended.stderr) == (code == 2)
+    assert ("the lists make more than 10000000 points" in ended.stderr) == (count == "5000001")
+
+
 @pytest.mark.parametrize(("forces", "failed"), [("20.0, 50.0", 0), ("20.0, 900.0", 1)])
 def test_one_failed_scene_is_enough_for_exit_1(forces, failed, run, scene_text, tmp_path: Path):
     campaign = {"vary": "'load.force_amplitude'", "values(:, 1)": forces}
