@@ -11,6 +11,7 @@ module reynolds_load
    use reynolds_iso_viscous, only: iso_viscous_group => iso_viscous_load
    use reynolds_piezo_viscous, only: piezo_viscous_group => piezo_viscous_load, &
       piezo_viscous_groups => piezo_viscous_load_array
+   use reynolds_stiffness, only: iso_viscous_stiffness, piezo_viscous_stiffness
    implicit none(type, external)
    private
 
@@ -83,36 +84,9 @@ contains
       a = a_by_velocity*velocity
       call iso_viscous_group(a, phi, phi_by_a)
       load = scale*inverse*phi
-      load_by_film = -scale*inverse*inverse*stiffness_group(a, phi, phi_by_a)
+      load_by_film = -scale*inverse*inverse*iso_viscous_stiffness(a, phi, phi_by_a)
       load_by_velocity = scale*inverse*phi_by_a*a_by_velocity
    end subroutine reynolds_iso_viscous_load
-
-   !> Phi + A Phi'/2, the group of the stiffness [-]. On fast separation Phi falls off with 1/A^2 and the two cancel; there it is the
-   !> series of Phi in 1/A^2, from that of A in the distance of the rupture angle from -pi/2, without its first term.
-   elemental real(dp) function stiffness_group(a, phi, phi_by_a)
-      !> Squeeze group A [-]
-      real(dp), intent(in) :: a
-      !> Phi [-]
-      real(dp), intent(in) :: phi
-      !> dPhi/dA [-]
-      real(dp), intent(in) :: phi_by_a
-      !> From here on the first term left out is below 1e-14
-      real(dp), parameter :: large = 20.0_dp
-      real(dp), parameter :: series(8) = [0.3611992945326279_dp, -1.6308116296358506_dp, 6.193789623667473_dp, &
-                                          -22.54388538308317_dp, 81.21115423246378_dp, -292.68399716266777_dp, &
-                                          1059.4648795645933_dp, -3857.008519558047_dp]
-      real(dp) :: x
-      integer :: i
-
-      stiffness_group = phi + 0.5_dp*a*phi_by_a
-      if (.not. a > large) return
-      x = (1.0_dp/a)*(1.0_dp/a)
-      stiffness_group = series(size(series))
-      do i = size(series) - 1, 1, -1
-         stiffness_group = series(i) + x*stiffness_group
-      end do
-      stiffness_group = x*x*stiffness_group
-   end function stiffness_group
 
    !> Exact piezo-viscous load; where no rigid film exists, a load above every real one, without slopes.
    elemental subroutine reynolds_piezo_viscous_load(scale, rate, b_rate, film, velocity, load, load_by_film, load_by_velocity)
@@ -233,7 +207,7 @@ contains
       else
          inverse = 1.0_dp/film
          load = scale*inverse*psi
-         load_by_film = -scale*inverse*inverse*(psi + 0.5_dp*a*psi_by_a + 1.5_dp*b*psi_by_b)
+         load_by_film = -scale*inverse*inverse*piezo_viscous_stiffness(a, b, psi, psi_by_a, psi_by_b)
          load_by_velocity = scale*inverse*psi_by_a*rate*(inverse*sqrt(film))
       end if
    end subroutine load_of_groups

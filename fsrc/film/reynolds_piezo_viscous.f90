@@ -12,8 +12,8 @@
 !>
 !> Valid: finite A, 0 <= B < B_crit(A). Any other B gives NaN in all three answers and raises no
 !> floating-point exception; so does a NaN or infinite A or a NaN B, which may raise the invalid one. Where
-!> numbers leave the range of their kind: B_crit stays at 1/tiny beyond A = 1e102, dPsi/dB overflows below
-!> A = -1e153.
+!> numbers leave the range of their kind: from A = 3.4e102 on B_crit is above the largest number, and infinite;
+!> dPsi/dB underflows beyond A = 1e61 and overflows below A = -1e153.
 !> Relative error: Psi 1e-14, slopes 1e-12, both growing as epsilon/(1 - B/B_crit) towards B_crit.
 !> A film gets the same bits from the scalar and the array procedure, wherever it stands in the array.
 module reynolds_piezo_viscous
@@ -29,10 +29,15 @@ module reynolds_piezo_viscous
 
    !> A quiet NaN; the IEEE modules would cost a save of the floating-point state in every call.
    real(dp), parameter :: quiet_nan = transfer(9221120237041090560_int64, 1.0_dp)
+   real(dp), parameter :: infinity = transfer(9218868437227405312_int64, 1.0_dp)
+
+   !> Least peak pressure group whose inverse is a finite number, next above 2**-1024.
+   real(dp), parameter :: least_peak = nearest(0.25_dp*tiny(1.0_dp), 1.0_dp)
 
 contains
 
-   !> B_crit = 1/max p* [-], the pressure group up to which a rigid piezo-viscous film exists.
+   !> B_crit = 1/max p* [-], the pressure group up to which a rigid piezo-viscous film exists; infinite where it is
+   !> above the largest number, for then every B has a film.
    elemental function critical_pressure_group(a) result(critical)
       !> Squeeze group A [-].
       real(dp), intent(in) :: a
@@ -41,7 +46,8 @@ contains
       real(dp) :: peak, dpeak_da
 
       call peak_pressure_group(a, peak, dpeak_da)
-      critical = 1.0_dp/peak_or_tiny(peak)
+      critical = 1.0_dp/peak_or(least_peak, peak)
+      if (peak < least_peak) critical = infinity
 
    end function critical_pressure_group
 
@@ -141,15 +147,17 @@ contains
 
    end subroutine load_block
 
-   !> Peak pressure group, or tiny where it has fallen below: its inverse stays finite.
-   elemental function peak_or_tiny(peak) result(bounded)
+   !> Peak pressure group, or a bound where it has fallen below.
+   elemental function peak_or(bound, peak) result(bounded)
+      !> Bound [-].
+      real(dp), intent(in) :: bound
       !> Highest pressure group max p* [-].
       real(dp), intent(in) :: peak
       real(dp) :: bounded
 
-      bounded = merge(tiny(peak), peak, peak < tiny(peak))
+      bounded = merge(bound, peak, peak < bound)
 
-   end function peak_or_tiny
+   end function peak_or
 
    !> Turn B into sigma = sqrt(1 - B/B_crit); without a rigid film take B = 0 and mark the film.
    elemental subroutine enter_sigma(b, peak, held, used, sigma, defect)
@@ -168,8 +176,9 @@ contains
 
       real(dp) :: gap
 
-      ! B max p* could overflow, so B meets B_crit first; the product may still round to one.
-      held = merge(b, 0.0_dp, b >= 0.0_dp .and. b < 1.0_dp/peak_or_tiny(peak))
+      ! B max p* could overflow, so B meets B_crit first, unless max p* is that small; the product may still round
+      ! to one.
+      held = merge(b, 0.0_dp, b >= 0.0_dp .and. (b < 1.0_dp/peak_or(tiny(peak), peak) .or. peak < tiny(peak)))
       used = held*peak
       gap = 1.0_dp - used
       sigma = sqrt(merge(gap, 1.0_dp, gap > 0.0_dp))

@@ -99,14 +99,19 @@ def piezo_excess(film, sigmas, rule):
     return result
 
 
+def sigma_nodes(count):
+    """Values of sigma at the Chebyshev points of the table coordinate w."""
+    root = mp.sqrt(2)
+    edge = 3 + 2 * root
+    return [(edge * (root - 1) + w * (root + 1)) / (edge - w) for w in chebyshev_nodes(count)]
+
+
 def piezo_table():
     """Both halves of S: table[half][power of v][power of w]."""
     rule = tanh_sinh(mpf(1) / 32, 112)
     count_v, count_w = PIEZO_NODES
     terms_v, terms_w = PIEZO_TERMS
-    root = mp.sqrt(2)
-    edge = 3 + 2 * root
-    sigmas = [(edge * (root - 1) + w * (root + 1)) / (edge - w) for w in chebyshev_nodes(count_w)]
+    sigmas = sigma_nodes(count_w)
     halves = []
     for side in (-1, 1):
         rows = []

@@ -13,6 +13,7 @@ from pathlib import Path
 from film_functions import DIGITS
 from film_tables import iso_module, piezo_module, piezo_table
 from mpmath import mp
+from separation_tables import separation_module
 from series_tables import cells_module, pieces_module
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,6 +32,7 @@ def main() -> int:
         ("iso_viscous_coefficients", iso_module()),
         ("piezo_viscous_coefficients", piezo_module(halves)),
         ("load_pieces", pieces_module()),
+        ("separation_coefficients", separation_module()),
         ("piezo_viscous_cells", cells_module(halves)),
     ):
         path = TARGET / f"{name}.f90"

@@ -116,7 +116,7 @@ contains
       real(dp), parameter :: far = 1.0e8_dp
       real(dp), parameter :: corners(8) = [0.0_dp, -0.0_dp, tiny(1.0_dp), -tiny(1.0_dp), 1.0e160_dp, &
          -1.0e160_dp, huge(1.0_dp), -huge(1.0_dp)]
-      real(dp) :: phi, dphi_da, peak, dpeak_da, psi, dpsi_da, dpsi_db
+      real(dp) :: phi, dphi_da, peak, dpeak_da, psi, dpsi_da, dpsi_db, critical
       integer :: i
 
       call iso_viscous_load(-far, phi, dphi_da)
@@ -137,9 +137,16 @@ contains
          call checks%check(abs(rupture_angle(corners(i))) <= half_pi, 'rupture of any A')
          call checks%check(critical_pressure_group(corners(i)) > 0.0_dp, 'B_crit of any A')
       end do
+      ! B_crit goes with A**3, to the largest number there is and not beyond.
+      call checks%check_close(critical_pressure_group(3.39e102_dp)/critical_pressure_group(3.39e100_dp)*1.0e-6_dp, 1.0_dp, &
+         rounding, 'B_crit below the largest number')
+      call checks%check(critical_pressure_group(3.41e102_dp) > huge(1.0_dp), 'B_crit above the largest number')
+      call piezo_viscous_load(3.41e102_dp, 1.7e308_dp, psi, dpsi_da, dpsi_db)
+      call iso_viscous_load(3.41e102_dp, phi, dphi_da)
+      call checks%check(psi > 1.5_dp*phi, 'Psi where B_crit is above the largest number')
       do i = 1, 5
-         call piezo_viscous_load(corners(i), 0.5_dp*critical_pressure_group(corners(i)), &
-            psi, dpsi_da, dpsi_db)
+         critical = min(critical_pressure_group(corners(i)), huge(1.0_dp))
+         call piezo_viscous_load(corners(i), 0.5_dp*critical, psi, dpsi_da, dpsi_db)
          call checks%check(psi >= 0.0_dp .and. dpsi_da <= 0.0_dp .and. dpsi_db >= 0.0_dp, 'Psi far out')
       end do
    end subroutine test_asymptotes

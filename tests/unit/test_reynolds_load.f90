@@ -38,23 +38,32 @@ contains
       call checks%check_close(by_film*1.0e-6_dp/load, -1.0_dp, 1.0e-14_dp, 'stiffness of a film that falls with 1/h')
    end subroutine test_martin
 
-   !> Stiffness of the iso-viscous film on fast separation, where Phi and A Phi'/2 cancel: Phi + A Phi'/2 with 120 digits.
+   !> Stiffness on fast separation, where its terms cancel: Phi + A Phi'/2, and Psi + A Psi_A/2 + 3 B Psi_B/2 at three quarters of
+   !> B_crit, with 40 digits or more.
    subroutine test_stiffness_of_separation(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       real(dp), parameter :: groups(6) = [20.0_dp, 30.0_dp, 50.0_dp, 100.0_dp, 2.0e3_dp, 1.0e6_dp]
       real(dp), parameter :: stiffnesses(6) = [2.2322539221216354159e-6_dp, 4.4369740427599335785e-7_dp, &
          5.7687673511405720902e-8_dp, 3.6103627528502475037e-9_dp, 2.2574930426881723031e-14_dp, 3.6119929453099705433e-25_dp]
+      real(dp), parameter :: piezo_groups(6) = [8.0_dp, 10.0_dp, 30.0_dp, 100.0_dp, 2.0e3_dp, 1.0e6_dp]
+      real(dp), parameter :: pressure_groups(6) = [1858.569121100566_dp, 3559.0331991298362_dp, 93073.899901227429_dp, &
+         3434483.1440805886_dp, 27465845424.108376_dp, 3.4332275390750556e18_dp]
+      real(dp), parameter :: piezo_stiffnesses(6) = [2.3033238788537120301e-4_dp, 9.6697737756039093087e-5_dp, &
+         1.2422593603570579388e-6_dp, 1.0108639791662929021e-8_dp, 6.3207691804541213295e-14_dp, 1.0113242199078170951e-24_dp]
       real(dp) :: load, by_film, by_velocity
       integer :: i
 
       do i = 1, size(groups)
          call reynolds_iso_viscous_load(1.0_dp, 1.0_dp, 1.0_dp, groups(i), load, by_film, by_velocity)
          call checks%check_close(-by_film/stiffnesses(i), 1.0_dp, 1.0e-12_dp, 'stiffness on fast separation')
-         ! On either side of the group from which the series is taken.
-         call reynolds_iso_viscous_load(1.0_dp, 1.0_dp, 1.0_dp, 20.0_dp*(1.0_dp + epsilon(1.0_dp)), load, by_film, by_velocity)
-         call checks%check_close(-by_film/stiffnesses(1), 1.0_dp, 1.0e-12_dp, 'stiffness where its series begins')
+         call reynolds_piezo_viscous_load(1.0_dp, 1.0_dp, pressure_groups(i), 1.0_dp, piezo_groups(i), load, by_film, by_velocity)
+         call checks%check_close(-by_film/piezo_stiffnesses(i), 1.0_dp, 1.0e-12_dp, 'the same of the piezo-viscous film')
       end do
+      ! The other side of the group from which the series is taken.
+      call reynolds_piezo_viscous_load(1.0_dp, 1.0_dp, pressure_groups(1), 1.0_dp, piezo_groups(1)*(1.0_dp + epsilon(1.0_dp)), &
+                                       load, by_film, by_velocity)
+      call checks%check_close(-by_film/piezo_stiffnesses(1), 1.0_dp, 1.0e-12_dp, 'piezo-viscous stiffness where its series begins')
    end subroutine test_stiffness_of_separation
 
    !> Slopes of both films, approaching, resting and separating.

@@ -70,6 +70,64 @@ def test_critical_pressure_group_is_exact(films):
     assert worst(kernels.critical_pressure_group(GROUPS), [1 / film.peak for film in films]) < 1e-13
 
 
+def test_critical_pressure_group_far_out():
+    """It goes with A**3 to the largest number there is, and is infinite where it would be larger still."""
+    far = exact_film.mpf(float(kernels.critical_pressure_group(1e8))) / exact_film.mpf(1e8) ** 3
+    for a in (1e50, 1e100, 1.9e102, 2.2e102, 3.0e102, 3.39e102):
+        assert worst(np.array(kernels.critical_pressure_group(a)), [far * exact_film.mpf(a) ** 3]) < 1e-13
+    assert np.isinf(kernels.critical_pressure_group(np.array([3.41e102, 1e103, 1e200, 1.7e308]))).all()
+    # Of films with the same B/B_crit the load goes with 1/A**2, also where B_crit is no number any more.
+    b = np.array([1.7e308, 1e308, 1.7e308, 1.7e308, 1e300])
+    a = np.array([2.2e102, 3.0e102, 3.41e102, 1e103, 1e150])
+    near = kernels.critical_pressure_group(1e8)
+    share = np.array(
+        [float(exact_film.mpf(y) / (far * exact_film.mpf(x) ** 3)) for x, y in zip(a, b, strict=True)]
+    )
+    psi = kernels.piezo_viscous_load(a, b)[0]
+    assert np.isnan(psi[0]) and share[0] > 1.0
+    expected = kernels.piezo_viscous_load(1e8, share[1:] * near)[0] * (1e8 / a[1:]) ** 2
+    assert psi[1:] == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(("lowest", "highest", "count"), [(0.1, 8.0, 20), (8.0, 30.0, 20), (30.0, 1e5, 16)])
+def test_stiffness_is_exact(lowest, highest, count):
+    """Phi + A Phi'/2 and Psi + A dPsi/dA/2 + 3 B dPsi/dB/2: on fast separation their terms cancel."""
+    random = np.random.default_rng(22)
+    sizes = np.exp(random.uniform(np.log(lowest), np.log(highest), count))
+    for a, share in zip(
+        [*sizes, lowest, highest, -highest], [*random.uniform(0.0, 0.99, count), 0.0, 0.99, 0.99], strict=True
+    ):
+        a = float(a)
+        critical = kernels.critical_pressure_group(a)
+        # Of this film 12 l u eta0 R is 96, A is w and B is 48 alpha, all without rounding but for B.
+        teeth = {"radius": 2.0, "length": 1.0, "speed": 4.0, "viscosity": 1.0}
+        alpha = share * critical / 48.0
+        b = exact_film.mpf(float(48.0 * alpha))
+        phi, dphi_da = exact_film.iso_load(a)
+        psi, dpsi_da, dpsi_db = exact_film.piezo_load(a, b)
+        with exact_film.mp.workdps(40):
+            iso = -96 * (phi + exact_film.mpf(a) / 2 * dphi_da)
+            piezo = -96 * (psi + exact_film.mpf(a) / 2 * dpsi_da + 3 * b / 2 * dpsi_db)
+        found = kernels.reynolds_iso_viscous_load(1.0, a, **teeth)[1]
+        assert worst(np.array(found), [iso]) < 1e-12
+        found = kernels.reynolds_piezo_viscous_load(1.0, a, pressure_viscosity=alpha, **teeth)[1]
+        assert worst(np.array(found), [piezo]) < 1e-12
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 0.99])
+def test_stiffness_far_out(share):
+    """It falls off with 1/A**4 until it is no number any more."""
+    teeth = {"radius": 2.0, "length": 1.0, "speed": 4.0, "viscosity": 1.0}
+    a = 10.0 ** np.arange(5.0, 75.0, 5.0)
+    alpha = share * kernels.critical_pressure_group(a) / 48.0
+    iso = kernels.reynolds_iso_viscous_load(1.0, a, **teeth)[1] * a * a * a * a
+    piezo = kernels.reynolds_piezo_viscous_load(1.0, a, pressure_viscosity=alpha, **teeth)[1] * a * a * a * a
+    assert iso == pytest.approx(iso[0], rel=1e-9)
+    assert iso[1:] == pytest.approx(-96.0 * 0.3611992945326279, rel=1e-12)
+    assert piezo[1:] == pytest.approx(piezo[1], rel=1e-12)
+    assert piezo[0] == pytest.approx(piezo[1], rel=1e-9)
+
+
 def test_iso_viscous_load_is_exact():
     phi, slope = kernels.iso_viscous_load(GROUPS)
     exact = [exact_film.iso_load(float(a)) for a in GROUPS]

@@ -83,18 +83,21 @@ def test_barus_pressure_and_limiting_film():
     assert np.isnan(kernels.limiting_film_ratio(np.array([np.nan, 1e-6]), np.array([0.0, np.nan]))).all()
 
 
-@pytest.mark.parametrize("a", [-3.0, 0.1, 30.0, 4.1e4])
-@pytest.mark.parametrize("share", [0.5, 1.136, 40.0])
-def test_limiting_film_of_any_point(a: float, share: float):
+@pytest.mark.parametrize("film", [1e-14, 1e-9, 1e-4, 1e2])
+@pytest.mark.parametrize("a", [-1e8, -3.0, 0.0, 0.1, 30.0, 4.1e4, 1e8])
+@pytest.mark.parametrize("share", [0.5, 0.99, 1.001, 1.136, 40.0, 1e6])
+def test_limiting_film_of_any_point(a: float, share: float, film: float):
     """On the way to thicker films alpha p falls below 1 at last, however fast the film separates."""
-    film = 1e-4
     speed = share * kernels.critical_pressure_group(a) * film**1.5 / (6.0 * np.sqrt(2.0))
     squeeze = 0.25 * a * np.sqrt(2.0 * film)
+
+    def alpha_p(h: float) -> float:
+        group = 6.0 * np.sqrt(2.0) * speed / h**1.5
+        return group / kernels.critical_pressure_group(4.0 * squeeze / np.sqrt(2.0 * h))
+
     limit = kernels.limiting_film_ratio(speed, squeeze)
-    if np.isnan(limit):  # the limit of alpha p for thin films does not reach 1
-        assert a > 1.0 and share < 1.0
+    if np.isnan(limit):  # alpha p of thinner and thinner films stays below 1
+        assert share < 1.0 and alpha_p(1e-15) < 1.0
         return
-    group = 6.0 * np.sqrt(2.0) * speed / limit**1.5
-    critical = kernels.critical_pressure_group(4.0 * squeeze / np.sqrt(2.0 * limit))
-    assert group == pytest.approx(critical, rel=1e-9)
+    assert alpha_p(limit) == pytest.approx(1.0, abs=1e-12)
     assert (limit > film) == (share > 1.0)

@@ -52,7 +52,8 @@ def piezo_viscous_load(a: Any, b: Any) -> tuple[Any, Any, Any]:
 def critical_pressure_group(a: Any) -> Any:
     """B_crit = 1/max p* [-], for arrays of the squeeze group A [-]; relative error below 1e-13.
 
-    From B_crit on there is no rigid piezo-viscous film: alpha p_max = B/B_crit of eq (31) has reached one.
+    From B_crit on there is no rigid piezo-viscous film: alpha p_max = B/B_crit of eq (31) has reached one. It
+    grows with A**3: beyond A = 3.4e102 it is above the largest number of its kind, and infinite.
     """
 
 
@@ -90,7 +91,8 @@ def reynolds_iso_viscous_load(
     """W [N], dW/dh [N/m], dW/dw [N s/m] of the exact iso-viscous film, W = 12 l u eta0 R/h Phi(A).
 
     The slopes are total: x_e moves with h and w. For arrays of h [m], w [m/s], R [m], l [m], u [m/s],
-    eta0 [Pa s]. Relative errors below 1e-12; a film that is not positive gives NaN.
+    eta0 [Pa s]. Relative errors below 1e-12, down to where a number underflows (dW/dh: beyond A = 1e77); a
+    film that is not positive gives NaN.
     """
 
 
@@ -107,14 +109,16 @@ def reynolds_piezo_viscous_load(
 ) -> tuple[Any, Any, Any]:
     """W [N], dW/dh [N/m], dW/dw [N s/m] of the exact piezo-viscous film, W = 12 l u eta0 R/h Psi(A, B).
 
-    The slopes are total. Arrays as for `reynolds_iso_viscous_load`, and alpha [1/Pa]; errors as of
-    `piezo_viscous_load`. NaN where there is no rigid film.
+    The slopes are total. Arrays as for `reynolds_iso_viscous_load`, and alpha [1/Pa]. Relative errors below
+    1e-12 up to 0.99 B_crit, growing as 1e-15/(1 - B/B_crit) from there on. NaN where there is no rigid film.
     """
 
 
 @elementwise
 def limiting_film_ratio(speed_group: Any, squeeze_ratio: Any) -> Any:
-    """h* [-] at which alpha p_max = 1, eq (31), for arrays of u* > 0 and w* [-]; relative error below 1e-12.
+    """h* [-] at which alpha p_max = 1, eq (31), for arrays of u* > 0 and w* [-].
 
-    NaN where the surfaces separate so fast that alpha p stays below one for every h* between 1e-15 and 1e3.
+    alpha p_max of that film is one to 1e-12, and the film as exact as that makes it: where it separates fast,
+    alpha p_max changes by 1/A**2 only between films of twice the thickness. NaN where the surfaces separate
+    so fast that alpha p stays below one for every h* above 1e-15.
     """
