@@ -165,7 +165,7 @@ contains
       call respond(scene, response)
       call compare(checks, 'exact film, u_r = 3.810', response, [0.409978e-6_dp, 6.885256e-6_dp, -92.317481_dp, &
          370.473132_dp], &
-         [42.1753420_dp, 52.7575920_dp, 44.9082798_dp, 38.5704473_dp, 32.4493844_dp, 27.3582296_dp], 33)
+         [42.1753420_dp, 52.7575920_dp, 44.9082791_dp, 38.5704473_dp, 32.4493844_dp, 27.3582296_dp], 33)
       scene%kinematics%entrainment_speed = 0.5_dp*1.905_dp
       call respond(scene, response)
       call compare(checks, 'exact film, u_r = 1.905', response, [0.400824e-6_dp, 3.478332e-6_dp, -61.644347_dp, &
