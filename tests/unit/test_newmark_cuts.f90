@@ -23,6 +23,7 @@ contains
       call checks%start('newmark')
       call test_cuts(checks)
       call test_nested_cut(checks)
+      call test_second_half_cut(checks)
       call test_ends(checks)
    end subroutine run_newmark_cuts_tests
 
@@ -99,6 +100,53 @@ contains
       call checks%check_close(cut_acceleration/accelerations(1), 1.0_dp, 1.0e-12_dp, &
          'nested cut: acceleration')
    end subroutine test_nested_cut
+
+   !> A first step of three radians of a free oscillation, cut in half, and then its second half cut again: the state at its
+   !> end is that of a half and two quarters, with the forces of their ends.
+   subroutine test_second_half_cut(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer, parameter :: steps = 8
+      real(dp), parameter :: angular = 3.0_dp*600.0_dp*real(steps, dp), rest = 1.0e-5_dp, amplitude = 124.0_dp
+      type(newmark_t) :: method
+      type(film_t) :: film
+      type(motion_state_t) :: cut, whole
+      type(motion_count_t) :: count
+      integer :: status
+
+      method = linear_method()
+      method%force_amplitude = amplitude
+      film%piezo = method%mass*angular**2
+      film%rolling = film%piezo*rest + method%steady_force + method%weight
+      call start_motion(linear_film, film, method, 1.8_dp*rest, 0.0_dp, whole, count, status)
+      cut = whole
+      call take_step(1, 1.0_dp, cut)
+      call take_step(2, 0.5_dp, whole)
+      call take_step(4, 0.75_dp, whole)
+      call take_step(4, 1.0_dp, whole)
+      call checks%check_close(cut%film/whole%film, 1.0_dp, 1.0e-12_dp, 'second half cut: film')
+      call checks%check_close(cut%velocity/whole%velocity, 1.0_dp, 1.0e-12_dp, 'second half cut: velocity')
+      call checks%check_close(cut%acceleration/whole%acceleration, 1.0_dp, 1.0e-12_dp, 'second half cut: acceleration')
+
+   contains
+
+      !> A step of a part of 1/8 period, which only as a whole needs cuts.
+      subroutine take_step(parts, share, state)
+         integer, intent(in) :: parts                  !> Of 1/8 period
+         real(dp), intent(in) :: share                 !> Of 1/8 period at its end
+         type(motion_state_t), intent(inout) :: state
+
+         real(dp), dimension(parts*steps) :: force, films, velocities, accelerations
+         integer :: done
+
+         force = method%steady_force + amplitude*cos(two_pi*share/real(steps, dp))
+         ! Later steps of the period do not matter.
+         call advance_period(linear_film, film, method, force, state, count, films, velocities, accelerations, done, status)
+         call checks%check(done >= 1, 'second half cut: the step was taken')
+         state = motion_state_t(films(1), velocities(1), accelerations(1))
+      end subroutine take_step
+
+   end subroutine test_second_half_cut
 
    !> One period of the canonical idle scene from its steady film with a given velocity.
    subroutine fall_through_a_period(fall, by_newton, films, count)

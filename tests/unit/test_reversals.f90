@@ -69,10 +69,10 @@ contains
       call checks%check(count_reversals([0.0_dp, 50.0_dp, 48.9_dp, 100.0_dp], 0.02_dp) == 2, &
          'another threshold')
       do i = -1, 1, 2
-         call checks%check(count_reversals(real(i, dp)*[0.0_dp, 50.0_dp, 49.001_dp, 100.0_dp], 0.01_dp) == 2, &
-            'ripple just below the threshold')
-         call checks%check(count_reversals(real(i, dp)*[0.0_dp, 50.0_dp, 48.999_dp, 100.0_dp], 0.01_dp) == 4, &
-            'ripple just above the threshold')
+         call checks%check(count_reversals(real(i, dp)*[0.0_dp, 50.0_dp, 49.001_dp, 100.0_dp], reversal_prominence) == 2, &
+            'ripple just below a hundredth of the range')
+         call checks%check(count_reversals(real(i, dp)*[0.0_dp, 50.0_dp, 48.999_dp, 100.0_dp], reversal_prominence) == 4, &
+            'ripple just above a hundredth of the range')
       end do
       signal = [(sin(two_pi*real(i, dp)/200.0_dp) + 0.008_dp*sin(real(7*i*i, dp)), i=1, 200)]
       call checks%check(count_reversals(signal, 0.01_dp) == 2, 'noise below the threshold')

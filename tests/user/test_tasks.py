@@ -148,12 +148,27 @@ def test_steady_run_equals_the_full_run(
 
 
 def test_newmark_error_is_that_of_its_certificate(run, scene_text, tmp_path: Path) -> None:
-    """The error fourfold at half the steps, as second order asks."""
+    """The error fourfold at half the steps, as second order asks; also against a window of more samples."""
     errors = []
-    for steps in ("256", "512"):
+    for steps in ("64", "128", "256", "512"):
         text = canonical(scene_text, method="'newmark'", steps_per_period=steps, periods="30")
         errors.append(summary(solve(run, tmp_path, text, name=f"n{steps}"), f"n{steps}")["film_error"])
-    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
+    assert np.divide(errors[:-1], errors[1:]) == pytest.approx(4.0, rel=0.05)
+
+
+@pytest.mark.parametrize("accuracy", ["1e-4", "1e-5"])
+def test_errors_of_a_certificate_are_those_of_the_numbers(
+    accuracy: str, run, scene_text, tmp_path: Path
+) -> None:
+    """Never smaller than they are, and no more than four times as large."""
+    found, exact = (
+        summary(solve(run, tmp_path, canonical(scene_text, accuracy=value), name=name), name)
+        for name, value in (("loose", accuracy), ("tight", "1e-11"))
+    )
+    for key in ("film_minimum", "film_maximum", "acceleration_minimum", "acceleration_maximum"):
+        error = abs(found[key] - exact[key])
+        assert error <= found[f"{key}_error"] <= 4.0 * error, key
+    assert found["film_minimum_error"] / found["film_minimum"] <= found["film_error"] < 4.0 * float(accuracy)
 
 
 @pytest.mark.parametrize("method", ["newmark", "newmark-extrapolated", "taylor"])
@@ -241,6 +256,20 @@ def test_steady_newmark_run_never_exceeds_its_periods(
     options += ["--set", f"solver.periods={periods}", "--set", "output.series=.false."]
     ended = summary(solve(run, tmp_path, text, *options, name="two"), "two")
     assert (ended["status"], ended["periods_solved"]) == (status, periods)
+
+
+@pytest.mark.parametrize(("periods", "status"), [(12, "steady"), (11, "complete")])
+def test_the_search_leaves_room_for_the_longest_orbit(
+    periods: int, status: str, run, scene_text, tmp_path: Path
+) -> None:
+    """Known to repeat after three periods, behind which nine must follow; single or in a campaign."""
+    solver = {"until": "'steady'", "accuracy": "1e-6", "periods": str(periods)}
+    text = canonical(scene_text, **solver).replace("periods = 16", "periods = 8")
+    ended = summary(solve(run, tmp_path, text, name="one"), "one")
+    assert (ended["status"], ended["periods_solved"]) == (status, 4 if status == "steady" else periods)
+    text += "\n&campaign vary = 'load.gravity' values(:, 1) = 9.80665, 9.8 /\n"
+    many = solve(run, tmp_path, text, "--set", "scene.task=campaign", name="many") / "many.rattle"
+    assert (package.read_campaign(many)["status"] == (status == "steady")).all()
 
 
 # --- sweeps ----------------------------------------------------------------------------------------------
