@@ -30,16 +30,18 @@ module run_sweep
    implicit none(type, external)
    private
 
-   character(*), parameter :: names(18) = [character(24) :: 'value', 'direction', 'film_minimum', 'film_maximum', &
+   !> Columns of the table.
+   integer, parameter, public :: sweep_columns = 18
+   character(*), parameter :: names(sweep_columns) = [character(24) :: 'value', 'direction', 'film_minimum', 'film_maximum', &
       'acceleration_minimum', 'acceleration_maximum', 'orbit_period', 'floquet_modulus', 'orbit_stability', 'line_count', &
       'harmonic_distortion', 'irregular_fraction', 'rattle_class', 'natural_frequency', 'periods', 'status', 'first_harmonic', &
       'model_limit']
-   character(*), parameter :: units(18) = [character(8) :: '-', '-', 'm', 'm', 'm/s2', 'm/s2', '-', '-', '-', '-', '-', '-', '-', &
-                                           'Hz', '-', '-', 'm/s2', '-']
+   character(*), parameter :: units(sweep_columns) = [character(8) :: '-', '-', 'm', 'm', 'm/s2', 'm/s2', '-', '-', '-', '-', &
+      '-', '-', '-', 'Hz', '-', '-', 'm/s2', '-']
    !> A periodic motion farther away than this is another one [-].
    real(dp), parameter :: orbit_nearness = 1.0e-3_dp
 
-   public :: run_sweep_task
+   public :: run_sweep_task, solve_value
 
 contains
 
@@ -57,7 +59,7 @@ contains
       type(progress_t) :: watcher
       type(result_writer_t) :: writer
       type(error_t), allocatable :: close_error, summary_error
-      real(dp) :: started, film, velocity, row(size(names), 1)
+      real(dp) :: started, film, velocity, row(sweep_columns, 1)
       integer :: i, failed, ended, beyond_model
 
       status = status_complete
@@ -128,11 +130,12 @@ contains
 
    !> Steady motion of one value, from the state given; that state becomes the one for the next value.
    subroutine solve_value(scene, film, velocity, row, status)
+      !> Checked scene with that value
       type(scene_t), intent(in) :: scene
       !> State to start from; no film: the steady film at rest [m], [m/s]
       real(dp), intent(inout) :: film
       real(dp), intent(inout) :: velocity
-      !> Row of the table but its first two values and the status; NaN-free: what is unknown is 0
+      !> Row of the table, by the places of its names, but the first two values and the status; what is unknown is 0
       real(dp), intent(out) :: row(:)
       !> Status of scene_status
       integer, intent(out) :: status

@@ -1,6 +1,6 @@
 !> Random scenes as users have them judged: half of them those of random_scenes, over decades of every quantity, half of
 !> them loose gears of a transmission at engine orders of 5 to 60 Hz, with forces up to 50 static loads. These
-!> fly far and strike hard. A scene depends on its number and the seed alone.
+!> fly far and strike hard. Campaigns vary such gears, sweeps scenes of either kind. A scene depends on its number and the seed alone.
 module judged_scenes
    use constants, only: standard_gravity
    use film_law, only: new_film, steady_film
@@ -29,10 +29,12 @@ module judged_scenes
 
    !> Rows of a campaign, and the keys that it varies: forces, frequency and viscosity of a loose gear.
    integer, parameter, public :: campaign_rows = 32
+   !> Values of a sweep.
+   integer, parameter, public :: sweep_values = 8
    character(*), parameter, public :: campaign_keys(4) = [character(24) :: 'load.steady_force', 'load.force_amplitude', &
       'load.frequency', 'lubricant.viscosity']
 
-   public :: draw_campaign, draw_judged_scene, is_gear
+   public :: draw_campaign, draw_judged_scene, draw_sweep, is_gear
 
 contains
 
@@ -112,6 +114,50 @@ contains
                                        drawn(i)%scene%film%initial_velocity)
       end do
    end subroutine draw_campaign
+
+   !> A sweep: a scene of either kind, and its values of frequency, amplitude of the force or static load.
+   pure subroutine draw_sweep(seed, number, drawn, law)
+      !> Any number
+      integer(int64), intent(in) :: seed
+      !> Number of the sweep, from 0 on
+      integer(int64), intent(in) :: number
+      !> The scene of every value, in their order; where it starts is left open
+      type(drawn_scene_t), intent(out) :: drawn(sweep_values)
+      !> Place in law_names
+      integer, intent(out) :: law
+      integer(int64), parameter :: sweep_stream = 2_int64**42
+      real(dp), parameter :: spans(2) = [1.1_dp, 10.0_dp]
+      type(random_state_t) :: state
+      real(dp) :: number_of_key, span, factor
+      integer :: i
+
+      ! Far from the scenes of the summaries, and far apart: neighbours share their law.
+      call draw_judged_scene(seed, sweep_stream + 61_int64*number, drawn(1), law)
+      state = random_state_t(seed=seed, stream=sweep_stream + number)
+      call next_uniform(state, number_of_key)
+      call draw(state, spans, span)
+      drawn(1)%scene%solver%method = method_taylor
+      drawn(1)%scene%solver%until = until_steady
+      drawn(1)%scene%solver%periods = 200
+      drawn(1)%scene%film%initial_film = 0.0_dp
+      drawn(1)%scene%film%initial_velocity = 0.0_dp
+      do i = 1, sweep_values
+         drawn(i) = drawn(1)
+         drawn(i)%number = number*int(sweep_values, int64) + int(i - 1, int64)
+         factor = span**(real(i - 1, dp)/real(sweep_values - 1, dp))
+         associate (load => drawn(i)%scene%load)
+            select case (int(3.0_dp*number_of_key))
+            case (0)
+               load%frequency = factor*load%frequency
+            case (1)
+               load%force_amplitude = factor*load%force_amplitude
+            case default
+               load%steady_force = factor*load%steady_force
+            end select
+         end associate
+         drawn(i)%resolved = resolve(drawn(i)%scene)
+      end do
+   end subroutine draw_sweep
 
    !> Place of the law of a scene in law_names.
    pure integer function law_of(scene) result(law)

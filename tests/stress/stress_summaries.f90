@@ -1,7 +1,7 @@
-!> Random scenes solved and judged as a user has them judged, each summary and each row of a campaign held against the
-!> true motion.
+!> Random scenes solved and judged as a user has them judged, each summary, each row of a campaign and each value of a
+!> sweep held against the true motion.
 !>
-!>    stress_summaries [--scenes N] [--campaigns N] [--seed S] [--first I] [--failures FILE] [--list OUTCOME]
+!>    stress_summaries [--scenes N] [--campaigns N] [--sweeps N] [--seed S] [--first I] [--failures FILE] [--list OUTCOME]
 !>
 !> Prints the table of outcomes and, of every silent failure and all that is listed, a namelist that shows it
 !> again. The exit code is 1 if there is a silent failure. The result does not depend on the number of threads
@@ -9,7 +9,7 @@
 program stress_summaries
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use clock, only: wall_seconds
-   use judged_scenes, only: campaign_keys, campaign_rows, draw_campaign, draw_judged_scene, is_gear
+   use judged_scenes, only: campaign_keys, campaign_rows, draw_campaign, draw_judged_scene, draw_sweep, is_gear, sweep_values
    use kinds, only: dp, int64
    use lobatto_rule, only: lobatto_rule_t, new_lobatto_rule
    use random_scenes, only: drawn_scene_t, law_names, laws
@@ -18,16 +18,18 @@ program stress_summaries
    use scene_types, only: scene_t
    use summary_outcomes, only: outcome_of_row, outcome_of_summary, told_names, told_outcome_t, told_outcomes, told_silent
    use text, only: integer_text
-   use told_summary, only: rows_told, summary_told, told_t
+   use scene_lane, only: lane_of_scene
+   use told_summary, only: rows_told, summary_told, told_t, value_told
    implicit none(type, external)
 
-   !> The scenes of a table: all decades, loose gears, rows of campaigns.
-   character(*), parameter :: kinds_of_scenes(3) = [character(16) :: 'all decades', 'loose gears', 'campaign rows']
-   integer(int64) :: scenes = 100000_int64, campaigns = -1_int64, seed = 1_int64, first = 0_int64, number
-   integer(int64) :: counts(told_outcomes, laws, 3) = 0_int64
+   !> The scenes of a table: all decades, loose gears, rows of campaigns without and with certificate, values of sweeps.
+   character(*), parameter :: kinds_of_scenes(5) = [character(16) :: 'all decades', 'loose gears', 'campaign rows', &
+      'certified rows', 'sweep values']
+   integer(int64) :: scenes = 100000_int64, campaigns = -1_int64, sweeps = -1_int64, seed = 1_int64, first = 0_int64, number
+   integer(int64) :: counts(told_outcomes, laws, size(kinds_of_scenes)) = 0_int64
    character(512) :: failures = ''
    logical :: listed(told_outcomes) = .false.
-   real(dp) :: started, seconds(2) = 0.0_dp, row_seconds(2) = 0.0_dp, slowest = 0.0_dp
+   real(dp) :: started, seconds(2) = 0.0_dp, row_seconds(2) = 0.0_dp, value_seconds(2) = 0.0_dp, slowest = 0.0_dp
    integer(int64) :: slowest_scene = 0_int64
    type(lobatto_rule_t) :: rule
    integer :: unit
@@ -49,12 +51,18 @@ program stress_summaries
       call run_campaign(number)
    end do
    !$omp end parallel do
+   if (sweeps < 0_int64) sweeps = scenes/int(4*sweep_values, int64)
+   !$omp parallel do schedule(dynamic) default(shared)
+   do number = first, first + sweeps - 1_int64
+      call run_values(number)
+   end do
+   !$omp end parallel do
    call print_table()
    print '(a)', ''
    print '(a, i0, a, i0, a, i0, a, f0.1, a)', 'scenes ', first, ' to ', first + scenes - 1_int64, ', seed ', seed, ', ', &
       wall_seconds() - started, ' s'
-   print '(4(a, f0.1), a)', 'seconds of the program ', seconds(1), ', of the reference ', seconds(2), '; of campaigns ', &
-      row_seconds(1), ' and ', row_seconds(2), ', all threads together'
+   print '(6(a, f0.1), a)', 'seconds of the program ', seconds(1), ', of the reference ', seconds(2), '; of campaigns ', &
+      row_seconds(1), ' and ', row_seconds(2), '; of sweeps ', value_seconds(1), ' and ', value_seconds(2), ', all threads together'
    print '(a, i0, a, f0.2, a)', 'slowest scene: ', slowest_scene, ', ', slowest, ' s'
    print '(a, i0)', 'silent failures: ', sum(counts(told_silent, :, :))
    if (any(counts(told_silent, :, :) > 0_int64)) stop 1
@@ -94,17 +102,19 @@ contains
       type(told_t), allocatable :: told(:)
       type(told_outcome_t) :: outcome
       real(dp) :: values(size(campaign_keys), campaign_rows), times(3)
+      logical :: certified
       integer :: law, i
 
       allocate (drawn(campaign_rows), told(campaign_rows))
       call draw_campaign(seed, number, base, law, values, drawn)
       times(1) = wall_seconds()
-      call rows_told(base, campaign_keys, values, told)
+      certified = modulo(number, 4_int64) == 3_int64
+      call rows_told(base, campaign_keys, values, certified, told)
       times(2) = wall_seconds()
       do i = 1, campaign_rows
          call outcome_of_row(drawn(i), rule, told(i), outcome)
          !$omp critical (count_summaries)
-         call note(drawn(i), 3, law, 'row', outcome)
+         call note(drawn(i), merge(4, 3, certified), law, 'row', outcome)
          !$omp end critical (count_summaries)
       end do
       times(3) = wall_seconds()
@@ -112,6 +122,40 @@ contains
       row_seconds = row_seconds + times(2:) - times(:2)
       !$omp end critical (count_summaries)
    end subroutine run_campaign
+
+   !> One sweep.
+   subroutine run_values(number)
+      integer(int64), intent(in) :: number
+      type(drawn_scene_t) :: drawn(sweep_values)
+      type(told_t) :: told
+      type(told_outcome_t) :: outcome
+      real(dp) :: film, velocity, times(3)
+      integer :: law, i
+
+      call draw_sweep(seed, number, drawn, law)
+      film = 0.0_dp
+      velocity = 0.0_dp
+      do i = 1, sweep_values
+         associate (value => drawn(i))
+            if (film > 0.0_dp) then
+               value%scene%film%initial_film = film
+               value%scene%film%initial_velocity = velocity
+               value%resolved%initial_film = film
+            end if
+            value%lane = lane_of_scene(value%scene, value%resolved%film, value%resolved%initial_film, &
+                                       value%scene%film%initial_velocity)
+         end associate
+         times(1) = wall_seconds()
+         call value_told(drawn(i)%scene, film, velocity, told)
+         times(2) = wall_seconds()
+         call outcome_of_row(drawn(i), rule, told, outcome)
+         times(3) = wall_seconds()
+         !$omp critical (count_summaries)
+         call note(drawn(i), 5, law, 'value', outcome)
+         value_seconds = value_seconds + times(2:) - times(:2)
+         !$omp end critical (count_summaries)
+      end do
+   end subroutine run_values
 
    !> Count an outcome, and write down a scene that failed.
    subroutine note(drawn, place, law, kind_of_scene, outcome)
@@ -170,6 +214,8 @@ contains
             read (value, *, iostat=failure) scenes
          case ('--campaigns')
             read (value, *, iostat=failure) campaigns
+         case ('--sweeps')
+            read (value, *, iostat=failure) sweeps
          case ('--seed')
             read (value, *, iostat=failure) seed
          case ('--first')
@@ -184,8 +230,8 @@ contains
          end select
       end do
       if (failure == 0 .and. scenes > 0_int64 .and. first >= 0_int64) return
-      write (error_unit, '(a)') 'usage: stress_summaries [--scenes N] [--campaigns N] [--seed S] [--first I] [--failures FILE]', &
-         '   [--list OUTCOME]'
+      write (error_unit, '(a)') 'usage: stress_summaries [--scenes N] [--campaigns N] [--sweeps N] [--seed S] [--first I]', &
+         '   [--failures FILE] [--list OUTCOME]'
       stop 2
    end subroutine read_arguments
 

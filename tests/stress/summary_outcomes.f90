@@ -11,7 +11,8 @@
 !> A row of a campaign states no errors. It is right if its class is possible, its films are within 30 times its accuracy,
 !> and its accelerations and harmonics within 1 % of the largest and the noise floor of the scene; where disturbances
 !> grow, that times the growth, up to 10 %. A row that is not, and does not say that its samples are too few, is a silent
-!> failure.
+!> failure. Where a row was asked for a certificate, a wrong class is one only if it is certified. A value of a sweep is held
+!> against the truth as a row is.
 module summary_outcomes
    use impact_reference, only: compared_harmonics, find_orbit, impact_reference_t, possible_classes, solve_reference
    use impact_steps, only: tooth_of_lane, tooth_state_t, tooth_t
@@ -165,6 +166,10 @@ contains
       fault = fault_of(row, reference, 0.0_dp*allowed, .true.)
       if (len(fault) == 0) return
       outcome%fault = fault
+      if (told%certificate_asked .and. .not. told%certified) then
+         outcome%code = told_uncertain
+         if (len(fault_of(row, reference, 0.0_dp*allowed, .false.)) == 0) return
+      end if
       call row_reference(drawn, rule, told, second, 0.0_dp, tight)
       call row_reference(drawn, rule, told, usual, disturbance, disturbed)
       if (.not. tight%solved) return
@@ -190,8 +195,10 @@ contains
       type(tooth_t) :: tooth
       type(tooth_state_t) :: state
       logical :: found
+      real(dp) :: margin
 
-      call reference_of(drawn, rule, told, tolerance, offset, row_margin, reference)
+      margin = merge(certified_margin, row_margin, told%certified)
+      call reference_of(drawn, rule, told, tolerance, offset, margin, reference)
       if (told%orbit == 0 .or. .not. reference%solved) return
       tooth = tooth_of_lane(drawn%lane)
       tooth%static_load = tooth%static_load + offset*(tooth%static_load + tooth%amplitude)
@@ -199,7 +206,7 @@ contains
       call find_orbit(tooth, rule, tolerance, told%orbit, state, found)
       reference%solved = .false.
       if (found) call solve_reference(tooth, rule, tolerance, told%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, &
-                                      row_margin, state, reference)
+                                      margin, state, reference)
    end subroutine row_reference
 
    !> Solve the window of a summary.

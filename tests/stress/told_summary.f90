@@ -1,5 +1,5 @@
-!> What the program tells a user of a scene: solved and judged as a single scene is, or as a row of a campaign, without
-!> their files. The only file of this study that knows how the program does that.
+!> What the program tells a user of a scene: solved and judged as a single scene is, as a row of a campaign, or as a
+!> value of a sweep, without their files. The only file of this study that knows how the program does that.
 module told_summary
    use certificate, only: certificate_word
    use errors, only: error_t
@@ -11,9 +11,11 @@ module told_summary
    use node_extremes, only: seen_acceleration, seen_film
    use rattle_class, only: class_name
    use random_scenes, only: drawn_scene_t
-   use recorded_quantities, only: record_acceleration_maximum, record_acceleration_minimum, record_film_maximum, &
+   use recorded_quantities, only: record_acceleration_maximum, record_acceleration_minimum, record_certified, &
+                                  record_film_maximum, &
                                   record_film_minimum, record_harmonics, record_orbit_period, record_periods_solved, &
                                   record_rattle_class, record_sampling_sufficient
+   use run_sweep, only: solve_value, sweep_columns
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t
    use scene_result, only: judge, scene_result_t
@@ -29,6 +31,8 @@ module told_summary
       !> Status as a word, and whether there is a window
       character(16) :: status = ''
       logical :: judged = .false., certified = .false.
+      !> Whether a certificate was asked for
+      logical :: certificate_asked = .true.
       character(16) :: class = ''
       character(160) :: reason = ''
       !> film_minimum, film_maximum [m], acceleration_minimum, acceleration_maximum [m/s2], with the errors stated
@@ -47,7 +51,7 @@ module told_summary
       procedure :: period_done
    end type nobody_t
 
-   public :: rows_told, summary_told
+   public :: rows_told, summary_told, value_told
 
 contains
 
@@ -103,18 +107,21 @@ contains
    end subroutine summary_told
 
    !> What a campaign tells of scenes that differ from a base in some keys.
-   subroutine rows_told(base, keys, values, told)
+   subroutine rows_told(base, keys, values, certified, told)
       !> Base scene with its solver
       type(scene_t), intent(in) :: base
       !> Varied keys as a user writes them
       character(*), intent(in) :: keys(:)
       !> Their values: key, scene
       real(dp), intent(in) :: values(:, :)
+      !> Whether the class is to be certified
+      logical, intent(in) :: certified
       !> What is told of each scene
       type(told_t), intent(out) :: told(:)
-      integer, parameter :: record(9) = [record_film_minimum, record_film_maximum, record_acceleration_minimum, &
+      integer, parameter :: quantities(9) = [record_film_minimum, record_film_maximum, record_acceleration_minimum, &
          record_acceleration_maximum, record_rattle_class, record_sampling_sufficient, record_orbit_period, record_periods_solved, &
          record_harmonics], row_harmonics = 8
+      integer, allocatable :: record(:)
       type(scene_t) :: scene
       type(sample_plan_t) :: plan
       type(chunk_space_t), allocatable :: space
@@ -127,6 +134,8 @@ contains
       end do
       scene = base
       scene%task = task_campaign
+      record = quantities
+      if (certified) record = [quantities(:8), record_certified, record_harmonics]
       scene%campaign%record = record
       scene%resolved_input = ''
       table = values
@@ -147,11 +156,42 @@ contains
             told(i)%window = scene%spectrum%periods
             if (scene%solver%until == until_steady) told(i)%window = reserved_periods(scene%spectrum%periods)
             if (told(i)%orbit > 0) told(i)%window = told(i)%orbit
-            told(i)%harmonics(:row_harmonics) = row(10:9 + row_harmonics)
+            told(i)%certificate_asked = certified
+            if (certified) told(i)%certified = row(10) > 0.5_dp
+            associate (before => size(record))
+               told(i)%harmonics(:row_harmonics) = row(before + 1:before + row_harmonics)
+            end associate
             told(i)%harmonic_count = row_harmonics
          end associate
       end do
    end subroutine rows_told
+
+   !> What a sweep tells of a value.
+   subroutine value_told(scene, film, velocity, told)
+      !> Scene with that value
+      type(scene_t), intent(in) :: scene
+      !> State that the value before has left, none: no film; on return that for the next one [m], [m/s]
+      real(dp), intent(inout) :: film
+      real(dp), intent(inout) :: velocity
+      type(told_t), intent(out) :: told
+      real(dp) :: row(sweep_columns)
+      integer :: status
+
+      call solve_value(scene, film, velocity, row, status)
+      told%status = status_name(status)
+      told%judged = is_success(status)
+      told%certificate_asked = .false.
+      if (.not. told%judged) return
+      told%extremes = row(3:6)
+      told%class = class_name(nint(row(13)))
+      ! The window is the orbit of a motion found steady; it begins where the motion ended.
+      told%window = scene%spectrum%periods
+      if (nint(row(15)) < scene%solver%periods) told%orbit = nint(row(7))
+      if (told%orbit > 0) told%window = told%orbit
+      told%periods = nint(row(15)) + told%window
+      told%harmonics(1) = row(17)
+      told%harmonic_count = 1
+   end subroutine value_told
 
    !> Nobody watches.
    subroutine period_done(self, done, all)
