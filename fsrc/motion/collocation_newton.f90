@@ -3,7 +3,7 @@
 module collocation_newton
    use film_law, only: film_load, film_t, kernel_reynolds_piezo, overflow_load
    use kinds, only: dp
-   use lane_functions, only: lanes
+   use lane_functions, only: half_block, lanes
    use lane_scenes, only: lane_block_t
    use radau_nodes, only: node, once, stages, twice
    use reynolds_load, only: reynolds_piezo_viscous_load_array
@@ -28,28 +28,32 @@ module collocation_newton
 
 contains
 
-   !> Film and momentum at the nodes.
-   pure subroutine stage_states(block, k, film, momentum)
+   !> Film and momentum at the nodes, in the halves of the block where a lane is busy.
+   pure subroutine stage_states(busy, block, k, film, momentum)
+      logical, intent(in) :: busy(lanes)
       type(lane_block_t), intent(in) :: block
       real(dp), intent(in) :: k(lanes, stages)
       !> H and V at the nodes [-]
       real(dp), intent(out) :: film(lanes, stages)
       real(dp), intent(out) :: momentum(lanes, stages)
       real(dp) :: first, second
-      integer :: i, j, l
+      integer :: half, i, j, l
 
-      do i = 1, stages
-         !$omp simd private(first, second, j)
-         do l = 1, lanes
-            first = 0.0_dp
-            second = 0.0_dp
-            do j = 1, stages
-               first = first + once(i, j)*k(l, j)
-               second = second + twice(i, j)*k(l, j)
+      do half = 1, lanes, half_block
+         if (.not. any(busy(half:half + half_block - 1))) cycle
+         do i = 1, stages
+            !$omp simd private(first, second, j)
+            do l = half, half + half_block - 1
+               first = 0.0_dp
+               second = 0.0_dp
+               do j = 1, stages
+                  first = first + once(i, j)*k(l, j)
+                  second = second + twice(i, j)*k(l, j)
+               end do
+               momentum(l, i) = block%momentum(l, 0) + block%step(l)*first
+               film(l, i) = block%film(l, 0) + block%step(l)*(node(i)*block%momentum(l, 0) &
+                  + block%step(l)*second)
             end do
-            momentum(l, i) = block%momentum(l, 0) + block%step(l)*first
-            film(l, i) = block%film(l, 0) + block%step(l)*(node(i)*block%momentum(l, 0) &
-               + block%step(l)*second)
          end do
       end do
    end subroutine stage_states
@@ -143,7 +147,7 @@ contains
    end subroutine loads_of_stages
 
    !> Newton's equations of all busy lanes; a lane whose film law has no value is given up, and gets equations
-   !> that change nothing, as do the lanes that are done.
+   !> that change nothing, as do the lanes that are done beside busy ones.
    pure subroutine residual_and_matrix(films, force, k, film, momentum, block, busy, residual, matrix)
       type(film_t), intent(in) :: films(lanes)
       real(dp), intent(in) :: force(lanes, stages)
@@ -157,7 +161,7 @@ contains
       !> Matrix [-]
       real(dp), intent(out) :: matrix(lanes, stages, stages)
       real(dp), dimension(lanes, stages) :: load, by_film, by_momentum
-      integer :: l, i, j
+      integer :: half, l, i, j
 
       residual = 0.0_dp
       call loads_of_stages(films, film, momentum, block, busy, load, by_film, by_momentum)
@@ -176,46 +180,65 @@ contains
             by_momentum(l, :) = 0.0_dp
          end if
       end do
-      do j = 1, stages
-         do i = 1, stages
-            !$omp simd
-            do l = 1, lanes
-               matrix(l, i, j) = merge(1.0_dp, 0.0_dp, i == j) &
-                  - block%step(l)*(block%step(l)*by_film(l, i)*twice(i, j) + by_momentum(l, i)*once(i, j))
+      do half = 1, lanes, half_block
+         if (.not. any(busy(half:half + half_block - 1))) cycle
+         do j = 1, stages
+            do i = 1, stages
+               !$omp simd
+               do l = half, half + half_block - 1
+                  matrix(l, i, j) = merge(1.0_dp, 0.0_dp, i == j) &
+                     - block%step(l)*(block%step(l)*by_film(l, i)*twice(i, j) + by_momentum(l, i)*once(i, j))
+               end do
             end do
          end do
       end do
    end subroutine residual_and_matrix
 
-   !> Solve the linear equations of all lanes; the solution replaces the right-hand side.
-   pure subroutine solve_lanes(matrix, right)
+   !> Solve the linear equations of the halves of the block where a lane is busy; the solution replaces the right-hand side.
+   !> A motion that is solved alone pays for one half.
+   pure subroutine solve_lanes(busy, matrix, right)
+      logical, intent(in) :: busy(lanes)
       real(dp), intent(inout) :: matrix(lanes, stages, stages)
       real(dp), intent(inout) :: right(lanes, stages)
-      real(dp) :: factor(lanes)
-      integer :: i, j, n, l
+      integer :: half
 
+      do half = 1, lanes, half_block
+         if (any(busy(half:half + half_block - 1))) call solve_half(half, matrix, right)
+      end do
+   end subroutine solve_lanes
+
+   !> Solve the linear equations of half a block.
+   pure subroutine solve_half(half, matrix, right)
+      !> Its first lane
+      integer, intent(in) :: half
+      real(dp), intent(inout) :: matrix(lanes, stages, stages)
+      real(dp), intent(inout) :: right(lanes, stages)
+      real(dp) :: factor(half_block)
+      integer :: last, i, j, n, l
+
+      last = half + half_block - 1
       do n = 1, stages
-         do l = 1, lanes
+         do l = half, last
             matrix(l, n, n) = 1.0_dp/matrix(l, n, n)
          end do
          do i = n + 1, stages
-            factor = matrix(:, i, n)*matrix(:, n, n)
+            factor = matrix(half:last, i, n)*matrix(half:last, n, n)
             do j = n + 1, stages
                !$omp simd
-               do l = 1, lanes
-                  matrix(l, i, j) = matrix(l, i, j) - factor(l)*matrix(l, n, j)
+               do l = 0, half_block - 1
+                  matrix(half + l, i, j) = matrix(half + l, i, j) - factor(1 + l)*matrix(half + l, n, j)
                end do
             end do
-            right(:, i) = right(:, i) - factor*right(:, n)
+            right(half:last, i) = right(half:last, i) - factor*right(half:last, n)
          end do
       end do
       do n = stages, 1, -1
          do j = n + 1, stages
-            right(:, n) = right(:, n) - matrix(:, n, j)*right(:, j)
+            right(half:last, n) = right(half:last, n) - matrix(half:last, n, j)*right(half:last, j)
          end do
-         right(:, n) = right(:, n)*matrix(:, n, n)
+         right(half:last, n) = right(half:last, n)*matrix(half:last, n, n)
       end do
-   end subroutine solve_lanes
+   end subroutine solve_half
 
    !> Apply Newton's correction; lanes whose correction is small enough are done, those that diverge given up.
    pure subroutine correct(films, busy, pass, imbalance, correction, last, block, k)

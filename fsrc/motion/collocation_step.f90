@@ -68,15 +68,15 @@ contains
       busy = occupied
       block%trust = merge(1.0_dp, 0.0_dp, occupied)
       do pass = 1, most_passes
-         call stage_states(block, k, film, momentum)
+         call stage_states(busy, block, k, film, momentum)
          call residual_and_matrix(films, force, k, film, momentum, block, busy, residual, matrix)
          imbalance = maxval(abs(residual), dim=2)
-         call solve_lanes(matrix, residual)
+         call solve_lanes(busy, matrix, residual)
          call correct(films, busy, pass, imbalance, residual, last, block, k)
          if (.not. any(busy)) exit
       end do
       where (busy) block%trust = 0.0_dp
-      call stage_states(block, k, film, momentum)
+      call stage_states(occupied, block, k, film, momentum)
       call judge(occupied, k, film, momentum, block)
    end subroutine take_collocation_step
 
