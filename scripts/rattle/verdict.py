@@ -29,13 +29,22 @@ def classify(
 
     Raises ResultError where the samples carry no class.
     """
-    from rattle import kernels
-
     if result.coarse:
         raise ResultError(
             f"{result.path} is coarser than its motion: its samples carry no class. "
-            "The summary has the class, from the steps of the solution."
+            "What is known of its class stands in the summary."
         )
+    return judge_samples(result, periods, overrides)
+
+
+def judge_samples(
+    result: Result,
+    periods: int | None = None,
+    overrides: Mapping[str, float | None] | None = None,
+) -> dict[str, Any]:
+    """Class and measures of the samples as they stand, whether they follow the motion or not."""
+    from rattle import kernels
+
     samples = result.samples("acceleration", result.window(periods))
     limits = thresholds(result, overrides)
     try:

@@ -214,6 +214,18 @@ def test_the_tolerance_figure_puts_each_run_where_its_words_are(tmp_path):
         assert [line.get_color() for line in lines] == [tolerance.TIGHT["color"], tolerance.LOOSE["color"]]
 
 
+def test_the_tolerance_figure_says_where_samples_are_too_few(tmp_path):
+    """The runs that it is about are coarse ones: what their samples show is its subject."""
+    loose_path = write_motion(tmp_path / "loose.rattle", lines={1.0: 4.0}, tolerance=1e-7, coarse=True)
+    tight_path = write_motion(tmp_path / "tight.rattle", lines={1.0: 5.0})
+    pair = tolerance.Pair("Pair", rattle.read(loose_path), rattle.read(tight_path), 6.0)
+    with style.house_style():
+        made = tolerance.draw([pair], 3, 16)
+    words = [text.get_text() for text in made.axes[1].get_legend().get_texts()]
+    assert [word.split(", ")[-1] for word in words] == ["class quiet", "class quiet"]
+    assert made.axes[0].get_title(loc="left").endswith("\nsuccessive, previous, 128 steps a period, too few")
+
+
 # --- sweeps --------------------------------------------------------------------------------------------
 
 SWEEP_COLUMNS = {

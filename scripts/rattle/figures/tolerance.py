@@ -12,7 +12,7 @@ from rattle.figures import style
 from rattle.figures.history import last_periods, period_rules, time_label
 from rattle.figures.spectra import column_spectrum
 from rattle.result import Result, ResultError
-from rattle.verdict import classify
+from rattle.verdict import judge_samples
 
 FREE_GROUPS = ("scene", "solver", "spectrum", "output")  # all that two runs of one motion may differ in
 LOOSE = {"color": style.LAW_COLOURS["piezo-viscous"], "linewidth": 1.1}
@@ -54,7 +54,7 @@ def draw(pairs: Sequence[Pair], periods: int, window: int | None) -> Figure:
         handles = history.get_legend_handles_labels()
         spectrum.legend(*handles, loc="upper center", bbox_to_anchor=(0.5, -0.3))
         letter = f"({chr(ord('a') + position)}) " if len(pairs) > 1 else ""
-        history.set_title(f"{letter}{pair.name}\n{_scheme(pair.loose)}")
+        history.set_title(f"{letter}{pair.name}\n{_scheme(pair)}")
     figure.align_ylabels()
     return figure
 
@@ -82,7 +82,7 @@ def _draw_spectra(axes: Axes, pair: Pair, window: int | None) -> None:
 
 
 def _words(result: Result, window: int | None) -> str:
-    verdict = classify(result, window)
+    verdict = judge_samples(result, window)
     return (
         f"{_power(result.number('solver', 'tolerance'))}: "
         f"{verdict['reversals_per_period']:.3g} reversals a period, "
@@ -96,8 +96,10 @@ def _power(tolerance: float) -> str:
     return rf"$\varepsilon = {factor}10^{{{int(exponent)}}}$ m"
 
 
-def _scheme(result: Result) -> str:
-    solver = result.input.get("solver", {})
+def _scheme(pair: Pair) -> str:
+    solver = pair.loose.input.get("solver", {})
     words = [str(solver[key]).strip() for key in ("iteration", "predictor") if key in solver]
     words.append(f"{solver.get('steps_per_period')} steps a period")
+    if pair.loose.coarse or pair.tight.coarse:
+        words.append("too few")
     return ", ".join(words)
