@@ -2,6 +2,7 @@
 module campaign_certificate
    use certificate, only: certificate_t
    use certify_scene, only: certify
+   use errors, only: error_t
    use fine_window, only: judge_window, window_t
    use kinds, only: dp
    use lane_motions, only: solve_motions
@@ -16,13 +17,13 @@ module campaign_certificate
    implicit none(type, external)
    private
 
-   public :: class_stands
+   public :: test_class
 
 contains
 
    !> The certificate holds the motion that follows from its start against the same periods solved tighter. So the periods
    !> that a forecast has saved in the campaign are solved here.
-   logical function class_stands(scene, resolved, lane, request, verdict)
+   subroutine test_class(scene, resolved, lane, request, verdict, class_stands, error)
       !> The scene with its varied keys set
       type(scene_t), intent(in) :: scene
       !> What follows from it
@@ -33,6 +34,10 @@ contains
       type(lane_request_t), intent(in) :: request
       !> Verdict to be tested
       type(rattle_verdict_t), intent(in) :: verdict
+      !> Whether its class stands
+      logical, intent(out) :: class_stands
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
       type(lane_request_t) :: from_start
       type(lane_ending_t) :: endings(1)
       type(window_record_t) :: records(1)
@@ -58,12 +63,14 @@ contains
       allocate (window%accelerations(samples))
       call accelerations_of_samples(lane, request%samples_per_period, window%films, window%velocities, window%accelerations)
       window%record = records(1)
-      call judge_window(scene, lane, request%accuracy, resolved%noise_floor, window, own_verdict)
+      call judge_window(scene, lane, request%accuracy, resolved%noise_floor, window, own_verdict, error)
+      if (allocated(error)) return
       call note_orbit(own_verdict, endings(1)%orbit)
       if (own_verdict%class /= verdict%class) return
-      call certify(scene, resolved, lane, endings(1)%periods, window, extremes_of_record(records(1)), own_verdict, certificate)
+      call certify(scene, resolved, lane, endings(1)%periods, window, extremes_of_record(records(1)), own_verdict, certificate, &
+                   error)
       ! An irregular class does not stand where the certificate has found that the motion repeats.
       class_stands = certificate%certified .and. own_verdict%class == verdict%class
-   end function class_stands
+   end subroutine test_class
 
 end module campaign_certificate

@@ -1,10 +1,11 @@
 !> Scenes from a CSV file: a header of group.key names, then one line of numbers for every scene. Commas
 !> separate, names may stand in quotes, lines end as on Unix or Windows; nothing else is understood, and
-!> every fault is told with its line and column. Memory: 8 bytes a number, the text is read in blocks.
+!> every fault is told with its line and column. The text is read in blocks.
 module csv_samples
    use csv_fields, only: csv_text_t, field_t
-   use errors, only: fault_list_t
+   use errors, only: error_t, fault_list_t
    use kinds, only: dp, int64
+   use memory, only: expect_memory
    use number_text, only: read_strict_integer, read_strict_real
    use signals, only: must_stop
    use text, only: integer_text
@@ -14,6 +15,8 @@ module csv_samples
 
    !> More columns than a campaign could vary are no header.
    integer, parameter :: most_columns = 32
+   !> A number as it is read, in the plan of the scenes, and on the way from here to there [bytes]
+   real(dp), parameter :: number_bytes = 24.0_dp
 
    !> The scenes of a file.
    type, public :: csv_samples_t
@@ -40,7 +43,8 @@ contains
       type(csv_text_t) :: text
       character(:), allocatable :: message
       integer(int64) :: lines
-      integer :: before, stat
+      type(error_t), allocatable :: error
+      integer :: before
 
       before = faults%count()
       allocate (samples%positions(0), samples%values(0, 0))
@@ -60,11 +64,14 @@ contains
          call faults%add(path, 1, '', '', 'there is no line of numbers after the header')
       if (faults%count() == before) then
          deallocate (samples%values)
-         allocate (samples%values(size(samples%positions), lines - 1_int64), stat=stat)
-         if (stat == 0) then
-            call read_rows(text, path, samples, faults)
+         call expect_memory(number_bytes*real(size(samples%positions), dp)*real(lines, dp), &
+                            'this table of '//integer_text(lines)//' lines (&campaign csv)', error)
+         if (allocated(error)) then
+            call faults%add_error(path, 0, '', '', error)
+            allocate (samples%values(0, 0))
          else
-            call faults%add(path, 0, '', '', 'its numbers do not fit into the memory')
+            allocate (samples%values(size(samples%positions), lines - 1_int64))
+            call read_rows(text, path, samples, faults)
          end if
       end if
       call text%close()

@@ -5,11 +5,12 @@ module run_campaign
    use campaign_progress, only: campaign_progress_t
    use campaign_record, only: record_columns
    use clock, only: wall_seconds
-   use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
+   use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t, raise
    use file_system, only: file_state_t, state_of_path
    use key_table, only: find_key
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
+   use memory, only: expect_memory
    use output_lock, only: output_lock_t
    use output_place, only: check_output_place, log_path, progress_path, result_path, stem, summary_path
    use ranks, only: abort_ranks, next_ticket, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
@@ -20,7 +21,7 @@ module run_campaign
    use scene_types, only: scene_t
    use schedule, only: chunk_rows_for
    use signals, only: caught_signal, lift_time_limit, limit_time, must_stop
-   use solve_chunk, only: chunk_space_t, solve_scenes
+   use solve_chunk, only: chunk_bytes, chunk_space_t, solve_scenes
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
    use version, only: program_version
@@ -78,6 +79,7 @@ contains
       type(campaign_layout_t), intent(in) :: layout
       character(:), allocatable :: sentence
       type(chunk_space_t) :: space
+      type(error_t), allocatable :: error
       real(dp), allocatable :: rows(:, :)
       real(dp) :: started, seconds
       integer(int64) :: trial
@@ -89,10 +91,10 @@ contains
       do
          allocate (rows(size(layout%names), trial))
          started = wall_seconds()
-         call solve_scenes(scene, plan, first + (seen - trial)/2_int64, space, rows)
+         call solve_scenes(scene, plan, first + (seen - trial)/2_int64, space, rows, error)
          seconds = (wall_seconds() - started)/real(trial, dp)*real(layout%scene_count, dp)
          deallocate (rows)
-         if (must_stop()) exit
+         if (must_stop() .or. allocated(error)) exit
          sentence = 'estimated '//short_text(seconds, 2)//' s, from '//integer_text(trial)//' scenes'
          if (trial == min(512_int64, seen)) exit
          trial = min(8_int64*trial, seen)
@@ -131,9 +133,9 @@ contains
       real(dp) :: started
       type(file_state_t) :: earlier
 
-      exit_code = exit_bad_input
       started = wall_seconds()
       call prepare(scene, file, .false., plan, first, seen, invalid, layout, faults)
+      exit_code = faults%exit_code
       spoilt = 0_int64
       if (this_rank() == 0) then
          if (faults%count() == 0) call check_output_place(scene, file, .true., faults)
@@ -162,9 +164,14 @@ contains
          call lock%release()
          return
       end if
-      if (this_rank() > 0) call results%join(result_path(scene), layout, error)
+      ! Memory may lack on the machine of this rank alone.
+      if (faults%count() > 0) then
+         call raise(error, faults%exit_code, faults%sentence(1))
+      else if (this_rank() > 0) then
+         call results%join(result_path(scene), layout, error)
+      end if
       if (allocated(error)) then
-         call abort_ranks(error%exit_code)
+         call abort_ranks(error)
          return
       end if
       call wait_for_ranks()
@@ -182,7 +189,7 @@ contains
       end if
       call progress%start(progress_path(scene), layout%scene_count, done_scenes(results), quiet)
       call solve_chunks(scene, plan, layout, first, results, progress, log, error)
-      if (allocated(error)) call abort_ranks(error%exit_code)
+      if (allocated(error)) call abort_ranks(error)
       call wait_for_ranks()
       progress%done = sum_over_ranks(progress%done)
       progress%failed = sum_over_ranks(progress%failed)
@@ -224,14 +231,40 @@ contains
                                                                       real(scene%solver%periods, dp)), &
                                              any(quantities(scene%campaign%record)%need == needs_certificate)), int64)
       call share_of_part(scene, plan%size, layout%chunk_rows, first, last)
-      if (hurried) call limit_time(looking_limit)
-      call count_invalid(scene, file, plan, first, last, seen, invalid, faults)
-      if (hurried) call lift_time_limit()
       layout%input_text = scene%resolved_input
       layout%source_checksum = plan%table_checksum
       layout%scene_count = last - first + 1_int64
       call record_columns(scene, plan%positions, layout%names, layout%units)
+      call expect_campaign_memory(scene, file, plan, layout, faults)
+      if (faults%count() > 0) return
+      if (hurried) call limit_time(looking_limit)
+      call count_invalid(scene, file, plan, first, last, seen, invalid, faults)
+      if (hurried) call lift_time_limit()
    end subroutine prepare
+
+   !> See that there is memory for the threads of this process and for the table of chunks.
+   subroutine expect_campaign_memory(scene, file, plan, layout, faults)
+      type(scene_t), intent(in) :: scene
+      character(*), intent(in) :: file
+      type(sample_plan_t), intent(in) :: plan
+      type(campaign_layout_t), intent(in) :: layout
+      type(fault_list_t), intent(inout) :: faults
+      !> A thread beside its chunk, and a chunk in all lists of them
+      real(dp), parameter :: thread_bytes = 10.0e6_dp, listed_bytes = 64.0_dp
+      type(error_t), allocatable :: error
+      real(dp) :: chunks, row_bytes
+
+      chunks = real((layout%scene_count + layout%chunk_rows - 1_int64)/layout%chunk_rows, dp)
+      row_bytes = 8.0_dp*real(size(layout%names), dp)*real(min(layout%chunk_rows, layout%scene_count), dp)
+      call expect_memory(real(omp_get_max_threads(), dp)*(thread_bytes + 2.0_dp*row_bytes + &
+                                                          chunk_bytes(scene, plan, layout%chunk_rows)) &
+                         + listed_bytes*chunks, &
+                         'this campaign of '//integer_text(layout%scene_count)//' scenes, of which each of '// &
+                         integer_text(omp_get_max_threads())//' threads (--threads) solves '// &
+                         integer_text(layout%chunk_rows)//' at a time with windows of &spectrum periods and &campaign '// &
+                         'samples_per_period = '//integer_text(scene%campaign%samples_per_period)//',', error)
+      if (allocated(error)) call faults%add_error(file, 0, '', '', error)
+   end subroutine expect_campaign_memory
 
    !> Chunks until none is left, or a signal asks to stop.
    subroutine solve_chunks(scene, plan, layout, first, results, progress, log, error)
@@ -263,10 +296,10 @@ contains
          chunk = pending(ticket)
          call results%chunk_bounds(chunk, first_row, last_row)
          allocate (rows(size(layout%names), last_row - first_row + 1_int64))
-         call solve_scenes(scene, plan, first + first_row - 1_int64, space, rows)
+         call solve_scenes(scene, plan, first + first_row - 1_int64, space, rows, own_error)
          ! A chunk that was stopped is not written: its scenes are solved again when the run is carried on.
          if (caught_signal() /= 0) exit
-         call results%write_chunk(chunk, rows, own_error)
+         if (.not. allocated(own_error)) call results%write_chunk(chunk, rows, own_error)
          if (.not. allocated(own_error)) &
             call progress%add(last_row - first_row + 1_int64, &
                               count(.not. is_success(nint(rows(status_column, :))), kind=int64), &

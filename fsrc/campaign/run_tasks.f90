@@ -34,7 +34,6 @@ contains
       do i = 1, size(scenes)
          call read_scene(command%files(i)%text, command%overrides, scenes(i), faults)
       end do
-      exit_code = exit_bad_input
       if (is_foreign_job()) call faults%add('rattle', 0, '', '', 'a launcher started several copies of this program, which was '// &
                                             'built without MPI: each would do all the work. MPI=1 make builds it with MPI')
       threads = omp_get_max_threads()
@@ -49,6 +48,7 @@ contains
       end if
       if (faults%count() > 0) then
          call print_faults(faults)
+         exit_code = faults%exit_code
       else if (any(scenes%task == task_campaign)) then
          call run_campaign_task(command, scenes(1), exit_code)
       else
@@ -91,7 +91,7 @@ contains
          if (caught_signal() /= 0) then
             exit_code = 128 + caught_signal()
          else if (faults%count() > 0) then
-            exit_code = exit_bad_input
+            exit_code = faults%exit_code
          else if (this_rank() == 0) then
             call put_line('! '//file//': valid')
             do i = 1, size(scene%warnings)

@@ -1,12 +1,15 @@
 !> Solves and judges the scenes of a chunk: the kernels of the single scene, eight scenes to a register.
 module solve_chunk
-   use campaign_certificate, only: class_stands
+   use campaign_certificate, only: test_class
    use campaign_record, only: judged_scene_t, record_row
+   use errors, only: error_t
    use fine_window, only: classify_window, integral_record, window_again
    use integrate_controlled, only: reserved_periods
+   use key_table, only: find_key
    use kinds, only: dp, int64
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use memory_need, only: window_bytes
    use node_extremes, only: seen_acceleration, seen_film, seen_load, seen_pressure, seen_velocity
    use rattle_class, only: classify_steps, note_orbit
    use recorded_quantities, only: need_count, needs_acceleration_range, needs_certificate, needs_film_range, needs_load_range, &
@@ -14,7 +17,7 @@ module solve_chunk
    use regime_check, only: check_regime
    use resolved_scene, only: resolve, resolved_scene_t
    use sample_accelerations, only: accelerations_of_samples
-   use sampling, only: chunk_values, sample_plan_t
+   use sampling, only: chunk_values, largest_value, sample_plan_t
    use scene_lane, only: lane_of_scene
    use scene_status, only: is_success, status_invalid
    use scene_types, only: scene_t, until_steady
@@ -27,9 +30,12 @@ module solve_chunk
    implicit none(type, external)
    private
 
-   !> Scenes solved together. A motion that never repeats takes many times the periods of the others; among this many
+   !> Most scenes solved together. A motion that never repeats takes many times the periods of the others; among this many
    !> there are enough of them to fill the lanes that the others have left.
-   integer, parameter :: batch = 2048
+   integer, parameter :: most_together = 2048
+   !> Fewest, so that no lane stays empty; and what the samples of more than these may take [bytes]
+   integer, parameter :: fewest_together = 16
+   real(dp), parameter :: most_bytes = 2.0_dp**28
 
    !> Samples of a batch; kept from chunk to chunk, since the system takes its time to hand out fresh memory.
    type, public :: chunk_space_t
@@ -44,13 +50,13 @@ module solve_chunk
       type(judged_scene_t) :: judged
    end type chunk_space_t
 
-   public :: solve_scenes
+   public :: solve_scenes, chunk_bytes
 
 contains
 
    !> Rows of consecutive scenes. They depend on the scenes alone, not on how they are cut into chunks. Where the work must
    !> stop, the rows are of no use.
-   subroutine solve_scenes(base, plan, first, space, rows)
+   subroutine solve_scenes(base, plan, first, space, rows, error)
       !> Checked base scene
       type(scene_t), intent(in) :: base
       !> The plan
@@ -61,11 +67,14 @@ contains
       type(chunk_space_t), intent(inout) :: space
       !> One column of this array is the row of a scene
       real(dp), contiguous, intent(out) :: rows(:, :)
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
       real(dp), allocatable :: values(:, :)
       type(scene_t) :: scene
       logical :: needed(need_count)
-      integer :: codes(size(plan%positions)), start, count, i
+      integer :: codes(size(plan%positions)), start, count, batch, i
 
+      batch = scenes_together(base, plan)
       allocate (values(size(plan%positions), min(batch, size(rows, 2))))
       codes = varied_code(plan%positions)
       needed = [(any(quantities(base%campaign%record)%need == i), i=1, need_count)]
@@ -76,12 +85,54 @@ contains
          count = min(batch, size(rows, 2) - start + 1)
          call chunk_values(plan, first + int(start - 1, int64), values(:, :count))
          call solve_batch(scene, plan%positions, codes, values(:, :count), first + int(start - 1, int64), needed, space, &
-                          rows(:, start:start + count - 1))
+                          rows(:, start:start + count - 1), error)
+         if (allocated(error)) return
       end do
    end subroutine solve_scenes
 
+   !> What the samples and steps of a scene take while its batch is solved [bytes]
+   pure real(dp) function scene_bytes(base, plan)
+      type(scene_t), intent(in) :: base
+      type(sample_plan_t), intent(in) :: plan
+      !> Two numbers a sample; turns of z'' between the nodes of a period; what is known of a scene before it is solved
+      real(dp), parameter :: sample_bytes = 16.0_dp, period_bytes = 2048.0_dp, fixed_bytes = 8192.0_dp
+
+      scene_bytes = fixed_bytes + window_periods(base, plan)*(period_bytes + sample_bytes* &
+                                                              real(base%campaign%samples_per_period, dp))
+   end function scene_bytes
+
+   !> Most periods of a window.
+   pure real(dp) function window_periods(base, plan)
+      type(scene_t), intent(in) :: base
+      type(sample_plan_t), intent(in) :: plan
+
+      window_periods = real(reserved_periods(nint(largest_value(plan, find_key('spectrum', 'periods'), &
+                                                                real(base%spectrum%periods, dp)))), dp)
+   end function window_periods
+
+   !> How many scenes are solved together: fewer where their samples are many.
+   pure integer function scenes_together(base, plan)
+      type(scene_t), intent(in) :: base
+      type(sample_plan_t), intent(in) :: plan
+
+      scenes_together = max(fewest_together, min(most_together, int(most_bytes/scene_bytes(base, plan))))
+   end function scenes_together
+
+   !> Memory that a thread takes to solve a chunk [bytes].
+   pure real(dp) function chunk_bytes(base, plan, scenes)
+      !> Checked base scene
+      type(scene_t), intent(in) :: base
+      !> The plan
+      type(sample_plan_t), intent(in) :: plan
+      !> Scenes of the chunk
+      integer(int64), intent(in) :: scenes
+
+      chunk_bytes = scene_bytes(base, plan)*real(min(scenes, int(scenes_together(base, plan), int64)), dp) &
+                    + window_bytes(window_periods(base, plan)*real(base%campaign%samples_per_period, dp))
+   end function chunk_bytes
+
    !> Rows of a batch.
-   subroutine solve_batch(scene, positions, codes, values, first, needed, space, rows)
+   subroutine solve_batch(scene, positions, codes, values, first, needed, space, rows, error)
       !> Base scene; its varied keys are changed
       type(scene_t), intent(inout) :: scene
       !> Varied keys by their positions in the key table, and by their codes
@@ -93,6 +144,7 @@ contains
       logical, intent(in) :: needed(:)
       type(chunk_space_t), intent(inout) :: space
       real(dp), intent(out) :: rows(:, :)
+      type(error_t), allocatable, intent(out) :: error
       type(resolved_scene_t) :: resolved(size(values, 2))
       type(lane_scene_t) :: lanes(size(values, 2))
       type(lane_request_t) :: requests(size(values, 2))
@@ -135,7 +187,9 @@ contains
                call judge_by_samples(scene, lanes(scene_number), needed, i, merge(i, 1, together), space)
                coarse(i) = space%judged%success .and. .not. space%judged%rattle%lines%sampling_sufficient
                ! What the samples are too few for is judged below, by the steps.
-               if (.not. coarse(i)) call complete(scene, lanes(scene_number), needed, space%records(i), space%judged)
+               if (.not. coarse(i)) call complete(scene, lanes(scene_number), needed, space%records(i), space%judged, &
+                                                      error)
+               if (allocated(error)) return
             else
                space%judged%success = .false.
                space%judged%ending = lane_ending_t(status=status_invalid)
@@ -166,7 +220,8 @@ contains
                   call judge_by_samples(scene, lanes(scene_number), needed, place, merge(place, 1, together), space)
                end if
             end associate
-            call complete(scene, lanes(scene_number), needed, space%records(place), space%judged)
+            call complete(scene, lanes(scene_number), needed, space%records(place), space%judged, error)
+            if (allocated(error)) return
             call record_row(scene, first + int(scene_number - 1, int64), values(:, scene_number), space%judged, &
                             rows(:, scene_number))
          end associate
@@ -314,7 +369,7 @@ contains
    end subroutine judge_by_samples
 
    !> What the steps of the window of a judged scene tell, and whether its class stands.
-   subroutine complete(scene, lane, needed, record, judged)
+   subroutine complete(scene, lane, needed, record, judged, error)
       type(scene_t), intent(in) :: scene
       type(lane_scene_t), intent(in) :: lane
       !> What the columns need
@@ -322,6 +377,7 @@ contains
       !> Its record
       type(window_record_t), intent(in) :: record
       type(judged_scene_t), intent(inout) :: judged
+      type(error_t), allocatable, intent(out) :: error
 
       if (.not. judged%success) return
       call note_orbit(judged%rattle, judged%ending%orbit)
@@ -329,8 +385,8 @@ contains
       associate (pressure => record%highest(seen_pressure))
          if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, scene%film%law, pressure%value, pressure%film)
       end associate
-      if (needed(needs_certificate)) judged%certified = class_stands(scene, judged%resolved, lane, request_of(scene, needed), &
-                                                                     judged%rattle)
+      if (needed(needs_certificate)) call test_class(scene, judged%resolved, lane, request_of(scene, needed), judged%rattle, &
+                                                     judged%certified, error)
    end subroutine complete
 
 end module solve_chunk

@@ -33,8 +33,11 @@ module errors
       !> How many are kept, and how many came after the list was full
       integer :: used = 0
       integer :: beyond = 0
+      !> Exit code that they lead to together
+      integer, public :: exit_code = exit_bad_input
    contains
       procedure :: add => add_fault
+      procedure :: add_error
       procedure :: count => count_faults
       procedure :: not_kept => count_faults_beyond
       procedure :: sentence => fault_sentence
@@ -96,6 +99,21 @@ contains
       self%faults(self%used)%sentence = place//' '//printable(message, .true.)
       self%faults(self%used)%line = line
    end subroutine add_fault
+
+   !> Append an error that was found while the input was looked at. One of the system is not the fault of the input.
+   pure subroutine add_error(self, file, line, group, key, error)
+      class(fault_list_t), intent(inout) :: self
+      !> Place in the input, as for a fault
+      character(*), intent(in) :: file
+      integer, intent(in) :: line
+      character(*), intent(in) :: group
+      character(*), intent(in) :: key
+      !> The error
+      type(error_t), intent(in) :: error
+
+      call self%add(file, line, group, key, error%message)
+      self%exit_code = max(self%exit_code, error%exit_code)
+   end subroutine add_error
 
    !> Number of faults that are counted but not kept.
    pure integer function count_faults_beyond(self)

@@ -3,7 +3,8 @@ module batch
    use, intrinsic :: iso_fortran_env, only: error_unit
    use checkpoint, only: checkpoint_t
    use command_line, only: command_t
-   use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t
+   use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t
+   use memory_need, only: expect_scene_memory
    use output_lock, only: output_lock_t
    use output_place, only: check_output_place, stem
    use resolved_scene, only: resolve
@@ -37,6 +38,7 @@ contains
 
       exit_code = exit_complete
       call check_names(command, scenes, faults)
+      call check_memory(command, scenes, faults)
       if (.not. command%check) then
          ! Look first, make folders after, so that a fault in one scene leaves nothing behind for another.
          if (faults%count() == 0) call check_places(command, scenes, .false., faults)
@@ -45,7 +47,7 @@ contains
       end if
       if (faults%count() > 0) then
          call print_faults(faults)
-         exit_code = exit_bad_input
+         exit_code = faults%exit_code
       else if (command%check) then
          call show_resolved(command, scenes)
       else
@@ -72,7 +74,7 @@ contains
             if (faults%count() > 0) then
                call lock%release()
                call print_faults(faults)
-               exit_code = exit_bad_input
+               exit_code = faults%exit_code
                return
             end if
             call run_task(scenes(i), command, status, error)
@@ -125,6 +127,20 @@ contains
          end do
       end do
    end subroutine check_names
+
+   !> There is memory for every scene.
+   subroutine check_memory(command, scenes, faults)
+      type(command_t), intent(in) :: command
+      type(scene_t), intent(in) :: scenes(:)
+      type(fault_list_t), intent(inout) :: faults
+      type(error_t), allocatable :: error
+      integer :: i
+
+      do i = 1, size(scenes)
+         call expect_scene_memory(scenes(i), error)
+         if (allocated(error)) call faults%add_error(input_name(command%files(i)%text), 0, '', '', error)
+      end do
+   end subroutine check_memory
 
    !> States to be carried on belong to these very scenes.
    subroutine check_states(command, scenes, faults)

@@ -3,6 +3,7 @@
 !> multipliers.
 module certify_scene
    use certificate, only: certificate_t, closing_sentence, compare_windows, no_certificate
+   use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
    use lane_scenes, only: lane_ending_t, lane_scene_t
@@ -26,7 +27,7 @@ module certify_scene
 contains
 
    !> Certificate and periodic motion of a judged scene.
-   subroutine certify(scene, resolved, lane, periods, window, extremes, verdict, certificate, orbit)
+   subroutine certify(scene, resolved, lane, periods, window, extremes, verdict, certificate, error, orbit)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
@@ -43,6 +44,8 @@ contains
       type(rattle_verdict_t), intent(inout) :: verdict
       !> Its certificate
       type(certificate_t), intent(out) :: certificate
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
       !> Periodic motion at the end of the run
       type(periodic_orbit_t), intent(out), optional :: orbit
       type(lane_ending_t) :: ending
@@ -62,7 +65,9 @@ contains
       end if
       tight%periods = window%periods
       tight%samples_per_period = window%samples_per_period
-      call solve_whole_window(scene, tight_lane, accuracy, periods, resolved%noise_floor_at(accuracy), tight, tight_verdict, ending)
+      call solve_whole_window(scene, tight_lane, accuracy, periods, resolved%noise_floor_at(accuracy), tight, tight_verdict, &
+                              ending, error)
+      if (allocated(error)) return
       if (.not. is_success(ending%status)) then
          certificate = no_certificate('The tighter solution ended as '//status_name(ending%status)//'.')
          return

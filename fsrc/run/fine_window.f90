@@ -1,10 +1,12 @@
 !> Last periods of a scene by the error-controlled engine, and the verdict on them by as many samples as their lines need, or
 !> by integrals over the steps where no number of samples would do.
 module fine_window
+   use errors, only: error_t
    use integrate_controlled, only: solve_window
    use kinds, only: dp
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use memory_need, only: expect_window_memory
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: is_success
@@ -43,7 +45,7 @@ module fine_window
 contains
 
    !> Solve a scene and judge its last periods.
-   subroutine solve_whole_window(scene, lane, accuracy, periods, noise_floor, window, verdict, ending)
+   subroutine solve_whole_window(scene, lane, accuracy, periods, noise_floor, window, verdict, ending, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Its lane
@@ -60,15 +62,17 @@ contains
       type(rattle_verdict_t), intent(out) :: verdict
       !> How the run ended; without success there is no window
       type(lane_ending_t), intent(out) :: ending
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
 
       call solve_window(lane, accuracy, window%samples_per_period, periods, window%periods, window%films, window%velocities, &
                         window%accelerations, ending, window%record)
-      if (is_success(ending%status)) call judge_window(scene, lane, accuracy, noise_floor, window, verdict)
+      if (is_success(ending%status)) call judge_window(scene, lane, accuracy, noise_floor, window, verdict, error)
    end subroutine solve_whole_window
 
    !> Judge a window of the error-controlled engine: by its samples, by twice as many until they are enough, or by integrals over
    !> the steps. The window is solved again from where it begins, which gives the same motion.
-   subroutine judge_window(scene, lane, accuracy, noise_floor, window, verdict)
+   subroutine judge_window(scene, lane, accuracy, noise_floor, window, verdict, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Its lane
@@ -81,12 +85,16 @@ contains
       type(window_t), intent(inout) :: window
       !> Verdict on it
       type(rattle_verdict_t), intent(out) :: verdict
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
       type(window_t) :: finer
       type(lane_ending_t) :: ending
 
       call classify_window(scene, lane, window%periods, window%accelerations, window%record, noise_floor, verdict)
       do while (.not. verdict%lines%sampling_sufficient .and. window%record%shortest_piece > least_piece)
          if (2*window%samples_per_period > most_samples_per_period .or. 2*size(window%films) > most_samples) exit
+         call expect_window_memory(2*size(window%films), error)
+         if (allocated(error)) return
          finer%periods = window%periods
          finer%samples_per_period = 2*window%samples_per_period
          call solve_window(window_again(lane, window%record), accuracy, finer%samples_per_period, finer%periods, finer%periods, &

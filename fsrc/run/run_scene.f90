@@ -74,7 +74,7 @@ contains
          end if
          call watcher%clear()
          result%solve_seconds = wall_seconds() - started
-         if (.not. allocated(error)) call judge(scene, resolved, recorder, result)
+         if (.not. allocated(error)) call judge(scene, resolved, recorder, result, error)
          ! A signal that came meanwhile has cut the certificate short.
          if (result%judged .and. caught_signal() /= 0) result%ending%status = status_interrupted
          result%judge_seconds = wall_seconds() - started - result%solve_seconds

@@ -75,12 +75,13 @@ contains
       beyond_model = 0
       do i = 1, size(scene%sweep%values)
          if (allocated(error)) exit
-         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, row(:, 1), ended)
+         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, row(:, 1), ended, error)
          ! A motion under way when the signal came may be half judged.
          if (caught_signal() /= 0) then
             status = status_interrupted
             exit
          end if
+         if (allocated(error)) exit
          row(1:2, 1) = [scene%sweep%values(i), merge(1.0_dp, -1.0_dp, i <= scene%sweep%outward)]
          row(16, 1) = real(ended, dp)
          if (.not. is_success(ended)) failed = failed + 1
@@ -129,7 +130,7 @@ contains
    end function swept_scene
 
    !> Steady motion of one value, from the state given; that state becomes the one for the next value.
-   subroutine solve_value(scene, film, velocity, row, status)
+   subroutine solve_value(scene, film, velocity, row, status, error)
       !> Checked scene with that value
       type(scene_t), intent(in) :: scene
       !> State to start from; no film: the steady film at rest [m], [m/s]
@@ -139,6 +140,8 @@ contains
       real(dp), intent(out) :: row(:)
       !> Status of scene_status
       integer, intent(out) :: status
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
       type(resolved_scene_t) :: resolved
       type(lane_scene_t) :: lane
       type(lane_ending_t) :: ending, window_ending
@@ -170,7 +173,8 @@ contains
       if (ending%orbit > 0) window%periods = ending%orbit
       window%samples_per_period = scene%solver%samples_per_period()
       call solve_whole_window(scene, lane, scene%solver%accuracy, window%periods, resolved%noise_floor, window, verdict, &
-                              window_ending)
+                              window_ending, error)
+      if (allocated(error)) return
       if (.not. is_success(window_ending%status)) then
          status = window_ending%status
          return

@@ -2,6 +2,7 @@
 module scene_result
    use certificate, only: certificate_t
    use certify_scene, only: certify
+   use errors, only: error_t
    use fine_window, only: classify_window, judge_window, window_t
    use integrate_motion, only: motion_end_t
    use kinds, only: dp
@@ -47,7 +48,7 @@ module scene_result
 contains
 
    !> Judge the window of a motion.
-   subroutine judge(scene, resolved, recorder, result)
+   subroutine judge(scene, resolved, recorder, result, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
@@ -56,6 +57,8 @@ contains
       type(sample_recorder_t), intent(in) :: recorder
       !> Result with its ending, completed
       type(scene_result_t), intent(inout) :: result
+      !> Set if there is not enough memory; nothing is judged then
+      type(error_t), allocatable, intent(out) :: error
       type(lane_scene_t) :: lane
       type(window_t) :: window
 
@@ -72,7 +75,9 @@ contains
       result%series_coarse = .not. result%rattle%lines%sampling_sufficient
       ! What the error-controlled engine has solved can be solved again, sampled finer, from where the window begins.
       if (result%series_coarse .and. window%record%periods > 0) &
-         call judge_window(scene, lane, scene%solver%accuracy, resolved%noise_floor, window, result%rattle)
+         call judge_window(scene, lane, scene%solver%accuracy, resolved%noise_floor, window, result%rattle, error)
+      result%judged = .not. allocated(error)
+      if (.not. result%judged) return
       call note_orbit(result%rattle, result%ending%orbit)
       result%window_periods = window%periods
       result%samples_per_period = window%samples_per_period
@@ -87,7 +92,8 @@ contains
          result%regime = check_regime(resolved%film, scene%film%law, highest(seen_pressure)%value, highest(seen_pressure)%film)
       end associate
       if (scene%spectrum%certify) call certify(scene, resolved, lane, result%ending%periods, window, result%extremes, &
-                                               result%rattle, result%certificate, result%orbit)
+                                               result%rattle, result%certificate, error, result%orbit)
+      result%judged = .not. allocated(error)
    end subroutine judge
 
    !> Evaluations of the film per step of a motion, 0 without a step.

@@ -1,10 +1,11 @@
 !> What must hold between the keys of a scene. What a single key must be stands in the key table.
 module scene_checker
-   use errors, only: fault_list_t
+   use errors, only: error_t, fault_list_t
    use input_key, only: allowed_text, in_range
    use key_table, only: find_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
+   use memory, only: expect_memory
    use scene_input, only: scene_input_t
    use scene_types, only: load_t
    use text, only: integer_text
@@ -157,8 +158,9 @@ contains
    subroutine check_window(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
-      !> Samples in the window; the transform and its work space then stay below 10 GB
-      real(dp), parameter :: most_samples = 2.0e8_dp
+      !> Samples in the window, whose transform then takes at most two seconds, in which no signal ends it. One of a length
+      !> with large prime factors takes ten times as long.
+      real(dp), parameter :: most_samples = 2.0e7_dp, most_of_any_number = 4.0e6_dp
 
       if (input%is_faulty('spectrum', 'periods')) return
       if (.not. input%is_faulty('solver', 'periods') .and. &
@@ -173,12 +175,31 @@ contains
 
       subroutine check_samples(name)
          character(*), intent(in) :: name
+         real(dp) :: samples
 
          if (input%is_faulty('solver', name)) return
-         if (real(input%count('spectrum', 'periods'), dp)*real(input%count('solver', name), dp) > most_samples) &
-            call input%add_fault('solver', name, 'the window of &spectrum periods would hold more than 200000000 samples', &
-                                 faults)
+         samples = real(input%count('spectrum', 'periods'), dp)*real(input%count('solver', name), dp)
+         if (samples > most_samples) then
+            call input%add_fault('solver', name, 'the window of &spectrum periods would hold more than 20000000 samples', faults)
+         else if (samples > most_of_any_number .and. .not. has_small_factors(nint(samples))) then
+            call input%add_fault('solver', name, 'the window of &spectrum periods would hold more than 4000000 samples; '// &
+                                 'only a product of factors up to 13, such as a power of 2, may be as large', faults)
+         end if
       end subroutine check_samples
+
+      !> Whether a number is a product of factors up to 13.
+      pure logical function has_small_factors(number)
+         integer, intent(in) :: number
+         integer :: rest, factor
+
+         rest = number
+         do factor = 2, 13
+            do while (modulo(rest, factor) == 0)
+               rest = rest/factor
+            end do
+         end do
+         has_small_factors = rest == 1
+      end function has_small_factors
 
    end subroutine check_window
 
@@ -241,7 +262,24 @@ contains
       end do
       if (key == 'steady_force' .and. .not. static_load_under(input, minval(ends)) > 0.0_dp) &
          call input%add_fault('sweep', 'first', 'the static load steady_force + mass*gravity must stay positive', faults)
+      ! Measured with a margin: each motion has its own copy of the values.
+      call check_memory(input, 'sweep', 'count', 80.0_dp*real(input%count('sweep', 'count'), dp), faults)
    end subroutine check_sweep
+
+   !> There is memory for what a key makes large.
+   subroutine check_memory(input, group, name, bytes, faults)
+      type(scene_input_t), intent(in) :: input
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+      !> What it takes [bytes]
+      real(dp), intent(in) :: bytes
+      type(fault_list_t), intent(inout) :: faults
+      type(error_t), allocatable :: error
+
+      if (input%is_faulty(group, name)) return
+      call expect_memory(bytes, 'this', error)
+      if (allocated(error)) call faults%add_error(input%file, 0, group, name, error)
+   end subroutine check_memory
 
    !> A campaign varies something, one way or another, and is solved by the engine of many lanes.
    subroutine check_campaign(input, faults)
@@ -270,6 +308,7 @@ contains
       call check_list('film_ratios', 'film_ratio_range', .true.)
       call check_list('squeeze_ratios', 'squeeze_ratio_range', .false.)
       call check_list('speed_groups', 'speed_group_range', .false.)
+      if (points <= most_points) call check_memory(input, 'points', 'film_ratio_range', 32.0_dp*points, faults)
       if (points > most_points) call input%add_fault('points', 'film_ratio_range', &
                                                      'the lists make more than 10000000 points', faults)
       if (mod(input%count('points', 'cells'), 2) /= 0) &

@@ -31,7 +31,9 @@ def grid(scene_text, first: int, second: int, **changes: dict) -> str:
     return scene_text(**{**BASE, **changes}, campaign=campaign)
 
 
-def solve(run, folder: Path, *options: object, name: str = "whole", code: int = 0) -> Path:
-    ended = run("--output", name, *options, "scene.nml", cwd=folder, timeout=120.0)
+def solve(
+    run, folder: Path, *options: object, name: str = "whole", code: int = 0, **identity: object
+) -> Path:
+    ended = run("--output", name, *options, "scene.nml", cwd=folder, timeout=120.0, **identity)
     assert ended.returncode == code, ended.stderr
     return folder / name / "scene.rattle"

@@ -1,6 +1,8 @@
 !> Ranks of an MPI job. Work is handed out by a counter on rank 0 that every rank can reach by itself.
 module ranks
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use errors, only: error_t
    use kinds, only: int64
    use mpi_f08
    implicit none(type, external)
@@ -47,12 +49,14 @@ contains
       call MPI_Finalize()
    end subroutine end_ranks
 
-   !> End all ranks at once: one of them cannot go on.
-   subroutine abort_ranks(exit_code)
-      !> Exit code of the program
-      integer, intent(in) :: exit_code
+   !> End all ranks at once: one of them cannot go on, and says why.
+   subroutine abort_ranks(error)
+      !> Why
+      type(error_t), intent(in) :: error
 
-      call MPI_Abort(MPI_COMM_WORLD, exit_code)
+      write (error_unit, '(a)') error%message
+      flush (error_unit)
+      call MPI_Abort(MPI_COMM_WORLD, error%exit_code)
    end subroutine abort_ranks
 
    !> Number of this rank, from 0.

@@ -1,5 +1,6 @@
 !> Stand-in for ranks: one process does it all. With MPI=1 the module of the same name in campaign/mpi is built.
 module ranks
+   use errors, only: error_t
    use kinds, only: int64
    implicit none(type, external)
    private
@@ -47,12 +48,12 @@ contains
    subroutine end_ranks()
    end subroutine end_ranks
 
-   !> Nothing to abort.
-   subroutine abort_ranks(exit_code)
-      !> Exit code of the program
-      integer, intent(in) :: exit_code
+   !> Nothing to abort: the one process ends by itself.
+   subroutine abort_ranks(error)
+      !> Why
+      type(error_t), intent(in) :: error
 
-      if (exit_code < 0) tickets = 0_int64
+      if (error%exit_code < 0) tickets = 0_int64
    end subroutine abort_ranks
 
    !> Number of this rank, from 0.

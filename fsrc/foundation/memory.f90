@@ -1,0 +1,71 @@
+!> Memory is asked for at once, before a work begins whose arrays follow in size from the input: a lack of it is an error with
+!> a sentence then, and not the end of the program somewhere in the middle.
+module memory
+   use, intrinsic :: iso_c_binding, only: c_int, c_long
+   use errors, only: error_t, exit_bad_input, exit_system, raise
+   use kinds, only: dp, int64
+   use text, only: integer_text, short_text
+   implicit none(type, external)
+   private
+
+   !> What a run takes beside the arrays that are counted [bytes]. Beyond 32 MB glibc gives every such array a mapping of its
+   !> own and learns nothing from it, so that asking changes nothing for what follows.
+   real(dp), parameter :: margin = 48.0e6_dp
+
+   public :: expect_memory
+
+   interface
+      function c_sysconf(name) bind(c, name='sysconf') result(value)
+         import :: c_int, c_long
+         integer(c_int), value :: name
+         integer(c_long) :: value
+      end function c_sysconf
+   end interface
+
+contains
+
+   !> See that there is memory for a work. What no memory of this machine holds is an error of the input, what the system
+   !> does not give one of the system.
+   subroutine expect_memory(bytes, work, error)
+      !> What the work takes [bytes]
+      real(dp), intent(in) :: bytes
+      !> What it is, with the keys that make it as large as it is; begins a sentence
+      character(*), intent(in) :: work
+      !> Set if there is not so much memory
+      type(error_t), allocatable, intent(out) :: error
+      character(1), allocatable, volatile :: room(:)
+      real(dp) :: machine
+      integer :: stat
+
+      machine = machine_memory()
+      if (machine > 0.0_dp .and. bytes > machine) then
+         call raise(error, exit_bad_input, work//' would take '//size_text(bytes)//' of memory; this machine has '// &
+                    size_text(machine))
+         return
+      end if
+      allocate (room(int(bytes + margin, int64)), stat=stat)
+      if (stat /= 0) call raise(error, exit_system, 'out of memory: '//work//' may take '//size_text(bytes)// &
+                                ' beside the '//size_text(margin)//' of the program, and the system does not give so much')
+   end subroutine expect_memory
+
+   !> Memory of this machine [bytes], 0 if it is not known.
+   real(dp) function machine_memory()
+      !> Names of glibc
+      integer(c_int), parameter :: page_bytes = 30, physical_pages = 85
+
+      machine_memory = max(0.0_dp, real(c_sysconf(page_bytes), dp))*max(0.0_dp, real(c_sysconf(physical_pages), dp))
+   end function machine_memory
+
+   !> A number of bytes in words.
+   pure function size_text(bytes) result(words)
+      real(dp), intent(in) :: bytes
+      character(:), allocatable :: words
+
+      if (bytes < 1.0e9_dp) then
+         words = integer_text(ceiling(bytes*1.0e-6_dp))//' MB'
+      else
+         words = short_text(bytes*1.0e-9_dp, 3)//' GB'
+      end if
+   end function size_text
+
+end module memory
