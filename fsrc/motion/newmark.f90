@@ -10,7 +10,8 @@ module newmark
    use film_law, only: film_kernel, film_t, overflow_load
    use forcing, only: applied_force
    use kinds, only: dp, int64
-   use scene_status, only: status_complete, status_film_lost, status_not_converged
+   use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
+   use signals, only: must_stop
    implicit none(type, external)
    private
 
@@ -20,6 +21,9 @@ module newmark
    integer, parameter :: deepest_cut = 30
    !> Cuts of one step of the grid: a motion that needs more needs another method.
    integer(int64), parameter :: most_cuts = 256_int64
+
+   !> Evaluations after which a period looks whether it must end
+   integer(int64), parameter :: evaluations_between_looks = 65536_int64
 
    !> What stays the same from step to step.
    type, public :: newmark_t
@@ -119,11 +123,20 @@ contains
       integer, intent(out) :: status
       type(motion_state_t) :: next
       real(dp) :: time_step
+      integer(int64) :: next_look
       integer :: i, passes
 
       time_step = 1.0_dp/(method%frequency*real(size(force), dp))
       status = status_complete
+      next_look = count%evaluations + evaluations_between_looks
       do i = 1, size(force)
+         if (count%evaluations >= next_look) then
+            next_look = count%evaluations + evaluations_between_looks
+            if (must_stop()) then
+               status = status_interrupted
+               exit
+            end if
+         end if
          if (method%by_newton) then
             call newton_step(kernel, film, method, time_step, force(i), state, next, passes, status)
          else

@@ -11,7 +11,7 @@ module newmark_extrapolated
    use kinds, only: dp
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t
    use richardson, only: doubt, extrapolate, most_rows, multiples
-   use scene_status, only: status_complete, status_not_converged
+   use scene_status, only: status_complete, status_interrupted, status_not_converged
    implicit none(type, external)
    private
 
@@ -160,7 +160,7 @@ contains
                                       interval_share*extrapolation%accuracy, most_rows, rows, count, films, &
                                       velocities, estimate, status)
             if (status == status_complete) exit
-            if (base > largest_base/2) return
+            if (base > largest_base/2 .or. status == status_interrupted) return
             base = 2*base
          end do
          extrapolation%largest_estimate = max(extrapolation%largest_estimate, estimate)

@@ -126,7 +126,8 @@ module key_table
             'First iterate of a step: extrapolated with the present acceleration, or the previous state as it stands.'), &
       key_t('solver', 'tolerance', real_kind, 'm', '1.0e-14', positive, '', 'solver.method=newmark', &
             'Tolerance eps of (36) on the film between two passes; it lets through an acceleration error of about 4 eps/dt^2.'), &
-      key_t('solver', 'iteration_limit', integer_kind, '-', '100', at_least_1, '', 'solver.method=newmark', &
+      key_t('solver', 'iteration_limit', integer_kind, '-', '100', range_t(1.0_dp, .false., 1.0e5_dp, .false.), '', &
+            'solver.method=newmark', &
             'Most passes in a step; a step that needs more ends the scene as not_converged.'), &
       key_t('solver', 'steps_per_period', integer_kind, '-', '512', at_least_8, '', 'solver.method=newmark', &
             'Time steps in one period of the force; every one is a sample.'), &
