@@ -107,13 +107,14 @@ contains
       if (stat /= 0) self%broken = .true.
    end subroutine start
 
-   !> Read the next block.
+   !> Read the next block. Where the work must stop, the file ends.
    subroutine fill(self)
       class(csv_text_t), intent(inout) :: self
       integer :: stat
 
       self%at = 0
       self%used = int(min(self%left, int(block_bytes, int64)))
+      if (must_stop()) self%used = 0
       if (self%used == 0) return
       read (self%unit, iostat=stat) self%block(:self%used)
       self%left = self%left - int(self%used, int64)

@@ -89,6 +89,10 @@ contains
 
       do
          call text%take_field(field)
+         if (must_stop()) then
+            call faults%add(path, 1, '', '', 'there was no time to read the first line to its end')
+            return
+         end if
          if (size(positions) == most_columns) then
             call faults%add(path, 1, '', '', 'more than '//integer_text(most_columns)//' columns')
             return
@@ -148,6 +152,7 @@ contains
          column = 0
          do
             call text%take_field(field)
+            if (must_stop()) return
             column = column + 1
             empty = column == 1 .and. field%ends_line .and. len(field%word()) == 0
             if (column <= columns .and. .not. empty) then

@@ -15,6 +15,8 @@ module byte_file
 
    !> Bytes that are gathered before they go to the disk.
    integer, parameter :: buffer_bytes = 65536
+   !> Bytes after which the disk is waited for: what is left for the end is written within a second.
+   integer(int64), parameter :: synchronised_bytes = 2_int64**26
 
    !> An open file.
    type, public :: byte_file_t
@@ -25,6 +27,8 @@ module byte_file
       !> Whether it stands at its place
       logical :: placed = .false.
       integer :: used = 0
+      !> Bytes that the disk may not have yet
+      integer(int64) :: not_on_disk = 0_int64
       character(:), allocatable :: path
       character(kind=c_char), allocatable :: buffer(:)
    contains
@@ -80,6 +84,7 @@ contains
       self%used = 0
       self%broken = .false.
       self%placed = .false.
+      self%not_on_disk = 0_int64
       if (.not. allocated(self%buffer)) allocate (self%buffer(buffer_bytes))
       self%descriptor = open_replacing(new_path(path))
       if (self%descriptor < 0) call self%fail(error)
@@ -204,6 +209,11 @@ contains
       logical :: complete
 
       call write_bytes(self%descriptor, size(bytes, kind=int64), bytes, complete)
+      if (.not. complete) call self%fail(error)
+      self%not_on_disk = self%not_on_disk + size(bytes, kind=int64)
+      if (self%not_on_disk < synchronised_bytes .or. .not. complete) return
+      self%not_on_disk = 0_int64
+      call synchronise_descriptor(self%descriptor, complete)
       if (.not. complete) call self%fail(error)
    end subroutine write_on
 

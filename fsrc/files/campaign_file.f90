@@ -13,6 +13,7 @@ module campaign_file
    use random_access_file, only: lock_held, lock_refused, random_access_file_t
    use result_format, only: result_magic, row_count_offset, rows_unknown
    use result_header, only: header_text, result_header_t
+   use signals, only: must_stop
    use text, only: integer_text
    implicit none(type, external)
    private
@@ -218,7 +219,7 @@ contains
       if (.not. complete) call raise(error, exit_system, self%path//' cannot be read')
    end subroutine refresh
 
-   !> Read back every chunk that is marked as done.
+   !> Read back every chunk that is marked as done, unless the work must stop.
    subroutine verify(self, spoilt_chunks, error)
       class(campaign_file_t), intent(inout) :: self
       integer(int64), intent(out) :: spoilt_chunks
@@ -231,6 +232,7 @@ contains
       allocate (rows(size(self%header%names), min(self%header%chunk_rows, self%scene_count)))
       do chunk = 1_int64, self%header%chunk_count
          if (self%checksums(chunk) == 0_int64) cycle
+         if (must_stop()) return
          call self%chunk_bounds(chunk, first, last)
          call self%read_chunk(chunk, rows(:, :last - first + 1_int64), sound)
          if (sound) cycle

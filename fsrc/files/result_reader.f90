@@ -6,6 +6,7 @@ module result_reader
    use random_access_file, only: random_access_file_t
    use result_format, only: column_name_bytes, series_table_magic
    use result_header, only: read_result_header, result_header_t
+   use signals, only: must_stop
    use text, only: integer_text
    use version, only: program_version
    implicit none(type, external)
@@ -63,7 +64,8 @@ contains
       self%from_another_version = self%header%version /= program_version
    end subroutine open_result
 
-   !> See that the first rows are what their checksums say. A chunk is verified as a whole.
+   !> See that the first rows are what their checksums say. A chunk is verified as a whole. Where the work must stop, not all
+   !> of them are looked at.
    subroutine verify_rows(self, count, error)
       class(result_reader_t), intent(in) :: self
       !> Rows that are needed
@@ -83,6 +85,7 @@ contains
          end if
          allocate (rows(self%columns, block_rows))
          do chunk = 1_int64, (count - 1_int64)/header%chunk_rows + 1_int64
+            if (must_stop()) return
             first = (chunk - 1_int64)*header%chunk_rows + 1_int64
             last = min(first + header%chunk_rows - 1_int64, header%seal%rows)
             stored = header%seal%rest_checksum

@@ -45,7 +45,9 @@ contains
          if (faults%count() == 0 .and. command%resume) call check_states(command, scenes, faults)
          if (faults%count() == 0) call check_places(command, scenes, .true., faults)
       end if
-      if (faults%count() > 0) then
+      if (command%resume .and. caught_signal() /= 0) then
+         exit_code = 128 + caught_signal()
+      else if (faults%count() > 0) then
          call print_faults(faults)
          exit_code = faults%exit_code
       else if (command%check) then

@@ -16,7 +16,7 @@ module run_scene
    use scene_lane, only: lane_of_scene
    use scene_report, only: report_ending, report_start
    use scene_result, only: judge, scene_result_t
-   use scene_status, only: status_complete, status_interrupted, status_not_written
+   use scene_status, only: is_success, status_complete, status_interrupted, status_not_written
    use scene_summary, only: write_scene_summary
    use scene_types, only: method_taylor, scene_t
    use signals, only: caught_signal
@@ -55,6 +55,11 @@ contains
       started = wall_seconds()
       resolved = resolve(scene)
       if (carry_on) call load_state(scene, start, error)
+      if (carry_on .and. caught_signal() /= 0) then
+         ! The files of the earlier run were not verified to their end; they stay as they are.
+         status = status_interrupted
+         return
+      end if
       if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
       call report_start(log, scene, resolved)
@@ -76,7 +81,7 @@ contains
          result%solve_seconds = wall_seconds() - started
          if (.not. allocated(error)) call judge(scene, resolved, recorder, result, error)
          ! A signal that came meanwhile has cut the certificate short.
-         if (result%judged .and. caught_signal() /= 0) result%ending%status = status_interrupted
+         if (is_success(result%ending%status) .and. caught_signal() /= 0) result%ending%status = status_interrupted
          result%judge_seconds = wall_seconds() - started - result%solve_seconds
          if (result%judged) call recorder%add_extremes( &
             lane_of_scene(scene, resolved%film, resolved%initial_film, scene%film%initial_velocity), result%ending%record, &

@@ -12,6 +12,7 @@ module sample_recorder
    use sample_sink, only: sample_sink_t
    use scene_types, only: column_acceleration, column_applied_force, column_film_thickness, &
                           column_names, column_squeeze_velocity, column_time, column_units, scene_t
+   use signals, only: caught_signal
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -92,6 +93,10 @@ contains
          call raise(error, exit_bad_input, self%path//' has other columns')
       done = 0
       do while (done < count .and. .not. allocated(error))
+         if (caught_signal() /= 0) then
+            call raise(error, 128 + caught_signal(), self%path//' was interrupted while its rows were copied; it stays as it was')
+            exit
+         end if
          part = min(count - done, int(size(self%rows, 2), int64))
          call reader%read_rows(done + 1_int64, self%rows(:, :int(part)), error)
          if (.not. allocated(error)) call self%writer%write_rows(self%rows(:, :int(part)), error)

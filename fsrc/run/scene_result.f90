@@ -18,6 +18,7 @@ module scene_result
    use scene_lane, only: lane_of_scene
    use scene_status, only: is_success
    use scene_types, only: scene_t
+   use signals, only: must_stop
    use window_extremes, only: extremes_of_record, extremes_of_samples, window_extremes_t
    implicit none(type, external)
    private
@@ -72,6 +73,9 @@ contains
       lane = lane_of_scene(scene, resolved%film, resolved%initial_film, scene%film%initial_velocity)
       window%record = result%ending%record
       call classify_window(scene, lane, window%periods, window%accelerations, window%record, resolved%noise_floor, result%rattle)
+      ! A signal ends the verdict on a long window here, between two stretches of some seconds.
+      result%judged = .not. must_stop()
+      if (.not. result%judged) return
       result%series_coarse = .not. result%rattle%lines%sampling_sufficient
       ! What the error-controlled engine has solved can be solved again, sampled finer, from where the window begins.
       if (result%series_coarse .and. window%record%periods > 0) &

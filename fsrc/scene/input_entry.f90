@@ -13,6 +13,9 @@ module input_entry
    implicit none(type, external)
    private
 
+   !> Words of a list that are set one by one
+   integer, parameter :: most_words = 1000
+
    !> Value of one key.
    type, public :: entry_t
       !> Whether the user set it, and whether it has any value
@@ -111,6 +114,9 @@ contains
          end if
       else if (assignment%first_element > length + 1) then
          call refuse('elements must be given one after the other; element '//integer_text(length + 1)//' comes next')
+         return
+      else if (key%kind == list_kind .and. assignment%first_element > most_words) then
+         call refuse('at most '//integer_text(most_words)//' elements are allowed')
          return
       end if
       if (length == 0 .or. assignment%first_element <= length) then

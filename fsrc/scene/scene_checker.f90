@@ -158,9 +158,9 @@ contains
    subroutine check_window(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
-      !> Samples in the window, whose transform then takes at most two seconds, in which no signal ends it. One of a length
+      !> Samples in the window, whose transform then takes a second or two, in which no signal ends it. One of a length
       !> with large prime factors takes ten times as long.
-      real(dp), parameter :: most_samples = 2.0e7_dp, most_of_any_number = 4.0e6_dp
+      real(dp), parameter :: most_samples = 1.0e7_dp, most_of_any_number = 2.0e6_dp
 
       if (input%is_faulty('spectrum', 'periods')) return
       if (.not. input%is_faulty('solver', 'periods') .and. &
@@ -168,21 +168,27 @@ contains
          call input%add_fault('solver', 'periods', 'at least &spectrum periods ('// &
                               integer_text(input%count('spectrum', 'periods'))//') must be solved', faults)
       end if
-      call check_samples('steps_per_period')
-      call check_samples('samples_per_period')
+      if (input%word('scene', 'task') == 'campaign') then
+         call check_samples('campaign', 'samples_per_period')
+      else if (input%word('solver', 'method') == 'newmark') then
+         call check_samples('solver', 'steps_per_period')
+      else
+         call check_samples('solver', 'samples_per_period')
+      end if
 
    contains
 
-      subroutine check_samples(name)
+      subroutine check_samples(group, name)
+         character(*), intent(in) :: group
          character(*), intent(in) :: name
          real(dp) :: samples
 
-         if (input%is_faulty('solver', name)) return
-         samples = real(input%count('spectrum', 'periods'), dp)*real(input%count('solver', name), dp)
+         if (input%is_faulty(group, name)) return
+         samples = real(input%count('spectrum', 'periods'), dp)*real(input%count(group, name), dp)
          if (samples > most_samples) then
-            call input%add_fault('solver', name, 'the window of &spectrum periods would hold more than 20000000 samples', faults)
+            call input%add_fault(group, name, 'the window of &spectrum periods would hold more than 10000000 samples', faults)
          else if (samples > most_of_any_number .and. .not. has_small_factors(nint(samples))) then
-            call input%add_fault('solver', name, 'the window of &spectrum periods would hold more than 4000000 samples; '// &
+            call input%add_fault(group, name, 'the window of &spectrum periods would hold more than 2000000 samples; '// &
                                  'only a product of factors up to 13, such as a power of 2, may be as large', faults)
          end if
       end subroutine check_samples

@@ -213,3 +213,29 @@ def test_closed_terminal_does_not_lose_the_run(rattle: Path, scene_text, tmp_pat
     process.communicate(timeout=10)
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "complete"
     assert read(tmp_path / "results" / "scene.rattle").closed
+
+
+def test_a_signal_ends_a_long_period(rattle: Path, scene_text, tmp_path: Path) -> None:
+    """A period of ten million steps, each with a root that takes many passes, is not waited for."""
+    text = scene_text(
+        film={"rupture": "'solved'", "rupture_solver": "'successive'"},
+        solver={
+            "method": "'newmark-extrapolated'",
+            "steps_per_period": None,
+            "samples_per_period": "10000000",
+        },
+        spectrum={"periods": "1"},
+        output={"series": ".false."},
+    )
+    (tmp_path / "scene.nml").write_text(text)
+    process = start(rattle, tmp_path, "scene.nml")
+    try:
+        time.sleep(1.0)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=5)
+    finally:
+        process.kill()
+    assert process.returncode == 128 + signal.SIGTERM
+    summary = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert summary["status"] == "interrupted"
+    assert "rattle_class" not in summary
