@@ -6,7 +6,7 @@
 !> Outcomes: diverged (a status other than complete), wrong number of reversals, false lines (another class,
 !> or another number of lines), wrong amplitudes (a line off by more than 5 % of the largest), right.
 program newmark_outcomes
-   use errors, only: fault_list_t
+   use errors, only: error_t, fault_list_t
    use film_law, only: film_load
    use fine_window, only: solve_whole_window, window_t
    use forcing, only: force_of_period
@@ -81,14 +81,15 @@ contains
       type(drawn_scene_t), intent(in) :: drawn
       !> Its verdict
       type(rattle_verdict_t), intent(out) :: verdict
+      type(error_t), allocatable :: error
       type(window_t) :: fine
       type(lane_ending_t) :: ending
 
       fine%periods = window
       fine%samples_per_period = 512
       call solve_whole_window(drawn%scene, drawn%lane, 1.0e-11_dp, periods, drawn%resolved%noise_floor, fine, &
-                             verdict, ending)
-      if (.not. is_success(ending%status)) error stop 'newmark_outcomes: a scene cannot be solved'
+                             verdict, ending, error)
+      if (allocated(error) .or. .not. is_success(ending%status)) error stop 'newmark_outcomes: a scene cannot be solved'
    end subroutine solve_reference
 
    !> What comes out of one run.

@@ -75,7 +75,7 @@ contains
          call solve_motion(drawn%scene, drawn%resolved%film, drawn%resolved%initial_film, start, recorder, nobody, &
                            result%ending, error)
       end if
-      if (.not. allocated(error)) call judge(drawn%scene, drawn%resolved, recorder, result)
+      if (.not. allocated(error)) call judge(drawn%scene, drawn%resolved, recorder, result, error)
       told%status = status_name(result%ending%status)
       if (allocated(error)) told%status = 'not_written'
       told%judged = is_success(result%ending%status) .and. result%judged .and. .not. allocated(error)
@@ -125,6 +125,7 @@ contains
       type(scene_t) :: scene
       type(sample_plan_t) :: plan
       type(chunk_space_t), allocatable :: space
+      type(error_t), allocatable :: error
       character(:), allocatable :: message
       real(dp), allocatable :: table(:, :), rows(:, :)
       integer :: positions(size(keys)), first, i
@@ -142,7 +143,8 @@ contains
       call plan_table(positions, table, plan)
       first = 2 + size(keys)
       allocate (rows(first + size(record) - 1 + row_harmonics, size(told)), space)
-      call solve_scenes(scene, plan, 1_int64, space, rows)
+      call solve_scenes(scene, plan, 1_int64, space, rows, error)
+      if (allocated(error)) error stop 'stress_summaries: out of memory'
       do i = 1, size(told)
          associate (row => rows(first:, i))
             told(i)%status = status_name(nint(row(1)))
@@ -174,12 +176,13 @@ contains
       real(dp), intent(inout) :: film
       real(dp), intent(inout) :: velocity
       type(told_t), intent(out) :: told
+      type(error_t), allocatable :: error
       real(dp) :: row(sweep_columns)
       integer :: status
 
-      call solve_value(scene, film, velocity, row, status)
+      call solve_value(scene, film, velocity, row, status, error)
       told%status = status_name(status)
-      told%judged = is_success(status)
+      told%judged = is_success(status) .and. .not. allocated(error)
       told%certificate_asked = .false.
       if (.not. told%judged) return
       told%extremes = row(3:6)
