@@ -35,6 +35,8 @@ module csv_fields
       integer(int64) :: left = 0_int64
       !> Whether the file could not be read to its end
       logical, public :: broken = .false.
+      !> Whether the work had to stop within a field
+      logical, public :: stopped = .false.
    contains
       procedure :: open => open_text
       procedure :: take_field
@@ -107,14 +109,13 @@ contains
       if (stat /= 0) self%broken = .true.
    end subroutine start
 
-   !> Read the next block. Where the work must stop, the file ends.
+   !> Read the next block.
    subroutine fill(self)
       class(csv_text_t), intent(inout) :: self
       integer :: stat
 
       self%at = 0
       self%used = int(min(self%left, int(block_bytes, int64)))
-      if (must_stop()) self%used = 0
       if (self%used == 0) return
       read (self%unit, iostat=stat) self%block(:self%used)
       self%left = self%left - int(self%used, int64)
@@ -134,8 +135,11 @@ contains
 
       returned = .false.
       do
-         if (self%at == self%used) call self%fill()
-         field%ends_line = self%used == 0
+         if (self%at == self%used) then
+            self%stopped = must_stop()
+            if (.not. self%stopped) call self%fill()
+         end if
+         field%ends_line = self%used == 0 .or. self%stopped
          if (field%ends_line) exit
          self%at = self%at + 1
          letter = self%block(self%at:self%at)

@@ -89,7 +89,7 @@ contains
 
       do
          call text%take_field(field)
-         if (must_stop()) then
+         if (text%stopped) then
             call faults%add(path, 1, '', '', 'there was no time to read the first line to its end')
             return
          end if
@@ -152,7 +152,7 @@ contains
          column = 0
          do
             call text%take_field(field)
-            if (must_stop()) return
+            if (text%stopped) return
             column = column + 1
             empty = column == 1 .and. field%ends_line .and. len(field%word()) == 0
             if (column <= columns .and. .not. empty) then
