@@ -23,6 +23,7 @@ contains
 
       call checks%start('periodic_orbit')
       call test_off_the_orbit(checks)
+      call test_slow_return(checks)
       call test_multipliers(checks)
       call test_periods(checks)
       call test_attracting(checks)
@@ -83,6 +84,24 @@ contains
          call checks%check(orbit%period == 0, 'off the orbit: too far away')
       end do
    end subroutine test_off_the_orbit
+
+   !> A motion that changes little in a period, because the force is fast, hardly moves in one even far from the motion that
+   !> repeats: how far that is tells whether it is meant.
+   subroutine test_slow_return(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(lane_scene_t) :: lane
+      type(lane_ending_t) :: true
+      type(periodic_orbit_t) :: orbit
+
+      lane = lane_of(100.0_dp, 1.905_dp)
+      lane%frequency = 6.0e5_dp
+      true = settled(lane, 5000)
+      orbit = find_periodic_orbit(lane, 1.05_dp*true%film, true%velocity, 0.06_dp)
+      call checks%check(orbit%period == 1, 'slow return: found within the nearness')
+      call checks%check_close(orbit%distance, 0.05_dp, 1.0e-8_dp, 'slow return: how far')
+      orbit = find_periodic_orbit(lane, 1.05_dp*true%film, true%velocity, 0.04_dp)
+      call checks%check(orbit%period == 0, 'slow return: too far away')
+   end subroutine test_slow_return
 
    !> Multipliers against differences of another step, extrapolated.
    subroutine test_multipliers(checks)
