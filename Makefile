@@ -169,7 +169,7 @@ user: $(BUILD)/rattle $(BUILD)/kernels/built
 # For this very processor, beside the portable build. The other solvers live in an environment of their own; one that
 # cannot be had is named and left out. ROUNDS and LIMIT [s] say how much patience the comparison has.
 NATIVE_BUILD := $(BUILD)/native
-NATIVE_BENCHES := bench_motion bench_film bench_newmark_lanes bench_engine
+NATIVE_BENCHES := bench_motion bench_film bench_engine
 PEER_ENV := .venv-bench
 PEERS := tests/benchmarks/peers
 ROUNDS := 5
@@ -179,12 +179,10 @@ bench: $(PYTHON_ENV)/installed
 	@$(MAKE) --no-print-directory BUILD=$(NATIVE_BUILD) NATIVE=1 $(addprefix $(NATIVE_BUILD)/,rattle $(NATIVE_BENCHES))
 	@$(PYTHON) tests/benchmarks/bench_newmark.py $(NATIVE_BUILD)/rattle $(NATIVE_BUILD)/bench_motion $(NATIVE_BUILD)/flags
 	@$(NATIVE_BUILD)/bench_film
-	@$(NATIVE_BUILD)/bench_newmark_lanes
 	@sh $(PEERS)/setup.sh $(PEER_ENV)
 	@$(PEER_ENV)/bin/python $(PEERS)/run_peers.py --output $(BUILD)/work_precision.csv --rounds $(ROUNDS) --limit $(LIMIT) \
 	  --own 'rattle=$(ENGINE) taylor' --own 'rattle, every period=$(ENGINE) taylor-every-period' \
-	  --own 'rattle until steady=$(ENGINE) taylor-steady' \
-	  --own 'rattle Newmark extrapolated=$(ENGINE) newmark-extrapolated'
+	  --own 'rattle until steady=$(ENGINE) taylor-steady'
 	@$(PEER_ENV)/bin/python $(PEERS)/plot_work_precision.py $(BUILD)/work_precision.csv --base 'rattle, every period' \
 	  --figure $(BUILD)/work_precision.png --table $(BUILD)/work_precision.md
 	@cat $(BUILD)/work_precision.md

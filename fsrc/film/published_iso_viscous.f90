@@ -14,7 +14,7 @@ module published_iso_viscous
    !> Squeeze term of (24) over its rolling term and A (x_e + pi/2), A the squeeze group: 3/(4*2.8) [-].
    real(dp), parameter, public :: squeeze_share = 3.0_dp/(4.0_dp*rolling_factor)
 
-   public :: rolling_coefficient, squeeze_coefficient, half_pi_rupture_load, half_pi_rupture_fractions, &
+   public :: rolling_coefficient, squeeze_coefficient, half_pi_rupture_load, &
       solved_rupture_load
 
 contains
@@ -69,37 +69,6 @@ contains
       load_by_film = (1.5_dp*damping*velocity - rolling*inverse)*inverse
       load_by_velocity = -damping
    end subroutine half_pi_rupture_load
-
-   !> The same as numerators over one denominator, h^4, for callers that divide but once. Units are those of the load and its
-   !> slopes times m^4.
-   elemental subroutine half_pi_rupture_fractions(rolling, squeeze, film, velocity, load, load_by_film, load_by_velocity, &
-                                                  denominator)
-      !> Coefficient of the rolling term [N m]
-      real(dp), intent(in) :: rolling
-      !> Coefficient of the squeeze term [N s m^(1/2)]
-      real(dp), intent(in) :: squeeze
-      !> Film thickness h > 0 [m]
-      real(dp), intent(in) :: film
-      !> Film velocity w = dh/dt [m/s]
-      real(dp), intent(in) :: velocity
-      !> Load W h^4 [N m^4]
-      real(dp), intent(out) :: load
-      !> dW/dh h^4 [N m^3]
-      real(dp), intent(out) :: load_by_film
-      !> dW/dw h^4 [N s m^3]
-      real(dp), intent(out) :: load_by_velocity
-      !> h^4 [m^4]
-      real(dp), intent(out) :: denominator
-      real(dp) :: square, roll, damping
-
-      square = film*film
-      denominator = square*square
-      roll = rolling*square
-      damping = pi*squeeze*(film*sqrt(film))
-      load = (roll - damping*velocity)*film
-      load_by_film = 1.5_dp*damping*velocity - roll
-      load_by_velocity = -damping*film
-   end subroutine half_pi_rupture_fractions
 
    !> Load of (24) with x_e from the corrected (18); the slopes are total, x_e moves along.
    elemental subroutine solved_rupture_load(rolling, squeeze, film, velocity, a, rupture_tangent, load, load_by_film, &

@@ -21,17 +21,7 @@ module elementary_functions
    real(dp), parameter :: inverse_factorial(0:exponential_terms) = &
       [(1.0_dp/gamma(real(i + 1, dp)), i=0, exponential_terms)]
 
-   !> Exponents of `power_of_two` are held between these.
-   real(dp), parameter :: lowest_power = -870.0_dp, highest_power = 790.0_dp
-   !> (2^t - 1)/t on |t| <= 1/2, interpolated at the nodes of Chebyshev; the rest is below 2e-17.
-   real(dp), parameter :: c(11) = [0.6931471805599453_dp, 0.24022650695910097_dp, 0.0555041086648216_dp, &
-                            0.009618129107606854_dp, 0.0013333558146416916_dp, 0.00015403530441794136_dp, &
-                            1.525273382986708e-05_dp, 1.3215442552522291e-06_dp, 1.0178062426976924e-07_dp, &
-                            7.072593027878997e-09_dp, 4.4549643712692967e-10_dp]
-   !> `near_exponential` is good to rounding up to this magnitude.
-   real(dp), parameter, public :: nearness = 0.03125_dp
-
-   public :: cosine_sine, exponential, power_of_two, near_exponential
+   public :: cosine_sine, exponential
 
 contains
 
@@ -82,21 +72,6 @@ contains
       exponential = with_octaves(mantissa, sum)
    end function exponential
 
-   !> 2^x, to 2 epsilon; beyond about 2^-870 and 2^790 those are given.
-   elemental real(dp) function power_of_two(x)
-      !> Exponent [-]
-      real(dp), intent(in) :: x
-      real(dp) :: held, shifted, t, t2, mantissa
-
-      held = max(lowest_power, min(highest_power, x))
-      shifted = held + rounder
-      t = held - (shifted - rounder)
-      t2 = t*t
-      mantissa = 1.0_dp + t*(((c(1) + c(2)*t) + t2*(c(3) + c(4)*t)) + &
-         (t2*t2)*(((c(5) + c(6)*t) + t2*(c(7) + c(8)*t)) + (t2*t2)*((c(9) + c(10)*t) + t2*c(11))))
-      power_of_two = with_octaves(mantissa, shifted)
-   end function power_of_two
-
    !> A number times two to the power of the integer that `rounder` has left at the end of a sum: it goes to the exponent.
    elemental real(dp) function with_octaves(number, sum)
       !> The number [-]
@@ -111,16 +86,5 @@ contains
       bits = bits + shiftl(octaves, 52)
       with_octaves = transfer(bits, with_octaves)
    end function with_octaves
-
-   !> exp(x) for |x| <= nearness.
-   elemental real(dp) function near_exponential(x)
-      !> Argument [-]
-      real(dp), intent(in) :: x
-      real(dp) :: x2
-
-      x2 = x*x
-      near_exponential = (1.0_dp + x) + x2*((0.5_dp + x*(1.0_dp/6.0_dp)) + &
-         x2*((1.0_dp/24.0_dp + x*(1.0_dp/120.0_dp)) + x2*(1.0_dp/720.0_dp + x*(1.0_dp/5040.0_dp))))
-   end function near_exponential
 
 end module elementary_functions

@@ -25,8 +25,6 @@ module checkpoint
       integer(int64) :: steps = 0
       integer(int64) :: evaluations = 0
       integer(int64) :: cuts = 0
-      !> Steps of the first row, interval by interval, that the extrapolated Newmark method has come to; unallocated: none
-      integer, allocatable :: bases(:)
    end type checkpoint_t
 
 end module checkpoint

@@ -9,12 +9,11 @@ module integrate_motion
                        load_reynolds_piezo, load_solved_fast, load_solved_successive, steady_film
    use forcing, only: applied_force, force_of_period
    use kinds, only: dp, int64
-   use newmark_extrapolated, only: advance_extrapolated, extrapolation_t, new_extrapolation
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
    use period_repetition, only: note_state, orbit_watch_t
    use sample_sink, only: sample_sink_t
    use scene_status, only: status_complete, status_interrupted, status_steady, status_time_limit
-   use scene_types, only: iteration_newton, method_newmark_extrapolated, predictor_extrapolated, scene_t, until_steady
+   use scene_types, only: iteration_newton, predictor_extrapolated, scene_t, until_steady
    use signals, only: caught_signal
    use window_record, only: window_record_t
    use settling_rate, only: settling_of
@@ -116,8 +115,7 @@ contains
       type(motion_state_t) :: state
       real(dp), allocatable :: force(:), films(:), velocities(:), accelerations(:)
       type(orbit_watch_t) :: states
-      type(extrapolation_t) :: extrapolation
-      logical :: extrapolated, searching
+      logical :: searching
       integer(int64) :: first_step
       integer :: period, last_period, window, steps, done
       real(dp) :: started, rest_film
@@ -126,8 +124,6 @@ contains
       rest_film = steady_film(film, scene%load%static_load())
       method = newmark_of(scene)
       steps = scene%solver%samples_per_period()
-      extrapolated = scene%solver%method == method_newmark_extrapolated
-      extrapolation = new_extrapolation(scene%solver%accuracy, steps)
       allocate (force(steps), films(steps), velocities(steps), accelerations(steps))
       call force_of_period(method%steady_force, method%force_amplitude, force)
 
@@ -139,7 +135,6 @@ contains
          ending%count = motion_count_t(start%steps, start%evaluations, start%cuts)
          ending%periods = start%periods
          states = start%watch
-         if (allocated(start%bases)) extrapolation%bases(:) = start%bases
       else
          call start_motion(kernel, film, method, initial_film, scene%film%initial_velocity, state, ending%count, ending%status)
          ending%film = state%film
@@ -164,13 +159,8 @@ contains
       do while (period < last_period)
          period = period + 1
          first_step = int(period - 1, int64)*int(steps, int64) + 1_int64
-         if (extrapolated) then
-            call advance_extrapolated(kernel, film, method, extrapolation, state, ending%count, films, velocities, &
-                                      accelerations, done, ending%status)
-         else
-            call advance_period(kernel, film, method, force, state, ending%count, films, velocities, accelerations, done, &
-                                ending%status)
-         end if
+         call advance_period(kernel, film, method, force, state, ending%count, films, velocities, accelerations, done, &
+                             ending%status)
          call sink%take(first_step, force(:done), films(:done), velocities(:done), accelerations(:done), error)
          ending%film = state%film
          ending%velocity = state%velocity
@@ -187,7 +177,7 @@ contains
             end if
          end if
          if (period <= last_period - window) &
-            ending%checkpoint = checkpoint_of(period, state, ending%count, extrapolation%bases, states, ending%orbit)
+            ending%checkpoint = checkpoint_of(period, state, ending%count, states, ending%orbit)
          call watcher%period_done(period, last_period)
          if (period == last_period) exit
          ending%status = status_of_stop(scene, started)
@@ -219,11 +209,10 @@ contains
    end subroutine look_back
 
    !> State at the end of a period, with what it cost.
-   pure function checkpoint_of(period, state, count, bases, watch, orbit) result(here)
+   pure function checkpoint_of(period, state, count, watch, orbit) result(here)
       integer, intent(in) :: period
       type(motion_state_t), intent(in) :: state
       type(motion_count_t), intent(in) :: count
-      integer, intent(in) :: bases(:)
       type(orbit_watch_t), intent(in) :: watch
       integer, intent(in) :: orbit
       type(checkpoint_t) :: here
@@ -232,7 +221,6 @@ contains
       here%film = state%film
       here%velocity = state%velocity
       here%acceleration = state%acceleration
-      allocate (here%bases, source=bases)
       here%watch = watch
       here%orbit = orbit
       here%steps = count%steps

@@ -11,20 +11,19 @@ module resume
    use input_difference, only: first_difference
    use integrate_controlled, only: last_search_period
    use kinds, only: dp, int64
-   use newmark_extrapolated, only: extrapolation_t, new_extrapolation
    use output_place, only: result_path, state_path
    use period_repetition, only: orbit_watch_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use sample_recorder, only: series_rows
-   use scene_types, only: method_newmark_extrapolated, method_taylor, scene_t, until_steady
+   use scene_types, only: method_taylor, scene_t, until_steady
    use text, only: integer_text
    use version, only: program_version
    implicit none(type, external)
    private
 
-   !> Columns of a state; those of the watch and of the intervals follow.
+   !> Columns of a state; those of the watch follow.
    character(*), parameter :: state_names(12) = [character(column_name_bytes) :: 'periods', 'film', 'velocity', 'acceleration', &
                                                  'momentum', 'implicit', 'steps', 'evaluations', 'cuts', 'orbit', &
                                                  'watch_count', 'watch_newest']
@@ -57,11 +56,11 @@ contains
       character(column_unit_bytes), allocatable :: units(:)
       real(dp), allocatable :: row(:, :)
 
-      allocate (names, source=column_names(scene))
+      allocate (names, source=column_names())
       allocate (units(size(names)), row(size(names), 1))
       units(:) = '-'
       units(:size(state_units)) = state_units
-      row(:, 1) = row_of(state, interval_count(scene))
+      row(:, 1) = row_of(state)
       call writer%open(state_path(scene), scene%resolved_input, names, units, 1_int64, .false., error)
       if (.not. allocated(error)) call writer%write_rows(row, error)
       if (.not. allocated(error)) call writer%close(error)
@@ -82,7 +81,7 @@ contains
 
       kept = state_of_path(state_path(scene))
       if (kept%bytes == 0_int64) return
-      allocate (names, source=column_names(scene))
+      allocate (names, source=column_names())
       allocate (row(size(names), 1))
       call open_earlier(scene, state_path(scene), reader, error)
       if (.not. allocated(error) .and. .not. equal_names(reader%names, names)) &
@@ -152,24 +151,19 @@ contains
       end associate
    end function latest_start
 
-   !> Columns of the state of a scene.
-   pure function column_names(scene) result(names)
-      type(scene_t), intent(in) :: scene
+   !> Columns of a state.
+   pure function column_names() result(names)
       character(column_name_bytes), allocatable :: names(:)
       type(orbit_watch_t) :: watch
       integer :: i, fixed, watched
 
       fixed = size(state_names)
       watched = size(watch%film)
-      allocate (names(fixed + 2*watched + interval_count(scene)))
+      allocate (names(fixed + 2*watched))
       names(:fixed) = state_names
       do i = 1, watched
          names(fixed + i) = 'watch_film_'//integer_text(i)
          names(fixed + watched + i) = 'watch_momentum_'//integer_text(i)
-      end do
-      fixed = fixed + 2*watched
-      do i = 1, size(names) - fixed
-         names(fixed + i) = 'interval_steps_'//integer_text(i)
       end do
    end function column_names
 
@@ -182,31 +176,16 @@ contains
       if (equal_names) equal_names = all(some == others)
    end function equal_names
 
-   !> Intervals of a period that the method of a scene keeps its steps for.
-   pure integer function interval_count(scene)
-      type(scene_t), intent(in) :: scene
-      type(extrapolation_t) :: extrapolation
-
-      interval_count = 0
-      if (scene%solver%method /= method_newmark_extrapolated) return
-      extrapolation = new_extrapolation(scene%solver%accuracy, scene%solver%samples_per_period())
-      interval_count = size(extrapolation%bases)
-   end function interval_count
-
    !> A state as a row; see `state_of`.
-   pure function row_of(state, intervals) result(row)
+   pure function row_of(state) result(row)
       type(checkpoint_t), intent(in) :: state
-      integer, intent(in) :: intervals
       real(dp), allocatable :: row(:)
-      integer :: bases(intervals)
 
-      bases = 0
-      if (intervals > 0 .and. allocated(state%bases)) bases = state%bases
       associate (watch => state%watch)
          row = [real(state%periods, dp), state%film, state%velocity, state%acceleration, state%momentum, &
                 merge(1.0_dp, 0.0_dp, state%implicit), real(state%steps, dp), real(state%evaluations, dp), &
                 real(state%cuts, dp), real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), watch%film, &
-                watch%momentum, real(bases, dp)]
+                watch%momentum]
       end associate
    end function row_of
 
@@ -232,8 +211,6 @@ contains
       state%watch%film(:) = row(place + 1:place + size(state%watch%film))
       place = place + size(state%watch%film)
       state%watch%momentum(:) = row(place + 1:place + size(state%watch%momentum))
-      place = place + size(state%watch%momentum)
-      if (size(row) > place) state%bases = nint(row(place + 1:))
    end function state_of
 
 end module resume

@@ -260,6 +260,8 @@ contains
       allowed = allowed_text(key)
       if (key%kind == text_kind .and. key%choices == '') &
          allowed = allowed//' of at most '//integer_text(path_limit)//' characters'
+      if (key%kind == text_kind .and. key%choices /= '' .and. key%default /= '') &
+         allowed = allowed//"; without this key: '"//trim(key%default)//"'"
       call faults%add(entry%file, entry%line, trim(key%group), trim(key%name), &
                       shown(value)//' is not allowed; allowed: '//allowed)
    end subroutine read_value

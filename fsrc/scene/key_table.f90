@@ -103,12 +103,11 @@ module key_table
       key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Film velocity dh/dt at t = 0, negative on approach.', &
             sensible=range_t(lower=-100.0_dp, upper=100.0_dp)), &
-      key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark newmark-extrapolated taylor', &
+      key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark taylor', &
             'scene.task=motion|sweep|campaign', &
-            'Time integration: taylor (error-controlled series, implicit where the film is stiff), the paper''s newmark, or '// &
-            'newmark extrapolated in its step.'), &
+            'Time integration: taylor (error-controlled series, implicit where the film is stiff) or the paper''s newmark.'), &
       key_t('solver', 'accuracy', real_kind, '-', '1.0e-8', range_t(1.0e-12_dp, .false., 1.0e-2_dp, .false.), '', &
-            'solver.method=newmark-extrapolated|taylor', &
+            'solver.method=taylor', &
             'Relative accuracy of the film that an error-controlled method aims at.'), &
       key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion|campaign', &
             'End of the run: all periods, or as soon as the motion is verified to repeat; then one orbit is the window.'), &
@@ -117,7 +116,7 @@ module key_table
       key_t('solver', 'time_limit', real_kind, 's', '', positive, '', 'scene.task=motion', &
             'Wall time after which the run ends cleanly, to be resumed; absent: none.'), &
       key_t('solver', 'samples_per_period', integer_kind, '-', '512', at_least_8, '', &
-            'solver.method=newmark-extrapolated|taylor', &
+            'solver.method=taylor', &
             'Samples of a period that are kept; the steps are chosen by the accuracy.'), &
       key_t('solver', 'iteration', text_kind, '', 'newton', any_number, 'newton successive', 'solver.method=newmark', &
             'Iteration in a step: newton with the exact slopes of the film, or the paper''s successive one.'), &

@@ -29,7 +29,7 @@ module scene_types
    !> Root finder of (18).
    integer, parameter, public :: rupture_solver_fast = 1, rupture_solver_successive = 2
    !> Time integration.
-   integer, parameter, public :: method_newmark = 1, method_newmark_extrapolated = 2, method_taylor = 3
+   integer, parameter, public :: method_newmark = 1, method_taylor = 2
    !> End of the run.
    integer, parameter, public :: until_periods = 1, until_steady = 2
    !> Iteration within a Newmark step.

@@ -2,18 +2,14 @@
 !>
 !>    bench_engine ENGINE SCENE_FILE ACCURACY
 !>
-!> ENGINE: taylor (full run), taylor-every-period (the same, no period skipped that returns to the last bit), taylor-steady
-!> (until the motion repeats) or newmark-extrapolated. Prints the CPU seconds of one scene, then h/h0 at 64 points of each of
-!> the last ten periods.
+!> ENGINE: taylor (full run), taylor-every-period (the same, no period skipped that returns to the last bit) or taylor-steady
+!> (until the motion repeats). Prints the CPU seconds of one scene, then h/h0 at 64 points of each of the last ten periods.
 program bench_engine
    use, intrinsic :: iso_fortran_env, only: error_unit
    use film_law, only: film_t, new_film
    use kinds, only: dp
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use newmark, only: newmark_t
-   use newmark_lanes, only: newmark_lane_scene_t
-   use newmark_lanes_extrapolated, only: extrapolated_ending_t, solve_lanes_extrapolated
    use scene_lane, only: lane_of_scene
    use scene_status, only: is_success, status_name
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
@@ -25,10 +21,8 @@ program bench_engine
    type(scene_t) :: scene
    type(lane_scene_t) :: lanes(copies)
    type(lane_ending_t) :: endings(copies)
-   type(newmark_lane_scene_t) :: newmark_scenes(copies)
-   type(extrapolated_ending_t) :: newmark_endings(copies)
    type(lane_request_t) :: request
-   real(dp), allocatable :: films(:, :), velocities(:, :), accelerations(:, :)
+   real(dp), allocatable :: films(:, :), velocities(:, :)
    character(512) :: engine, path, word
    real(dp) :: accuracy, started, finished, best
    integer :: i, repetition, repetitions, rows
@@ -43,12 +37,6 @@ program bench_engine
    read (word, *) accuracy
    call read_scene_file(trim(path), scene)
    lanes = lane_of_scene(scene, new_film(scene), scene%film%initial_film, 0.0_dp)
-   newmark_scenes%film = lanes%film
-   newmark_scenes%thickness = lanes%initial_film
-   newmark_scenes%velocity = 0.0_dp
-   newmark_scenes%method = newmark_t(mass=scene%load%mass, weight=scene%load%weight(), &
-                                    steady_force=scene%load%steady_force, force_amplitude=scene%load%force_amplitude, &
-                                    frequency=scene%load%frequency)
    request%accuracy = accuracy
    request%periods = periods
    request%samples_per_period = points
@@ -56,7 +44,6 @@ program bench_engine
    request%until_steady = engine == 'taylor-steady'
    request%every_period = engine == 'taylor-every-period'
    allocate (films(sampled*points, copies), velocities(sampled*points, copies), source=0.0_dp)
-   allocate (accelerations(merge(sampled*points, 0, engine == 'newmark-extrapolated'), copies))
 
    call solve()
    if (.not. all(is_success(endings%status))) then
@@ -87,14 +74,7 @@ program bench_engine
 contains
 
    subroutine solve()
-      if (engine == 'newmark-extrapolated') then
-         call solve_lanes_extrapolated(newmark_scenes, accuracy, periods, sampled, points, films, velocities, &
-                                       accelerations, newmark_endings)
-         endings%status = newmark_endings%status
-         endings%samples = sampled*points
-      else
-         call solve_motions(lanes, request, films, velocities, endings)
-      end if
+      call solve_motions(lanes, request, films, velocities, endings)
    end subroutine solve
 
    !> Scene in SI units from lines of `key value`.

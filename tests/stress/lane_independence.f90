@@ -10,16 +10,11 @@ program lane_independence
    use kinds, only: dp, int64
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use newmark_lanes, only: newmark_lane_ending_t, newmark_lane_request_t, newmark_lane_scene_t, &
-      solve_newmark_lanes
    use random_numbers, only: next_uniform, random_permutation, random_state_t
    use random_scenes, only: draw_scene, drawn_scene_t, group_size
-   use stress_engines, only: engine_names, engines, newmark_scene
+   use stress_engines, only: engine_names, engines
    implicit none(type, external)
 
-   !> Engines compared, by their places in `engine_names`, and Newmark's method.
-   integer, parameter :: by_newmark = engines + 1, compared(4) = [1, 2, 3, by_newmark]
-   character(*), parameter :: names(by_newmark) = [character(30) :: engine_names, 'newmark']
    integer, parameter :: periods = 12, sampled = 8, samples = 4, values = 2*sampled*samples + 6
    !> Scenes of a portion, at most.
    integer, parameter :: largest_portion = 40
@@ -29,7 +24,7 @@ program lane_independence
    integer(int64), allocatable :: together(:, :), other(:, :)
    integer, allocatable :: order(:)
    integer(int64) :: seed = 2_int64
-   integer :: scenes = 2000, engine, differing, all_differing, i, n
+   integer :: scenes = 2000, engine, differing, all_differing, i
    type(random_state_t) :: state
 
    call read_arguments()
@@ -42,13 +37,12 @@ program lane_independence
    all_differing = 0
    print '(a)', '| engine | scenes | other order | in portions, threads | alone |', &
       '|---|---:|---:|---:|---:|'
-   do n = 1, size(compared)
-      engine = compared(n)
+   do engine = 1, engines
       together = bits_of(engine, [(i, i=1, scenes)])
       call random_permutation(state, order)
       other = bits_of(engine, order)
       differing = count(any(other /= together(:, order), dim=1))
-      write (*, '(a, i0, a, i0, a)', advance='no') '| '//trim(names(engine))//' | ', scenes, ' | ', &
+      write (*, '(a, i0, a, i0, a)', advance='no') '| '//trim(engine_names(engine))//' | ', scenes, ' | ', &
          differing, ' | '
       all_differing = all_differing + differing
       differing = differing_in_portions(engine, order, together)
@@ -70,7 +64,7 @@ contains
 
    !> Scenes that differ when portions of random size are solved by whatever thread comes.
    integer function differing_in_portions(engine, order, together) result(differing)
-      !> Place in `names`
+      !> Place in `engine_names`
       integer, intent(in) :: engine
       !> Order of the scenes
       integer, intent(in) :: order(:)
@@ -98,24 +92,11 @@ contains
 
    !> Bits of samples and ending of scenes solved in one call.
    function bits_of(engine, members) result(bits)
-      !> Place in `names`
+      !> Place in `engine_names`
       integer, intent(in) :: engine
       !> Which scenes, in their order
       integer, intent(in) :: members(:)
       integer(int64) :: bits(values, size(members))
-
-      if (engine == by_newmark) then
-         call newmark_bits(members, bits)
-      else
-         call controlled_bits(engine, members, bits)
-      end if
-   end function bits_of
-
-   !> By an error-controlled engine.
-   subroutine controlled_bits(engine, members, bits)
-      integer, intent(in) :: engine
-      integer, intent(in) :: members(:)
-      integer(int64), intent(out) :: bits(:, :)
       type(lane_scene_t), allocatable :: lane_scenes_here(:)
       type(lane_ending_t), allocatable :: endings(:)
       type(lane_request_t) :: request
@@ -141,36 +122,7 @@ contains
                               int([ending%status, ending%periods], int64), ending%steps]
          end associate
       end do
-   end subroutine controlled_bits
-
-   !> By Newmark's method.
-   subroutine newmark_bits(members, bits)
-      integer, intent(in) :: members(:)
-      integer(int64), intent(out) :: bits(:, :)
-      type(newmark_lane_scene_t), allocatable :: newmark_scenes(:)
-      type(newmark_lane_ending_t), allocatable :: endings(:)
-      real(dp), allocatable :: films(:, :), velocities(:, :), accelerations(:, :)
-      integer :: place
-
-      allocate (films(sampled*samples, size(members)), velocities(sampled*samples, size(members)), &
-                accelerations(sampled*samples, size(members)), source=0.0_dp)
-      allocate (endings(size(members)), newmark_scenes(size(members)))
-      do place = 1, size(members)
-         newmark_scenes(place) = newmark_scene(drawn(members(place)))
-      end do
-      call solve_newmark_lanes(newmark_scenes, newmark_lane_request_t(128, periods, sampled, samples), &
-                               films, velocities, &
-                               accelerations, endings)
-      do place = 1, size(members)
-         associate (ending => endings(place))
-            bits(:, place) = [transfer(films(:, place), [1_int64]), transfer(accelerations(:, place), &
-               [1_int64]), &
-                              transfer([ending%state%film, ending%state%velocity, &
-                                        ending%state%acceleration], [1_int64]), &
-                              int([ending%status, ending%periods], int64), ending%count%evaluations]
-         end associate
-      end do
-   end subroutine newmark_bits
+   end function bits_of
 
    !> Command line.
    subroutine read_arguments()

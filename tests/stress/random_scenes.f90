@@ -49,8 +49,6 @@ module random_scenes
       real(dp) :: accuracy = 0.0_dp
       !> Long runs, in which a slow drift shows
       logical :: long = .false.
-      !> Whether the extrapolated engines solve it too
-      logical :: extrapolated = .false.
    end type group_t
 
    !> A scene ready for every engine.
@@ -93,8 +91,6 @@ contains
       call next_uniform(state, number_drawn)
       group%long = number_drawn < 1.0_dp/16.0_dp
       if (group%long) group%periods = 150
-      call next_uniform(state, number_drawn)
-      group%extrapolated = number_drawn < 1.0_dp/8.0_dp
    end function draw_group
 
    !> A scene. The length of the contact is what lets the film come out that was drawn; it may come out

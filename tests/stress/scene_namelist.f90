@@ -3,8 +3,7 @@ module scene_namelist
    use kinds, only: dp
    use random_scenes, only: drawn_scene_t
    use scene_types, only: iteration_successive, law_iso_viscous, method_newmark, &
-      method_newmark_extrapolated, &
-                          model_published, model_reynolds, predictor_previous, rupture_half_pi, &
+      model_published, model_reynolds, predictor_previous, rupture_half_pi, &
                           rupture_solver_fast, &
                           scene_t, until_steady
    use text, only: integer_text, real_text
@@ -85,8 +84,6 @@ contains
             if (solver%predictor == predictor_previous) line = line//", predictor = 'previous'"
             line = line//', tolerance = '//real_text(solver%tolerance)//', steps_per_period = '// &
                    integer_text(solver%steps_per_period)
-         else if (solver%method == method_newmark_extrapolated) then
-            line = line//" method = 'newmark-extrapolated', accuracy = "//real_text(solver%accuracy)
          else
             line = line//" method = 'taylor', accuracy = "//real_text(solver%accuracy)
          end if

@@ -13,7 +13,7 @@ program stress_scenes
    use random_scenes, only: draw_group, draw_scene, drawn_scene_t, group_of, group_size, group_t, law_names
    use scene_namelist, only: print_namelist
    use scene_status, only: status_name
-   use stress_engines, only: engine_names, engines, long_engines, run_engine, set_solver, takes_part
+   use stress_engines, only: engine_names, engines, run_engine, set_solver
    use stress_outcomes, only: outcome_names, outcome_silent, outcome_t, outcomes
    use stress_references, only: reference_t, solve_references
    use stress_table, only: print_markdown, print_ratios, tally_t, write_csv
@@ -64,7 +64,7 @@ contains
       type(reference_t), allocatable :: references(:)
       type(outcome_t), allocatable :: results(:, :)
       real(dp) :: spent(0:engines), group_started
-      integer :: engine, last_engine, i
+      integer :: engine, i
       integer(int64) :: from, to
 
       shared = draw_group(seed, number)
@@ -79,11 +79,9 @@ contains
       end do
       group_started = wall_seconds()
       spent = 0.0_dp
-      last_engine = merge(long_engines, engines, shared%long)
       call solve_references(shared, drawn, references)
       spent(0) = wall_seconds() - group_started
-      do engine = 1, last_engine
-         if (.not. takes_part(engine, shared)) cycle
+      do engine = 1, engines
          spent(engine) = wall_seconds()
          call run_engine(engine, shared, drawn, references, results(:, engine))
          spent(engine) = wall_seconds() - spent(engine)
@@ -94,8 +92,7 @@ contains
          slowest = sum(spent)
          slowest_group = number
       end if
-      do engine = 1, last_engine
-         if (.not. takes_part(engine, shared)) cycle
+      do engine = 1, engines
          do i = 1, size(drawn)
             call tally%add(shared%law, engine, results(i, engine))
             if (results(i, engine)%code == outcome_silent .or. listed(results(i, engine)%code)) &

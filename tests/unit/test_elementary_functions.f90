@@ -2,7 +2,7 @@
 module test_elementary_functions
    use checks, only: check_list_t, same_bits
    use constants, only: two_pi
-   use elementary_functions, only: cosine_sine, exponential, largest_exponent, near_exponential, nearness, power_of_two
+   use elementary_functions, only: cosine_sine, exponential, largest_exponent
    use kinds, only: dp
    implicit none(type, external)
    private
@@ -22,11 +22,10 @@ contains
 
       call checks%start('elementary_functions')
       call test_exponential(checks)
-      call test_power_of_two(checks)
       call test_circle(checks)
    end subroutine run_elementary_functions_tests
 
-   !> The exponential up to its borders and beyond, and the short cut near zero.
+   !> The exponential up to its borders and beyond.
    subroutine test_exponential(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -39,35 +38,10 @@ contains
       call checks%check_close(error, 0.0_dp, 4.0_dp*epsilon(1.0_dp), 'exponential: near one')
       call checks%check(same_bits(exponential(1.0e6_dp), exponential(largest_exponent)), 'exponential: held above')
       call checks%check(same_bits(exponential(-1.0e6_dp), exponential(-largest_exponent)), 'exponential: held below')
-      error = maxval(abs(near_exponential(nearness*spread)/exp(nearness*spread) - 1.0_dp))
-      call checks%check_close(error, 0.0_dp, 3.0_dp*epsilon(1.0_dp), 'exponential: short cut')
       y = exponential(x)
       fewer = exponential(x(2:))
       call checks%check(all(same_bits(y(2:), fewer)), 'exponential: the same bits in another place')
    end subroutine test_exponential
-
-   !> Powers of two over their range, held beyond it.
-   subroutine test_power_of_two(checks)
-      type(check_list_t), intent(inout) :: checks  !> Collects the results
-
-      real(dp) :: x(points), y(points), fewer(2:points), error
-
-      x = 825.0_dp*spread - 35.0_dp
-      error = maxval(abs(power_of_two(x)/2.0_dp**x - 1.0_dp))
-      call checks%check_close(error, 0.0_dp, 3.0_dp*epsilon(1.0_dp), 'power: whole range')
-      error = maxval(abs(power_of_two(spread)/2.0_dp**spread - 1.0_dp))
-      call checks%check_close(error, 0.0_dp, 3.0_dp*epsilon(1.0_dp), 'power: near one')
-      y = power_of_two(x)
-      fewer = power_of_two(x(2:))
-      call checks%check(all(same_bits(y(2:), fewer)), 'power: the same bits in another place')
-      x(:21) = -0.7_dp
-      y(:21) = power_of_two(x(:21))
-      call checks%check(all(abs(y(:21) - y(1)) <= 0.0_dp), 'power: the same bits in every lane')
-      call checks%check(power_of_two(1.0e6_dp) > 1.0e100_dp .and. power_of_two(1.0e6_dp) < huge(1.0_dp), &
-                        'power: held above')
-      call checks%check(power_of_two(-1.0e6_dp) >= 0.0_dp .and. power_of_two(-1.0e6_dp) < 1.0e-200_dp, &
-                        'power: held below')
-   end subroutine test_power_of_two
 
    !> Cosine and sine once around, and exact at its quarters.
    subroutine test_circle(checks)

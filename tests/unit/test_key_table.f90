@@ -8,7 +8,7 @@ module test_key_table
    use recorded_quantities, only: quantities, quantity_code
    use scene_types, only: column_names, compute_damping, compute_limits, compute_load, compute_pressure, &
       compute_profile, compute_rupture, compute_stiffness, iteration_newton, iteration_successive, &
-      law_iso_viscous, law_piezo_viscous, method_newmark, method_newmark_extrapolated, method_taylor, &
+      law_iso_viscous, law_piezo_viscous, method_newmark, method_taylor, &
       model_numerical, model_published, model_reynolds, predictor_extrapolated, predictor_previous, &
       rupture_half_pi, rupture_solved, rupture_solver_fast, rupture_solver_successive, speed_mean, &
       speed_sum, sweep_entrainment_speed, sweep_force_amplitude, sweep_frequency, sweep_steady_force, &
@@ -187,7 +187,6 @@ contains
       call agree('film', 'rupture_solver', 'fast', rupture_solver_fast)
       call agree('film', 'rupture_solver', 'successive', rupture_solver_successive)
       call agree('solver', 'method', 'newmark', method_newmark)
-      call agree('solver', 'method', 'newmark-extrapolated', method_newmark_extrapolated)
       call agree('solver', 'method', 'taylor', method_taylor)
       call agree('solver', 'until', 'periods', until_periods)
       call agree('solver', 'until', 'steady', until_steady)

@@ -3,7 +3,7 @@ module test_published_iso_viscous
    use checks, only: check_list_t
    use constants, only: half_pi, pi
    use kinds, only: dp
-   use published_iso_viscous, only: half_pi_rupture_fractions, half_pi_rupture_load, rolling_coefficient, solved_rupture_load, &
+   use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, &
       squeeze_coefficient
    use reynolds_iso_viscous, only: rupture_tangent_fast
    use rupture, only: squeeze_group
@@ -29,7 +29,6 @@ contains
       call test_loads(checks)
       call test_slopes(checks)
       call test_pull(checks)
-      call test_fractions(checks)
    end subroutine run_published_iso_viscous_tests
 
    !> Load as in (35), l eta0 R/h (2.8 u - (3 pi/sqrt 2) w sqrt(R/h)), and as in (24) with x_e.
@@ -110,21 +109,6 @@ contains
       call solved_load(8.9e-7_dp, 0.05_dp, load, slope_h, slope_w)
       call checks%check(load > 0.0_dp, 'with x_e solved the film does not pull here')
    end subroutine test_pull
-
-   !> Numerators over the common denominator are load and slopes, over twelve powers of ten. Load and slope may cancel.
-   subroutine test_fractions(checks)
-      type(check_list_t), intent(inout) :: checks
-      real(dp) :: values(3), numerators(3), sizes(3), film, denominator
-      integer :: i
-
-      do i = 0, 24
-         film = 1.0e-12_dp*sqrt(10.0_dp)**i
-         call half_pi_rupture_load(2.0_dp, 3.0_dp, film, 0.1_dp, values(1), values(2), values(3))
-         call half_pi_rupture_fractions(2.0_dp, 3.0_dp, film, 0.1_dp, numerators(1), numerators(2), numerators(3), denominator)
-         sizes = [2.0_dp/film + 0.1_dp*abs(values(3)), 2.0_dp/film**2 + 0.15_dp*abs(values(3))/film, abs(values(3))]
-         call checks%check(all(abs(numerators/denominator - values) < 8.0_dp*epsilon(1.0_dp)*sizes), 'one division')
-      end do
-   end subroutine test_fractions
 
    !> (35) with its coefficients.
    subroutine half_pi_load(film, velocity, load, load_by_film, load_by_velocity)

@@ -53,8 +53,6 @@ program unit_tests
    use test_campaign_file, only: run_campaign_file_tests
    use test_campaign_refusals, only: run_campaign_refusals_tests
    use test_schedule, only: run_schedule_tests
-   use test_newmark_lanes, only: run_newmark_lanes_tests
-   use test_newmark_extrapolated, only: run_newmark_extrapolated_tests
    use test_lane_motions, only: run_lane_motions_tests
    use test_periodic_orbit, only: run_periodic_orbit_tests
    use test_settling_forecast, only: run_settling_forecast_tests
@@ -114,8 +112,6 @@ program unit_tests
    call run_campaign_file_tests(checks)
    call run_campaign_refusals_tests(checks)
    call run_schedule_tests(checks)
-   call run_newmark_lanes_tests(checks)
-   call run_newmark_extrapolated_tests(checks)
    call run_lane_motions_tests(checks)
    call run_periodic_orbit_tests(checks)
    call run_settling_forecast_tests(checks)
