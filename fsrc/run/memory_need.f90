@@ -4,15 +4,15 @@ module memory_need
    use errors, only: error_t
    use kinds, only: dp
    use memory, only: expect_memory
-   use scene_types, only: method_newmark_extrapolated, scene_t, task_film
+   use scene_types, only: scene_t, task_film
    use text, only: integer_text
    implicit none(type, external)
    private
 
    !> Bytes a sample of a window: its motion and its transform, whose length may be a prime; and the tighter solution
    real(dp), parameter :: judging_bytes = 144.0_dp, certificate_bytes = 36.0_dp
-   !> Bytes a sample of a period beside it: the motion, the columns of the series, the rows of an extrapolation
-   real(dp), parameter :: period_bytes = 144.0_dp, extrapolation_bytes = 240.0_dp
+   !> Bytes a sample of a period beside it: the motion, the columns of the series
+   real(dp), parameter :: period_bytes = 144.0_dp
    !> Bytes a node of a profile, and a cell of the numerical film
    real(dp), parameter :: node_bytes = 144.0_dp, cell_bytes = 144.0_dp
 
@@ -39,7 +39,6 @@ contains
          samples = real(scene%solver%samples_per_period(), dp)
          bytes = samples*(period_bytes + real(scene%spectrum%periods, dp)*judging_bytes)
          if (scene%spectrum%certify) bytes = bytes + certificate_bytes*samples*real(scene%spectrum%periods, dp)
-         if (scene%solver%method == method_newmark_extrapolated) bytes = bytes + extrapolation_bytes*samples
          call expect_memory(bytes, &
                             'a window of '//integer_text(scene%spectrum%periods)//' periods (&spectrum periods) of '// &
                             integer_text(scene%solver%samples_per_period())// &

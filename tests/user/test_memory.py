@@ -44,18 +44,6 @@ SHORTAGES = {
         200,
         "&solver samples_per_period",
     ),
-    "extrapolated": (
-        {
-            "solver": {
-                "method": "'newmark-extrapolated'",
-                "steps_per_period": None,
-                "samples_per_period": "400000",
-            },
-            "spectrum": {"periods": "1"},
-        },
-        170,
-        "&solver samples_per_period",
-    ),
     "sweep": ({**SWEEP, "solver": {**CONTROLLED, "samples_per_period": "400000"}}, 120, "&spectrum periods"),
     "values of a sweep": (
         {**SWEEP, "solver": CONTROLLED, "sweep": {**SWEEP["sweep"], "count": "1000000"}},
