@@ -141,28 +141,33 @@ contains
    !> last bit, period by period; only the steps of the way there and back are more.
    subroutine test_failed_excursions(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
-      real(dp), parameter :: speeds(4) = [55.0_dp, 58.0_dp, 43.0_dp, 46.0_dp], forces(4) = [160.0_dp, 220.0_dp, 240.0_dp, 280.0_dp]
-      integer, parameter :: samples = 16
-      type(lane_scene_t) :: lanes(4)
+      integer, parameter :: samples = 16, scenes = 120
+      type(lane_scene_t) :: lanes(scenes)
       type(lane_request_t) :: request
-      type(lane_ending_t) :: plain(4), ahead(4)
-      real(dp) :: films(8*samples, 4), others(8*samples, 4), velocities(8*samples, 4)
+      type(lane_ending_t) :: plain(scenes), ahead(scenes)
+      real(dp) :: films(8*samples, scenes), others(8*samples, scenes), velocities(8*samples, scenes)
+      logical :: unsettled(scenes)
       integer :: i
 
-      do i = 1, 4
-         lanes(i) = canonical_lane(speeds(i), forces(i))
+      do i = 1, scenes
+         lanes(i) = canonical_lane(40.0_dp + 2.0_dp*real(modulo(i, 10), dp), 160.0_dp + 3.0_dp*real(i, dp))
       end do
       request%periods = 120
       request%samples_per_period = samples
       request%sampled_periods = 8
       request%until_steady = .true.
+      films = 0.0_dp
+      others = 0.0_dp
       call solve_motions(lanes, request, films, velocities, plain)
       request%forecast = .true.
       call solve_motions(lanes, request, others, velocities, ahead)
-      call checks%check(all(plain%status == status_complete .and. ahead%status == status_complete), 'none is steady')
-      call checks%check(all(ahead%steps > plain%steps), 'each went to where it was forecast to settle')
-      call checks%check(all(ahead%periods == plain%periods), 'the periods are those of the motion')
-      call checks%check(all(abs(films - others) <= 0.0_dp), 'the same motion to the last bit')
+      unsettled = ahead%status == status_complete
+      ! Which of them these are is left to rounding, for the motions are irregular.
+      call checks%check(count(unsettled .and. ahead%steps > plain%steps) > 0, 'failed forecasts: there are some')
+      call checks%check(all(plain%status == status_complete .or. .not. unsettled), 'failed forecasts: none would have settled')
+      call checks%check(all(plain%periods == ahead%periods .or. .not. unsettled), 'failed forecasts: the periods of the motion')
+      call checks%check(all(maxval(abs(films - others), dim=1) <= 0.0_dp .or. .not. unsettled), &
+                        'failed forecasts: the same motion to the last bit')
    end subroutine test_failed_excursions
 
    !> The canonical scene with another speed and force, from its steady film on.
