@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -14,6 +16,10 @@ from rattle.checksums import checksum
 from rattle.chunk_table import SERIES
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import ResultError, ResultHeader
+
+# Threads that verify chunks, and chunks below which another thread is not worth its start.
+MOST_THREADS = 4
+FEWEST_CHUNKS = 4
 
 
 class ResultFile:
@@ -71,11 +77,18 @@ class CheckedRows:
         """Refuse a file whose rows are not what their checksums say."""
         chunk_rows = self._header.chunks.chunk_rows
         first, last, _ = slice(rows.start, rows.stop).indices(self._covered)
-        chunks = range(first // chunk_rows, -(-last // chunk_rows))
-        for chunk in chunks if last > first else ():
-            if not self._sound[chunk]:
+        chunks = range(first // chunk_rows, -(-last // chunk_rows) if last > first else 0)
+        unknown = [chunk for chunk in chunks if not self._sound[chunk]]
+        # One core is slower than the memory.
+        threads = min(MOST_THREADS, len(os.sched_getaffinity(0)), len(unknown) // FEWEST_CHUNKS)
+        if threads > 1:
+            with ThreadPoolExecutor(threads) as pool:
+                for _ in pool.map(self._verify_chunk, unknown):
+                    pass
+        else:
+            for chunk in unknown:
                 self._verify_chunk(chunk)
-                self._sound[chunk] = True
+        self._sound[unknown] = True
 
     def _verify_chunk(self, chunk: int) -> None:
         table, seal = self._header.chunks, self._header.seal

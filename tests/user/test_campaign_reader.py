@@ -280,3 +280,17 @@ def test_a_time_series_is_no_campaign(tmp_path):
         rattle.read_campaign(path)
     with pytest.raises(rattle.ResultError, match="No such file"):
         rattle.read_campaign(tmp_path / "absent.rattle")
+
+
+def test_threads_name_the_first_damage(made, tmp_path, monkeypatch):
+    """Chunks are verified side by side; what is told is the damage that stands first."""
+    monkeypatch.setattr("rattle.result_file.FEWEST_CHUNKS", 1)
+    monkeypatch.setattr("os.sched_getaffinity", lambda _: {0, 1, 2})
+    content = made.content()
+    path = tmp_path / "map.rattle"
+    path.write_bytes(content)
+    assert np.isfinite(rattle.read_campaign(path)["film_minimum"]).any()
+    table = table_at(content)
+    path.write_bytes(changed(changed(content, table + 56, "<q", 77), table + 40, "<q", 77))
+    with pytest.raises(rattle.ResultError, match="is damaged: rows 65 to 128 "):
+        rattle.read_campaign(path)["film_minimum"]
