@@ -170,15 +170,16 @@ def parse_options() -> argparse.Namespace:
     parser.add_argument(
         "--summary", action="store_true", help="draw one page, write inputs of the worst scenes"
     )
-    parser.add_argument(
-        "--worst", type=command.positive, default=10, metavar="N", help="scenes listed there (10)"
-    )
-    parser.add_argument(
-        "--by", default="acceleration_maximum", metavar="COLUMN", help="(acceleration_maximum)"
-    )
+    parser.add_argument("--worst", type=command.positive, metavar="N", help="scenes listed on the page (10)")
+    parser.add_argument("--by", metavar="COLUMN", help="what the worst are worst by (acceleration_maximum)")
     parser.add_argument("--smallest", action="store_true", help="the smallest in --by are the worst")
     parser.add_argument("--output", type=Path, default=Path("."), metavar="DIR", help="where the figures go")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if not options.summary and (options.worst or options.by or options.smallest):
+        parser.error("--worst, --by and --smallest belong to --summary")
+    options.worst = options.worst or 10
+    options.by = options.by or "acceleration_maximum"
+    return options
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@ main is a table of contents, and no library routine stops the program."""
 
 from __future__ import annotations
 
+import argparse
 import re
 import sys
 from pathlib import Path
@@ -62,6 +63,7 @@ def is_stray(entry: Path) -> bool:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(description=__doc__).parse_args()
     sentences = faults()
     print("\n".join(sentences))
     sys.exit(bool(sentences))

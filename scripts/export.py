@@ -16,6 +16,7 @@ from rattle import command
 
 ROWS_AT_ONCE = 10000
 STANDARD_OUTPUT = Path("-")
+OTHER_FORMATS = (".nc", ".mat", ".parquet", ".h5", ".xlsx", ".json")
 
 
 def main() -> None:
@@ -26,6 +27,11 @@ def main() -> None:
         result[name]  # an unknown name or damaged rows end the work before a file is touched
     command.note_open(result)
     output = options.output or result.path.with_suffix(".csv")
+    if output.suffix.lower() in OTHER_FORMATS:
+        raise command.CommandError(
+            f"{output}: this script writes CSV; "
+            "'campaign.py export --to netcdf' writes other formats of campaigns."
+        )
     if output == STANDARD_OUTPUT:
         write(sys.stdout, result, names, options.stride)
         return

@@ -21,6 +21,7 @@ def main() -> int:
     choice = film_points.Choice(options.film_ratio, options.speed_group)
     numbers = options.figures or NUMBERS
     makers = [(stem, maker) for number, stem, maker in FIGURES if number in numbers]
+    scene = options.result.name.removesuffix(".rattle").removesuffix(".profiles")
     drawn, missed = 0, 0
     with style.house_style():
         for stem, maker in makers:
@@ -31,7 +32,7 @@ def main() -> int:
                 command.complain(f"{stem} cannot be drawn: {fault}")
                 continue
             drawn += 1
-            for path in style.save(figure, options.output, stem):
+            for path in style.save(figure, options.output, f"{stem}_{scene}"):
                 print(path)
     # Without a wish for certain figures, what the result holds is enough.
     return command.BAD_INPUT if missed and (options.figures or not drawn) else command.COMPLETE

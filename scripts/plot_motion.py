@@ -15,6 +15,7 @@ def main() -> None:
     options = parse_options()
     results = [rattle.read(path) for path in options.results]
     for result in results:
+        result.require_task("motion")
         command.note_open(result)
     make = catalogue.overlay_figures if options.overlay else catalogue.single_figures
     extent = catalogue.Extent(options.periods, options.window)
@@ -33,7 +34,8 @@ def main() -> None:
 def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description="Draw figures 6 to 10 of the paper from result files. An iso-viscous result gives "
-        "figures 06, 07, 08 and 10a, a piezo-viscous one 09 and 10b, each as PNG and PDF."
+        "figures 06, 07, 08 and 10a, a piezo-viscous one 09 and 10b, each as PNG and PDF, with the scene's "
+        "name behind the number."
     )
     parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="result file, NAME.rattle")
     parser.add_argument("--output", type=Path, default=Path("."), metavar="DIR", help="where the figures go")

@@ -23,7 +23,7 @@ module run_campaign
    use signals, only: caught_signal, lift_time_limit, limit_time, must_stop
    use solve_chunk, only: chunk_bytes, chunk_space_t, solve_scenes
    use summary_file, only: summary_t
-   use text, only: integer_text, short_text
+   use text, only: counted, integer_text, short_text
    use version, only: program_version
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
    implicit none(type, external)
@@ -178,8 +178,8 @@ contains
 
       if (this_rank() == 0) then
          call log%line(log_magic//program_version//', campaign '//trim(scene%name)//': '//integer_text(layout%scene_count)// &
-                       ' scenes, '//law_sentence(scene)//'; '//integer_text(rank_count())//' ranks of '// &
-                       integer_text(omp_get_max_threads())//' threads')
+                       ' scenes, '//law_sentence(scene)//'; '//counted(rank_count(), 'rank')//' of '// &
+                       counted(omp_get_max_threads(), 'thread'))
          do i = 1, size(scene%warnings)
             call log%line('  '//scene%warnings(i)%text)
          end do

@@ -4,7 +4,7 @@ module text
    implicit none(type, external)
    private
 
-   public :: integer_text, real_text, short_text, logical_text, lower, quoted, quoted_words, edit_distance, is_word_character
+ public :: counted, integer_text, real_text, short_text, logical_text, lower, quoted, quoted_words, edit_distance, is_word_character
 
    interface integer_text
       module procedure integer_text_default
@@ -32,6 +32,18 @@ contains
       write (buffer, '(i0)') number
       text = trim(buffer)
    end function integer_text_long
+
+   !> A count with its noun, as in '1 rank' or '2 ranks'.
+   pure function counted(number, noun) result(text)
+      !> Any integer
+      integer, intent(in) :: number
+      !> Of one thing
+      character(*), intent(in) :: noun
+      character(:), allocatable :: text
+
+      text = integer_text(number)//' '//noun
+      if (number /= 1) text = text//'s'
+   end function counted
 
    !> Shortest decimal text that reads back to the same number.
    pure function real_text(number) result(text)

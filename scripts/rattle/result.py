@@ -15,6 +15,12 @@ from rattle.result_header import ResultError, ResultHeader, read_header
 from rattle.summary import read_summary
 
 TIME = "time"
+DRAWN_BY = {
+    "motion": "plot_motion.py",
+    "film": "plot_film.py",
+    "sweep": "plot_sweep.py",
+    "campaign": "campaign_map.py",
+}
 
 
 class Columns(Mapping[str, np.ndarray]):
@@ -129,6 +135,12 @@ class Result(ResultFile):
     def task(self) -> str:
         """What the program was to do, as in 'motion', 'film' or 'sweep'."""
         return str(self.value("scene", "task")).strip()
+
+    def require_task(self, task: str) -> None:
+        """Raise ResultError, with the script that draws this result, if it is that of another task."""
+        if self.task != task:
+            drawn_by = f"; scripts/{DRAWN_BY[self.task]} draws it" if self.task in DRAWN_BY else ""
+            raise ResultError(f"{self.path} is no {task} but the result of task = '{self.task}'{drawn_by}.")
 
     @property
     def law(self) -> str:

@@ -29,6 +29,7 @@ def classify(
 
     Raises ResultError where the samples carry no class.
     """
+    result.require_task("motion")
     if result.coarse:
         raise ResultError(
             f"{result.path} is coarser than its motion: its samples carry no class. "

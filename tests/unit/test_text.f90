@@ -3,7 +3,7 @@ module test_text
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_is_finite, ieee_overflow
    use checks, only: check_list_t
    use kinds, only: dp, int64
-   use text, only: edit_distance, integer_text, is_word_character, logical_text, lower, quoted, &
+   use text, only: counted, edit_distance, integer_text, is_word_character, logical_text, lower, quoted, &
       quoted_words, real_text, &
       short_text
    implicit none(type, external)
@@ -43,6 +43,8 @@ contains
       call spelt(checks, real_text(1.0_dp/3.0_dp), '0.3333333333333333')
       call spelt(checks, real_text(8.889224234368e-07_dp), '8.889224234368E-7')
       call spelt(checks, integer_text(-42), '-42')
+      call spelt(checks, counted(1, 'rank'), '1 rank')
+      call spelt(checks, counted(0, 'rank'), '0 ranks')
       call spelt(checks, integer_text(9000000000_int64), '9000000000')
       call spelt(checks, logical_text(.true.), '.true.')
       call spelt(checks, logical_text(.false.), '.false.')

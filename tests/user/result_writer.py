@@ -135,7 +135,7 @@ MOTION_COLUMNS = (
 
 _MOTION_INPUT = """&scene
    name = '{name}'
-   task = 'motion'
+   task = '{task}'
 /
 &load
    steady_force = 200.0
@@ -174,6 +174,7 @@ def write_motion(
     *,
     lines: dict[float, float],
     law: str = "iso-viscous",
+    task: str = "motion",
     name: str | None = None,
     tolerance: float = 1e-12,
     steps_per_period: int = 128,
@@ -204,6 +205,7 @@ def write_motion(
     text = _MOTION_INPUT.format(
         name=name or path.stem,
         law=law,
+        task=task,
         tolerance=tolerance,
         steps_per_period=steps_per_period,
         periods=periods,

@@ -10,7 +10,14 @@ from result_writer import write_motion
 from script_calls import call_script, figure_stems
 
 LINES = {1.0: 10.0, 2.0: 8.0, 3.0: 3.0}
-PAPER = ["figure_06", "figure_07", "figure_08", "figure_09", "figure_10a", "figure_10b"]
+PAPER = [
+    "figure_06_idle",
+    "figure_07_idle",
+    "figure_08_idle",
+    "figure_09_creep",
+    "figure_10a_idle",
+    "figure_10b_creep",
+]
 
 
 @pytest.fixture
@@ -51,14 +58,14 @@ def test_settings_of_the_user_do_not_matter(iso, tmp_path):
     assert call_script("plot_motion.py", iso, "--figures", 6, "--output", first).returncode == 0
     settings = {"MATPLOTLIBRC": str(tmp_path / "matplotlibrc")}
     assert call_script("plot_motion.py", iso, "--figures", 6, "--output", second, **settings).returncode == 0
-    assert (first / "figure_06.png").read_bytes() == (second / "figure_06.png").read_bytes()
+    assert (first / "figure_06_idle.png").read_bytes() == (second / "figure_06_idle.png").read_bytes()
 
 
 def test_only_the_figures_asked_for_are_drawn(iso, piezo, tmp_path):
     output = tmp_path / "figures"
     done = call_script("plot_motion.py", iso, piezo, "--figures", "9,10", "--periods", 2, "--output", output)
     assert done.returncode == 0, done.stderr
-    assert figure_stems(output) == ["figure_09", "figure_10a", "figure_10b"]
+    assert figure_stems(output) == ["figure_09_creep", "figure_10a_idle", "figure_10b_creep"]
 
 
 def test_runs_of_one_law_are_told_apart_by_scene_name(iso, tmp_path):
@@ -146,3 +153,19 @@ def test_a_motion_at_rest_is_drawn(tmp_path):
     path = write_motion(tmp_path / "rest.rattle", lines={1.0: 0.0})
     done = call_script("plot_motion.py", path, "--figures", "8", "--output", tmp_path)
     assert done.returncode == 0, done.stderr
+
+
+def test_another_scene_does_not_replace_the_figures_of_the_first(iso, tmp_path):
+    output = tmp_path / "figures"
+    other = write_motion(tmp_path / "light.rattle", lines={1.0: 1.0})
+    for path in (iso, other):
+        assert call_script("plot_motion.py", path, "--figures", "8", "--output", output).returncode == 0
+    assert figure_stems(output) == ["figure_08_idle", "figure_08_light"]
+
+
+@pytest.mark.parametrize("script", ["plot_motion.py", "classify.py"])
+def test_the_result_of_another_task_is_refused_with_the_script_that_draws_it(script, tmp_path):
+    path = write_motion(tmp_path / "up.rattle", lines=LINES, task="sweep")
+    done = call_script(script, path)
+    assert done.returncode == 2
+    assert "is no motion but the result of task = 'sweep'; scripts/plot_sweep.py draws it." in done.stderr

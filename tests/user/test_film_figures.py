@@ -14,7 +14,7 @@ from result_writer import write_motion, write_result
 import rattle
 from rattle.figures import film_piezo_pressure, film_points, style
 
-PAPER = ["figure_03", "figure_04a", "figure_04b", "figure_05"]
+PAPER = ["figure_03_film", "figure_04a_film", "figure_04b_film", "figure_05_film"]
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def test_profiles_may_be_named_in_place_of_the_table(film, tmp_path):
     profiles = film.with_name("film.profiles.rattle")
     done = call("plot_film.py", profiles, "--figures", "3", "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
-    assert stems(tmp_path / "figures") == ["figure_03"]
+    assert stems(tmp_path / "figures") == ["figure_03_film"]
 
 
 def test_same_film_gives_the_same_bytes(film, tmp_path):
@@ -91,14 +91,14 @@ def test_without_the_piezo_viscous_slopes_the_others_are_drawn(tmp_path):
     path = write_points(tmp_path / "a.rattle", np.geomspace(5e-5, 1e-4, 5), without="stiffness_piezo_viscous")
     done = call("plot_film.py", path, "--figures", "4", "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
-    assert stems(tmp_path / "figures") == ["figure_04a", "figure_04b"]
+    assert stems(tmp_path / "figures") == ["figure_04a_a", "figure_04b_a"]
 
 
 def test_without_profiles_figure_4_is_drawn_and_the_rest_explained(tmp_path):
     path = write_points(tmp_path / "a.rattle", np.geomspace(5e-5, 1e-4, 5))
     done = call("plot_film.py", path, "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
-    assert stems(tmp_path / "figures") == ["figure_04a", "figure_04b"]
+    assert stems(tmp_path / "figures") == ["figure_04a_a", "figure_04b_a"]
     assert done.stderr.count("was not asked for 'profile'") == 2
     asked = call("plot_film.py", path, "--figures", "3", "--output", tmp_path / "figures")
     assert asked.returncode == 2 and asked.stderr.count("\n") == 1
@@ -121,7 +121,7 @@ def test_a_motion_is_refused(tmp_path):
     path = write_motion(tmp_path / "idle.rattle", lines={1.0: 1.0})
     done = call("plot_film.py", path, "--figures", "4", "--output", tmp_path)
     assert done.returncode == 2
-    assert "is not the result of a film task; plot_motion.py draws motions." in done.stderr
+    assert "is no film but the result of task = 'motion'; scripts/plot_motion.py draws it." in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [("--figures", "6"), ("--film-ratio", "-1"), ("--speed-group", "fast")])

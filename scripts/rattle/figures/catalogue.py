@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -38,20 +37,15 @@ class Extent:
 def single_figures(
     results: Sequence[Result], numbers: Sequence[int], extent: Extent
 ) -> Iterator[tuple[str, Figure]]:
-    """File stem and figure for each result, in the order given.
-
-    Where several results have the same law, their stems end with the scene name.
-    """
-    law_counts = Counter(result.law for result in results)
+    """File stem, which ends with the scene's name, and figure for each result, in the order given."""
     for result, label in zip(results, run_labels(results), strict=True):
         if result.law not in FIGURES_OF_LAW:
             raise ResultError(
                 f"{result.path} has the film law '{result.law}', which no figure of 6 to 10 shows."
             )
-        ending = f"_{file_part(label)}" if law_counts[result.law] > 1 else ""
         for number, stem in FIGURES_OF_LAW[result.law].items():
             if number in numbers:
-                yield stem + ending, _draw(number, [result], [label], extent)
+                yield f"{stem}_{file_part(label)}", _draw(number, [result], [label], extent)
 
 
 def overlay_figures(

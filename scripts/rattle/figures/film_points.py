@@ -137,8 +137,7 @@ def angle_axis(axes: Axes) -> None:
 
 
 def _check_task(result: Result) -> None:
-    if result.task != "film":
-        raise ResultError(f"{result.path} is not the result of a film task; plot_motion.py draws motions.")
+    result.require_task("film")
     command.note_open(result)
 
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from rattle.codes import SUCCESSES
 from rattle.figures import style
-from rattle.result import Result, ResultError
+from rattle.result import Result
 
 KEY_LABELS = {
     "frequency": r"Excitation frequency $f_\mathrm{exc}$ [Hz]",
@@ -21,10 +21,7 @@ WAYS = (("there", 1.0, style.RUN_COLOURS[0], "-"), ("back", -1.0, style.RUN_COLO
 
 def draw(result: Result) -> Figure:
     """Film range, peak acceleration, period of the motion and Floquet multiplier over the swept key."""
-    if result.task != "sweep":
-        raise ResultError(
-            f"{result.path} is no sweep; plot_motion.py and plot_film.py draw the other results."
-        )
+    result.require_task("sweep")
     key = str(result.value("sweep", "key")).strip()
     figure = Figure(figsize=(style.WIDTH, 6.2))
     film, acceleration, period, multiplier = figure.subplots(
