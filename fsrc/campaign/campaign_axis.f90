@@ -50,7 +50,7 @@ contains
                return
             end if
             do j = 1, i - 1
-               if (.not. abs(axis%values(i) - axis%values(j)) > 0.0_dp) then
+               if (.not. (axis%values(i) < axis%values(j) .or. axis%values(i) > axis%values(j))) then
                   message = 'the list holds the value '//real_text(axis%values(i))//' twice'
                   return
                end if

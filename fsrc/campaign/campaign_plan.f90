@@ -4,6 +4,8 @@ module campaign_plan
    use csv_samples, only: csv_samples_t, read_csv_samples
    use errors, only: fault_list_t
    use kinds, only: dp, int64
+   use odd_numbers, only: odd_numbers_of_list
+   use printable_text, only: printable
    use sampling, only: chunk_values, method_grid, method_sobol, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, &
                        sample_plan_t
    use scene_types, only: scene_t
@@ -11,6 +13,7 @@ module campaign_plan
    use text, only: integer_text
    use varied_keys, only: find_varied_key, is_whole, varied_code, varied_key_name
    use varied_scene, only: is_valid_scene, set_varied_keys, why_invalid
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
@@ -26,13 +29,16 @@ module campaign_plan
 contains
 
    !> Plan of a campaign; faults are added with the place in the input.
-   subroutine plan_campaign(scene, file, plan, faults)
+   subroutine plan_campaign(scene, file, plan, warnings, faults)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
       !> Its input, for the faults
       character(*), intent(in) :: file
       !> The plan; of use only if no fault was added
       type(sample_plan_t), intent(out) :: plan
+      !> Columns of a table that hold numbers no engineer can mean, a line each; what stands in the input itself is known
+      !> with it
+      type(word_t), allocatable, intent(out) :: warnings(:)
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       type(campaign_axis_t), allocatable :: axes(:)
@@ -41,6 +47,7 @@ contains
       integer :: before, bad_axis, i
 
       before = faults%count()
+      allocate (warnings(0))
       if (len(scene%campaign%csv) > 0) then
          call read_csv_samples(scene%campaign%csv, samples, faults)
          if (faults%count() > before) return
@@ -48,6 +55,11 @@ contains
             call check_position(scene, scene%campaign%csv, varied_key_name(samples%positions(i)), samples%positions(i), faults)
          end do
          if (faults%count() > before) return
+         do i = 1, size(samples%positions)
+            ! The header is the first line.
+            warnings = [warnings, odd_numbers_of_list(printable(scene%campaign%csv, .false.), 'column '//integer_text(i), &
+                                                      samples%positions(i), samples%values(i, :samples%read), 2)]
+         end do
          call plan_table(samples%positions, samples%values, plan)
          plan%known = samples%read
       else

@@ -1,5 +1,6 @@
 !> A campaign from input to file: plan, chunks to threads and ranks, rows in the order of the scenes.
 module run_campaign
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use campaign_file, only: campaign_file_t, campaign_layout_t
    use campaign_plan, only: count_invalid, plan_campaign
    use campaign_progress, only: campaign_progress_t
@@ -25,6 +26,7 @@ module run_campaign
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
    use version, only: program_version
+   use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
    implicit none(type, external)
    private
@@ -52,15 +54,20 @@ contains
       integer(int64) :: invalid, first, seen
       integer(int64) :: chunks
       character(:), allocatable :: among
+      type(word_t), allocatable :: warnings(:)
+      integer :: i
 
       lines = ''
-      call prepare(scene, file, .true., plan, first, seen, invalid, layout, faults)
+      call prepare(scene, file, .true., plan, first, seen, invalid, layout, warnings, faults)
       if (faults%count() > 0) return
       chunks = (layout%scene_count + layout%chunk_rows - 1_int64)/layout%chunk_rows
       among = ''
       if (seen < layout%scene_count) among = ' among the first '//integer_text(seen)//'; there was no time to look at more'
+      do i = 1, size(warnings)
+         lines = lines//'! '//warnings(i)%text//new_line('a')
+      end do
       ! Where a table is so long that its lines could not even be counted, none of its scenes was looked at.
-      lines = '! scenes             '//trim(merge(' at least', '         ', seen == 0_int64 .and. chunks > 0_int64))//' '// &
+      lines = lines//'! scenes             '//trim(merge(' at least', '         ', seen == 0_int64 .and. chunks > 0_int64))//' '// &
               integer_text(layout%scene_count)//' ('//integer_text(invalid)//' invalid'//among//')'//new_line('a')// &
               '! result size         '//short_text(8.0e-6_dp*real(size(layout%names), dp)*real(layout%scene_count, dp), 3)// &
               ' MB'//new_line('a')// &
@@ -128,13 +135,14 @@ contains
       type(log_t) :: log
       type(output_lock_t) :: lock
       type(error_t), allocatable :: close_error
+      type(word_t), allocatable :: warnings(:)
       integer(int64) :: first, seen, spoilt, invalid
       integer :: i
       real(dp) :: started
       type(file_state_t) :: earlier
 
       started = wall_seconds()
-      call prepare(scene, file, .false., plan, first, seen, invalid, layout, faults)
+      call prepare(scene, file, .false., plan, first, seen, invalid, layout, warnings, faults)
       exit_code = faults%exit_code
       spoilt = 0_int64
       if (this_rank() == 0) then
@@ -180,8 +188,9 @@ contains
          call log%line(log_magic//program_version//', campaign '//trim(scene%name)//': '//integer_text(layout%scene_count)// &
                        ' scenes, '//law_sentence(scene)//'; '//counted(rank_count(), 'rank')//' of '// &
                        counted(omp_get_max_threads(), 'thread'))
-         do i = 1, size(scene%warnings)
-            call log%line('  '//scene%warnings(i)%text)
+         warnings = [scene%warnings, warnings]
+         do i = 1, size(warnings)
+            call log%line('  '//warnings(i)%text)
          end do
          if (spoilt > 0) call log%line('  '//integer_text(spoilt)//' chunks of the earlier run were damaged; they are solved again')
          if (.not. results%is_locked()) call log%line('  warning: this file system knows no locks; see that no other run '// &
@@ -206,7 +215,7 @@ contains
 
    !> What is known before anything is solved; the scenes are cut by the whole campaign, whatever part of it this is. After a
    !> fault only the faults are of use.
-   subroutine prepare(scene, file, hurried, plan, first, seen, invalid, layout, faults)
+   subroutine prepare(scene, file, hurried, plan, first, seen, invalid, layout, warnings, faults)
       type(scene_t), intent(in) :: scene
       character(*), intent(in) :: file
       !> Whether to look at no more scenes than there is time for
@@ -217,6 +226,8 @@ contains
       integer(int64), intent(out) :: seen
       integer(int64), intent(out) :: invalid
       type(campaign_layout_t), intent(out) :: layout
+      !> Numbers of a table that no engineer can mean
+      type(word_t), allocatable, intent(out) :: warnings(:)
       type(fault_list_t), intent(inout) :: faults
       integer(int64) :: last
 
@@ -224,7 +235,7 @@ contains
       seen = 0_int64
       invalid = 0_int64
       if (hurried) call limit_time(reading_limit)
-      call plan_campaign(scene, file, plan, faults)
+      call plan_campaign(scene, file, plan, warnings, faults)
       if (hurried) call lift_time_limit()
       if (faults%count() > 0) return
       layout%chunk_rows = int(chunk_rows_for(plan%size, largest_value(plan, find_key('solver', 'periods'), &
@@ -326,11 +337,15 @@ contains
       !> One column of this array is the row of a scene
       real(dp), intent(in) :: rows(:, :)
       real(dp), intent(in) :: limit
-      integer :: column
+      integer :: column, row
 
       flagged = 0_int64
       column = findloc(is_column, .true., dim=1)
-      if (column > 0) flagged = count(rows(column, :) >= limit, kind=int64)
+      if (column == 0) return
+      do row = 1, size(rows, 2)
+         if (ieee_is_nan(rows(column, row))) cycle
+         if (rows(column, row) >= limit) flagged = flagged + 1_int64
+      end do
    end function flagged
 
    !> Close the file and say what became of the campaign.

@@ -1,9 +1,9 @@
 !> Puts the values of varied keys into a scene, and says whether they make one.
 module varied_scene
-   use input_key, only: allowed_text, in_range
+   use input_key, only: allowed_text, in_range, is_computable, not_computable_text
    use key_table, only: keys
    use kinds, only: dp
-   use scene_types, only: scene_t
+   use scene_types, only: least_entrainment_speed, least_static_load, scene_t
    use text, only: integer_text, real_text
    use varied_keys, only: varied_key_name
    use varied_keys, only: vary_accuracy, vary_entrainment_speed, vary_force_amplitude, vary_frequency, vary_gravity, &
@@ -63,10 +63,10 @@ contains
          scene%kinematics%entrainment_speed = 0.5_dp*value
       case (vary_surface_speed_1)
          scene%kinematics%surface_speed_1 = value
-         scene%kinematics%entrainment_speed = 0.5_dp*(value + scene%kinematics%surface_speed_2)
+         scene%kinematics%entrainment_speed = 0.5_dp*value + 0.5_dp*scene%kinematics%surface_speed_2
       case (vary_surface_speed_2)
          scene%kinematics%surface_speed_2 = value
-         scene%kinematics%entrainment_speed = 0.5_dp*(scene%kinematics%surface_speed_1 + value)
+         scene%kinematics%entrainment_speed = 0.5_dp*scene%kinematics%surface_speed_1 + 0.5_dp*value
       case (vary_mass)
          scene%load%mass = value
       case (vary_steady_force)
@@ -122,11 +122,15 @@ contains
       real(dp), intent(in) :: values(:)
       integer :: i
 
-      is_valid_scene = scene%load%static_load() > 0.0_dp .and. scene%kinematics%entrainment_speed > 0.0_dp .and. &
-                       scene%solver%periods >= scene%spectrum%periods
+      is_valid_scene = .true.
       do i = 1, size(positions)
-         is_valid_scene = is_valid_scene .and. in_range(keys(positions(i)), values(i))
+         is_valid_scene = is_valid_scene .and. in_range(keys(positions(i)), values(i)) &
+                          .and. is_computable(keys(positions(i)), values(i))
       end do
+      ! A value that is not allowed may overflow together with another.
+      if (is_valid_scene) is_valid_scene = scene%load%static_load() >= least_static_load .and. &
+                                           scene%kinematics%entrainment_speed >= least_entrainment_speed .and. &
+                                           scene%solver%periods >= scene%spectrum%periods
    end function is_valid_scene
 
    !> What is wrong with a scene that is not valid: the first of its varied keys whose value is not allowed, or the rule that
@@ -142,15 +146,17 @@ contains
       integer :: i
 
       do i = 1, size(positions)
-         if (in_range(keys(positions(i)), values(i))) cycle
+         if (in_range(keys(positions(i)), values(i)) .and. is_computable(keys(positions(i)), values(i))) cycle
+         words = varied_key_name(positions(i))//': '//not_computable_text(keys(positions(i)), values(i))
+         if (in_range(keys(positions(i)), values(i))) return
          words = varied_key_name(positions(i))//': '//real_text(values(i))//' is not allowed; allowed: '// &
                  allowed_text(keys(positions(i)))
          return
       end do
-      if (.not. scene%load%static_load() > 0.0_dp) then
-         words = 'load.steady_force: the static load steady_force + mass*gravity must be positive'
-      else if (.not. scene%kinematics%entrainment_speed > 0.0_dp) then
-         words = 'kinematics: the sum of both surface speeds must be positive'
+      if (scene%load%static_load() < least_static_load) then
+         words = 'load.steady_force: the static load steady_force + mass*gravity must be positive, at least 1e-12 N'
+      else if (scene%kinematics%entrainment_speed < least_entrainment_speed) then
+         words = 'kinematics: the sum of both surface speeds must be positive, at least 2e-9 m/s'
       else
          words = 'solver.periods: at least &spectrum periods ('//integer_text(scene%spectrum%periods)//') must be solved'
       end if

@@ -80,7 +80,7 @@ contains
       load_by_u = 0.0_dp
       load_by_w = 0.0_dp
       do j = separation_sigma_degree, 0, -1
-         call sum_powers(separation_piezo_load(j, :), u, row, row_by_u)
+         call sum_powers(separation_piezo_load(:, j), u, row, row_by_u)
          load_by_w = load_by_w*w + load
          load = load*w + row
          load_by_u = load_by_u*w + row_by_u

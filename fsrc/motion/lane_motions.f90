@@ -1,6 +1,7 @@
 !> Motions of any number of scenes, error-controlled: Taylor series for the film laws that have one, collocation
 !> for all others and for scenes too stiff for explicit steps.
 module lane_motions
+   use film_law, only: film_load, overflow_load
    use film_series, only: has_series
    use kinds, only: dp
    use lane_integration, only: integrate_lanes
@@ -39,7 +40,8 @@ contains
       allocate (rest, source=scenes)
       allocate (explicit(size(scenes)), left(size(scenes)), number(size(scenes)))
       number(:) = [(i, i=1, size(scenes))]
-      explicit(:) = has_series(scenes%film, lane_accuracy(scenes, request%accuracy)) .and. .not. scenes%implicit
+      explicit(:) = has_series(scenes%film, lane_accuracy(scenes, request%accuracy)) .and. .not. scenes%implicit &
+                    .and. .not. outgrows_series(scenes)
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)
@@ -58,6 +60,28 @@ contains
       if (any(left)) &
          call integrate_lanes(.false., rest, pack(number, left), request, films, velocities, endings, watches, records)
    end subroutine solve_motions
+
+   !> Whether the coefficients of a series about the start, in powers of time in periods, would overflow.
+   elemental logical function outgrows_series(scene)
+      !> The scene
+      type(lane_scene_t), intent(in) :: scene
+      !> Growth from one coefficient to the next [-]; a step would be some 1e-8 of a period
+      real(dp), parameter :: largest_growth = 1.0e8_dp
+      !> What is thinner is no film, which is found at the first step [m]
+      real(dp), parameter :: thinnest = 1.0e-30_dp
+      real(dp) :: load, load_by_film, load_by_velocity, rate
+
+      outgrows_series = .false.
+      if (.not. scene%initial_film > thinnest) return
+      call film_load(scene%film, scene%initial_film, scene%initial_velocity, load, load_by_film, load_by_velocity)
+      ! So is what is no load.
+      if (load > overflow_load) return
+      load = load + abs(scene%steady_force + scene%weight) + scene%force_amplitude
+      rate = largest_growth*scene%frequency
+      outgrows_series = abs(scene%initial_velocity) > rate*scene%initial_film .or. &
+                        abs(load_by_velocity) > rate*scene%mass .or. abs(load_by_film) > rate**2*scene%mass .or. &
+                        load > rate**2*scene%mass*scene%initial_film
+   end function outgrows_series
 
    !> The rest of a motion that Taylor series could not finish.
    pure subroutine go_on(ending, scene)

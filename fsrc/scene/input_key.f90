@@ -42,12 +42,14 @@ module input_key
       character(16) :: example = ''
       !> Numbers that an engineer may mean, wide; others are taken, with a warning
       type(range_t) :: sensible = range_t()
+      !> Numbers that a film and its motion can be computed with, wider still; others are refused
+      type(range_t) :: computable = range_t()
    end type key_t
 
    !> Longest name of a scene, and longest text of any key.
    integer, parameter, public :: name_limit = 64, path_limit = 512
 
-   public :: in_range, is_list, allowed_text, is_sensible, sensible_text
+   public :: in_range, is_list, allowed_text, is_sensible, sensible_text, is_computable, not_computable_text
 
 contains
 
@@ -71,6 +73,29 @@ contains
 
       is_sensible = number >= key%sensible%lower .and. number <= key%sensible%upper
    end function is_sensible
+
+   !> Whether a film and its motion can be computed with this number.
+   pure logical function is_computable(key, number)
+      !> Any key of the table
+      type(key_t), intent(in) :: key
+      !> Finite number
+      real(dp), intent(in) :: number
+
+      is_computable = number >= key%computable%lower .and. number <= key%computable%upper
+   end function is_computable
+
+   !> Why a number is refused that a key allows.
+   pure function not_computable_text(key, number) result(words)
+      !> Key with bounds of what can be computed with
+      type(key_t), intent(in) :: key
+      !> Finite number beyond them
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      words = real_text(number)//' '//trim(key%unit)//' leads to numbers too large or too small to be computed with; '// &
+              'possible: '//real_text(key%computable%lower)//' to '//real_text(key%computable%upper)//' '//trim(key%unit)
+      if (key%unit == '-') words = words(:len(words) - 2)
+   end function not_computable_text
 
    !> Sensible numbers in words, empty where any number is.
    pure function sensible_text(key) result(words)

@@ -12,10 +12,27 @@ module key_table
 
    type(range_t), parameter :: any_number = range_t()
    type(range_t), parameter :: positive = range_t(lower=0.0_dp)
-   type(range_t), parameter :: not_negative = range_t(lower=0.0_dp, lower_open=.false.)
    type(range_t), parameter :: poisson = range_t(lower=-1.0_dp, upper=0.5_dp, upper_open=.false.)
+   type(range_t), parameter :: not_negative = range_t(lower=0.0_dp, lower_open=.false.)
    type(range_t), parameter :: at_least_1 = range_t(1.0_dp, .false., 1.0e9_dp, .false.)
    type(range_t), parameter :: at_least_8 = range_t(8.0_dp, .false., 1.0e7_dp, .false.)
+   ! Numbers of machines, with a margin of a thousand or more on both sides. Within these the powers and products of them that
+   ! the film and its motion need stay in the range of the reals; beyond, a scene would tell of overflow at best.
+   type(range_t), parameter :: a_length = range_t(1.0e-10_dp, .false., 1.0e7_dp, .false.)
+   type(range_t), parameter :: a_modulus = range_t(1.0_dp, .false., 1.0e30_dp, .false.)
+   type(range_t), parameter :: a_viscosity = range_t(1.0e-10_dp, .false., 1.0e7_dp, .false.)
+   type(range_t), parameter :: a_pressure_viscosity = range_t(1.0e-30_dp, .false., 0.1_dp, .false.)
+   type(range_t), parameter :: a_speed = range_t(1.0e-9_dp, .false., 1.0e6_dp, .false.)
+   type(range_t), parameter :: a_signed_speed = range_t(-1.0e6_dp, .false., 1.0e6_dp, .false.)
+   type(range_t), parameter :: a_mass = range_t(1.0e-10_dp, .false., 1.0e9_dp, .false.)
+   type(range_t), parameter :: a_signed_force = range_t(-1.0e12_dp, .false., 1.0e12_dp, .false.)
+   type(range_t), parameter :: an_amplitude = range_t(0.0_dp, .false., 1.0e12_dp, .false.)
+   type(range_t), parameter :: a_frequency = range_t(1.0e-7_dp, .false., 1.0e11_dp, .false.)
+   type(range_t), parameter :: a_fall = range_t(0.0_dp, .false., 1.0e8_dp, .false.)
+   type(range_t), parameter :: a_film = range_t(1.0e-16_dp, .false., 1.0e4_dp, .false.)
+   type(range_t), parameter :: a_film_ratio = range_t(1.0e-20_dp, .false., 1.0e10_dp, .false.)
+   type(range_t), parameter :: a_squeeze_ratio = range_t(-1.0e20_dp, .false., 1.0e20_dp, .false.)
+   type(range_t), parameter :: a_speed_group = range_t(1.0e-30_dp, .false., 1.0e10_dp, .false.)
    type(range_t), parameter :: fraction = range_t(0.0_dp, .true., 1.0_dp, .false.)
 
    type(key_t), parameter, public :: keys(*) = [ &
@@ -27,65 +44,81 @@ module key_table
       key_t('contact', 'radius', real_kind, 'm', '', positive, '', '', &
             'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', &
             example='0.0127', &
-            sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp)), &
+            sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp), &
+            computable=a_length), &
       key_t('contact', 'radius_1', real_kind, 'm', '', positive, '', '', &
             'Radius of the first tooth flank; 1/R = 1/radius_1 + 1/radius_2 (2).', &
-            sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp)), &
+            sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp), &
+            computable=a_length), &
       key_t('contact', 'radius_2', real_kind, 'm', '', positive, '', '', &
             'Radius of the second tooth flank.', &
-            sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp)), &
+            sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp), &
+            computable=a_length), &
       key_t('contact', 'length', real_kind, 'm', 'required', positive, '', '', &
             'Length l of the line contact.', &
             example='0.010', &
-            sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp)), &
+            sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp), &
+            computable=a_length), &
       key_t('contact', 'young_modulus', real_kind, 'Pa', '205.66e9', positive, '', '', &
             'Young''s modulus E of the teeth, for the deflection (4); with the default Poisson ratio E* is 226 GPa.', &
-            sensible=range_t(lower=1.0e8_dp, upper=1.0e12_dp)), &
+            sensible=range_t(lower=1.0e8_dp, upper=1.0e12_dp), &
+            computable=a_modulus), &
       key_t('contact', 'poisson_ratio', real_kind, '-', '0.3', poisson, '', '', &
             'Poisson ratio of the teeth; E* = E/(1 - nu^2) (3).'), &
       key_t('lubricant', 'viscosity', real_kind, 'Pa s', 'required', positive, '', '', &
             'Dynamic viscosity eta0 at ambient pressure.', &
             example='0.3', &
-            sensible=range_t(lower=1.0e-4_dp, upper=20.0_dp)), &
+            sensible=range_t(lower=1.0e-4_dp, upper=20.0_dp), &
+            computable=a_viscosity), &
       key_t('lubricant', 'pressure_viscosity', real_kind, '1/Pa', 'required', positive, '', '', &
             'Barus coefficient alpha (29): the piezo-viscous laws and the regime check need it.', &
             example='2.0e-8', &
-            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp)), &
+            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp), &
+            computable=a_pressure_viscosity), &
       key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'barus roelands', '', &
             'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29); roelands only in a film task with '// &
             'model = numerical.'), &
       key_t('kinematics', 'entrainment_speed', real_kind, 'm/s', '', positive, '', '', &
             'Entrainment speed U, the mean of the two surface speeds; give this, rolling_speed, or both surface speeds.', &
             example='1.905', &
-            sensible=range_t(lower=1.0e-3_dp, upper=300.0_dp)), &
+            sensible=range_t(lower=1.0e-3_dp, upper=300.0_dp), &
+            computable=a_speed), &
       key_t('kinematics', 'rolling_speed', real_kind, 'm/s', '', positive, '', '', &
             'Sum u_r of the two surface speeds, twice the entrainment speed.', &
-            sensible=range_t(lower=2.0e-3_dp, upper=600.0_dp)), &
+            sensible=range_t(lower=2.0e-3_dp, upper=600.0_dp), &
+            computable=a_speed), &
       key_t('kinematics', 'surface_speed_1', real_kind, 'm/s', '', any_number, '', '', &
             'Surface speed of the first flank; the sum of both must be positive.', &
-            sensible=range_t(lower=-300.0_dp, upper=300.0_dp)), &
+            sensible=range_t(lower=-300.0_dp, upper=300.0_dp), &
+            computable=a_signed_speed), &
       key_t('kinematics', 'surface_speed_2', real_kind, 'm/s', '', any_number, '', '', &
             'Surface speed of the second flank.', &
-            sensible=range_t(lower=-300.0_dp, upper=300.0_dp)), &
+            sensible=range_t(lower=-300.0_dp, upper=300.0_dp), &
+            computable=a_signed_speed), &
       key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
             'Equivalent mass m of the impacting tooth pair.', &
             example='3.0', &
-            sensible=range_t(lower=1.0e-4_dp, upper=1.0e3_dp)), &
+            sensible=range_t(lower=1.0e-4_dp, upper=1.0e3_dp), &
+            computable=a_mass), &
       key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Steady force Q of (34), of either sign as long as Q + m g is positive.', &
             example='199.2', &
-            sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp)), &
+            sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
+            computable=a_signed_force), &
       key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Amplitude F0 of the oscillating force of (34).', &
             example='205.7', &
-            sensible=range_t(lower=0.0_dp, upper=1.0e6_dp)), &
+            sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
+            computable=an_amplitude), &
       key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
             'Frequency f_exc of the oscillating force.', &
             example='600.0', &
-            sensible=range_t(lower=0.1_dp, upper=1.0e5_dp)), &
+            sensible=range_t(lower=0.1_dp, upper=1.0e5_dp), &
+            computable=a_frequency), &
       key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Acceleration of free fall g.', &
-            sensible=range_t(lower=0.0_dp, upper=100.0_dp)), &
+            sensible=range_t(lower=0.0_dp, upper=100.0_dp), &
+            computable=a_fall), &
       key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', 'scene.task=motion|sweep|campaign', &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
             example='iso-viscous'), &
@@ -99,10 +132,12 @@ module key_table
             'Root finder of (18): fast takes a table good to rounding, successive the paper''s substitution; same root.'), &
       key_t('film', 'initial_film', real_kind, 'm', '', positive, '', 'scene.task=motion|sweep|campaign', &
             'Film at t = 0; absent: the steady film under Q + m g.', &
-            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-2_dp)), &
+            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-2_dp), &
+            computable=a_film), &
       key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Film velocity dh/dt at t = 0, negative on approach.', &
-            sensible=range_t(lower=-100.0_dp, upper=100.0_dp)), &
+            sensible=range_t(lower=-100.0_dp, upper=100.0_dp), &
+            computable=a_signed_speed), &
       key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark taylor', &
             'scene.task=motion|sweep|campaign', &
             'Time integration: taylor (error-controlled series, implicit where the film is stiff) or the paper''s newmark.'), &
@@ -146,17 +181,23 @@ module key_table
             'Largest error of the film, relative, with which the class of a regular motion is certified.'), &
       key_t('points', 'film_ratios', reals_kind, '-', '', positive, '', 'scene.task=film', &
             'Film ratios h* = h0/R, one or more; give these or film_ratio_range.', &
-            example='70.0e-6'), &
+            example='70.0e-6', &
+            computable=a_film_ratio), &
       key_t('points', 'film_ratio_range', reals_kind, '-', '', positive, '', 'scene.task=film', &
-            'First and last film ratio and their count, logarithmically spaced.'), &
+            'First and last film ratio and their count, logarithmically spaced.', &
+            computable=a_film_ratio), &
       key_t('points', 'squeeze_ratios', reals_kind, '-', '0.0', any_number, '', 'scene.task=film', &
-            'Squeeze-roll speed ratios w* = w/u, negative on approach; give these or squeeze_ratio_range.'), &
+            'Squeeze-roll speed ratios w* = w/u, negative on approach; give these or squeeze_ratio_range.', &
+            computable=a_squeeze_ratio), &
       key_t('points', 'squeeze_ratio_range', reals_kind, '-', '', any_number, '', 'scene.task=film', &
-            'First and last squeeze-roll ratio and their count, linearly spaced.'), &
+            'First and last squeeze-roll ratio and their count, linearly spaced.', &
+            computable=a_squeeze_ratio), &
       key_t('points', 'speed_groups', reals_kind, '-', '', positive, '', 'scene.task=film', &
-            'Speed groups u* = u eta0 alpha/R; absent: formed from &kinematics as speed_reading says.'), &
+            'Speed groups u* = u eta0 alpha/R; absent: formed from &kinematics as speed_reading says.', &
+            computable=a_speed_group), &
       key_t('points', 'speed_group_range', reals_kind, '-', '', positive, '', 'scene.task=film', &
-            'First and last speed group and their count, logarithmically spaced.'), &
+            'First and last speed group and their count, logarithmically spaced.', &
+            computable=a_speed_group), &
       key_t('points', 'speed_reading', text_kind, '', 'mean', any_number, 'mean sum', 'scene.task=film', &
             'Which speed of &kinematics is the u of u* and w*: mean is the entrainment speed U, sum is u_r = 2U.'), &
       key_t('points', 'compute', list_kind, '', 'rupture load stiffness damping pressure', any_number, &
@@ -238,7 +279,7 @@ module key_table
             'Whether output files of an earlier run may be replaced; files of any other kind never are.') &
       ]
 
-   public :: choice_word, find_key, known_group, starts_group, nearest_key, nearest_group
+   public :: choice_word, find_key, find_swept_key, known_group, starts_group, nearest_key, nearest_group
 
 contains
 
@@ -254,6 +295,14 @@ contains
       end do
       find_key = 0
    end function find_key
+
+   !> Position of the key that a sweep follows.
+   pure integer function find_swept_key(name)
+      !> Its name, a choice of &sweep key
+      character(*), intent(in) :: name
+
+      find_swept_key = find_key(trim(merge('kinematics', 'load      ', name == 'entrainment_speed')), name)
+   end function find_swept_key
 
    !> The word of a choice, from its code: its position among the choices of the key.
    pure function choice_word(group, name, code) result(word)

@@ -1,13 +1,13 @@
 !> What must hold between the keys of a scene. What a single key must be stands in the key table.
 module scene_checker
    use errors, only: error_t, fault_list_t
-   use input_key, only: allowed_text, in_range
-   use key_table, only: find_key, keys
+   use input_key, only: allowed_text, in_range, is_computable, not_computable_text, real_kind, reals_kind
+   use key_table, only: find_key, find_swept_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
    use memory, only: expect_memory
    use scene_input, only: scene_input_t
-   use scene_types, only: load_t
+   use scene_types, only: least_entrainment_speed, least_static_load, load_t
    use text, only: integer_text
    use word_list, only: split_words, word_t
    implicit none(type, external)
@@ -20,10 +20,11 @@ contains
    !> Add a fault for every rule that the input breaks.
    subroutine check_together(input, faults)
       !> Typed values
-      type(scene_input_t), intent(in) :: input
+      type(scene_input_t), intent(inout) :: input
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
 
+      call check_computable(input, faults)
       call check_required(input, faults)
       call check_used(input, faults)
       call check_radius(input, faults)
@@ -42,6 +43,37 @@ contains
          if (input%word('scene', 'task') == 'campaign') call check_campaign(input, faults)
       end if
    end subroutine check_together
+
+   !> No number leads out of the range of the reals; one that does is faulty, and no rule is held against it.
+   subroutine check_computable(input, faults)
+      type(scene_input_t), intent(inout) :: input
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i, j
+
+      do i = 1, size(keys)
+         associate (entry => input%entries(i))
+            if (.not. entry%given .or. entry%faulty) cycle
+            if (keys(i)%kind == real_kind) call check_number(i, entry%number)
+            if (keys(i)%kind /= reals_kind) cycle
+            do j = 1, size(entry%numbers)
+               if (.not. entry%faulty) call check_number(i, entry%numbers(j))
+            end do
+         end associate
+      end do
+
+   contains
+
+      subroutine check_number(position, number)
+         integer, intent(in) :: position
+         real(dp), intent(in) :: number
+
+         if (is_computable(keys(position), number)) return
+         call input%add_fault(trim(keys(position)%group), trim(keys(position)%name), &
+                              not_computable_text(keys(position), number), faults)
+         input%entries(position)%faulty = .true.
+      end subroutine check_number
+
+   end subroutine check_computable
 
    !> Every required key is there.
    subroutine check_required(input, faults)
@@ -119,8 +151,9 @@ contains
       else if (first) then
          if (input%is_faulty('kinematics', 'surface_speed_1')) return
          if (input%is_faulty('kinematics', 'surface_speed_2')) return
-         if (.not. input%number('kinematics', 'surface_speed_1') + input%number('kinematics', 'surface_speed_2') > 0.0_dp) &
-            call input%add_fault('kinematics', 'surface_speed_1', 'the sum of both surface speeds must be positive', faults)
+         if (0.5_dp*(input%number('kinematics', 'surface_speed_1') + input%number('kinematics', 'surface_speed_2')) &
+             < least_entrainment_speed) call input%add_fault('kinematics', 'surface_speed_1', &
+                                        'the sum of both surface speeds must be positive, at least 2e-9 m/s', faults)
       else if (.not. (mean .or. sum_ .or. groups_given)) then
          call input%add_fault('kinematics', 'entrainment_speed', 'a speed is required: '//rule, faults)
       end if
@@ -137,8 +170,9 @@ contains
             if (.not. input%entries(places(i))%present .or. input%entries(places(i))%faulty) return
          end do
       end associate
-      if (.not. static_load_under(input, input%number('load', 'steady_force')) > 0.0_dp) &
-         call input%add_fault('load', 'steady_force', 'the static load steady_force + mass*gravity must be positive', faults)
+      if (static_load_under(input, input%number('load', 'steady_force')) < least_static_load) &
+         call input%add_fault('load', 'steady_force', &
+                              'the static load steady_force + mass*gravity must be positive, at least 1e-12 N', faults)
    end subroutine check_static_load
 
    !> Static load under a steady force [N].
@@ -246,7 +280,7 @@ contains
    subroutine check_sweep(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
-      character(:), allocatable :: key, group
+      character(:), allocatable :: key, message
       real(dp) :: ends(2)
       integer :: i, position
 
@@ -255,21 +289,27 @@ contains
       if (input%is_faulty('sweep', 'key') .or. input%is_faulty('sweep', 'first') .or. input%is_faulty('sweep', 'last')) return
       if (.not. all([input%is_given('sweep', 'key'), input%is_given('sweep', 'first'), input%is_given('sweep', 'last')])) return
       key = input%word('sweep', 'key')
-      group = trim(merge('kinematics', 'load      ', key == 'entrainment_speed'))
-      position = find_key(group, key)
+      position = find_swept_key(key)
       ends = [input%number('sweep', 'first'), input%number('sweep', 'last')]
-      if (.not. abs(ends(2) - ends(1)) > 0.0_dp) call input%add_fault('sweep', 'last', 'it must differ from first', faults)
       do i = 1, 2
          if (.not. in_range(keys(position), ends(i)) .or. &
-             (input%word('sweep', 'spacing') == 'logarithmic' .and. .not. ends(i) > 0.0_dp)) &
-            call input%add_fault('sweep', trim(merge('first', 'last ', i == 1)), &
-                                 'not allowed for '//key//'; allowed: '//allowed_text(keys(position))// &
-                                 ', and above zero where the spacing is logarithmic', faults)
+             (input%word('sweep', 'spacing') == 'logarithmic' .and. .not. ends(i) > 0.0_dp)) then
+            message = 'not allowed for '//key//'; allowed: '//allowed_text(keys(position))// &
+                      ', and above zero where the spacing is logarithmic'
+         else if (.not. is_computable(keys(position), ends(i))) then
+            message = not_computable_text(keys(position), ends(i))
+         else
+            cycle
+         end if
+         call input%add_fault('sweep', trim(merge('first', 'last ', i == 1)), message, faults)
+         return
       end do
-      if (key == 'steady_force' .and. .not. static_load_under(input, minval(ends)) > 0.0_dp) &
-         call input%add_fault('sweep', 'first', 'the static load steady_force + mass*gravity must stay positive', faults)
+      if (.not. abs(ends(2) - ends(1)) > 0.0_dp) call input%add_fault('sweep', 'last', 'it must differ from first', faults)
       ! Measured with a margin: each motion has its own copy of the values.
       call check_memory(input, 'sweep', 'count', 80.0_dp*real(input%count('sweep', 'count'), dp), faults)
+      if (key /= 'steady_force' .or. input%is_faulty('load', 'mass') .or. input%is_faulty('load', 'gravity')) return
+      if (static_load_under(input, minval(ends)) < least_static_load) call input%add_fault('sweep', 'first', &
+         'the static load steady_force + mass*gravity must stay positive, at least 1e-12 N', faults)
    end subroutine check_sweep
 
    !> There is memory for what a key makes large.

@@ -2,13 +2,11 @@
 module scene_input
    use errors, only: fault_list_t
    use input_entry, only: continues_list, entry_t, new_entry, set_entry
-   use input_key, only: is_sensible, real_kind, sensible_text
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
    use namelist_text, only: assignment_t
    use scene_types, only: numbers_t
-   use printable_text, only: printable
-   use text, only: integer_text, real_text
+   use text, only: integer_text
    use word_list, only: split_words, word_position, word_t
    implicit none(type, external)
    private
@@ -32,7 +30,6 @@ module scene_input
       procedure :: numbers => numbers_of
       procedure :: columns => columns_of
       procedure :: add_fault
-      procedure :: warnings
    end type scene_input_t
 
    public :: new_scene_input
@@ -93,27 +90,6 @@ contains
          end associate
       end do
    end subroutine set_all
-
-   !> Numbers that were given and that no engineer can mean: a line each, with the place.
-   pure function warnings(self) result(lines)
-      class(scene_input_t), intent(in) :: self
-      type(word_t), allocatable :: lines(:)
-      character(:), allocatable :: place
-      integer :: i
-
-      allocate (lines(0))
-      do i = 1, size(keys)
-         associate (entry => self%entries(i))
-            if (keys(i)%kind /= real_kind .or. .not. entry%given .or. entry%faulty) cycle
-            if (is_sensible(keys(i), entry%number)) cycle
-            place = printable(entry%file, .false.)
-            if (entry%line > 0) place = place//':'//integer_text(entry%line)
-            lines = [lines, word_t('warning: '//place//': &'//trim(keys(i)%group)//' '//trim(keys(i)%name)//' = '// &
-                                   real_text(entry%number)//' '//trim(keys(i)%unit)//' is not what machines have ('// &
-                                   sensible_text(keys(i))//'); is it in this unit?')]
-         end associate
-      end do
-   end function warnings
 
    !> Whether the user set a key.
    pure logical function is_given(self, group, name)

@@ -6,6 +6,7 @@ module scene_reader
    use input_key, only: name_limit
    use kinds, only: dp
    use namelist_text, only: assignment_t, scan_namelists
+   use odd_numbers, only: odd_numbers_of_input
    use resolved_input, only: resolved_text
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
@@ -93,7 +94,7 @@ contains
       if (scene%task == task_campaign) scene%campaign = read_campaign(input)
       scene%output = read_output(input)
       scene%resolved_input = resolved_text(input, trim(scene%name))
-      scene%warnings = input%warnings()
+      scene%warnings = odd_numbers_of_input(input)
    end subroutine read_scene
 
    !> How faults call an input.

@@ -58,6 +58,9 @@ module scene_types
       real(dp) :: poisson_ratio = 0.0_dp
    end type contact_t
 
+   !> Sums of keys that are smaller than this come of rounding, and lead out of the range of the reals: Q + m g [N], U [m/s]
+   real(dp), parameter, public :: least_static_load = 1.0e-12_dp, least_entrainment_speed = 1.0e-9_dp
+
    !> &lubricant
    type, public :: lubricant_t
       !> Viscosity at ambient pressure eta0 [Pa s]

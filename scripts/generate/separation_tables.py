@@ -75,13 +75,13 @@ def separation_module():
             f"   real(dp), parameter, public :: separation_{name}(0:separation_degree) = [ &",
             f"      {body}]",
         ]
-    body = array_text([row[k] for k in range(TERMS[0]) for row in table])
+    body = array_text([v for row in table for v in row])
     text += [
         "",
-        "   !> Psi A**2 in powers of w (first index) and of u (second index)",
+        "   !> Psi A**2 in powers of u (first index) and of w (second index)",
         "   real(dp), parameter, public :: &",
-        "      separation_piezo_load(0:separation_sigma_degree, 0:separation_degree) = reshape([ &",
+        "      separation_piezo_load(0:separation_degree, 0:separation_sigma_degree) = reshape([ &",
         f"      {body}], &",
-        "      [separation_sigma_degree + 1, separation_degree + 1])",
+        "      [separation_degree + 1, separation_sigma_degree + 1])",
     ]
     return "\n".join([*text, "", "end module separation_coefficients", ""])
