@@ -8,11 +8,11 @@ module certify_scene
    use kinds, only: dp
    use lane_scenes, only: lane_ending_t, lane_scene_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
-   use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
+   use rattle_class, only: class_irregular, class_name, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
    use scene_types, only: method_newmark, method_taylor, scene_t
-   use text, only: integer_text
+   use text, only: counted, integer_text
    use window_extremes, only: extremes_of_record, window_extremes_t
    implicit none(type, external)
    private
@@ -21,6 +21,8 @@ module certify_scene
    real(dp), parameter :: tight_accuracy = 1.0e-10_dp, tightest_accuracy = 1.0e-12_dp
    !> A periodic motion farther away than this is not that of the scene [-].
    real(dp), parameter :: orbit_nearness = 0.02_dp
+   !> Windows behind the one that is judged, and periods of them together, at least, in which a motion has to be irregular too.
+   integer, parameter :: least_windows_behind = 4, least_periods_behind = 32
 
    public :: certify
 
@@ -83,12 +85,63 @@ contains
          closing_sentence(tight%record, lane%frequency, lane%mass, resolved%noise_floor_at(accuracy))
       if (len(unclosed) == 0 .and. .not. (verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient)) &
          unclosed = too_few_samples(scene, tight)
+      if (len(unclosed) == 0 .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
+         call look_behind(scene, tight_lane, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
+         if (allocated(error)) return
+      end if
       associate (stride => tight%samples_per_period/window%samples_per_period)
          call compare_windows(window%films, tight%films(stride::stride), extremes, extremes_of_record(tight%record), verdict, &
                               tight_verdict, unclosed, scene%spectrum, scene%spectrum%certificate_tolerance, accuracy, &
                               resolved%noise_floor_at(accuracy), certificate)
       end associate
    end subroutine certify
+
+   !> Whether a motion stays irregular behind its window. One that strikes now and then may be quiet for a window and irregular
+   !> in the next: then the class is that of the window, not of the motion.
+   subroutine look_behind(scene, lane, accuracy, noise_floor, judged, ending, reason, error)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Its lane
+      type(lane_scene_t), intent(in) :: lane
+      !> Relative accuracy of the solution [-]
+      real(dp), intent(in) :: accuracy
+      !> Amplitude that its errors explain [m/s2]
+      real(dp), intent(in) :: noise_floor
+      !> The window that was judged
+      type(window_t), intent(in) :: judged
+      !> Where it ends
+      type(lane_ending_t), intent(in) :: ending
+      !> Empty if the motion stays irregular
+      character(:), allocatable, intent(inout) :: reason
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
+      type(lane_scene_t) :: behind
+      type(lane_ending_t) :: last
+      type(window_t) :: window
+      type(rattle_verdict_t) :: verdict
+      integer :: windows, i
+
+      behind = lane
+      last = ending
+      windows = max(least_windows_behind, (least_periods_behind - 1)/judged%periods + 1)
+      do i = 1, windows
+         behind%carried_on = .true.
+         behind%initial_film = last%film
+         behind%initial_velocity = last%velocity
+         behind%initial_momentum = last%momentum
+         behind%implicit = last%implicit
+         window = window_t(periods=judged%periods, samples_per_period=scene%solver%samples_per_period())
+         call solve_whole_window(scene, behind, accuracy, judged%periods, noise_floor, window, verdict, last, error)
+         if (allocated(error)) return
+         if (.not. is_success(last%status)) then
+            reason = 'Behind the window the motion ends as '//status_name(last%status)//'.'
+         else if (verdict%class /= class_irregular) then
+            reason = 'The class is that of this window: '//counted(i, 'window')//' later the motion is '// &
+                     class_name(verdict%class)//'.'
+         end if
+         if (len(reason) > 0) return
+      end do
+   end subroutine look_behind
 
    !> That the samples are too few, and how many would do.
    pure function too_few_samples(scene, tight) result(reason)

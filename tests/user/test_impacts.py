@@ -143,3 +143,36 @@ def stated_error(summary: dict, key: str) -> float:
     if own is not None:
         return own
     return abs(summary[key]) * summary["film_error" if key.startswith("film") else "acceleration_error"]
+
+
+def test_a_motion_that_is_irregular_now_and_then_is_uncertain(run, scene_text, tmp_path: Path) -> None:
+    """A tooth in resonance that strikes once in a while: irregular in its window, quiet in the next.
+
+    An independent solution finds the same window quiet: which one holds a strike is chance.
+    """
+    text = scene_text(
+        contact={"radius": "0.02538974396158362", "length": "0.0072436764857351735"},
+        lubricant={"viscosity": "0.1414601857217827", "pressure_viscosity": "2.1105558418418032e-8"},
+        kinematics={"entrainment_speed": "4.16803105238128"},
+        load={
+            "mass": "0.5734554628920673",
+            "steady_force": "0.5780725646130213",
+            "force_amplitude": "111.80496692454845",
+            "frequency": "56.53389784980788",
+        },
+        film={"model": "'reynolds'"},
+        solver={
+            "method": "'taylor'",
+            "steps_per_period": None,
+            "samples_per_period": "512",
+            "until": "'steady'",
+            "periods": "200",
+        },
+        spectrum={"periods": "4"},
+    )
+    (tmp_path / "scene.nml").write_text(text)
+    assert run("scene.nml", cwd=tmp_path).returncode == 0
+    summary = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert summary["rattle_class"] == "irregular"
+    assert summary["certificate"] == "uncertain"
+    assert "The class is that of this window" in summary["certificate_text"]
