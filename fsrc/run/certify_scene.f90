@@ -23,6 +23,9 @@ module certify_scene
    real(dp), parameter :: orbit_nearness = 0.02_dp
    !> Windows behind the one that is judged, and periods of them together, at least, in which a motion has to be irregular too.
    integer, parameter :: least_windows_behind = 4, least_periods_behind = 32
+   !> Reversals of the acceleration that an irregular window holds at least, four strikes: of fewer the next window, or the
+   !> same one solved otherwise, may hold none.
+   real(dp), parameter :: least_reversals = 8.0_dp
 
    public :: certify
 
@@ -86,7 +89,10 @@ contains
       if (len(unclosed) == 0 .and. .not. (verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient)) &
          unclosed = too_few_samples(scene, tight)
       if (len(unclosed) == 0 .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
-         call look_behind(scene, tight_lane, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
+         if (min(verdict%reversals_per_period, tight_verdict%reversals_per_period)*real(window%periods, dp) < least_reversals) &
+            unclosed = 'The window holds too few strikes to tell an irregular motion; more of spectrum.periods would.'
+         if (len(unclosed) == 0) &
+            call look_behind(scene, tight_lane, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
          if (allocated(error)) return
       end if
       associate (stride => tight%samples_per_period/window%samples_per_period)
