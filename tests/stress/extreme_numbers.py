@@ -73,7 +73,9 @@ BASES: dict[str, Groups] = {
     "until steady": merged(
         MOTION, {"solver": {"until": "'steady'", "periods": "40"}, "spectrum": {"periods": "8"}}
     ),
-    "newmark": merged(MOTION, {"solver": {"method": "'newmark'", "steps_per_period": "32"}}),
+    "newmark": merged(
+        MOTION, {"solver": {"method": "'newmark'", "steps_per_period": "32", "samples_per_period": ""}}
+    ),
     "sweep": merged(
         MOTION,
         {
