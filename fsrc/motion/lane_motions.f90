@@ -61,7 +61,7 @@ contains
          call integrate_lanes(.false., rest, pack(number, left), request, films, velocities, endings, watches, records)
    end subroutine solve_motions
 
-   !> Whether the coefficients of a series about the start, in powers of time in periods, would overflow.
+   !> Whether the coefficients of a series about the start of a motion, in powers of time in periods, would overflow.
    elemental logical function outgrows_series(scene)
       !> The scene
       type(lane_scene_t), intent(in) :: scene
@@ -72,7 +72,8 @@ contains
       real(dp) :: load, load_by_film, load_by_velocity, rate
 
       outgrows_series = .false.
-      if (.not. scene%initial_film > thinnest) return
+      ! A motion that is carried on goes on as it went.
+      if (scene%carried_on .or. .not. scene%initial_film > thinnest) return
       call film_load(scene%film, scene%initial_film, scene%initial_velocity, load, load_by_film, load_by_velocity)
       ! So is what is no load.
       if (load > overflow_load) return
