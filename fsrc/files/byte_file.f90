@@ -124,7 +124,7 @@ contains
       real(dp), contiguous, target, intent(in) :: numbers(:, :)
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error
-      character(kind=c_char), pointer :: bytes(:)
+      character(kind=c_char), pointer, contiguous :: bytes(:)
 
       if (size(numbers) == 0) return
       call c_f_pointer(c_loc(numbers), bytes, [8*size(numbers, kind=int64)])

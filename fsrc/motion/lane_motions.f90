@@ -1,13 +1,13 @@
 !> Motions of any number of scenes, error-controlled: Taylor series for the film laws that have one, collocation
 !> for all others and for scenes too stiff for explicit steps.
 module lane_motions
-   use film_law, only: film_load, overflow_load
+   use film_law, only: film_load
    use film_series, only: has_series
    use kinds, only: dp
    use lane_integration, only: integrate_lanes
-   use lane_scenes, only: lane_ending_t, lane_accuracy, lane_request_t, lane_scene_t
+   use lane_scenes, only: lane_ending_t, lane_accuracy, lane_request_t, lane_scene_t, start_status
    use period_repetition, only: orbit_watch_t
-   use scene_status, only: status_film_lost, status_not_converged
+   use scene_status, only: status_complete, status_film_lost, status_not_converged
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -72,11 +72,11 @@ contains
       real(dp) :: load, load_by_film, load_by_velocity, rate
 
       outgrows_series = .false.
-      ! A motion that is carried on goes on as it went.
-      if (scene%carried_on .or. .not. scene%initial_film > thinnest) return
+      ! A motion that is carried on goes on as it went; one that cannot start is not for this procedure to refuse.
+      if (scene%carried_on) return
+      if (start_status(scene) /= status_complete) return
+      if (.not. scene%initial_film > thinnest) return
       call film_load(scene%film, scene%initial_film, scene%initial_velocity, load, load_by_film, load_by_velocity)
-      ! So is what is no load.
-      if (load > overflow_load) return
       load = load + abs(scene%steady_force + scene%weight) + scene%force_amplitude
       rate = largest_growth*scene%frequency
       outgrows_series = abs(scene%initial_velocity) > rate*scene%initial_film .or. &
