@@ -1,4 +1,4 @@
-!> Memory is asked for at once, before a work begins whose arrays follow in size from the input: a lack of it is an error with
+!> Memory is asked for at once, before anything is computed whose arrays follow in size from the input: a lack of it is an error with
 !> a sentence then, and not the end of the program somewhere in the middle.
 module memory
    use, intrinsic :: iso_c_binding, only: c_int, c_long
@@ -24,13 +24,13 @@ module memory
 
 contains
 
-   !> See that there is memory for a work. What no memory of this machine holds is an error of the input, what the system
+   !> See that there is memory for a purpose. What no memory of this machine holds is an error of the input, what the system
    !> does not give one of the system.
-   subroutine expect_memory(bytes, work, error)
-      !> What the work takes [bytes]
+   subroutine expect_memory(bytes, purpose, error)
+      !> What it takes [bytes]
       real(dp), intent(in) :: bytes
       !> What it is, with the keys that make it as large as it is; begins a sentence
-      character(*), intent(in) :: work
+      character(*), intent(in) :: purpose
       !> Set if there is not so much memory
       type(error_t), allocatable, intent(out) :: error
       character(1), allocatable, volatile :: room(:)
@@ -39,12 +39,12 @@ contains
 
       machine = machine_memory()
       if (machine > 0.0_dp .and. bytes > machine) then
-         call raise(error, exit_bad_input, work//' would take '//size_text(bytes)//' of memory; this machine has '// &
+         call raise(error, exit_bad_input, purpose//' would take '//size_text(bytes)//' of memory; this machine has '// &
                     size_text(machine))
          return
       end if
       allocate (room(int(bytes + margin, int64)), stat=stat)
-      if (stat /= 0) call raise(error, exit_system, 'out of memory: '//work//' may take '//size_text(bytes)// &
+      if (stat /= 0) call raise(error, exit_system, 'out of memory: '//purpose//' may take '//size_text(bytes)// &
                                 ' beside the '//size_text(margin)//' of the program, and the system does not give so much')
    end subroutine expect_memory
 

@@ -12,7 +12,7 @@ module integrate_controlled
    use integrate_motion, only: motion_end_t, motion_watcher_t, status_of_stop
    use kinds, only: dp, int64
    use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use lane_scenes, only: carried_on_from, lane_ending_t, lane_request_t, lane_scene_t
    use period_repetition, only: longest_orbit, orbit_watch_t
    use sample_accelerations, only: accelerations_of_samples
    use sample_sink, only: sample_sink_t
@@ -64,7 +64,7 @@ contains
       ending%count%evaluations = start%evaluations
       lane = lane_of_scene(scene, film, initial_film, scene%film%initial_velocity)
       if (start%periods > 0) then
-         call carry_on(start, lane)
+         lane = lane_at(start, lane)
       else
          call accelerations_at_start(lane, first)
          call sink%take(0_int64, [applied_force(lane%steady_force, lane%force_amplitude, 0.0_dp)], [lane%initial_film], &
@@ -208,7 +208,7 @@ contains
          ending%checkpoint = checkpoint_of(endings(1), ending%count%evaluations)
          ending%checkpoint%watch = watches(1)
          ending%checkpoint%orbit = endings(1)%orbit
-         call carry_on(ending%checkpoint, lane)
+         lane = lane_at(ending%checkpoint, lane)
          if (ending%status /= status_complete) return
          call watcher%period_done(lane%periods_done, scene%solver%periods)
          ending%status = status_of_stop(scene, started)
@@ -257,7 +257,7 @@ contains
          call record_block(scene, endings(1), ending)
          if (.not. can_go_on(ending%status)) return
          here = checkpoint_of(endings(1), ending%count%evaluations)
-         call carry_on(here, lane)
+         lane = lane_at(here, lane)
          ! A search is carried on from where it ended, not from behind it.
          if (scene%solver%until /= until_steady .and. here%periods <= periods - window) ending%checkpoint = here
          if (ending%status /= status_complete) return
@@ -344,18 +344,13 @@ contains
       call accelerations_of_samples(lane, 1, [lane%initial_film], [lane%initial_velocity], value)
    end subroutine accelerations_at_start
 
-   !> Make a lane start where a motion ended.
-   pure subroutine carry_on(here, lane)
+   !> A lane that starts where a motion ended.
+   pure type(lane_scene_t) function lane_at(here, lane)
       type(checkpoint_t), intent(in) :: here
-      type(lane_scene_t), intent(inout) :: lane
+      type(lane_scene_t), intent(in) :: lane
 
-      lane%carried_on = .true.
-      lane%periods_done = here%periods
-      lane%implicit = here%implicit
-      lane%initial_film = here%film
-      lane%initial_velocity = here%velocity
-      lane%initial_momentum = here%momentum
-   end subroutine carry_on
+      lane_at = carried_on_from(lane, here%film, here%velocity, here%momentum, here%implicit, here%periods)
+   end function lane_at
 
    !> State at the end of a lane's run, with what it cost.
    pure function checkpoint_of(ending, evaluations) result(here)

@@ -9,77 +9,25 @@
 !> status_not_converged at the start of that period, for collocation to go on.
 module lane_integration
    use collocation_step, only: take_collocation_step
-   use film_law, only: film_t
-   use film_series, only: film_series_t, series_of
+   use film_series, only: series_of
    use kinds, only: dp, int64
    use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
    use lane_functions, only: lanes
-   use lane_sampling, only: begin_samples, end_samples, lane_samples_t, repeat_samples, take_samples
-   use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, load_scene, place_block, rest_lane, &
-                          start_period, start_status, state_of_lane
-   use period_repetition, only: note_state, orbit_watch_t, watch_from
-   use recurrence, only: look_back, recurrence_t
-   use settling_forecast, only: forecast_rest
-   use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged, status_steady
+   use lane_repetition, only: find_repetition, restore_departure
+   use lane_run, only: lane_run_t, lane_watch_t
+   use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
+   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t, load_scene, place_block, rest_lane, start_period, &
+                          start_status, state_of_lane
+   use period_repetition, only: orbit_watch_t, watch_from
+   use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
-   use step_nodes, only: step_nodes_t, take_nodes
-   use settling_rate, only: settling_of, settling_t
-   use taylor_step_control, only: momentum_weight
+   use step_nodes, only: take_nodes
    use window_record, only: record_period, start_record, window_record_t
    implicit none(type, external)
    private
 
    !> More Taylor steps in a period cost more than collocation; more steps of collocation lead nowhere.
    real(dp), parameter :: most_series_steps = 3000.0_dp, most_implicit_steps = 1.0e5_dp
-   !> Share of the accuracy within which a motion counts as repeating.
-   real(dp), parameter :: repetition_share = 0.3_dp
-
-   !> Excursions to where a motion is forecast to settle, forecasts in one of them, and periods since the last one, once
-   !> and for every period of the orbit, after which it has failed: more of them show that the motion does not settle.
-   integer, parameter :: most_excursions = 3, most_forecasts = 6, excursion_once = 6, excursion_per_period = 5
-
-   !> Where a motion was left for an excursion.
-   type :: departure_t
-      !> Period 0: it is on its own way
-      integer :: period = 0
-      real(dp) :: film = 0.0_dp, momentum = 0.0_dp
-      type(orbit_watch_t) :: states
-   end type departure_t
-
-   !> What happened to the scene of a lane.
-   type :: lane_watch_t
-      !> Scene, 0: none
-      integer :: scene = 0
-      !> Periods done, to be done, and from which on to sample
-      integer :: period = 0, last_period = 0, sample_from = 0
-      !> Start of the present period: scaled film and momentum
-      real(dp) :: film = 0.0_dp, momentum = 0.0_dp
-      !> Looks for repetition, and for return to the last bit
-      type(orbit_watch_t) :: states
-      type(recurrence_t) :: past
-      !> Excursion under way, the period at which it has failed, its forecasts, and excursions made
-      type(departure_t) :: departure
-      integer :: back_at = 0, forecasts = 0, excursions = 0
-      type(lane_ending_t) :: ending
-   end type lane_watch_t
-
-   !> A block at work.
-   type :: lane_run_t
-      !> Taylor series, else collocation; and whose series
-      logical :: by_series = .true.
-      type(film_series_t) :: series
-      !> Most steps in a period, and largest damping rate [1/periods]
-      real(dp) :: most_steps = 0.0_dp, largest_rate = 0.0_dp
-      !> Film laws of the lanes
-      type(film_t) :: films(lanes)
-      !> Scenes of the queue taken, lanes with a scene
-      integer :: taken = 0, active = lanes
-      type(lane_block_t), pointer :: block => null()
-      type(lane_samples_t) :: samples
-      type(lane_watch_t) :: watches(lanes)
-      !> Nodes of the steps of the present period, where windows are recorded
-      type(step_nodes_t) :: nodes(lanes)
-   end type lane_run_t
 
    public :: integrate_lanes
 
@@ -141,7 +89,7 @@ contains
             else if (in_trouble(l, run) .and. run%watches(l)%departure%period > 0) then
                run%watches(l)%ending%steps = run%watches(l)%ending%steps + nint(run%block%period_steps(l), int64)
                call start_period(l, run%block)
-               call go_back(l, run)
+               call restore_departure(l, run)
             else if (in_trouble(l, run)) then
                call give_up(l, run)
             end if
@@ -254,8 +202,7 @@ contains
       real(dp), contiguous, intent(inout) :: velocities(:, :)
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
-      real(dp) :: weight, distance, film, velocity, momentum
-      integer :: orbit
+      real(dp) :: film, velocity, momentum
 
       associate (watch => run%watches(lane), block => run%block)
          if (present(records) .and. run%samples%sampled(lane)) then
@@ -267,135 +214,11 @@ contains
          watch%period = watch%period + 1
          watch%film = block%film(lane, 0)
          watch%momentum = block%momentum(lane, 0)
-         ! A run without samples is one to be carried on: there the last state counts like the others.
-         if (request%until_steady .and. (watch%period < watch%sample_from .or. request%sampled_periods == 0)) then
-            weight = momentum_weight(watch%film, block%damping_rate(lane), block%force(lane))
-            call note_state(watch%states, watch%film, watch%momentum, weight, settling_of_lane(lane, run), &
-                            repetition_share*request%accuracy, orbit, distance)
-            if (orbit > 0) then
-               watch%ending%orbit = orbit
-               watch%ending%distance = distance
-               watch%ending%status = status_steady
-               watch%sample_from = watch%period
-               watch%last_period = watch%period + min(orbit, request%sampled_periods)
-            else if (request%forecast) then
-               call look_ahead(weight, lane, run)
-            end if
-         else if (.not. (request%until_steady .or. request%every_period)) then
-            call skip_returns(lane, films, velocities, run)
-         end if
+         call find_repetition(lane, request, films, velocities, run)
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_period(lane, run, records)
       end associate
    end subroutine end_period
-
-   !> How the film of a lane settles from where it is.
-   pure type(settling_t) function settling_of_lane(lane, run)
-      !> Lane
-      integer, intent(in) :: lane
-      type(lane_run_t), intent(in) :: run
-      real(dp) :: frequency, mass
-
-      associate (block => run%block)
-         frequency = block%velocity_scale(lane)/block%film_scale(lane)
-         mass = block%force_scale(lane)/(block%film_scale(lane)*frequency*frequency)
-         settling_of_lane = settling_of(run%films(lane), run%watches(lane)%film*block%film_scale(lane), &
-                                        block%film_scale(lane), mass, frequency)
-         ! The momentum of Lienard's form holds the damping.
-         if (block%slip(lane) > 0.0_dp) settling_of_lane%damping = 0.0_dp
-      end associate
-   end function settling_of_lane
-
-   !> Skip the periods in which the motion only returns to the state it is in, to the last bit: whole cycles up to where
-   !> sampling begins, and at the end those whose samples are the ones of the cycle before. Their steps count like the others.
-   pure subroutine skip_returns(lane, films, velocities, run)
-      !> Lane
-      integer, intent(in) :: lane
-      real(dp), contiguous, intent(inout) :: films(:, :)
-      real(dp), contiguous, intent(inout) :: velocities(:, :)
-      type(lane_run_t), intent(inout) :: run
-      integer(int64) :: cycle_steps
-      integer :: cycle_periods, cycles
-
-      associate (watch => run%watches(lane))
-         call look_back(watch%past, watch%period, watch%film, watch%momentum, watch%ending%steps, cycle_periods, cycle_steps)
-         if (cycle_periods == 0) return
-         cycles = 0
-         if (watch%period < watch%sample_from) then
-            cycles = (watch%sample_from - watch%period)/cycle_periods
-         else if (watch%period - cycle_periods >= watch%sample_from) then
-            cycles = (watch%last_period - watch%period)/cycle_periods
-            call repeat_samples(cycle_periods, cycles, lane, run%samples, films, velocities)
-         end if
-         if (cycles == 0) return
-         watch%period = watch%period + cycles*cycle_periods
-         watch%ending%steps = watch%ending%steps + int(cycles, int64)*cycle_steps
-         watch%past = recurrence_t()
-      end associate
-   end subroutine skip_returns
-
-   !> Set out to where the motion is forecast to settle, or go back where an excursion has failed. A motion that does not
-   !> repeat is so the one that follows from its start, to the last bit.
-   pure subroutine look_ahead(weight, lane, run)
-      !> Film that a momentum of one counts as [-]
-      real(dp), intent(in) :: weight
-      !> Lane
-      integer, intent(in) :: lane
-      type(lane_run_t), intent(inout) :: run
-      real(dp) :: film, momentum
-      integer :: orbit, back_at
-
-      associate (watch => run%watches(lane))
-         if (watch%departure%period == 0) then
-            if (watch%excursions == most_excursions) return
-            watch%forecasts = 0
-         end if
-         orbit = 0
-         if (watch%forecasts < most_forecasts) call forecast_rest(watch%states, weight, orbit, film, momentum)
-         back_at = watch%period + excursion_once + excursion_per_period*orbit
-         if (orbit > 0 .and. back_at < watch%sample_from) then
-            if (watch%departure%period == 0) then
-               watch%excursions = watch%excursions + 1
-               watch%departure = departure_t(watch%period, watch%film, watch%momentum, watch%states)
-            end if
-            watch%back_at = back_at
-            watch%forecasts = watch%forecasts + 1
-            watch%states = watch_from(film, momentum)
-            call place(film, momentum, lane, run)
-         else if (watch%departure%period > 0 .and. watch%period >= watch%back_at) then
-            call go_back(lane, run)
-         end if
-      end associate
-   end subroutine look_ahead
-
-   !> Back to where an excursion began.
-   pure subroutine go_back(lane, run)
-      !> Lane
-      integer, intent(in) :: lane
-      type(lane_run_t), intent(inout) :: run
-
-      associate (watch => run%watches(lane))
-         watch%period = watch%departure%period
-         watch%states = watch%departure%states
-         watch%departure%period = 0
-         call place(watch%departure%film, watch%departure%momentum, lane, run)
-      end associate
-   end subroutine go_back
-
-   !> Let a period start from a state.
-   pure subroutine place(film, momentum, lane, run)
-      !> Scaled film and momentum [-]
-      real(dp), intent(in) :: film
-      real(dp), intent(in) :: momentum
-      !> Lane
-      integer, intent(in) :: lane
-      type(lane_run_t), intent(inout) :: run
-
-      run%block%film(lane, 0) = film
-      run%block%momentum(lane, 0) = momentum
-      run%watches(lane)%film = film
-      run%watches(lane)%momentum = momentum
-   end subroutine place
 
    !> The scene of a lane goes no further; its state is that at the start of the period.
    pure subroutine give_up(lane, run)
@@ -429,7 +252,7 @@ contains
 
       do l = 1, lanes
          if (run%watches(l)%scene == 0) cycle
-         if (run%watches(l)%departure%period > 0) call go_back(l, run)
+         if (run%watches(l)%departure%period > 0) call restore_departure(l, run)
          ! What was done of the period does not count: it is solved again when the motion is carried on.
          run%watches(l)%ending%status = status_interrupted
          run%samples%written(l) = samples_before(run%watches(l), run%samples)

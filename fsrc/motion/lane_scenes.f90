@@ -130,7 +130,8 @@ module lane_scenes
    !> First step of a period by collocation [periods]
    real(dp), parameter :: first_step = 1.0_dp/64.0_dp
 
-   public :: place_block, load_scene, rest_lane, start_period, state_of_lane, start_status, reference_film, lane_accuracy
+   public :: carried_on_from, place_block, load_scene, rest_lane, start_period, state_of_lane, start_status, &
+             reference_film, lane_accuracy
 
 contains
 
@@ -164,6 +165,29 @@ contains
       settling = settling_of(scene%film, film, film, scene%mass, scene%frequency)
       lane_accuracy = min(accuracy, max(accuracy*settling%rate, best_accuracy))
    end function lane_accuracy
+
+   !> A motion from the end of one of its periods on: the same steps as if it had never stopped there.
+   pure function carried_on_from(scene, film, velocity, momentum, implicit, periods_done) result(rest)
+      !> The scene
+      type(lane_scene_t), intent(in) :: scene
+      !> State there: h [m], z' [m/s], scaled momentum [-]
+      real(dp), intent(in) :: film
+      real(dp), intent(in) :: velocity
+      real(dp), intent(in) :: momentum
+      !> Whether the motion goes on by the implicit method
+      logical, intent(in) :: implicit
+      !> Periods that count as done
+      integer, intent(in) :: periods_done
+      type(lane_scene_t) :: rest
+
+      rest = scene
+      rest%carried_on = .true.
+      rest%periods_done = periods_done
+      rest%implicit = implicit
+      rest%initial_film = film
+      rest%initial_velocity = velocity
+      rest%initial_momentum = momentum
+   end function carried_on_from
 
    !> Whether the motion can start: `status_complete`, or why not.
    pure integer function start_status(scene)

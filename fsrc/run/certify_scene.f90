@@ -6,7 +6,7 @@ module certify_scene
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
-   use lane_scenes, only: lane_ending_t, lane_scene_t
+   use lane_scenes, only: carried_on_from, lane_ending_t, lane_scene_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use rattle_class, only: class_irregular, class_name, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
@@ -127,16 +127,11 @@ contains
       type(rattle_verdict_t) :: verdict
       integer :: windows, i
 
-      behind = lane
       last = ending
       windows = max(least_windows_behind, (least_periods_behind - 1)/judged%periods + 1)
       do i = 1, windows
-         behind%carried_on = .true.
-         behind%initial_film = last%film
-         behind%initial_velocity = last%velocity
-         behind%initial_momentum = last%momentum
-         behind%implicit = last%implicit
-         window = window_t(periods=judged%periods, samples_per_period=scene%solver%samples_per_period())
+         window = window_t(periods=judged%periods, samples_per_period=judged%samples_per_period)
+         behind = carried_on_from(lane, last%film, last%velocity, last%momentum, last%implicit, 0)
          call solve_whole_window(scene, behind, accuracy, judged%periods, noise_floor, window, verdict, last, error)
          if (allocated(error)) return
          if (.not. is_success(last%status)) then

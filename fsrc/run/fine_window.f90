@@ -5,7 +5,7 @@ module fine_window
    use integrate_controlled, only: solve_window
    use kinds, only: dp
    use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use lane_scenes, only: carried_on_from, lane_ending_t, lane_request_t, lane_scene_t
    use memory_need, only: expect_window_memory
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use sample_accelerations, only: accelerations_of_samples
@@ -156,13 +156,7 @@ contains
       type(window_record_t), intent(in) :: record
       type(lane_scene_t) :: again
 
-      again = lane
-      again%carried_on = .true.
-      again%periods_done = 0
-      again%initial_film = record%start_film
-      again%initial_velocity = record%start_velocity
-      again%initial_momentum = record%start_momentum
-      again%implicit = record%start_implicit
+      again = carried_on_from(lane, record%start_film, record%start_velocity, record%start_momentum, record%start_implicit, 0)
    end function window_again
 
    !> Class of a window by its samples, and whether they are enough: their mean and their power must be those of the steps.

@@ -1,0 +1,171 @@
+!> Whether the motion of a lane repeats, asked at the end of every period: within the accuracy, so that a run until steady ends;
+!> to the last bit, so that what follows is known; and where a motion that settles slowly will come to rest.
+module lane_repetition
+   use kinds, only: dp, int64
+   use lane_run, only: departure_t, lane_run_t
+   use lane_sampling, only: repeat_samples
+   use lane_scenes, only: lane_request_t
+   use period_repetition, only: note_state, watch_from
+   use recurrence, only: look_back, recurrence_t
+   use scene_status, only: status_steady
+   use settling_forecast, only: forecast_rest
+   use settling_rate, only: settling_of, settling_t
+   use taylor_step_control, only: momentum_weight
+   implicit none(type, external)
+   private
+
+   !> Share of the accuracy within which a motion counts as repeating.
+   real(dp), parameter :: repetition_share = 0.3_dp
+
+   !> Excursions to where a motion is forecast to settle, forecasts in one of them, and periods since the last one, once
+   !> and for every period of the orbit, after which it has failed: more of them show that the motion does not settle.
+   integer, parameter :: most_excursions = 3, most_forecasts = 6, excursion_once = 6, excursion_per_period = 5
+
+   public :: find_repetition, restore_departure
+
+contains
+
+   !> Look for repetition at the end of a period.
+   pure subroutine find_repetition(lane, request, films, velocities, run)
+      !> Lane
+      integer, intent(in) :: lane
+      !> What is asked for
+      type(lane_request_t), intent(in) :: request
+      !> Samples of h [m] and z' [m/s]: sample, scene
+      real(dp), contiguous, intent(inout) :: films(:, :)
+      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> The block, its period counted and its state that of the period's end
+      type(lane_run_t), intent(inout) :: run
+      real(dp) :: weight, distance
+      integer :: orbit
+
+      associate (watch => run%watches(lane), block => run%block)
+         ! A run without samples is one to be carried on: there the last state counts like the others.
+         if (request%until_steady .and. (watch%period < watch%sample_from .or. request%sampled_periods == 0)) then
+            weight = momentum_weight(watch%film, block%damping_rate(lane), block%force(lane))
+            call note_state(watch%states, watch%film, watch%momentum, weight, settling_of_lane(lane, run), &
+                            repetition_share*request%accuracy, orbit, distance)
+            if (orbit > 0) then
+               watch%ending%orbit = orbit
+               watch%ending%distance = distance
+               watch%ending%status = status_steady
+               watch%sample_from = watch%period
+               watch%last_period = watch%period + min(orbit, request%sampled_periods)
+            else if (request%forecast) then
+               call look_ahead(weight, lane, run)
+            end if
+         else if (.not. (request%until_steady .or. request%every_period)) then
+            call skip_returns(lane, films, velocities, run)
+         end if
+      end associate
+   end subroutine find_repetition
+
+   !> How the film of a lane settles from where it is.
+   pure type(settling_t) function settling_of_lane(lane, run)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(in) :: run
+      real(dp) :: frequency, mass
+
+      associate (block => run%block)
+         frequency = block%velocity_scale(lane)/block%film_scale(lane)
+         mass = block%force_scale(lane)/(block%film_scale(lane)*frequency*frequency)
+         settling_of_lane = settling_of(run%films(lane), run%watches(lane)%film*block%film_scale(lane), &
+                                        block%film_scale(lane), mass, frequency)
+         ! The momentum of Lienard's form holds the damping.
+         if (block%slip(lane) > 0.0_dp) settling_of_lane%damping = 0.0_dp
+      end associate
+   end function settling_of_lane
+
+   !> Skip the periods in which the motion only returns to the state it is in, to the last bit: whole cycles up to where
+   !> sampling begins, and at the end those whose samples are the ones of the cycle before. Their steps count like the others.
+   pure subroutine skip_returns(lane, films, velocities, run)
+      !> Lane
+      integer, intent(in) :: lane
+      real(dp), contiguous, intent(inout) :: films(:, :)
+      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      type(lane_run_t), intent(inout) :: run
+      integer(int64) :: cycle_steps
+      integer :: cycle_periods, cycles
+
+      associate (watch => run%watches(lane))
+         call look_back(watch%past, watch%period, watch%film, watch%momentum, watch%ending%steps, cycle_periods, cycle_steps)
+         if (cycle_periods == 0) return
+         cycles = 0
+         if (watch%period < watch%sample_from) then
+            cycles = (watch%sample_from - watch%period)/cycle_periods
+         else if (watch%period - cycle_periods >= watch%sample_from) then
+            cycles = (watch%last_period - watch%period)/cycle_periods
+            call repeat_samples(cycle_periods, cycles, lane, run%samples, films, velocities)
+         end if
+         if (cycles == 0) return
+         watch%period = watch%period + cycles*cycle_periods
+         watch%ending%steps = watch%ending%steps + int(cycles, int64)*cycle_steps
+         watch%past = recurrence_t()
+      end associate
+   end subroutine skip_returns
+
+   !> Jump to where the motion is forecast to settle, or restore the saved state if the jump failed. So a motion that does not
+   !> repeat is the one that follows from its start, to the last bit.
+   pure subroutine look_ahead(weight, lane, run)
+      !> Film that a momentum of one counts as [-]
+      real(dp), intent(in) :: weight
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(inout) :: run
+      real(dp) :: film, momentum
+      integer :: orbit, back_at
+
+      associate (watch => run%watches(lane))
+         if (watch%departure%period == 0) then
+            if (watch%excursions == most_excursions) return
+            watch%forecasts = 0
+         end if
+         orbit = 0
+         if (watch%forecasts < most_forecasts) call forecast_rest(watch%states, weight, orbit, film, momentum)
+         back_at = watch%period + excursion_once + excursion_per_period*orbit
+         if (orbit > 0 .and. back_at < watch%sample_from) then
+            if (watch%departure%period == 0) then
+               watch%excursions = watch%excursions + 1
+               watch%departure = departure_t(watch%period, watch%film, watch%momentum, watch%states)
+            end if
+            watch%back_at = back_at
+            watch%forecasts = watch%forecasts + 1
+            watch%states = watch_from(film, momentum)
+            call place(film, momentum, lane, run)
+         else if (watch%departure%period > 0 .and. watch%period >= watch%back_at) then
+            call restore_departure(lane, run)
+         end if
+      end associate
+   end subroutine look_ahead
+
+   !> Restore the state from which the motion jumped.
+   pure subroutine restore_departure(lane, run)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(inout) :: run
+
+      associate (watch => run%watches(lane))
+         watch%period = watch%departure%period
+         watch%states = watch%departure%states
+         watch%departure%period = 0
+         call place(watch%departure%film, watch%departure%momentum, lane, run)
+      end associate
+   end subroutine restore_departure
+
+   !> Let a period start from a state.
+   pure subroutine place(film, momentum, lane, run)
+      !> Scaled film and momentum [-]
+      real(dp), intent(in) :: film
+      real(dp), intent(in) :: momentum
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(inout) :: run
+
+      run%block%film(lane, 0) = film
+      run%block%momentum(lane, 0) = momentum
+      run%watches(lane)%film = film
+      run%watches(lane)%momentum = momentum
+   end subroutine place
+
+end module lane_repetition

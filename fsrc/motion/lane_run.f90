@@ -1,0 +1,58 @@
+!> A block of lanes at work: what has become of the scene of every lane, and what is taken of it on the way.
+module lane_run
+   use film_law, only: film_t
+   use film_series, only: film_series_t
+   use kinds, only: dp
+   use lane_functions, only: lanes
+   use lane_sampling, only: lane_samples_t
+   use lane_scenes, only: lane_block_t, lane_ending_t
+   use period_repetition, only: orbit_watch_t
+   use recurrence, only: recurrence_t
+   use step_nodes, only: step_nodes_t
+   implicit none(type, external)
+   private
+
+   !> Where a motion was left for an excursion.
+   type, public :: departure_t
+      !> Period 0: it is on its own way
+      integer :: period = 0
+      real(dp) :: film = 0.0_dp, momentum = 0.0_dp
+      type(orbit_watch_t) :: states
+   end type departure_t
+
+   !> What happened to the scene of a lane.
+   type, public :: lane_watch_t
+      !> Scene, 0: none
+      integer :: scene = 0
+      !> Periods done, to be done, and from which on to sample
+      integer :: period = 0, last_period = 0, sample_from = 0
+      !> Start of the present period: scaled film and momentum
+      real(dp) :: film = 0.0_dp, momentum = 0.0_dp
+      !> Looks for repetition, and for return to the last bit
+      type(orbit_watch_t) :: states
+      type(recurrence_t) :: past
+      !> Excursion under way, the period at which it has failed, its forecasts, and excursions made
+      type(departure_t) :: departure
+      integer :: back_at = 0, forecasts = 0, excursions = 0
+      type(lane_ending_t) :: ending
+   end type lane_watch_t
+
+   !> A block at work.
+   type, public :: lane_run_t
+      !> Taylor series, else collocation; and whose series
+      logical :: by_series = .true.
+      type(film_series_t) :: series
+      !> Most steps in a period, and largest damping rate [1/periods]
+      real(dp) :: most_steps = 0.0_dp, largest_rate = 0.0_dp
+      !> Film laws of the lanes
+      type(film_t) :: films(lanes)
+      !> Scenes of the queue taken, lanes with a scene
+      integer :: taken = 0, active = lanes
+      type(lane_block_t), pointer :: block => null()
+      type(lane_samples_t) :: samples
+      type(lane_watch_t) :: watches(lanes)
+      !> Nodes of the steps of the present period, where windows are recorded
+      type(step_nodes_t) :: nodes(lanes)
+   end type lane_run_t
+
+end module lane_run
