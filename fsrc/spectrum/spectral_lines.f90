@@ -64,7 +64,7 @@ contains
    pure subroutine find_lines_by_integrals(harmonics, irregular_fraction, power, line_threshold, noise_floor, lines)
       !> a_1, a_2, ... [m/s2]
       real(dp), intent(in) :: harmonics(:)
-      !> Share of the power off the harmonics, up to the highest of them
+      !> Share of the power off the harmonics
       real(dp), intent(in) :: irregular_fraction
       !> Twice the mean square of z'' about its mean: the sum of the squares of all lines [m2/s4]
       real(dp), intent(in) :: power

@@ -47,7 +47,9 @@ contains
 
       if (verdict%class == class_irregular .and. orbit > 1) verdict%class = class_subharmonic
    end subroutine note_orbit
-   !> Classify a window by the integrals over the steps of its motion: however short an impact is, they see it.
+
+   !> Classify a window by the integrals over the steps of its motion: however short an impact is, they see it. Of the power
+   !> beyond the highest multiple that is integrated, as much is taken to be off the harmonics as of the highest quarter of them.
    subroutine classify_steps(record, frequency, choice, noise_floor, verdict)
       !> Record of all periods of the window, with Fourier coefficients
       type(window_record_t), intent(in) :: record
@@ -59,23 +61,39 @@ contains
       real(dp), intent(in) :: noise_floor
       !> The verdict
       type(rattle_verdict_t), intent(out) :: verdict
-      real(dp) :: mean, periods, off_harmonics, all_multiples
+      real(dp), dimension(record%multiples) :: varying, repeating
+      real(dp) :: mean, periods, power, off_harmonics, beyond, irregular_beyond
+      integer :: highest_quarter
 
       periods = real(record%periods, dp)
       mean = record%acceleration_sum/periods
+      power = 2.0_dp*(record%acceleration_square/periods - mean*mean)
+      highest_quarter = (3*record%multiples)/4 + 1
       associate (sums => record%line_sums, squares => record%line_squares, n => record%multiples)
          ! What varies from period to period is off the harmonics; of the mean of z'' only that.
-         off_harmonics = 0.5_dp*max(0.0_dp, squares(0)/periods - (abs(sums(0))/periods)**2) &
-                         + max(0.0_dp, sum(squares(1:)/periods - (abs(sums(1:))/periods)**2))
-         all_multiples = off_harmonics + sum((abs(sums(1:))/periods)**2)
+         repeating(:) = (abs(sums(1:))/periods)**2
+         varying(:) = max(0.0_dp, squares(1:)/periods - repeating)
+         off_harmonics = sum(varying) + 0.5_dp*max(0.0_dp, squares(0)/periods - (abs(sums(0))/periods)**2)
+         beyond = max(0.0_dp, power/(2.0_dp*frequency)**2 - off_harmonics - sum(repeating))
+         irregular_beyond = beyond*share(sum(varying(highest_quarter:)), sum(repeating(highest_quarter:)))
          call find_lines_by_integrals(2.0_dp*frequency/periods*abs(sums(1:n)), &
-                                      off_harmonics/max(all_multiples, tiny(1.0_dp)), &
-                                      2.0_dp*(record%acceleration_square/periods - mean*mean), choice%line_threshold, &
-                                      noise_floor, verdict%lines)
+                                      share(off_harmonics + irregular_beyond, sum(repeating) + beyond - irregular_beyond), &
+                                      power, choice%line_threshold, noise_floor, verdict%lines)
       end associate
       verdict%class = class_of(verdict%lines, choice)
       if (verdict%lines%moving) verdict%reversals_per_period = &
          real(count_reversals(record%turns(:record%turn_count), reversal_prominence), dp)/periods
+
+   contains
+
+      !> Share of the first of two powers in both of them.
+      pure real(dp) function share(one, other)
+         real(dp), intent(in) :: one
+         real(dp), intent(in) :: other
+
+         share = one/max(one + other, tiny(1.0_dp))
+      end function share
+
    end subroutine classify_steps
 
    !> Order of the questions: regular at all, rich at all, how rich.

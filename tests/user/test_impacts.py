@@ -13,6 +13,8 @@ from typing import NamedTuple
 import pytest
 from outcomes import summary_of
 
+import rattle
+
 EXTREMES = ("film_minimum", "film_maximum", "acceleration_minimum", "acceleration_maximum")
 
 
@@ -176,3 +178,41 @@ def test_a_motion_that_is_irregular_now_and_then_is_uncertain(run, scene_text, t
     assert summary["rattle_class"] == "irregular"
     assert summary["certificate"] == "uncertain"
     assert "too few strikes" in summary["certificate_text"]
+
+
+def test_a_row_counts_the_power_beyond_its_harmonics(run, scene_text, tmp_path: Path) -> None:
+    """A tooth whose strikes vary by little: of the first 40 harmonics 0.95 % of the power is off, of 64 more than 1 %.
+
+    The row is judged by integrals over the steps, the single scene by as many samples as it needs.
+    """
+    groups = {
+        "contact": {"radius": "6.960643911700479E-3", "length": "1.2598553549434646E-2"},
+        "lubricant": {"viscosity": "0.45777672202660397", "pressure_viscosity": "1.4575512381037433E-8"},
+        "kinematics": {"entrainment_speed": "8.669381583240355"},
+        "load": {
+            "mass": "3.8409554852085526",
+            "steady_force": "8.078884764028755",
+            "force_amplitude": "2.7129121323930496",
+            "frequency": "13.335801378129023",
+            "gravity": "0.0",
+        },
+        "film": {"model": "'reynolds'"},
+        "solver": {"method": "'taylor'", "steps_per_period": None, "accuracy": "1.0e-4", "periods": "37"},
+        "spectrum": {"periods": "16"},
+    }
+    (tmp_path / "scene.nml").write_text(scene_text(**groups, output={"series": ".false."}))
+    assert run("scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    campaign = {
+        "vary(1)": "'load.force_amplitude'",
+        "first(1)": "2.7129121323930496",
+        "last(1)": "2.8",
+        "count(1)": "2",
+        "scale(1)": "'linear'",
+    }
+    (tmp_path / "row.nml").write_text(scene_text(scene={"task": "'campaign'"}, campaign=campaign, **groups))
+    assert run("row.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    row = rattle.read_campaign(tmp_path / "results" / "row.rattle")
+    assert row["sampling_sufficient"][0] == 1.0
+    assert row["irregular_fraction"][0] > 0.01
+    assert row["rattle_class"][0] == 4.0  # irregular
+    assert summary_of(tmp_path / "results" / "scene.summary.nml")["rattle_class"] == "irregular"
