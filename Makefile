@@ -69,7 +69,7 @@ help:
 	@echo 'make bench        speed of the program, as a table'
 	@echo 'make stress       100000 random scenes: what users are told of them, and every engine (SCENES=N)'
 	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
-	@echo 'make faults       runs that meet kills, full disks, failing calls, other runs, damaged and foreign files'
+	@echo 'make faults       runs that meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
 	@echo 'make pages        write input/README.md anew from the key table'
 	@echo 'make pictures     draw the pictures of the README anew'

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Lets runs meet kills, full disks, failing calls, other runs, damaged and foreign files.
+"""Lets runs meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files.
 
 A try fails if data are lost or silently wrong, if a run ends with exit code 0 and without all its rows, if
 neither --resume nor --overwrite mends what it left, or if a file that is not the program's has changed.
@@ -65,6 +65,8 @@ TABLE = """&scene task = 'campaign' /
 &spectrum periods = 8 /
 &campaign csv = 'table.csv' samples_per_period = 64 /
 """
+# Address space of a try: with less the libraries are not loaded, with more every task here is solved [bytes].
+LEAST_MEMORY, MOST_MEMORY = 22e6, 200e6
 FOREIGN = {"notes.txt": b"my notes\n", "scene.part": b"RATTLE, my own\n"}
 
 
@@ -275,6 +277,25 @@ class Study:
             faults = [] if code in (0, 2, 3) else [f"exit code {code}"]
             self.score("full disk", task, faults + self.after(task, code), f"{limit} bytes")
 
+    def short_memory(self, task: Task) -> None:
+        """No more memory than a random limit, from what the program needs to start on."""
+        for _ in range(self.tries):
+            self.lay_out(task)
+            limit = int(LEAST_MEMORY * (MOST_MEMORY / LEAST_MEMORY) ** self.random.random())
+            ended = subprocess.run(
+                [self.program, "--quiet", "--threads", "2", *task.command, "scene.nml"],
+                cwd=self.folder,
+                capture_output=True,
+                text=True,
+                check=False,
+                preexec_fn=lambda most=limit: resource.setrlimit(resource.RLIMIT_AS, (most, most)),
+            )
+            code = ended.returncode
+            faults = [] if code in (0, 2, 3) else [f"exit code {code}: {ended.stderr[:200]}"]
+            if code == 3 and "memory" not in ended.stderr and "threads" not in ended.stderr:
+                faults.append(f"it says {ended.stderr[:200]}")
+            self.score("little memory", task, faults + self.after(task, code), f"{limit} bytes")
+
     def failing_calls(self, task: Task) -> None:
         """A fault at every output call, or at as many of them as there are tries."""
         for what, kind in (
@@ -412,6 +433,7 @@ def facts_of(path: Path, is_campaign: bool) -> tuple:
 FAULTS: dict[str, Callable[[Study, Task], None]] = {
     "kills": Study.kills,
     "disks": Study.full_disks,
+    "memory": Study.short_memory,
     "calls": Study.failing_calls,
     "pairs": Study.two_at_a_time,
     "flips": Study.flips,
