@@ -181,7 +181,7 @@ def test_a_motion_that_is_irregular_now_and_then_is_uncertain(run, scene_text, t
 
 
 def test_a_row_counts_the_power_beyond_its_harmonics(run, scene_text, tmp_path: Path) -> None:
-    """A tooth whose strikes vary by little: of the first 40 harmonics 0.95 % of the power is off, of 64 more than 1 %.
+    """Strikes that vary by little: of 40 harmonics 0.95 % of the power is off them, of 64 more than 1 %.
 
     The row is judged by integrals over the steps, the single scene by as many samples as it needs.
     """
