@@ -146,7 +146,7 @@ $(BUILD)/kernels/built: $(wildcard fsrc/bindings/*.f90) scripts/build_kernels.sh
 
 run: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(BUILD)/rattle --overwrite input/idle.nml input/creep.nml
-	@$(PYTHON) scripts/plot_motion.py results/idle.rattle results/creep.rattle --output results
+	@$(PYTHON) scripts/plot.py motion results/idle.rattle results/creep.rattle --output results
 	@$(PYTHON) scripts/compare.py results/idle.summary.nml results/creep.summary.nml
 
 # --- tests: the unit tests in both builds, then what a user does -------------------------------------
@@ -230,9 +230,9 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	  --set scene.name=idle_loose input/idle.nml
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) $(LOOSE_IDLE) --set solver.tolerance=1e-12 \
 	  --set scene.name=idle_tight input/idle.nml
-	@$(PYTHON) scripts/plot_motion.py --overlay --figures 8,9 --output $(PICTURE_RUNS) \
+	@$(PYTHON) scripts/plot.py motion --overlay --figures 8,9 --output $(PICTURE_RUNS) \
 	  $(PICTURE_RUNS)/idle.rattle $(PICTURE_RUNS)/creep.rattle
-	@$(PYTHON) scripts/plot_tolerance.py --output $(PICTURE_RUNS) \
+	@$(PYTHON) scripts/plot.py tolerance --output $(PICTURE_RUNS) \
 	  --forged-line $(PICTURE_RUNS)/creep_forged_line.rattle $(PICTURE_RUNS)/no_line.rattle \
 	  --false-reversals $(PICTURE_RUNS)/idle_loose.rattle $(PICTURE_RUNS)/idle_tight.rattle
 	@cp $(PICTURE_RUNS)/figure_08_09_overlay.png $(PICTURES)/idle_and_creep.png
@@ -241,15 +241,15 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=map_creep --set film.law=piezo-viscous \
 	  input/map.nml
 	@for map in map_idle map_creep; do \
-	  $(PYTHON) scripts/campaign_map.py $(PICTURE_RUNS)/$$map.rattle --output $(PICTURE_RUNS) && \
+	  $(PYTHON) scripts/plot.py campaign $(PICTURE_RUNS)/$$map.rattle --output $(PICTURE_RUNS) && \
 	  cp $(PICTURE_RUNS)/$${map}_map_rattle_class.png $(PICTURES)/$$map.png; done
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/sweep.nml
-	@$(PYTHON) scripts/plot_sweep.py $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
+	@$(PYTHON) scripts/plot.py sweep $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
 	@cp $(PICTURE_RUNS)/sweep_sweep.png $(PICTURES)/sweep.png
 	@$(MAKE) --no-print-directory $(BUILD)/newmark_outcomes
 	@$(BUILD)/newmark_outcomes input/idle.nml input/creep.nml input/creep_forged_line.nml > $(PICTURE_RUNS)/newmark_outcomes.csv
 	@$(PYTHON) tests/stress/newmark_outcome_map.py $(PICTURE_RUNS)/newmark_outcomes.csv $(PICTURES)/newmark_outcomes.png
-	@$(PYTHON) scripts/plot_film_fit.py --output $(PICTURE_RUNS) > $(PICTURE_RUNS)/film_fit.txt
+	@$(PYTHON) scripts/plot.py film-fit --output $(PICTURE_RUNS) > $(PICTURE_RUNS)/film_fit.txt
 	@cp $(PICTURE_RUNS)/film_fit.png $(PICTURES)/film_fit.png
 
 pages: $(BUILD)/rattle

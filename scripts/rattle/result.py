@@ -15,12 +15,7 @@ from rattle.result_header import ResultError, ResultHeader, read_header
 from rattle.summary import read_summary
 
 TIME = "time"
-DRAWN_BY = {
-    "motion": "plot_motion.py",
-    "film": "plot_film.py",
-    "sweep": "plot_sweep.py",
-    "campaign": "campaign_map.py",
-}
+DRAWN = ("motion", "film", "sweep", "campaign")
 
 
 class Columns(Mapping[str, np.ndarray]):
@@ -137,9 +132,9 @@ class Result(ResultFile):
         return str(self.value("scene", "task")).strip()
 
     def require_task(self, task: str) -> None:
-        """Raise ResultError, with the script that draws this result, if it is that of another task."""
+        """Raise ResultError, with the command that draws this result, if it is that of another task."""
         if self.task != task:
-            drawn_by = f"; scripts/{DRAWN_BY[self.task]} draws it" if self.task in DRAWN_BY else ""
+            drawn_by = f"; 'plot.py {self.task}' draws it" if self.task in DRAWN else ""
             raise ResultError(f"{self.path} is no {task} but the result of task = '{self.task}'{drawn_by}.")
 
     @property

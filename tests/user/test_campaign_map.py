@@ -18,7 +18,9 @@ from rattle.figures import campaign_summary
 
 
 def draw(path: Path, *arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
-    return call_script("campaign_map.py", path, "--output", path.parent / "out", *arguments, **environment)
+    return call_script(
+        "plot.py", "campaign", path, "--output", path.parent / "out", *arguments, **environment
+    )
 
 
 def stems(directory: Path) -> list[str]:
@@ -82,9 +84,7 @@ def test_same_campaign_gives_the_same_bytes(whole):
 def test_slice_names_the_nearest_grid_point(deep):
     done = draw(deep, "--slice", f"{VISCOSITY}=0.25")
     assert done.returncode == 0
-    assert done.stderr == (
-        "campaign_map.py: viscosity = 0.3 Pa s is the grid point nearest to the 0.25 asked for.\n"
-    )
+    assert done.stderr == ("plot.py: viscosity = 0.3 Pa s is the grid point nearest to the 0.25 asked for.\n")
     done = draw(deep)
     assert "viscosity = 0.3 Pa s: the middle of its axis; --slice lubricant.viscosity=VALUE" in done.stderr
     assert draw(deep, "--slice", f"{VISCOSITY}=0.1").stderr == ""
@@ -118,7 +118,7 @@ def test_unfinished_campaign_is_drawn_with_a_word(tmp_path):
     path = grid(FORCES, SPEEDS, failures=True).write(tmp_path / "map.rattle", undone=[1], closed=False)
     done = draw(path)
     assert done.returncode == 0
-    assert done.stderr == f"campaign_map.py: {path} is not finished; 236 of 300 scenes are done.\n"
+    assert done.stderr == f"plot.py: {path} is not finished; 236 of 300 scenes are done.\n"
 
 
 def test_gaps_are_named_by_their_status(tmp_path):

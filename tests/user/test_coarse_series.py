@@ -13,7 +13,7 @@ from outcomes import summary_of
 from script_calls import call_script
 
 import rattle as package
-from rattle.figures import acceleration, acceleration_spectrum, style
+from rattle.figures import histories, spectra, style
 from rattle.verdict import classify
 
 IMPACT = {
@@ -123,7 +123,7 @@ def test_samples_that_are_too_few_carry_no_class(impact) -> None:
         classify(result)
     done = call_script("classify.py", str(result.path))
     assert done.returncode != 0 and "coarser than its motion" in done.stderr
-    figure = acceleration_spectrum.draw([result], ["impact"], None)
+    figure = spectra.draw_acceleration([result], ["impact"], None)
     assert "too few samples" in figure.axes[0].get_title()
 
 
@@ -141,7 +141,7 @@ def test_figure_10_draws_the_lines_of_the_summary(impact) -> None:
     """They are integrals over the steps here; those of the samples miss 93 in 100 of the second harmonic."""
     result, summary, _ = impact()
     with style.house_style():
-        figure = acceleration_spectrum.draw([result], ["impact"], None)
+        figure = spectra.draw_acceleration([result], ["impact"], None)
     for heights in harmonics_drawn(figure):
         assert heights.tolist() == summary["harmonics"]
     assert figure.axes[0].get_ylim() == pytest.approx((0.0, 1.08 * 290.75366), rel=1e-6)
@@ -150,15 +150,15 @@ def test_figure_10_draws_the_lines_of_the_summary(impact) -> None:
         "Scene impact, published iso-viscous film; at least 40 lines, class idle",
         "Series of too few samples; lines of the summary, integrals over the steps",
     ]
-    again = acceleration_spectrum.draw([result], ["impact"], 2)
+    again = spectra.draw_acceleration([result], ["impact"], 2)
     assert harmonics_drawn(again)[0].tolist() == summary["harmonics"]
 
 
 def test_figure_10_says_how_many_samples_gave_the_lines(impact) -> None:
     result, summary, _ = impact(load={}, solver=IMPACT["solver"] | {"samples_per_period": "64"})
     with style.house_style():
-        figure = acceleration_spectrum.draw([result], ["impact"], None)
-        both = acceleration_spectrum.draw([result, result], ["one", "two"], None)
+        figure = spectra.draw_acceleration([result], ["impact"], None)
+        both = spectra.draw_acceleration([result, result], ["one", "two"], None)
     assert harmonics_drawn(figure)[0].tolist() == summary["harmonics"]
     title = figure.axes[0].get_title(loc="left")
     assert f"; {summary['line_count']} lines, class {summary['rattle_class']}\n" in title
@@ -179,8 +179,8 @@ def test_figure_10_says_where_no_better_lines_are_known(lacking: str, impact) ->
         result.summary_path.unlink()
     window = 1 if lacking == "window" else None
     with style.house_style():
-        figure = acceleration_spectrum.draw([result], ["impact"], window)
-        both = acceleration_spectrum.draw([result, result], ["one", "two"], window)
+        figure = spectra.draw_acceleration([result], ["impact"], window)
+        both = spectra.draw_acceleration([result, result], ["one", "two"], window)
     assert (
         figure.axes[0]
         .get_title(loc="left")
@@ -193,7 +193,7 @@ def test_figure_8_shows_the_impact_of_every_period(impact) -> None:
     """The window holds the extremes of one period alone; the others repeat it."""
     result, summary, _ = impact(solver=IMPACT["solver"] | {"periods": "20"}, spectrum={"periods": "8"})
     with style.house_style():
-        (axes,) = acceleration.draw([result], ["impact"], 4).axes
+        (axes,) = histories.draw_acceleration([result], ["impact"], 4).axes
     time, values = max(drawn.curves(axes), key=lambda curve: curve[0].size)
     high = values == summary["acceleration_maximum"]
     assert np.floor(time[high] * 0.015).tolist() == [0.0, 1.0, 2.0, 3.0]

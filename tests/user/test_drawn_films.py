@@ -18,11 +18,10 @@ from matplotlib.text import Annotation
 from rattle.command import CommandError
 from rattle.figures import (
     film_fit,
-    film_piezo_pressure,
     film_points,
-    film_pressure,
-    film_regimes,
+    film_pressures,
     film_slopes,
+    regime_map,
     style,
 )
 
@@ -51,7 +50,7 @@ def squeeze_legend(words: list[str]) -> bool:
 
 def test_figure_3_shows_the_pressure_group_over_the_film_coordinate(film):
     with style.house_style():
-        made = film_pressure.draw(film_points.read_profiles(film), film_points.Choice())
+        made = film_pressures.draw_iso_viscous(film_points.read_profiles(film), film_points.Choice())
     (axes,) = made.axes
     curves = drawn.curves(axes)
     profiles, ends = curves[0::2], curves[1::2]
@@ -95,7 +94,7 @@ def test_curves_are_dark_where_the_film_moves_fast(film):
 
 def test_figure_5_shows_megapascals_over_micrometres(film):
     with style.house_style():
-        made = film_piezo_pressure.draw(film_points.read_profiles(film), CHOICE)
+        made = film_pressures.draw_piezo_viscous(film_points.read_profiles(film), CHOICE)
     (axes,) = made.axes
     curves = drawn.curves(axes)
     reduced, pressure = curves[0::2], curves[1::2]
@@ -128,7 +127,7 @@ def test_figure_5_shows_megapascals_over_micrometres(film):
 
 def test_figure_5_draws_no_film_where_there_is_none(film):
     with style.house_style():
-        made = film_piezo_pressure.draw(film_points.read_profiles(film), film_points.Choice())
+        made = film_pressures.draw_piezo_viscous(film_points.read_profiles(film), film_points.Choice())
     half, paper = made.axes
     assert len(drawn.curves(half)) == 2 * len(SQUEEZE_RATIOS)
     assert len(drawn.curves(paper)) == len(SQUEEZE_RATIOS)
@@ -283,16 +282,16 @@ def test_a_table_of_fits_puts_each_number_under_its_head():
 
 # --- the map of regimes --------------------------------------------------------------------------------
 
-MATERIAL = film_regimes.Material(2.0e-8, 226.0e9)
+MATERIAL = regime_map.Material(2.0e-8, 226.0e9)
 
 
-def scene(name: str = "idle", load: float = 228.6, amplitude: float = 205.7) -> film_regimes.Scene:
-    return film_regimes.Scene(name, 0.0127, 0.01, 1.905, 0.3, MATERIAL, load, amplitude, {})
+def scene(name: str = "idle", load: float = 228.6, amplitude: float = 205.7) -> regime_map.Scene:
+    return regime_map.Scene(name, 0.0127, 0.01, 1.905, 0.3, MATERIAL, load, amplitude, {})
 
 
-def regime_map(*scenes: film_regimes.Scene) -> tuple[Figure, Axes]:
+def drawn_map(*scenes: regime_map.Scene) -> tuple[Figure, Axes]:
     with style.house_style():
-        made = film_regimes.draw(scenes)
+        made = regime_map.draw(scenes)
     (axes,) = made.axes
     return made, axes
 
@@ -309,7 +308,7 @@ def groups_of(load: float) -> tuple[float, float]:
 
 
 def test_the_regime_map_colours_regimes_and_names_them():
-    _, axes = regime_map()
+    _, axes = drawn_map()
     assert axes.get_xlim() == pytest.approx((0.05, 50.0))
     assert axes.get_ylim() == pytest.approx((0.3, 3e3))
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
@@ -338,7 +337,7 @@ def test_the_regime_map_colours_regimes_and_names_them():
 
 
 def test_the_regime_map_draws_films_and_borders_where_they_are():
-    _, axes = regime_map()
+    _, axes = drawn_map()
     _, films, *borders, hatched = contour_sets(axes)
     assert films.levels.tolist() == [6.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0]
     lines = {
@@ -366,7 +365,7 @@ def test_the_regime_map_draws_films_and_borders_where_they_are():
 
 
 def test_scenes_stand_where_their_load_puts_them():
-    made, axes = regime_map(scene(), scene("light", load=9.42, amplitude=205.7))
+    made, axes = drawn_map(scene(), scene("light", load=9.42, amplitude=205.7))
     curves = drawn.curves(axes)
     for position, (load, low) in enumerate(((228.6, 22.9), (9.42, 9.42e-6))):
         line, mark = curves[2 * position : 2 * position + 2]
@@ -388,7 +387,7 @@ def test_scenes_stand_where_their_load_puts_them():
 
 
 def test_a_scene_that_another_covers_is_drawn_larger():
-    _, axes = regime_map(scene(), scene("same"), scene("far", load=20.0))
+    _, axes = drawn_map(scene(), scene("same"), scene("far", load=20.0))
     marks = [line.get_markersize() for line in axes.lines if line.get_marker() not in ("", "None")]
     assert marks == [12.0, 7.0, 7.0]
 
@@ -407,20 +406,18 @@ def test_a_contact_is_built_of_the_keys_that_its_input_has():
         "kinematics": {"rolling_speed": 3.0},
         "load": {"mass": 2.0, "steady_force": 100.0, "force_amplitude": 50.0, "gravity": 9.8},
     }
-    built = film_regimes.new_scene("pair", groups, {})
+    built = regime_map.new_scene("pair", groups, {})
     assert (built.radius, built.speed) == pytest.approx((0.012, 1.5))
     assert built.material.modulus == pytest.approx(2e11 / 0.91)
     assert (built.load, built.force_amplitude) == pytest.approx((119.6, 50.0))
     groups["load"]["mass"] = True
     with pytest.raises(CommandError, match=r"pair has no number as load\.mass"):
-        film_regimes.new_scene("pair", groups, {})
+        regime_map.new_scene("pair", groups, {})
 
 
 def test_the_table_of_scenes_is_in_newtons_and_micrometres():
-    known = film_regimes.Scene(
-        "a", 0.0127, 0.01, 1.905, 0.3, MATERIAL, 228.6, 205.7, {"steady_film": 8.889e-7}
-    )
-    head, row = film_regimes.table_rows([known])
+    known = regime_map.Scene("a", 0.0127, 0.01, 1.905, 0.3, MATERIAL, 228.6, 205.7, {"steady_film": 8.889e-7})
+    head, row = regime_map.table_rows([known])
     g_v, g_e = groups_of(228.6)
     film = max(kernels.limiting_films(g_v, g_e)) * 0.3 * 1.905 * 0.0127 / (228.6 / 0.01)
     shown = dict(zip(head, row, strict=True))

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from result_writer import write_motion, write_result
 
 import rattle
-from rattle.figures import catalogue, style, sweep, tolerance
+from rattle.figures import motion, style, sweep, tolerance
 
 # Harmonics, and lines between them that fit 16 and 20 periods. The slowest tells the periods apart.
 LINES = {0.25: 0.5, 1.0: 10.0, 2.0: 8.0, 3.0: 3.0, 4.5: 2.0}
@@ -36,9 +36,9 @@ def creep(tmp_path) -> Path:
 def figure(number: int, *paths: Path, periods: int = 4, window: int | None = None) -> Figure:
     """One figure of one run, or of several laid over each other."""
     results = [rattle.read(path) for path in paths]
-    make = catalogue.overlay_figures if len(paths) > 1 else catalogue.single_figures
+    make = motion.overlay_figures if len(paths) > 1 else motion.single_figures
     with style.house_style():
-        ((_, made),) = make(results, [number], catalogue.Extent(periods, window))
+        ((_, made),) = make(results, [number], motion.Extent(periods, window))
         return made
 
 

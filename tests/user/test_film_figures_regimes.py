@@ -10,7 +10,7 @@ from figure_files import call, stems
 from result_writer import write_motion, write_result
 
 import rattle
-from rattle.figures import film_regimes
+from rattle.figures import regime_map
 
 ALPHA = 2.0e-8
 
@@ -58,7 +58,8 @@ def test_scenes_are_placed_on_the_map(tmp_path):
     (tmp_path / "idle.summary.nml").write_text("&summary\n   name = 'idle'\n   steady_film = 8.889E-7\n/\n")
     light = write_scene(tmp_path / "light.rattle", force=-20.0, speed="rolling_speed = 3.81")
     done = call(
-        "plot_regime_map.py",
+        "plot.py",
+        "regime-map",
         tmp_path / "idle.summary.nml",
         light,
         "--output",
@@ -84,7 +85,7 @@ def test_scenes_are_placed_on_the_map(tmp_path):
 
 
 def test_the_bare_map_is_drawn(tmp_path):
-    done = call("plot_regime_map.py", "--output", tmp_path)
+    done = call("plot.py", "regime-map", "--output", tmp_path)
     assert done.returncode == 0 and done.stdout == ""
     assert stems(tmp_path) == ["regime_map"]
 
@@ -93,30 +94,30 @@ def test_grubin_film_of_the_map_is_that_of_the_scene(tmp_path):
     result = rattle.read(
         write_scene(tmp_path / "a.rattle", speed="surface_speed_1 = 4.0\n surface_speed_2 = 1.0")
     )
-    scene = film_regimes.new_scene("a", result.input, {})
+    scene = regime_map.new_scene("a", result.input, {})
     assert scene.speed == 2.5
     g_v, g_e = scene.groups(scene.load)
-    parameter = film_regimes.grubin_parameter(scene.material, np.array(g_v), np.array(g_e))
+    parameter = regime_map.grubin_parameter(scene.material, np.array(g_v), np.array(g_e))
     assert parameter * scene.film_per_parameter() == pytest.approx(scene.grubin_film(), rel=1e-12)
 
 
 def test_scenes_of_different_oil_are_told(tmp_path):
     paths = [write_scene(tmp_path / "a.rattle"), write_scene(tmp_path / "b.rattle", alpha=1e-8)]
-    done = call("plot_regime_map.py", *paths, "--output", tmp_path)
+    done = call("plot.py", "regime-map", *paths, "--output", tmp_path)
     assert done.returncode == 0
     assert "The scenes differ in alpha or E*; the hatched part is that of a." in done.stderr
 
 
 def test_scenes_without_a_place_are_refused(tmp_path):
     (tmp_path / "alone.summary.nml").write_text("&summary\n   name = 'alone'\n/\n")
-    alone = call("plot_regime_map.py", tmp_path / "alone.summary.nml", "--output", tmp_path)
+    alone = call("plot.py", "regime-map", tmp_path / "alone.summary.nml", "--output", tmp_path)
     film_task = call(
-        "plot_regime_map.py", write_scene(tmp_path / "f.rattle", task="film"), "--output", tmp_path
+        "plot.py", "regime-map", write_scene(tmp_path / "f.rattle", task="film"), "--output", tmp_path
     )
     bare = call(
-        "plot_regime_map.py", write_motion(tmp_path / "m.rattle", lines={1.0: 1.0}), "--output", tmp_path
+        "plot.py", "regime-map", write_motion(tmp_path / "m.rattle", lines={1.0: 1.0}), "--output", tmp_path
     )
-    many = call("plot_regime_map.py", *[write_scene(tmp_path / "s.rattle")] * 8, "--output", tmp_path)
+    many = call("plot.py", "regime-map", *[write_scene(tmp_path / "s.rattle")] * 8, "--output", tmp_path)
     for done, sentence in (
         (alone, "alone.rattle, which would, does not exist."),
         (film_task, "is no motion: its contact has no static load."),

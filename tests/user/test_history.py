@@ -10,7 +10,7 @@ import pytest
 from result_writer import write_motion
 
 import rattle
-from rattle.figures import acceleration, film_and_force, style
+from rattle.figures import histories, style
 from rattle.figures.spectra import column_spectrum
 
 # Behind the 20th period, in the last of the periods drawn, and long before; the period lasts 2 ms.
@@ -31,7 +31,11 @@ def curve(axes) -> np.ndarray:
 
 @pytest.mark.parametrize(
     ("draw", "place", "scale", "column"),
-    [(acceleration.draw, 0, 1.0, 3), (film_and_force.draw, 0, 1e6, 2), (film_and_force.draw, 1, 1.0, 1)],
+    [
+        (histories.draw_acceleration, 0, 1.0, 3),
+        (histories.draw_film_and_force, 0, 1e6, 2),
+        (histories.draw_film_and_force, 1, 1.0, 1),
+    ],
     ids=["acceleration", "film", "force"],
 )
 def test_extreme_rows_are_part_of_the_curve(result, draw, place, scale, column):
@@ -70,7 +74,11 @@ def between(points: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize(
     ("draw", "place", "scale", "column"),
-    [(acceleration.draw, 0, 1.0, 3), (film_and_force.draw, 0, 1e6, 2), (film_and_force.draw, 1, 1.0, 1)],
+    [
+        (histories.draw_acceleration, 0, 1.0, 3),
+        (histories.draw_film_and_force, 0, 1e6, 2),
+        (histories.draw_film_and_force, 1, 1.0, 1),
+    ],
     ids=["acceleration", "film", "force"],
 )
 def test_every_period_that_repeats_has_the_extremes(tmp_path, draw, place, scale, column):
@@ -90,36 +98,40 @@ def test_every_period_that_repeats_has_the_extremes(tmp_path, draw, place, scale
 
 def test_a_period_with_other_films_has_not_the_extremes(tmp_path):
     """Every second period is the same here."""
-    made = acceleration.draw([coarse(tmp_path, film_lines={0.5: 1e-3})], ["a"], 4)
+    made = histories.draw_acceleration([coarse(tmp_path, film_lines={0.5: 1e-3})], ["a"], 4)
     expected = [(1.01, 500.0), (1.51, -700.0), (3.99, 900.0), (5.01, 500.0), (5.51, -700.0), (7.99, 900.0)]
     np.testing.assert_allclose(between(curve(made.axes[0])), expected, rtol=1e-9)
     words = "\nSeries of too few samples; between them -700 to 900 m/s$^2$, not all drawn"
     assert made.axes[0].get_title().endswith(words)
-    film = film_and_force.draw([coarse(tmp_path, film_lines={0.5: 1e-3})], ["a"], 4)
+    film = histories.draw_film_and_force([coarse(tmp_path, film_lines={0.5: 1e-3})], ["a"], 4)
     words = r"between them 0.001 to 9 $\mathrm{\mu}$m, not all drawn"
     assert film.axes[0].get_title().endswith(words)
 
 
 def test_films_that_differ_by_less_than_a_line_are_the_same(tmp_path):
-    points = between(curve(acceleration.draw([coarse(tmp_path, film_lines={0.5: 2e-5})], ["a"], 4).axes[0]))
+    points = between(
+        curve(histories.draw_acceleration([coarse(tmp_path, film_lines={0.5: 2e-5})], ["a"], 4).axes[0])
+    )
     assert len(points) == 12
 
 
 def test_without_films_the_extremes_stand_in_their_own_periods_alone(tmp_path):
-    made = acceleration.draw([coarse(tmp_path, without="film_thickness", extremes=FILMLESS)], ["a"], 4)
+    made = histories.draw_acceleration(
+        [coarse(tmp_path, without="film_thickness", extremes=FILMLESS)], ["a"], 4
+    )
     np.testing.assert_allclose(between(curve(made.axes[0])), [(1.51, -700.0), (7.99, 900.0)], rtol=1e-9)
     assert "not all drawn" in made.axes[0].get_title()
 
 
 def test_a_coarse_series_without_extremes_says_so(tmp_path):
     """Those of Newmark's method: its samples are its steps."""
-    made = acceleration.draw([coarse(tmp_path, extremes=())], ["a"], 4)
+    made = histories.draw_acceleration([coarse(tmp_path, extremes=())], ["a"], 4)
     assert not len(between(curve(made.axes[0])))
     assert made.axes[0].get_title().endswith("too few samples; what lies between them is not known")
 
 
 def test_an_overlay_names_the_coarse_run(tmp_path, result):
     with style.house_style():
-        made = acceleration.draw([coarse(tmp_path, "b"), result], ["b", "a"], 4)
+        made = histories.draw_acceleration([coarse(tmp_path, "b"), result], ["b", "a"], 4)
     assert drawn.legend_words(made) == ["b, too few samples", "a"]
-    assert "too few" not in acceleration.draw([result], ["a"], 4).axes[0].get_title()
+    assert "too few" not in histories.draw_acceleration([result], ["a"], 4).axes[0].get_title()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -10,12 +11,27 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from rattle import kernels
-from rattle.command import CommandError
+from rattle import command, kernels, table
 from rattle.figures import style
 from rattle.figures.film_points import power_words
 
+DESCRIPTION = (
+    "Fit the film-thickness law (32) to exact piezo-viscous films over windows of alpha p, and judge the "
+    "printed coefficients on the same films. Prints a table and draws 'film_fit'. A range is LEAST,LARGEST; "
+    "write --squeeze-ratio=-5e-4,5e-4, with '='."
+)
 Window = tuple[float, float]  # least and largest alpha p of the films
+WINDOWS = (
+    (0.0, 0.5),
+    (0.3, 0.5),
+    (0.0, 1.0),
+    (0.1, 1.0),
+    (0.3, 1.0),
+    (0.5, 1.0),
+    (0.7, 1.0),
+    (0.9, 1.0),
+    (0.99, 1.0),
+)
 
 
 @dataclass(frozen=True)
@@ -63,6 +79,63 @@ class Fit:
     printed: kernels.LawError
 
 
+def add_options(parser: ArgumentParser) -> None:
+    parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
+    parser.add_argument(
+        "--film-ratio", type=span, default=(5e-5, 2e-4), metavar="RANGE", help="range of h* (5e-5,2e-4)"
+    )
+    parser.add_argument(
+        "--squeeze-ratio", type=span, default=(-5e-4, 5e-4), metavar="RANGE", help="range of w* (-5e-4,5e-4)"
+    )
+    parser.add_argument(
+        "--speed-group", type=span, metavar="RANGE", help="range of u*; by default all that alpha p gives"
+    )
+    parser.add_argument(
+        "--alpha-p",
+        type=span,
+        nargs="+",
+        default=WINDOWS,
+        metavar="RANGE",
+        help="windows of alpha p for the table, a line each",
+    )
+    parser.add_argument(
+        "--upper-end", type=fraction, default=1.0, metavar="X", help="upper end of alpha p in the figure (1)"
+    )
+
+
+def run(options: Namespace) -> None:
+    ranges = Ranges(options.film_ratio, options.squeeze_ratio, options.speed_group)
+    upper = options.upper_end
+    if not options.film_ratio[0] < options.film_ratio[1]:
+        raise command.CommandError("A single h* determines no law; give --film-ratio a range.")
+    try:
+        fits, curves = (
+            [fit_window(ranges, reading, window) for reading in READINGS for window in chosen]
+            for chosen in (options.alpha_p, windows(upper))
+        )
+    except ValueError as fault:
+        raise command.CommandError(f"The ranges cannot be used: {fault}.") from None
+    with style.house_style():
+        for path in style.save(draw(curves, ranges, upper), options, "film_fit"):
+            command.note(str(path))
+    rows = table_rows(fits)
+    print(table.markdown(rows) if options.markdown else table.plain(rows))
+
+
+def span(text: str) -> tuple[float, float]:
+    values = [command.finite(part) for part in text.split(",")]
+    if len(values) != 2 or values[0] > values[1]:
+        raise ArgumentTypeError(f"'{text}' is not a range LEAST,LARGEST")
+    return values[0], values[1]
+
+
+def fraction(text: str) -> float:
+    value = command.finite(text)
+    if not 0.0 < value <= 1.0:
+        raise ArgumentTypeError(f"'{text}' is not a number above 0 and up to 1")
+    return value
+
+
 def fit_window(ranges: Ranges, reading: Reading, window: Window) -> Fit:
     """Fit (32) to the exact films of one window."""
     points = kernels.sample_film_window(
@@ -79,7 +152,7 @@ def fit_window(ranges: Ranges, reading: Reading, window: Window) -> Fit:
     films = points.film_ratio.size
     fit = kernels.fit_film_law(*points) if films > 4 else None
     if fit is None or not fit.unique:
-        raise CommandError(
+        raise command.CommandError(
             f"The window {window[0]:g} < alpha p < {window[1]:g} ({reading.words}) holds {films} films, "
             "which do not determine the four coefficients; widen the ranges."
         )

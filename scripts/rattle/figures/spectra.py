@@ -1,11 +1,175 @@
-"""Spectra of columns, computed by the Fortran kernel."""
+"""Figures 7, 10a and 10b: spectra of force and acceleration over f/f_exc, computed by the Fortran kernel."""
 
 from __future__ import annotations
 
-import numpy as np
+import math
+from collections.abc import Sequence
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rattle.figures import style
+from rattle.figures.labels import FEW_SAMPLES, curve_label, name_runs, overlay_title, title
 from rattle.result import Result, ResultError
 from rattle.summary import Summary, read_summary
+from rattle.verdict import classify, thresholds
+
+LAST_FORCE_RATIO = 5.0
+SUBJECT = "Spectrum of the acceleration"
+FLOOR = 1e-5  # of the largest line; below it the logarithmic panel ends
+GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-integer lines
+SMALLEST_LAST_RATIO = 10.0
+LARGEST_LAST_RATIO = 40.0
+
+
+def draw_force(results: Sequence[Result], labels: Sequence[str], window: int | None) -> Figure:
+    """Figure 7: lines of the force of one run, or of several side by side."""
+    figure = Figure(figsize=(style.WIDTH, 2.6))
+    axes = figure.subplots()
+    single = len(results) == 1
+    largest = 0.0
+    lines = style.run_lines([result.law for result in results])
+    for position, (result, label, line) in enumerate(zip(results, labels, lines, strict=True)):
+        ratio, amplitude = column_spectrum(result, "applied_force", window)
+        shown = ratio <= LAST_FORCE_RATIO
+        shift = 0.06 * (position - 0.5 * (len(results) - 1))
+        axes.vlines(
+            ratio[shown] + shift, 0.0, amplitude[shown], label=label, linewidth=2.0, color=line["color"]
+        )
+        largest = max(largest, float(amplitude[shown].max()))
+        if single:
+            _name_lines(axes, result, ratio[shown], amplitude[shown])
+    axes.set_xlim(-0.25, LAST_FORCE_RATIO)
+    axes.set_ylim(0.0, 1.12 * largest if largest > 0.0 else 1.0)
+    axes.set_ylabel("Amplitude of $F$ [N]")
+    axes.set_xlabel(style.RATIO_LABEL if single else f"{style.RATIO_LABEL}; runs side by side")
+    name_runs(figure, axes, "Spectrum of the applied force", results, labels)
+    return figure
+
+
+def _name_lines(axes: Axes, result: Result, ratio: np.ndarray, amplitude: np.ndarray) -> None:
+    """Say what the mean and the line of the excitation are."""
+    at_excitation = int(np.argmin(np.abs(ratio - 1.0)))
+    names = (
+        (0, f"mean\n{amplitude[0]:.4g} N"),
+        (at_excitation, f"{amplitude[at_excitation]:.4g} N\nat {result.frequency:g} Hz"),
+    )
+    for position, name in names:
+        axes.annotate(
+            name,
+            (ratio[position], amplitude[position]),
+            xytext=(4, 0),
+            textcoords="offset points",
+            verticalalignment="top",
+            fontsize=8,
+        )
+
+
+def draw_acceleration(results: Sequence[Result], labels: Sequence[str], window: int | None) -> Figure:
+    """Figure 10: a linear panel as in the paper, and a logarithmic one that shows every line that counts."""
+    figure = Figure(figsize=(style.WIDTH, 4.6))
+    linear, logarithmic = figure.subplots(2, 1, sharex=True)
+    summaries = [better_summary(result, window) for result in results]
+    spectra = [
+        harmonics_of(summary) if summary else column_spectrum(result, "acceleration", window)
+        for result, summary in zip(results, summaries, strict=True)
+    ]
+    largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
+    if len(results) == 1:
+        _draw_single(figure, (linear, logarithmic), results[0], spectra[0])
+        linear.set_title(
+            f"{title(SUBJECT, results[0], labels[0])}; {_verdict_words(results[0], summaries[0], window)}"
+        )
+        logarithmic.set_xlabel(style.RATIO_LABEL)
+    else:
+        names = [
+            f"{label}, by its summary" if summary else curve_label(result, label)
+            for result, summary, label in zip(results, summaries, labels, strict=True)
+        ]
+        _draw_overlay((linear, logarithmic), names, spectra)
+        linear.set_title(overlay_title(SUBJECT, results))
+        logarithmic.set_xlabel(f"{style.RATIO_LABEL}; runs side by side")
+        style.legend_below(figure, linear)
+    linear.set_xlim(0.0, _last_ratio(spectra))
+    linear.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
+    logarithmic.set_ylim(linear.get_ylim())
+    if largest > 0.0:
+        logarithmic.set_yscale("log")
+        logarithmic.set_ylim(FLOOR * largest, 3.0 * largest)
+    for axes in (linear, logarithmic):
+        axes.set_ylabel(style.AMPLITUDE_LABEL)
+    figure.align_ylabels()
+    return figure
+
+
+def _draw_single(
+    figure: Figure,
+    panels: tuple[Axes, Axes],
+    result: Result,
+    spectrum: tuple[np.ndarray, np.ndarray],
+) -> None:
+    ratio, amplitude = spectrum
+    periods = round(1.0 / ratio[1])
+    harmonic = np.arange(amplitude.size) % periods == 0
+    harmonic[0] = False
+    between = ~harmonic
+    between[0] = False
+    threshold = thresholds(result)["line_threshold"]
+    colour = style.law_colour(result.law)
+    handles = {}
+    for axes in panels:
+        axes.vlines(ratio[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
+        handles[f"harmonics of {result.frequency:g} Hz"] = axes.vlines(
+            ratio[harmonic], 0.0, amplitude[harmonic], color=colour, linewidth=1.8
+        )
+    visible = amplitude[between] > FLOOR * amplitude[1:].max()
+    if visible.any():
+        handles["between the harmonics"] = panels[0].collections[0]
+    first = amplitude[periods]
+    if first > 0.0:
+        handles[f"{100 * threshold:.3g} % of the first harmonic"] = panels[1].axhline(
+            threshold * first, color=style.FORCE_COLOUR, linewidth=0.9, linestyle=(0, (4, 2))
+        )
+    style.legend_below(figure, panels[0], labels=handles)
+
+
+def _verdict_words(result: Result, summary: Summary | None, window: int | None) -> str:
+    if result.coarse and not summary:
+        return f"{FEW_SAMPLES}\nThe lines are those of the samples, not of the motion"
+    verdict = summary or classify(result, window)
+    bound = "at least " if verdict.get("line_count_is_bound") else ""
+    words = f"{bound}{verdict['line_count']} lines, class {verdict['rattle_class']}"
+    if not summary:
+        return words
+    more_samples = f"of {summary['samples_per_period']} samples a period"
+    source = "integrals over the steps" if summary["lines_by_integrals"] else more_samples
+    return f"{words}\nSeries of {FEW_SAMPLES}; lines of the summary, {source}"
+
+
+def _draw_overlay(
+    panels: tuple[Axes, Axes],
+    labels: Sequence[str],
+    spectra: Sequence[tuple[np.ndarray, np.ndarray]],
+) -> None:
+    spacing = min(0.16, GROUP_WIDTH / len(spectra))
+    for axes in panels:
+        for position, ((ratio, amplitude), label) in enumerate(zip(spectra, labels, strict=True)):
+            line = style.run_line(position)
+            shift = spacing * (position - 0.5 * (len(spectra) - 1))
+            axes.vlines(
+                ratio[1:] + shift, 0.0, amplitude[1:], color=line["color"], linewidth=1.3, label=label
+            )
+
+
+def _last_ratio(spectra: Sequence[tuple[np.ndarray, np.ndarray]]) -> float:
+    """The axis ends behind the last line that the logarithmic panel shows, within limits."""
+    last = 0.0
+    for ratio, amplitude in spectra:
+        shown = np.flatnonzero(amplitude[1:] > FLOOR * amplitude[1:].max())
+        if shown.size:
+            last = max(last, float(ratio[1:][shown[-1]]))
+    return min(max(math.ceil(last) + 0.5, SMALLEST_LAST_RATIO + 0.5), LARGEST_LAST_RATIO + 0.5)
 
 
 def better_summary(result: Result, window: int | None) -> Summary | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,7 +11,7 @@ import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rattle.command import CommandError
+from rattle.command import CommandError, positive
 
 # The palette of Okabe and Ito, which colour-blind readers can tell apart.
 LAW_COLOURS = {"iso-viscous": "#0072B2", "piezo-viscous": "#D55E00"}
@@ -25,6 +26,8 @@ AMPLITUDE_LABEL = r"Amplitude of $\ddot{z}$ [m/s$^2$]"
 FILM_LABEL = r"Film thickness $h$ [$\mathrm{\mu}$m]"
 FORCE_LABEL = r"Applied force $F$ [N]"
 RATIO_LABEL = r"Frequency ratio $f/f_\mathrm{exc}$"
+
+DATES = {"png": "Software", "pdf": "CreationDate", "svg": "Date"}  # what changes from run to run
 
 WIDTH = 6.3  # inches, a text column of 160 mm
 _SETTINGS = {
@@ -47,7 +50,7 @@ _SETTINGS = {
     "figure.constrained_layout.use": True,
     "figure.constrained_layout.w_pad": 0.1,  # inches; room for the last tick label
     "figure.constrained_layout.h_pad": 0.06,
-    "savefig.dpi": 200,
+    "svg.hashsalt": "rattle",
     "pdf.fonttype": 42,
 }
 
@@ -88,13 +91,32 @@ def legend_below(
     figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=columns)
 
 
-def save(figure: Figure, directory: Path, stem: str) -> list[Path]:
-    """Write `stem`.png and `stem`.pdf without dates, so that equal data give equal bytes."""
-    paths = [directory / f"{stem}.png", directory / f"{stem}.pdf"]
+def add_extent(parser: ArgumentParser, periods: int) -> None:
+    """The options on how much of a motion is shown."""
+    parser.add_argument(
+        "--periods",
+        type=positive,
+        default=periods,
+        metavar="N",
+        help=f"periods that the histories show ({periods})",
+    )
+    parser.add_argument(
+        "--window",
+        type=positive,
+        metavar="N",
+        help="periods behind the spectra, by default those that the program judged",
+    )
+
+
+def save(figure: Figure, options: Namespace, stem: str) -> list[Path]:
+    """Write a figure as the common options of plot.py say, without dates: equal data give equal bytes."""
+    if options.width:
+        figure.set_size_inches(figure.get_size_inches() * options.width / figure.get_figwidth())
+    paths = [options.output / f"{stem}.{name}" for name in options.format]
     try:
-        directory.mkdir(parents=True, exist_ok=True)
-        figure.savefig(paths[0], metadata={"Software": None})
-        figure.savefig(paths[1], metadata={"CreationDate": None})
+        options.output.mkdir(parents=True, exist_ok=True)
+        for name, path in zip(options.format, paths, strict=True):
+            figure.savefig(path, dpi=options.dpi, metadata={DATES[name]: None})
     except OSError as fault:
-        raise CommandError(f"{directory} cannot take the figures: {fault.strerror or fault}.") from None
+        raise CommandError(f"{options.output} cannot take the figures: {fault.strerror or fault}.") from None
     return paths

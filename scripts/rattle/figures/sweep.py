@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+import rattle
+from rattle import command
 from rattle.codes import SUCCESSES
 from rattle.figures import style
 from rattle.result import Result
 
+DESCRIPTION = "Draw the steady motions of a sweep along its key, there and back, as sweep_NAME."
 KEY_LABELS = {
     "frequency": r"Excitation frequency $f_\mathrm{exc}$ [Hz]",
     "force_amplitude": r"Force amplitude $F_0$ [N]",
@@ -19,9 +25,21 @@ KEY_LABELS = {
 WAYS = (("there", 1.0, style.RUN_COLOURS[0], "-"), ("back", -1.0, style.RUN_COLOURS[1], (0, (4, 2))))
 
 
+def add_options(parser: ArgumentParser) -> None:
+    parser.add_argument("result", type=Path, metavar="RESULT", help="result file of a sweep, NAME.rattle")
+
+
+def run(options: Namespace) -> None:
+    result = rattle.read(options.result)
+    result.require_task("sweep")
+    command.note_open(result)
+    with style.house_style():
+        for path in style.save(draw(result), options, f"sweep_{result.scene_name}"):
+            print(path)
+
+
 def draw(result: Result) -> Figure:
     """Film range, peak acceleration, period of the motion and Floquet multiplier over the swept key."""
-    result.require_task("sweep")
     key = str(result.value("sweep", "key")).strip()
     figure = Figure(figsize=(style.WIDTH, 6.2))
     film, acceleration, period, multiplier = figure.subplots(

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+import rattle
+from rattle import command
 from rattle.figures import style
-from rattle.figures.history import last_periods, period_rules, time_label
+from rattle.figures.histories import last_periods, period_rules, time_label
 from rattle.figures.spectra import column_spectrum
 from rattle.result import Result, ResultError
 from rattle.verdict import judge_samples
 
+DESCRIPTION = (
+    "Compare the same motion at a loose and a tight tolerance: histories and spectra of the acceleration, "
+    "as 'tolerance'."
+)
+CASES = (("forged_line", "A forged spectral line", 6.0), ("false_reversals", "False reversals", 32.0))
 FREE_GROUPS = ("scene", "solver", "spectrum", "output")  # all that two runs of one motion may differ in
 LOOSE = {"color": style.LAW_COLOURS["piezo-viscous"], "linewidth": 1.1}
 TIGHT = {"color": style.LAW_COLOURS["iso-viscous"], "linewidth": 1.9}
@@ -41,6 +50,35 @@ class Pair:
             raise ResultError(
                 f"The tolerance of {self.loose.path} is not looser than that of {self.tight.path}."
             )
+
+
+def add_options(parser: ArgumentParser) -> None:
+    for key, name, _ in CASES:
+        parser.add_argument(
+            f"--{key.replace('_', '-')}",
+            nargs=2,
+            type=Path,
+            metavar=("LOOSE", "TIGHT"),
+            help=f"two result files for the column '{name}'",
+        )
+    style.add_extent(parser, 3)
+
+
+def run(options: Namespace) -> None:
+    pairs = []
+    for key, name, last_ratio in CASES:
+        paths = getattr(options, key)
+        if paths is not None:
+            loose, tight = map(rattle.read, paths)
+            for result in (loose, tight):
+                result.require_task("motion")
+                command.note_open(result)
+            pairs.append(Pair(name, loose, tight, last_ratio))
+    if not pairs:
+        raise command.CommandError("Nothing to draw: give --forged-line, --false-reversals or both.")
+    with style.house_style():
+        for path in style.save(draw(pairs, options.periods, options.window), options, "tolerance"):
+            print(path)
 
 
 def draw(pairs: Sequence[Pair], periods: int, window: int | None) -> Figure:

@@ -1,4 +1,4 @@
-"""Figure 5: pressure of the piezo-viscous film over the contact."""
+"""Figures 3 and 5: pressure of the iso-viscous and of the piezo-viscous film."""
 
 from __future__ import annotations
 
@@ -20,8 +20,30 @@ REDUCED = {"linewidth": 0.9, "linestyle": (0, (4, 2))}
 COLUMNS = ("reduced_pressure", "piezo_viscous_pressure")
 
 
-def draw(profiles: Result, choice: Choice) -> Figure:
-    """q of (31) for every squeeze ratio that has a rigid film; p of (16) for all; the limit alpha p = 1."""
+def draw_iso_viscous(profiles: Result, choice: Choice) -> Figure:
+    """Figure 3: p* of (16) for every squeeze ratio at one film ratio; the speed does not matter."""
+    film_ratio = film_points.choose(profiles, "film_ratio", choice.film_ratio, PAPER_FILM_RATIO)
+    speed_group = film_points.any_speed_group(profiles, choice)
+    fixed = {"film_ratio": film_ratio, "speed_group": speed_group}
+    found = film_points.curves(profiles, ["pressure_group"], "coordinate", fixed)
+    figure = Figure(figsize=(style.WIDTH, 3.6))
+    axes = figure.subplots()
+    for curve, colour in zip(found, film_points.colours(found), strict=True):
+        angle, group = curve["coordinate"], curve["pressure_group"]
+        axes.plot(angle, group, color=colour, label=film_points.squeeze_words(curve.squeeze_ratio))
+        axes.plot(angle[-1], 0.0, "o", color=colour, markersize=3.5, clip_on=False, zorder=3)
+    axes.plot([], [], "o", color=style.FAINT_COLOUR, markersize=3.5, label=r"rupture $\bar{x}_e$ of (18)")
+    film_points.angle_axis(axes)
+    axes.set_ylim(bottom=0.0)
+    axes.set_ylabel(r"Pressure group $p^*$ [-]")
+    axes.legend(title=film_points.SQUEEZE_TITLE, loc="upper right", alignment="left")
+    held = film_points.scene_line(profiles, [power_words(film_ratio, "h^*")])
+    axes.set_title(f"Pressure of the iso-viscous film, (16) corrected\n{held}")
+    return figure
+
+
+def draw_piezo_viscous(profiles: Result, choice: Choice) -> Figure:
+    """Figure 5: q of (31) where a rigid film exists; p of (16) for all squeeze ratios; the limit."""
     film_ratio = film_points.choose(profiles, "film_ratio", choice.film_ratio, PAPER_FILM_RATIO)
     alpha = profiles.number("lubricant", "pressure_viscosity")
     if not alpha > 0.0:

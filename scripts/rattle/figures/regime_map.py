@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,11 +16,17 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from rattle import kernels
-from rattle.command import CommandError
+import rattle
+from rattle import command, kernels, table
 from rattle.figures import style
 from rattle.figures.film_points import power_words
 
+DESCRIPTION = (
+    "Draw the regime map of line contacts after Johnson as 'regime_map', place scenes on it by their "
+    "static load Q + m g (a line: the range of the applied force), and print where they lie. Without "
+    "scenes the bare map is drawn."
+)
+SUMMARY_ENDING = ".summary.nml"
 FILLS = ("#E8F1FA", "#FCEBDD", "#E6F4EC", "#F7E6F0")
 PLACES = ((0.70, 0.12), (0.40, 0.55), (0.55, 0.30), (0.73, 0.50))  # of the names, in shares of their regime
 HALO = [patheffects.withStroke(linewidth=2.5, foreground="white")]
@@ -82,13 +90,54 @@ class Scene:
         return 1.0 / kernels.film_parameter(**one, line_load=self.load / self.length, film=1.0)
 
 
+def add_options(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "scenes",
+        nargs="*",
+        type=Path,
+        metavar="SUMMARY|RESULT",
+        help="NAME.summary.nml or NAME.rattle of a motion",
+    )
+    parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
+
+
+def run(options: Namespace) -> None:
+    scenes = [read_scene(path) for path in options.scenes]
+    with style.house_style():
+        for path in style.save(draw(scenes), options, "regime_map"):
+            command.note(str(path))
+    if scenes:
+        rows = table_rows(scenes)
+        print(table.markdown(rows) if options.markdown else table.plain(rows))
+    if len({scene.material for scene in scenes}) > 1:
+        command.note(f"The scenes differ in alpha or E*; the hatched part is that of {scenes[0].name}.")
+
+
+def read_scene(path: Path) -> Scene:
+    """A scene from its result and its summary, whichever is named; the result holds the resolved input."""
+    stem = path.name.removesuffix(SUMMARY_ENDING).removesuffix(".rattle")
+    result_path = path.with_name(f"{stem}.rattle")
+    summary_path = path.with_name(f"{stem}{SUMMARY_ENDING}")
+    if path.name.endswith(SUMMARY_ENDING) and not result_path.exists():
+        raise command.CommandError(
+            f"{path} does not hold the contact of its scene, and {result_path}, which would, does not exist."
+        )
+    result = rattle.read(result_path)
+    if result.task != "motion":
+        raise command.CommandError(f"{result_path} is no motion: its contact has no static load.")
+    summary = rattle.read_summary(summary_path) if summary_path.exists() else {}
+    return new_scene(result.scene_name, result.input, summary)
+
+
 def new_scene(name: str, groups: Mapping[str, Mapping[str, Any]], summary: Mapping[str, Any]) -> Scene:
     """The contact of a resolved input."""
 
     def number(group: str, key: str) -> float:
         value = groups.get(group, {}).get(key)
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise CommandError(f"{name} has no number as {group}.{key}: its place on the map is unknown.")
+            raise command.CommandError(
+                f"{name} has no number as {group}.{key}: its place on the map is unknown."
+            )
         return float(value)
 
     contact, kinematics = groups.get("contact", {}), groups.get("kinematics", {})
@@ -183,7 +232,7 @@ def grubin_parameter(material: Material, g_v: np.ndarray, g_e: np.ndarray) -> np
 def draw(scenes: Sequence[Scene]) -> Figure:
     """The map; scenes at their static load, with the range of the applied force as a line."""
     if len(scenes) > len(MARKERS):
-        raise CommandError(f"The map shows {len(MARKERS)} scenes at most; {len(scenes)} were given.")
+        raise command.CommandError(f"The map shows {len(MARKERS)} scenes at most; {len(scenes)} were given.")
     material = scenes[0].material if scenes else STEEL_AND_OIL
     figure = Figure(figsize=(style.WIDTH, 5.4))
     axes = figure.subplots()

@@ -1,76 +1,26 @@
-#!/usr/bin/env python3
-"""Draw figures 3, 4a, 4b and 5 of the paper from the result of a film task."""
+"""Figures 3, 4a, 4b and 5 of the paper: which of them the result of a film task gives."""
 
 from __future__ import annotations
 
-import argparse
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
 from rattle import command
-from rattle.figures import film_points, film_pressure, film_slopes, style
+from rattle.figures import film_points, film_pressures, film_slopes, style
 from rattle.result import ResultError
 
+DESCRIPTION = (
+    "Draw figures 3, 4a, 4b and 5 of the paper from the result of a film task. Figures 3 and 5 need the "
+    "profiles, NAME.profiles.rattle beside NAME.rattle."
+)
 NUMBERS = (3, 4, 5)
 
 
-def main() -> int:
-    options = parse_options()
-    choice = film_points.Choice(options.film_ratio, options.speed_group)
-    numbers = options.figures or NUMBERS
-    makers = [(stem, maker) for number, stem, maker in FIGURES if number in numbers]
-    scene = options.result.name.removesuffix(".rattle").removesuffix(".profiles")
-    drawn, missed = 0, 0
-    with style.house_style():
-        for stem, maker in makers:
-            try:
-                figure = maker(options.result, choice)
-            except ResultError as fault:
-                missed += 1
-                command.complain(f"{stem} cannot be drawn: {fault}")
-                continue
-            drawn += 1
-            for path in style.save(figure, options.output, f"{stem}_{scene}"):
-                print(path)
-    # Without a wish for certain figures, what the result holds is enough.
-    return command.BAD_INPUT if missed and (options.figures or not drawn) else command.COMPLETE
-
-
-def figure_3(path: Path, choice: film_points.Choice) -> Figure:
-    return film_pressure.draw(film_points.read_profiles(path), choice)
-
-
-def figure_4a(path: Path, choice: film_points.Choice) -> Figure:
-    return film_slopes.draw(film_points.read_points(path), film_slopes.STIFFNESS, choice)
-
-
-def figure_4b(path: Path, choice: film_points.Choice) -> Figure:
-    return film_slopes.draw(film_points.read_points(path), film_slopes.DAMPING, choice)
-
-
-def figure_5(path: Path, choice: film_points.Choice) -> Figure:
-    from rattle.figures import film_piezo_pressure  # needs the kernels, which the other figures do not
-
-    return film_piezo_pressure.draw(film_points.read_profiles(path), choice)
-
-
-FIGURES: tuple[tuple[int, str, Callable[[Path, film_points.Choice], Figure]], ...] = (
-    (3, "figure_03", figure_3),
-    (4, "figure_04a", figure_4a),
-    (4, "figure_04b", figure_4b),
-    (5, "figure_05", figure_5),
-)
-
-
-def parse_options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        description="Draw figures 3, 4a, 4b and 5 of the paper from the result of a film task, each as PNG "
-        "and PDF. Figures 3 and 5 need the profiles, NAME.profiles.rattle beside NAME.rattle."
-    )
+def add_options(parser: ArgumentParser) -> None:
     parser.add_argument("result", type=result_path, metavar="RESULT", help="result file, NAME.rattle")
-    parser.add_argument("--output", type=Path, default=Path("."), metavar="DIR", help="where the figures go")
     parser.add_argument(
         "--figures",
         type=command.one_of_numbers(NUMBERS),
@@ -89,7 +39,51 @@ def parse_options() -> argparse.Namespace:
         metavar="X",
         help="speed group u*; by default the one nearest to the 0.9e-6 of the paper, in figure 5 up to three",
     )
-    return parser.parse_args()
+
+
+def run(options: Namespace) -> int:
+    choice = film_points.Choice(options.film_ratio, options.speed_group)
+    numbers = options.figures or NUMBERS
+    makers = [(stem, maker) for number, stem, maker in FIGURES if number in numbers]
+    scene = options.result.name.removesuffix(".rattle").removesuffix(".profiles")
+    drawn, missed = 0, 0
+    with style.house_style():
+        for stem, maker in makers:
+            try:
+                figure = maker(options.result, choice)
+            except ResultError as fault:
+                missed += 1
+                command.complain(f"{stem} cannot be drawn: {fault}")
+                continue
+            drawn += 1
+            for path in style.save(figure, options, f"{stem}_{scene}"):
+                print(path)
+    # Without a wish for certain figures, what the result holds is enough.
+    return command.BAD_INPUT if missed and (options.figures or not drawn) else command.COMPLETE
+
+
+def figure_3(path: Path, choice: film_points.Choice) -> Figure:
+    return film_pressures.draw_iso_viscous(film_points.read_profiles(path), choice)
+
+
+def figure_4a(path: Path, choice: film_points.Choice) -> Figure:
+    return film_slopes.draw(film_points.read_points(path), film_slopes.STIFFNESS, choice)
+
+
+def figure_4b(path: Path, choice: film_points.Choice) -> Figure:
+    return film_slopes.draw(film_points.read_points(path), film_slopes.DAMPING, choice)
+
+
+def figure_5(path: Path, choice: film_points.Choice) -> Figure:
+    return film_pressures.draw_piezo_viscous(film_points.read_profiles(path), choice)
+
+
+FIGURES: tuple[tuple[int, str, Callable[[Path, film_points.Choice], Figure]], ...] = (
+    (3, "figure_03", figure_3),
+    (4, "figure_04a", figure_4a),
+    (4, "figure_04b", figure_4b),
+    (5, "figure_05", figure_5),
+)
 
 
 def result_path(text: str) -> Path:
@@ -97,7 +91,3 @@ def result_path(text: str) -> Path:
     return Path(
         text.removesuffix(".profiles.rattle") + ".rattle" if text.endswith(".profiles.rattle") else text
     )
-
-
-if __name__ == "__main__":
-    command.run(main)

@@ -1,11 +1,12 @@
-#!/usr/bin/env python3
-"""Draw maps, slices and a one-page summary of a campaign."""
+"""Maps, slices and a one-page summary of a campaign."""
 
 from __future__ import annotations
 
-import argparse
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Collection, Sequence
 from pathlib import Path
+
+from matplotlib.figure import Figure
 
 import rattle
 from rattle import command, rerun
@@ -14,131 +15,14 @@ from rattle.campaign_plan import GRID
 from rattle.campaign_section import new_section
 from rattle.figures import campaign_map, campaign_slice, campaign_summary, style
 
+DESCRIPTION = (
+    "Draw a campaign: a map of the class or of any column over two varied keys (default), columns along one "
+    "key (--along), or one page on all of it (--summary)."
+)
 SLICE_COLUMNS = ("acceleration_maximum", "film_minimum", "harmonic_distortion", "rattle_class")
 
 
-def main() -> None:
-    options = parse_options()
-    campaign = rattle.read_campaign(options.campaign)
-    if not campaign.closed:
-        done = int(campaign.done.sum())
-        command.note(f"{campaign.path} is not finished; {done} of {campaign.row_count} scenes are done.")
-    if not campaign.done.any():
-        raise command.CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
-    slices = one_each(options.slice)
-    with style.house_style():
-        if options.summary:
-            draw_summary(campaign, options)
-        elif options.along or (len(campaign.varied) == 1 and campaign.kind == GRID):
-            draw_slices(campaign, options, slices)
-        else:
-            draw_maps(campaign, options, slices)
-
-
-def draw_maps(campaign: Campaign, options: argparse.Namespace, slices: dict[str, float]) -> None:
-    """A map of each column asked for."""
-    if slices and campaign.kind != GRID:
-        raise command.CommandError(
-            f"{campaign.path} is no grid but a {campaign.kind} campaign: nothing to slice."
-        )
-    x, y = plane(campaign, options.x, options.y, slices)
-    overlay = campaign_map.Options(options.contours, options.colours)
-    for name in campaign_map.lacking_contours(campaign, options.contours):
-        command.note(f"{campaign.path} does not record what the contours of {name} need; they are left out.")
-    columns = options.columns or ["rattle_class"]
-    check_columns(campaign, columns)
-    if campaign.kind == GRID:
-        section = new_section(campaign, (x, y), slices)
-        for sentence in section.remarks():
-            command.note(sentence)
-    for column in columns:
-        if campaign.kind == GRID:
-            figure = campaign_map.draw(section, column, overlay)
-        else:
-            figure = campaign_map.draw_points(campaign, x, y, column, overlay)
-        save(figure, options.output, f"{campaign.name}_map_{column}")
-
-
-def draw_slices(campaign: Campaign, options: argparse.Namespace, slices: dict[str, float]) -> None:
-    """Columns along one key."""
-    if campaign.kind != GRID:
-        raise command.CommandError(
-            f"{campaign.path} is no grid but a {campaign.kind} campaign: it has no slices."
-        )
-    along = options.along or campaign.varied[0]
-    section = new_section(campaign, (along,), slices)
-    for sentence in section.remarks():
-        command.note(sentence)
-    columns = options.columns or [name for name in SLICE_COLUMNS if name in campaign]
-    check_columns(campaign, columns)
-    figure = campaign_slice.draw(section, columns)
-    save(figure, options.output, f"{campaign.name}_slice_{along.rpartition('.')[2]}")
-
-
-def draw_summary(campaign: Campaign, options: argparse.Namespace) -> None:
-    """The page, and the inputs of the worst scenes that it lists."""
-    rows = rerun.extreme_rows(campaign, options.by, options.worst, smallest=options.smallest)
-    worst = campaign_summary.Worst(list(rows), options.by, options.smallest)
-    save(campaign_summary.draw(campaign, worst), options.output, f"{campaign.name}_summary")
-    directory = options.output / f"{campaign.name}_scenes"
-    for path in rerun.write_inputs(campaign, list(rows), directory, "results"):
-        print(path)
-
-
-def plane(campaign: Campaign, x: str | None, y: str | None, slices: Collection[str]) -> tuple[str, str]:
-    """The two keys of a map: those asked for, filled up with the first ones that vary and are not held."""
-    if len(campaign.varied) < 2:
-        raise command.CommandError(f"{campaign.path} varies {campaign.varied[0]} only; a map needs two keys.")
-    for key in (key for key in (x, y) if key is not None):
-        campaign.axis(key)
-    rest = [key for key in campaign.varied if key not in (x, y, *slices)]
-    if len(rest) < (x is None) + (y is None):
-        raise command.CommandError("too many keys are sliced: a map needs two that are not.")
-    x = x or rest.pop(0)
-    return x, y or rest.pop(0)
-
-
-def check_columns(campaign: Campaign, columns: Sequence[str]) -> None:
-    for name in columns:
-        campaign.check_column(name)  # an unknown name ends the work before a picture is drawn
-
-
-def save(figure, output: Path, stem: str) -> None:
-    for path in style.save(figure, output, stem):
-        print(path)
-
-
-def one_each(pairs: Sequence[tuple[str, float]]) -> dict[str, float]:
-    keys = [key for key, _ in pairs]
-    for key in keys:
-        if keys.count(key) > 1:
-            raise command.CommandError(f"--slice gives {key} twice.")
-    return dict(pairs)
-
-
-def held_key(text: str) -> tuple[str, float]:
-    key, _, value = text.partition("=")
-    try:
-        return key.strip(), float(value)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is not group.key=value") from None
-
-
-def contour_names(text: str) -> list[str]:
-    names = [] if text == "none" else [name.strip() for name in text.split(",")]
-    for name in names:
-        if name not in campaign_map.CONTOURS:
-            raise argparse.ArgumentTypeError(
-                f"'{name}' is not one of {', '.join(campaign_map.CONTOURS)}, none"
-            )
-    return names
-
-
-def parse_options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        description="Draw a campaign: a map of the class or of any column over two varied keys (default), "
-        "columns along one key (--along), or one page on all of it (--summary), each as PNG and PDF."
-    )
+def add_options(parser: ArgumentParser) -> None:
     parser.add_argument("campaign", type=Path, metavar="FILE", help="campaign result, NAME.rattle")
     parser.add_argument(
         "--columns", type=command.names, metavar="NAME,NAME", help="what is drawn; rattle_class for a map"
@@ -173,14 +57,121 @@ def parse_options() -> argparse.Namespace:
     parser.add_argument("--worst", type=command.positive, metavar="N", help="scenes listed on the page (10)")
     parser.add_argument("--by", metavar="COLUMN", help="what the worst are worst by (acceleration_maximum)")
     parser.add_argument("--smallest", action="store_true", help="the smallest in --by are the worst")
-    parser.add_argument("--output", type=Path, default=Path("."), metavar="DIR", help="where the figures go")
-    options = parser.parse_args()
+
+
+def run(options: Namespace) -> None:
     if not options.summary and (options.worst or options.by or options.smallest):
-        parser.error("--worst, --by and --smallest belong to --summary")
+        raise command.CommandError("--worst, --by and --smallest belong to --summary.")
     options.worst = options.worst or 10
     options.by = options.by or "acceleration_maximum"
-    return options
+    campaign = rattle.read_campaign(options.campaign)
+    if not campaign.closed:
+        done = int(campaign.done.sum())
+        command.note(f"{campaign.path} is not finished; {done} of {campaign.row_count} scenes are done.")
+    if not campaign.done.any():
+        raise command.CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
+    slices = one_each(options.slice)
+    with style.house_style():
+        if options.summary:
+            draw_summary(campaign, options)
+        elif options.along or (len(campaign.varied) == 1 and campaign.kind == GRID):
+            draw_slices(campaign, options, slices)
+        else:
+            draw_maps(campaign, options, slices)
 
 
-if __name__ == "__main__":
-    command.run(main)
+def draw_maps(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> None:
+    """A map of each column asked for."""
+    if slices and campaign.kind != GRID:
+        raise command.CommandError(
+            f"{campaign.path} is no grid but a {campaign.kind} campaign: nothing to slice."
+        )
+    x, y = plane(campaign, options.x, options.y, slices)
+    overlay = campaign_map.Options(options.contours, options.colours)
+    for name in campaign_map.lacking_contours(campaign, options.contours):
+        command.note(f"{campaign.path} does not record what the contours of {name} need; they are left out.")
+    columns = options.columns or ["rattle_class"]
+    check_columns(campaign, columns)
+    if campaign.kind == GRID:
+        section = new_section(campaign, (x, y), slices)
+        for sentence in section.remarks():
+            command.note(sentence)
+    for column in columns:
+        if campaign.kind == GRID:
+            figure = campaign_map.draw(section, column, overlay)
+        else:
+            figure = campaign_map.draw_points(campaign, x, y, column, overlay)
+        save(figure, options, f"{campaign.name}_map_{column}")
+
+
+def draw_slices(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> None:
+    """Columns along one key."""
+    if campaign.kind != GRID:
+        raise command.CommandError(
+            f"{campaign.path} is no grid but a {campaign.kind} campaign: it has no slices."
+        )
+    along = options.along or campaign.varied[0]
+    section = new_section(campaign, (along,), slices)
+    for sentence in section.remarks():
+        command.note(sentence)
+    columns = options.columns or [name for name in SLICE_COLUMNS if name in campaign]
+    check_columns(campaign, columns)
+    figure = campaign_slice.draw(section, columns)
+    save(figure, options, f"{campaign.name}_slice_{along.rpartition('.')[2]}")
+
+
+def draw_summary(campaign: Campaign, options: Namespace) -> None:
+    """The page, and the inputs of the worst scenes that it lists."""
+    rows = rerun.extreme_rows(campaign, options.by, options.worst, smallest=options.smallest)
+    worst = campaign_summary.Worst(list(rows), options.by, options.smallest)
+    save(campaign_summary.draw(campaign, worst), options, f"{campaign.name}_summary")
+    directory = options.output / f"{campaign.name}_scenes"
+    for path in rerun.write_inputs(campaign, list(rows), directory, "results"):
+        print(path)
+
+
+def plane(campaign: Campaign, x: str | None, y: str | None, slices: Collection[str]) -> tuple[str, str]:
+    """The two keys of a map: those asked for, filled up with the first ones that vary and are not held."""
+    if len(campaign.varied) < 2:
+        raise command.CommandError(f"{campaign.path} varies {campaign.varied[0]} only; a map needs two keys.")
+    for key in (key for key in (x, y) if key is not None):
+        campaign.axis(key)
+    rest = [key for key in campaign.varied if key not in (x, y, *slices)]
+    if len(rest) < (x is None) + (y is None):
+        raise command.CommandError("too many keys are sliced: a map needs two that are not.")
+    x = x or rest.pop(0)
+    return x, y or rest.pop(0)
+
+
+def check_columns(campaign: Campaign, columns: Sequence[str]) -> None:
+    for name in columns:
+        campaign.check_column(name)  # an unknown name ends the work before a picture is drawn
+
+
+def save(figure: Figure, options: Namespace, stem: str) -> None:
+    for path in style.save(figure, options, stem):
+        print(path)
+
+
+def one_each(pairs: Sequence[tuple[str, float]]) -> dict[str, float]:
+    keys = [key for key, _ in pairs]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise command.CommandError(f"--slice gives {key} twice.")
+    return dict(pairs)
+
+
+def held_key(text: str) -> tuple[str, float]:
+    key, _, value = text.partition("=")
+    try:
+        return key.strip(), float(value)
+    except ValueError:
+        raise ArgumentTypeError(f"'{text}' is not group.key=value") from None
+
+
+def contour_names(text: str) -> list[str]:
+    names = [] if text == "none" else [name.strip() for name in text.split(",")]
+    for name in names:
+        if name not in campaign_map.CONTOURS:
+            raise ArgumentTypeError(f"'{name}' is not one of {', '.join(campaign_map.CONTOURS)}, none")
+    return names

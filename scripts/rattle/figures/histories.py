@@ -1,4 +1,4 @@
-"""Time histories of the last periods of a run."""
+"""Figures 6, 8 and 9: time histories of the last periods of a run."""
 
 from __future__ import annotations
 
@@ -6,13 +6,51 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from rattle.figures.labels import FEW_SAMPLES
-from rattle.figures.style import PERIOD_COLOUR
+from rattle.figures import style
+from rattle.figures.labels import FEW_SAMPLES, curve_label, name_runs
 from rattle.result import TIME, Result
 
 FILM = "film_thickness"
 SAME_FILMS = 1e-4  # of their range; a smaller difference is thinner than the line that shows it
+
+
+def draw_film_and_force(results: Sequence[Result], labels: Sequence[str], periods: int) -> Figure:
+    """Figure 6: film thickness over applied force of one run, or of several in one picture."""
+    figure = Figure(figsize=(style.WIDTH, 4.2))
+    film_axes, force_axes = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    lines = style.run_lines([result.law for result in results])
+    for result, label, line in zip(results, labels, lines, strict=True):
+        force_line = {"color": style.FORCE_COLOUR} if len(results) == 1 else line
+        film_axes.plot(*last_periods(result, FILM, periods, 1e6), label=curve_label(result, label), **line)
+        force_axes.plot(*last_periods(result, "applied_force", periods), **force_line)
+    for axes in (film_axes, force_axes):
+        period_rules(axes, results, periods)
+    film_axes.set_ylim(bottom=0.0)
+    film_axes.set_ylabel(style.FILM_LABEL)
+    force_axes.set_ylabel(style.FORCE_LABEL)
+    figure.align_ylabels()
+    force_axes.set_xlabel(time_label(results, periods))
+    note = coarse_words(results[0], FILM, periods, r"$\mathrm{\mu}$m", 1e6)
+    name_runs(figure, film_axes, "Film thickness under the applied force", results, labels, note)
+    return figure
+
+
+def draw_acceleration(results: Sequence[Result], labels: Sequence[str], periods: int) -> Figure:
+    """Figures 8 and 9: acceleration of the film surface of one run, or of several in one picture."""
+    figure = Figure(figsize=(style.WIDTH, 3.0))
+    axes = figure.subplots()
+    axes.axhline(0.0, color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
+    lines = style.run_lines([result.law for result in results])
+    for result, label, line in zip(results, labels, lines, strict=True):
+        axes.plot(*last_periods(result, "acceleration", periods), label=curve_label(result, label), **line)
+    period_rules(axes, results, periods)
+    axes.set_ylabel(style.ACCELERATION_LABEL)
+    axes.set_xlabel(time_label(results, periods))
+    note = coarse_words(results[0], "acceleration", periods, "m/s$^2$")
+    name_runs(figure, axes, "Acceleration of the film surface", results, labels, note)
+    return figure
 
 
 def last_periods(
@@ -53,7 +91,7 @@ def period_rules(axes: Axes, results: Sequence[Result], periods: int) -> None:
     lengths = {1e3 / result.frequency for result in results}
     if len(lengths) == 1:
         for count in range(periods + 1):
-            axes.axvline(count * max(lengths), color=PERIOD_COLOUR, linewidth=0.7, zorder=0)
+            axes.axvline(count * max(lengths), color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
     axes.set_xlim(0.0, periods * max(lengths))
 
 

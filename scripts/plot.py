@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""Draws results. Each command is the module of its name in rattle/figures."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from pathlib import Path
+
+import rattle
+from rattle import command
+
+COMMANDS = {
+    "motion": "figures 6 to 10 of the paper from results of motions",
+    "film": "figures 3 to 5 of the paper from the result of a film task",
+    "sweep": "steady motions along a swept key, there and back",
+    "campaign": "maps, slices and a one-page summary of a campaign",
+    "tolerance": "what a loose tolerance of the iteration does to a motion",
+    "film-fit": "the film-thickness law (32), fitted to exact films",
+    "regime-map": "Johnson's map of lubrication regimes with scenes on it",
+}
+FORMATS = ("png", "pdf", "svg")
+MILLIMETRES = 1.0 / 25.4
+
+
+def main() -> int | None:
+    options = parse_options(sys.argv[1:])
+    return options.run(options)
+
+
+def parse_options(arguments: list[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description="Draw results, each figure as PNG and PDF. Each command has its own --help."
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for name, words in COMMANDS.items():
+        chosen = commands.add_parser(name, help=words, parents=[common_options()])
+        if name in arguments[:1]:  # only its module is loaded
+            module = importlib.import_module(f"rattle.figures.{name.replace('-', '_')}")
+            chosen.description = module.DESCRIPTION
+            module.add_options(chosen)
+            chosen.set_defaults(run=module.run)
+    for name in arguments[:1]:
+        if name not in COMMANDS and Path(name).is_file():
+            task = rattle.read(name).task
+            right = f"; 'plot.py {task} {name}' draws it" if task in COMMANDS else ""
+            raise command.CommandError(f"{name} is no command{right}.")
+    return parser.parse_args(arguments)
+
+
+def common_options() -> argparse.ArgumentParser:
+    """What every command takes: where the figures go, and how they are written."""
+    common = argparse.ArgumentParser(add_help=False)
+    group = common.add_argument_group("figures")
+    group.add_argument("--output", type=Path, default=Path(), metavar="DIR", help="where the figures go (.)")
+    group.add_argument(
+        "--format",
+        type=formats,
+        default=("png", "pdf"),
+        metavar="NAMES",
+        help=f"of {', '.join(FORMATS)} (png,pdf)",
+    )
+    group.add_argument(
+        "--width", type=width, metavar="MM", help="width in mm, the height in proportion (most: 160)"
+    )
+    group.add_argument("--dpi", type=command.positive, default=200, metavar="N", help="dots an inch (200)")
+    return common
+
+
+def formats(text: str) -> tuple[str, ...]:
+    chosen = command.names(text)
+    for name in chosen:
+        if name not in FORMATS:
+            raise argparse.ArgumentTypeError(f"'{name}' is not one of {', '.join(FORMATS)}")
+    if not chosen:
+        raise argparse.ArgumentTypeError("no format is named")
+    return tuple(dict.fromkeys(chosen))
+
+
+def width(text: str) -> float:
+    """Inches of a width in millimetres."""
+    value = command.positive_number(text)
+    if not 40.0 <= value <= 1000.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a width from 40 to 1000 mm")
+    return value * MILLIMETRES
+
+
+if __name__ == "__main__":
+    command.run(main)

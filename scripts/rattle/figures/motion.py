@@ -1,0 +1,109 @@
+"""Figures 6 to 10 of the paper: which of them a run gives, and what their files are called."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+import rattle
+from rattle import command
+from rattle.figures import histories, spectra, style
+from rattle.figures.labels import file_part, run_labels
+from rattle.result import Result, ResultError
+
+DESCRIPTION = (
+    "Draw figures 6 to 10 of the paper. An iso-viscous result gives figures 06, 07, 08 and 10a, a "
+    "piezo-viscous one 09 and 10b, with the scene's name behind the number."
+)
+
+NUMBERS = (6, 7, 8, 9, 10)
+FIGURES_OF_LAW = {
+    "iso-viscous": {6: "figure_06", 7: "figure_07", 8: "figure_08", 10: "figure_10a"},
+    "piezo-viscous": {9: "figure_09", 10: "figure_10b"},
+}
+OVERLAYS = {
+    (6,): "figure_06_overlay",
+    (7,): "figure_07_overlay",
+    (8, 9): "figure_08_09_overlay",
+    (10,): "figure_10_overlay",
+}
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How much of a run is shown: `periods` of its histories, `window` periods behind its spectra."""
+
+    periods: int
+    window: int | None
+
+
+def add_options(parser: ArgumentParser) -> None:
+    parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="result file, NAME.rattle")
+    parser.add_argument(
+        "--figures",
+        type=command.one_of_numbers(NUMBERS),
+        default=NUMBERS,
+        metavar="6,7,8,9,10",
+        help="the figures to draw, all by default",
+    )
+    style.add_extent(parser, 4)
+    parser.add_argument("--overlay", action="store_true", help="draw all results in the same figures")
+
+
+def run(options: Namespace) -> None:
+    results = [rattle.read(path) for path in options.results]
+    for result in results:
+        result.require_task("motion")
+        command.note_open(result)
+    make = overlay_figures if options.overlay else single_figures
+    drawn = 0
+    with style.house_style():
+        for stem, figure in make(results, options.figures, Extent(options.periods, options.window)):
+            drawn += 1
+            for path in style.save(figure, options, stem):
+                print(path)
+    if drawn == 0:
+        laws = " and ".join(sorted({result.law for result in results}))
+        numbers = ", ".join(map(str, options.figures))
+        raise command.CommandError(f"Nothing to draw: {laws} results give no figure {numbers}.")
+
+
+def single_figures(
+    results: Sequence[Result], numbers: Sequence[int], extent: Extent
+) -> Iterator[tuple[str, Figure]]:
+    """File stem, which ends with the scene's name, and figure for each result, in the order given."""
+    for result, label in zip(results, run_labels(results), strict=True):
+        if result.law not in FIGURES_OF_LAW:
+            raise ResultError(
+                f"{result.path} has the film law '{result.law}', which no figure of 6 to 10 shows."
+            )
+        for number, stem in FIGURES_OF_LAW[result.law].items():
+            if number in numbers:
+                yield f"{stem}_{file_part(label)}", _draw(number, [result], [label], extent)
+
+
+def overlay_figures(
+    results: Sequence[Result], numbers: Sequence[int], extent: Extent
+) -> Iterator[tuple[str, Figure]]:
+    """File stem and figure that shows all results at once."""
+    most = len(style.RUN_COLOURS)
+    if len(results) > most:
+        raise command.CommandError(f"An overlay shows {most} runs at most; {len(results)} were given.")
+    labels = run_labels(results)
+    for covered, stem in OVERLAYS.items():
+        if any(number in numbers for number in covered):
+            yield stem, _draw(covered[0], results, labels, extent)
+
+
+def _draw(number: int, results: Sequence[Result], labels: Sequence[str], extent: Extent) -> Figure:
+    if number == 6:
+        return histories.draw_film_and_force(results, labels, extent.periods)
+    if number == 7:
+        return spectra.draw_force(results, labels, extent.window)
+    if number in (8, 9):
+        return histories.draw_acceleration(results, labels, extent.periods)
+    return spectra.draw_acceleration(results, labels, extent.window)
