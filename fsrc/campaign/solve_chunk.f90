@@ -383,7 +383,7 @@ contains
       call note_orbit(judged%rattle, judged%ending%orbit)
       judged%extremes = extremes_of_record(record)
       associate (pressure => record%highest(seen_pressure))
-         if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, scene%film%law, pressure%value, pressure%film)
+         if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, pressure%value, pressure%film)
       end associate
       if (needed(needs_certificate)) call test_class(scene, judged%resolved, lane, request_of(scene, needed), judged%rattle, &
                                                      judged%certified, error)

@@ -1,19 +1,22 @@
-!> A film ready for the motion: the law of a scene with its coefficients worked out once.
+!> The list of film laws: what each of them has as coefficients, kernel, steady film and words, and what it may be believed in.
 !>
-!> To add a film law: write its kernel in a file of its own, give it a word in the key table and a code in
-!> scene_types, add its coefficients to `film_t` and `new_film`, its wrapper to this file, and its line to
-!> `film_load` below and to the choice in integrate_motion.
+!> To add a law: write its kernel in a file of its own, give it a word in the key table and a code in scene_types, and add it to
+!> every choice in this file; with a Taylor series, see module film_series. A choice that has forgotten a law refuses it: there is
+!> no load, NaN, no film that carries one, no kernel.
 module film_law
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use kinds, only: dp
    use piezo_viscous_terms, only: piezo_viscous_terms_load
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate, squeeze_growth
    use regime, only: equivalent_radius, plane_strain_modulus
    use reynolds_iso_viscous, only: rupture_tangent_fast
-   use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate
+   use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, &
+                            reynolds_piezo_viscous_load_array, squeeze_rate
    use rupture, only: rupture_tangent_successive, squeeze_group
    use scene_status, only: status_no_rigid_film, status_overflow
-   use scene_types, only: contact_t, law_iso_viscous, model_reynolds, rupture_half_pi, rupture_solver_fast, scene_t
+   use scene_types, only: contact_t, film_choice_t, law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, &
+                          rupture_half_pi, rupture_solved, rupture_solver_fast, rupture_solver_successive, scene_t
    use steady_reynolds_film, only: steady_iso_viscous_film, steady_piezo_viscous_film
    implicit none(type, external)
    private
@@ -21,14 +24,19 @@ module film_law
    !> A load above this is no load: the exponential of the piezo-viscous law has overflown [N].
    real(dp), parameter, public :: overflow_load = 1.0e100_dp
 
-   !> Kernel that the motion calls, chosen once per scene.
+   !> Code of a law, with the way in which it is computed; 0 is none.
    integer, parameter, public :: kernel_half_pi = 1, kernel_solved_fast = 2, kernel_solved_successive = 3, kernel_piezo = 4, &
                                  kernel_reynolds_iso = 5, kernel_reynolds_piezo = 6
 
    !> Film of a scene.
    type, public :: film_t
-      !> Which kernel
-      integer :: kernel = kernel_half_pi
+      integer :: kernel = 0
+      !> Whether pressure thickens the oil, by (29)
+      logical :: pressure_thickens = .false.
+      !> Whether this is the film of the Reynolds equation, which knows no lower limit of alpha p
+      logical :: exact = .false.
+      !> Whether an evaluation costs much more than the arithmetic around it
+      logical :: costly = .false.
       !> Equivalent radius R of (2) [m]
       real(dp) :: radius = 0.0_dp
       !> Plane-strain modulus E* of (3) [Pa]
@@ -61,7 +69,6 @@ module film_law
       !> Load and slopes of a film at one state.
       pure subroutine film_kernel(film, thickness, velocity, load, load_by_film, load_by_velocity)
          import :: dp, film_t
-         !> The film
          type(film_t), intent(in) :: film
          !> Film thickness h > 0 [m]
          real(dp), intent(in) :: thickness
@@ -76,7 +83,7 @@ module film_law
       end subroutine film_kernel
    end interface
 
-   public :: new_film, contact_radius, film_load, film_loads, steady_film, film_kernel
+   public :: new_film, contact_radius, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, law_words, film_kernel
    public :: load_half_pi, load_solved_fast, load_solved_successive, load_piezo, load_reynolds_iso, load_reynolds_piezo
 
 contains
@@ -93,29 +100,49 @@ contains
          film%viscosity = lubricant%viscosity
          film%pressure_viscosity = lubricant%pressure_viscosity
          film%speed = scene%kinematics%entrainment_speed
-         if (scene%film%model == model_reynolds) then
-            film%speed = 2.0_dp*scene%kinematics%entrainment_speed
-            film%scale = load_scale(contact%length, film%speed, film%viscosity, film%radius)
-            film%squeeze_rate = squeeze_rate(film%speed, film%radius)
-            film%kernel = kernel_reynolds_iso
-            if (scene%film%law == law_iso_viscous) return
-            film%kernel = kernel_reynolds_piezo
-            film%pressure_rate = pressure_rate(film%speed, film%viscosity, film%radius, film%pressure_viscosity)
-            film%status_without_load = status_no_rigid_film
-         else if (scene%film%law == law_iso_viscous) then
+         film%kernel = kernel_of_choice(scene%film)
+         select case (film%kernel)
+         case (kernel_half_pi, kernel_solved_fast, kernel_solved_successive)
             film%rolling = rolling_coefficient(contact%length, film%speed, film%viscosity, film%radius)
             film%squeeze = squeeze_coefficient(contact%length, film%viscosity, film%radius)
             film%squeeze_rate = squeeze_rate(film%speed, film%radius)
-            film%kernel = kernel_solved_fast
-            if (scene%film%rupture_solver /= rupture_solver_fast) film%kernel = kernel_solved_successive
-            if (scene%film%rupture == rupture_half_pi) film%kernel = kernel_half_pi
-         else
+         case (kernel_piezo)
+            film%pressure_thickens = .true.
             film%piezo = piezo_coefficient(contact%length, film%speed, film%viscosity, film%radius, film%pressure_viscosity)
             film%rate = squeeze_exponent_rate(film%speed)
-            film%kernel = kernel_piezo
-         end if
+         case (kernel_reynolds_iso, kernel_reynolds_piezo)
+            film%exact = .true.
+            film%speed = 2.0_dp*scene%kinematics%entrainment_speed
+            film%scale = load_scale(contact%length, film%speed, film%viscosity, film%radius)
+            film%squeeze_rate = squeeze_rate(film%speed, film%radius)
+            if (film%kernel == kernel_reynolds_iso) return
+            film%pressure_thickens = .true.
+            film%costly = .true.
+            film%pressure_rate = pressure_rate(film%speed, film%viscosity, film%radius, film%pressure_viscosity)
+            film%status_without_load = status_no_rigid_film
+         case default
+            film%kernel = 0
+         end select
       end associate
    end function new_film
+
+   !> Code of the law that the group &film chooses, 0 where it is not known.
+   pure integer function kernel_of_choice(choice) result(kernel)
+      type(film_choice_t), intent(in) :: choice
+
+      kernel = 0
+      if (choice%model == model_reynolds) then
+         if (choice%law == law_iso_viscous) kernel = kernel_reynolds_iso
+         if (choice%law == law_piezo_viscous) kernel = kernel_reynolds_piezo
+      else if (choice%model == model_published) then
+         if (choice%law == law_piezo_viscous) kernel = kernel_piezo
+         if (choice%law /= law_iso_viscous) return
+         if (choice%rupture == rupture_half_pi) kernel = kernel_half_pi
+         if (choice%rupture /= rupture_solved) return
+         if (choice%rupture_solver == rupture_solver_fast) kernel = kernel_solved_fast
+         if (choice%rupture_solver == rupture_solver_successive) kernel = kernel_solved_successive
+      end if
+   end function kernel_of_choice
 
    !> Equivalent radius of a contact [m]: the one given, else (2) of the two radii given.
    pure real(dp) function contact_radius(contact)
@@ -126,47 +153,63 @@ contains
       if (.not. contact%radius > 0.0_dp) contact_radius = equivalent_radius(contact%radius_1, contact%radius_2)
    end function contact_radius
 
-   !> Load and slopes of any film, for use outside the loops over time.
+   !> Kernel of a film, which loops over time choose once; none for a law that is not known.
+   pure function kernel_of(film) result(kernel)
+      type(film_t), intent(in) :: film
+      procedure(film_kernel), pointer :: kernel
+
+      select case (film%kernel)
+      case (kernel_half_pi)
+         kernel => load_half_pi
+      case (kernel_solved_fast)
+         kernel => load_solved_fast
+      case (kernel_solved_successive)
+         kernel => load_solved_successive
+      case (kernel_piezo)
+         kernel => load_piezo
+      case (kernel_reynolds_iso)
+         kernel => load_reynolds_iso
+      case (kernel_reynolds_piezo)
+         kernel => load_reynolds_piezo
+      case default
+         kernel => null()
+      end select
+   end function kernel_of
+
+   !> Load and slopes of one film at one state.
    pure subroutine film_load(film, thickness, velocity, load, load_by_film, load_by_velocity)
-      !> The film
       type(film_t), intent(in) :: film
       !> Film thickness h > 0 [m]
       real(dp), intent(in) :: thickness
       !> Film velocity w = dh/dt [m/s]
       real(dp), intent(in) :: velocity
-      !> Load W [N]
+      !> Load W [N]; NaN for a law that is not known
       real(dp), intent(out) :: load
       !> dW/dh [N/m]
       real(dp), intent(out) :: load_by_film
       !> dW/dw [N s/m]
       real(dp), intent(out) :: load_by_velocity
+      procedure(film_kernel), pointer :: kernel
 
-      select case (film%kernel)
-      case (kernel_half_pi)
-         call load_half_pi(film, thickness, velocity, load, load_by_film, load_by_velocity)
-      case (kernel_solved_fast)
-         call load_solved_fast(film, thickness, velocity, load, load_by_film, load_by_velocity)
-      case (kernel_solved_successive)
-         call load_solved_successive(film, thickness, velocity, load, load_by_film, load_by_velocity)
-      case (kernel_piezo)
-         call load_piezo(film, thickness, velocity, load, load_by_film, load_by_velocity)
-      case (kernel_reynolds_iso)
-         call load_reynolds_iso(film, thickness, velocity, load, load_by_film, load_by_velocity)
-      case default
-         call load_reynolds_piezo(film, thickness, velocity, load, load_by_film, load_by_velocity)
-      end select
+      kernel => kernel_of(film)
+      if (associated(kernel)) then
+         call kernel(film, thickness, velocity, load, load_by_film, load_by_velocity)
+      else
+         load = ieee_value(load, ieee_quiet_nan)
+         load_by_film = load
+         load_by_velocity = load
+      end if
    end subroutine film_load
 
    !> Loads of many states of one film: which law it is, is asked once, and the published ones run in full registers. A state has
    !> the same bits in any place.
    pure subroutine film_loads(film, thicknesses, velocities, loads)
-      !> The film
       type(film_t), intent(in) :: film
       !> Film thicknesses h > 0 [m]
       real(dp), intent(in) :: thicknesses(:)
       !> Film velocities w = dh/dt [m/s], as many
       real(dp), intent(in) :: velocities(:)
-      !> Loads W [N], as many
+      !> Loads W [N], as many; NaN for a law that is not known
       real(dp), intent(out) :: loads(:)
       real(dp) :: load_by_film, load_by_velocity
       integer :: i
@@ -191,15 +234,55 @@ contains
       end select
    end subroutine film_loads
 
-   !> Film that carries a static load without squeeze [m]: (23), (37) or the exact load, solved for h.
-   !> 0 where no rigid piezo-viscous film carries it.
+   !> Loads and slopes of states of many films. The exact piezo-viscous ones go together: their kernel is dear, and much faster
+   !> for many films than for one at a time.
+   pure subroutine mixed_film_loads(films, film_of, thicknesses, velocities, loads, loads_by_film, loads_by_velocity)
+      type(film_t), intent(in) :: films(:)
+      !> Which of the films each state is of
+      integer, intent(in) :: film_of(:)
+      !> Film thicknesses h > 0 [m]
+      real(dp), intent(in) :: thicknesses(:)
+      !> Film velocities w = dh/dt [m/s]
+      real(dp), intent(in) :: velocities(:)
+      !> Loads W [N]; NaN for a law that is not known
+      real(dp), intent(out) :: loads(:)
+      !> dW/dh [N/m]
+      real(dp), intent(out) :: loads_by_film(:)
+      !> dW/dw [N s/m]
+      real(dp), intent(out) :: loads_by_velocity(:)
+      real(dp), dimension(size(film_of)) :: load, load_by_film, load_by_velocity
+      integer :: together(size(film_of)), n, i
+
+      n = 0
+      do i = 1, size(film_of)
+         if (films(film_of(i))%kernel == kernel_reynolds_piezo) then
+            n = n + 1
+            together(n) = i
+         else
+            call film_load(films(film_of(i)), thicknesses(i), velocities(i), loads(i), loads_by_film(i), loads_by_velocity(i))
+         end if
+      end do
+      if (n == 0) return
+      associate (these => together(:n))
+         call reynolds_piezo_viscous_load_array(n, films(film_of(these))%scale, films(film_of(these))%squeeze_rate, &
+                                                films(film_of(these))%pressure_rate, thicknesses(these), velocities(these), &
+                                                load(:n), load_by_film(:n), load_by_velocity(:n))
+         loads(these) = load(:n)
+         loads_by_film(these) = load_by_film(:n)
+         loads_by_velocity(these) = load_by_velocity(:n)
+      end associate
+   end subroutine mixed_film_loads
+
+   !> Film that carries a static load without squeeze [m]: (23), (37) or the exact load, solved for h. 0 where no rigid film
+   !> carries it, and for a law that is not known.
    pure real(dp) function steady_film(film, load)
-      !> The film
       type(film_t), intent(in) :: film
       !> Static load > 0 [N]
       real(dp), intent(in) :: load
 
       select case (film%kernel)
+      case (kernel_half_pi, kernel_solved_fast, kernel_solved_successive)
+         steady_film = film%rolling/load
       case (kernel_piezo)
          steady_film = (film%piezo/load)**(2.0_dp/7.0_dp)
       case (kernel_reynolds_iso)
@@ -207,9 +290,30 @@ contains
       case (kernel_reynolds_piezo)
          steady_film = steady_piezo_viscous_film(film%scale, film%pressure_rate, load)
       case default
-         steady_film = film%rolling/load
+         steady_film = 0.0_dp
       end select
    end function steady_film
+
+   !> The law that the group &film chooses, in words.
+   pure function law_words(choice) result(words)
+      type(film_choice_t), intent(in) :: choice
+      character(:), allocatable :: words
+
+      select case (kernel_of_choice(choice))
+      case (kernel_half_pi)
+         words = 'published iso-viscous film (35), rupture angle pi/2'
+      case (kernel_solved_fast, kernel_solved_successive)
+         words = 'published iso-viscous film (24), rupture angle solved from (18)'
+      case (kernel_piezo)
+         words = 'published piezo-viscous film (37)'
+      case (kernel_reynolds_iso)
+         words = 'exact iso-viscous film of the Reynolds equation'
+      case (kernel_reynolds_piezo)
+         words = 'exact piezo-viscous film of the Reynolds equation'
+      case default
+         words = 'unknown film law'
+      end select
+   end function law_words
 
    !> (35), rupture fixed at pi/2; interface film_kernel.
    pure subroutine load_half_pi(film, thickness, velocity, load, load_by_film, load_by_velocity)

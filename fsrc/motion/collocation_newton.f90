@@ -1,12 +1,11 @@
 !> Newton's method for the equations of collocation (collocation_step), for a block of lanes: states at the
 !> nodes, load and slopes there, linear equations, corrections.
 module collocation_newton
-   use film_law, only: film_load, film_t, kernel_reynolds_piezo, overflow_load
+   use film_law, only: film_load, film_t, mixed_film_loads, overflow_load
    use kinds, only: dp
    use lane_functions, only: half_block, lanes
    use lane_scenes, only: lane_block_t
    use radau_nodes, only: node, once, stages, twice
-   use reynolds_load, only: reynolds_piezo_viscous_load_array
    use taylor_step_control, only: film_weight, momentum_weight
    implicit none(type, external)
    private
@@ -93,8 +92,7 @@ contains
       end if
    end subroutine scale_load
 
-   !> Loads at the nodes of all busy lanes, as far as the film is one. The exact piezo-viscous films go
-   !> together: their kernel is dear, and much faster for many films than for one at a time.
+   !> Loads at the nodes of all busy lanes, up to the first node where there is no film.
    pure subroutine loads_of_stages(films, film, momentum, block, busy, load, by_film, by_momentum)
       type(film_t), intent(in) :: films(lanes)
       real(dp), intent(in) :: film(lanes, stages)
@@ -105,8 +103,7 @@ contains
       real(dp), intent(out) :: load(lanes, stages)
       real(dp), intent(out) :: by_film(lanes, stages)
       real(dp), intent(out) :: by_momentum(lanes, stages)
-      real(dp), dimension(lanes*stages) :: scale, rate, b_rate, thickness, velocity
-      real(dp), dimension(lanes*stages) :: loads, by_thickness, by_velocity
+      real(dp), dimension(lanes*stages) :: thickness, velocity, loads, by_thickness, by_velocity
       integer :: lane_of(lanes*stages), stage_of(lanes*stages)
       integer :: l, i, n
 
@@ -118,31 +115,20 @@ contains
          if (.not. busy(l)) cycle
          do i = 1, stages
             if (.not. film(l, i) > 0.0_dp) exit
-            if (films(l)%kernel == kernel_reynolds_piezo) then
-               n = n + 1
-               lane_of(n) = l
-               stage_of(n) = i
-               scale(n) = films(l)%scale
-               rate(n) = films(l)%squeeze_rate
-               b_rate(n) = films(l)%pressure_rate
-               thickness(n) = film(l, i)*block%film_scale(l)
-               velocity(n) = momentum(l, i)*block%velocity_scale(l)
-            else
-               call scaled_load(films(l), block, l, film(l, i), momentum(l, i), load(l, i), by_film(l, i), &
-                                by_momentum(l, i))
-               if (.not. abs(load(l, i)) < overflow_load) exit
-            end if
+            n = n + 1
+            lane_of(n) = l
+            stage_of(n) = i
+            thickness(n) = film(l, i)*block%film_scale(l)
+            velocity(n) = momentum(l, i)*block%velocity_scale(l)
          end do
       end do
-      if (n == 0) return
-      call reynolds_piezo_viscous_load_array(n, scale(:n), rate(:n), b_rate(:n), thickness(:n), &
-                                             velocity(:n), loads(:n), by_thickness(:n), by_velocity(:n))
+      call mixed_film_loads(films, lane_of(:n), thickness(:n), velocity(:n), loads(:n), by_thickness(:n), by_velocity(:n))
       do i = 1, n
          l = lane_of(i)
+         call scale_load(block, l, loads(i), by_thickness(i), by_velocity(i))
          load(l, stage_of(i)) = loads(i)
          by_film(l, stage_of(i)) = by_thickness(i)
          by_momentum(l, stage_of(i)) = by_velocity(i)
-         call scale_load(block, l, load(l, stage_of(i)), by_film(l, stage_of(i)), by_momentum(l, stage_of(i)))
       end do
    end subroutine loads_of_stages
 
@@ -270,7 +256,7 @@ contains
          ! corrections fall fast by its square, if the slopes of the film law are the total ones. But not where a
          ! correction went too far, to where the film is stiff: the ones that lead back are small, and many.
          ratio = merge(1.0_dp, min(1.0_dp, max(change/last%change(l), imbalance(l)/last%imbalance(l))), pass == 1)
-         if (ratio < fast .and. films(l)%kernel == kernel_reynolds_piezo) ratio = ratio*ratio
+         if (ratio < fast .and. films(l)%costly) ratio = ratio*ratio
          busy(l) = film_change*ratio > pass_share
          if (busy(l) .and. pass > 3 .and. change > 2.0_dp*last%change(l)) then
             busy(l) = .false.

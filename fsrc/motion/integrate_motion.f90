@@ -4,9 +4,7 @@ module integrate_motion
    use clock, only: wall_seconds
    use constants, only: two_pi
    use errors, only: error_t
-   use film_law, only: film_kernel, film_t, kernel_half_pi, kernel_reynolds_iso, kernel_reynolds_piezo, &
-                       kernel_solved_fast, kernel_solved_successive, load_half_pi, load_piezo, load_reynolds_iso, &
-                       load_reynolds_piezo, load_solved_fast, load_solved_successive, steady_film
+   use film_law, only: film_kernel, film_t, kernel_of, steady_film
    use forcing, only: applied_force, force_of_period
    use kinds, only: dp, int64
    use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
@@ -84,20 +82,11 @@ contains
       !> Set if the sink failed
       type(error_t), allocatable, intent(out) :: error
 
-      select case (film%kernel)
-      case (kernel_half_pi)
-         call run_periods(load_half_pi, scene, film, initial_film, start, sink, watcher, ending, error)
-      case (kernel_solved_fast)
-         call run_periods(load_solved_fast, scene, film, initial_film, start, sink, watcher, ending, error)
-      case (kernel_solved_successive)
-         call run_periods(load_solved_successive, scene, film, initial_film, start, sink, watcher, ending, error)
-      case (kernel_reynolds_iso)
-         call run_periods(load_reynolds_iso, scene, film, initial_film, start, sink, watcher, ending, error)
-      case (kernel_reynolds_piezo)
-         call run_periods(load_reynolds_piezo, scene, film, initial_film, start, sink, watcher, ending, error)
-      case default
-         call run_periods(load_piezo, scene, film, initial_film, start, sink, watcher, ending, error)
-      end select
+      procedure(film_kernel), pointer :: kernel
+
+      kernel => kernel_of(film)
+      ending%status = film%status_without_load
+      if (associated(kernel)) call run_periods(kernel, scene, film, initial_film, start, sink, watcher, ending, error)
    end subroutine solve_motion
 
    !> All periods with one kernel.

@@ -1,8 +1,8 @@
 !> What the terminal and the log tell of a scene.
 module scene_report
    use certificate, only: certificate_word
+   use film_law, only: law_words
    use floquet, only: orbit_stability, stability_name
-   use key_table, only: choice_word
    use kinds, only: dp
    use log_file, only: log_magic, log_t
    use model_limits, only: model_limit, model_limit_sentence, within_model
@@ -13,7 +13,7 @@ module scene_report
    use resolved_scene, only: resolved_scene_t
    use scene_result, only: passes_per_step, scene_result_t
    use scene_status, only: is_success, status_name, status_sentence
-   use scene_types, only: law_iso_viscous, method_newmark, model_reynolds, rupture_solved, scene_t, speed_mean, task_film
+   use scene_types, only: method_newmark, model_reynolds, scene_t, speed_mean, task_film
    use text, only: integer_text, short_text
    use version, only: program_version
    implicit none(type, external)
@@ -65,14 +65,8 @@ contains
 
       if (scene%task == task_film) then
          sentence = 'film task'
-      else if (scene%film%model == model_reynolds) then
-         sentence = 'exact '//choice_word('film', 'law', scene%film%law)//' film of the Reynolds equation'
-      else if (scene%film%law /= law_iso_viscous) then
-         sentence = 'published piezo-viscous film (37)'
-      else if (scene%film%rupture == rupture_solved) then
-         sentence = 'published iso-viscous film (24), rupture angle solved from (18)'
       else
-         sentence = 'published iso-viscous film (35), rupture angle pi/2'
+         sentence = law_words(scene%film)
       end if
    end function law_sentence
 

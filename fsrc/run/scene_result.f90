@@ -93,7 +93,7 @@ contains
       end if
       associate (lowest => result%extremes%lowest, highest => result%extremes%highest)
          result%model_limit = model_limit(lowest(seen_film)%value, highest(seen_film)%value, resolved%film%radius)
-         result%regime = check_regime(resolved%film, scene%film%law, highest(seen_pressure)%value, highest(seen_pressure)%film)
+         result%regime = check_regime(resolved%film, highest(seen_pressure)%value, highest(seen_pressure)%film)
       end associate
       if (scene%spectrum%certify) call certify(scene, resolved, lane, result%ending%periods, window, result%extremes, &
                                                result%rattle, result%certificate, error, result%orbit)

@@ -1,10 +1,9 @@
 !> Whether the film law of a scene may be believed: the exact pressure of its motion, computed afterwards.
 module regime_check
-   use film_law, only: film_t, kernel_reynolds_piezo
+   use film_law, only: film_t
    use film_pressure, only: barus_pressure, exact_pressure
    use kinds, only: dp
    use regime, only: contact_deflection, film_iso_viscous, film_piezo_viscous, film_regime
-   use scene_types, only: law_iso_viscous
    implicit none(type, external)
    private
 
@@ -31,11 +30,9 @@ module regime_check
 contains
 
    !> Judge the film law by the largest exact pressure of a motion.
-   pure function check_regime(film, law, largest, thickness) result(verdict)
+   pure function check_regime(film, largest, thickness) result(verdict)
       !> Film of the scene
       type(film_t), intent(in) :: film
-      !> Its law
-      integer, intent(in) :: law
       !> Largest pressure of the exact iso-viscous film [Pa]
       real(dp), intent(in) :: largest
       !> Film thickness where it acts [m]
@@ -46,20 +43,19 @@ contains
       verdict%film = thickness
       verdict%alpha_p_maximum = film%pressure_viscosity*largest
       verdict%pressure_maximum = largest
-      if (law /= law_iso_viscous) then
+      if (film%pressure_thickens) then
          alpha_q = barus_pressure(verdict%alpha_p_maximum)
          verdict%pressure_exists = verdict%alpha_p_maximum < 1.0_dp
          if (verdict%pressure_exists) verdict%pressure_maximum = alpha_q/film%pressure_viscosity
       end if
       verdict%deflection = contact_deflection(film%radius, verdict%pressure_maximum, film%modulus)
       verdict%regime = film_regime(verdict%alpha_p_maximum, verdict%deflection, verdict%film)
-      if (law == law_iso_viscous) then
-         verdict%law_contradicted = verdict%regime /= film_iso_viscous
-      else
-         ! The exact piezo-viscous film holds for thin oil as well; the published one is a fit to films with
-         ! alpha p well above zero.
+      if (film%pressure_thickens) then
+         ! The exact film holds for thin oil as well; the published one is a fit to films with alpha p well above zero.
          verdict%law_contradicted = verdict%regime /= film_piezo_viscous .and. &
-                                    .not. (film%kernel == kernel_reynolds_piezo .and. verdict%regime == film_iso_viscous)
+                                    .not. (film%exact .and. verdict%regime == film_iso_viscous)
+      else
+         verdict%law_contradicted = verdict%regime /= film_iso_viscous
       end if
    end function check_regime
 

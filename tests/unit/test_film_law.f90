@@ -2,9 +2,9 @@
 module test_film_law
    use canonical_scenes, only: canonical_scene, static_load
    use checks, only: check_list_t, same_bits
-   use film_law, only: film_load, film_loads, film_t, kernel_half_pi, kernel_piezo, kernel_solved_fast, &
-      kernel_solved_successive, &
-      load_half_pi, load_piezo, load_solved_fast, load_solved_successive, new_film, steady_film
+   use film_law, only: film_load, film_loads, film_t, kernel_half_pi, kernel_of, kernel_piezo, kernel_solved_fast, &
+      kernel_solved_successive, law_words, load_half_pi, load_piezo, load_solved_fast, load_solved_successive, mixed_film_loads, &
+      new_film, overflow_load, steady_film
    use kinds, only: dp
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_half_pi, rupture_solved, &
       rupture_solver_fast, &
@@ -26,6 +26,7 @@ contains
       call test_steady_film(checks)
       call test_contact(checks)
       call test_linearised(checks)
+      call test_unknown_law(checks)
    end subroutine run_film_law_tests
 
    !> Law, rupture and solver of the scene choose the kernel; film_load calls it.
@@ -161,5 +162,36 @@ contains
             'damping ratio')
       end do
    end subroutine test_linearised
+
+   !> A law that nobody knows is refused by every choice, never taken for another one.
+   subroutine test_unknown_law(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer, parameter :: unknown = 99
+      type(scene_t) :: scenes(4)
+      type(film_t) :: film
+      real(dp) :: load, by_film, by_velocity, loads(2), loads_by_film(2), loads_by_velocity(2)
+      integer :: i
+
+      scenes = canonical_scene(law_iso_viscous, 512)
+      scenes(1)%film%law = unknown
+      scenes(2)%film%model = unknown
+      scenes(3)%film%rupture = unknown
+      scenes(4)%film%rupture = rupture_solved
+      scenes(4)%film%rupture_solver = unknown
+      do i = 1, size(scenes)
+         film = new_film(scenes(i))
+         call checks%check(film%kernel == 0 .and. law_words(scenes(i)%film) == 'unknown film law', 'unknown law: choice')
+         if (i == size(scenes)) film%kernel = unknown
+         call checks%check(.not. associated(kernel_of(film)), 'unknown law: kernel')
+         call film_load(film, 1.0e-6_dp, 0.0_dp, load, by_film, by_velocity)
+         call checks%check(.not. load < overflow_load, 'unknown law: load')
+         call film_loads(film, [1.0e-6_dp, 2.0e-6_dp], [0.0_dp, 0.0_dp], loads)
+         call checks%check(.not. any(loads < overflow_load), 'unknown law: loads')
+         call mixed_film_loads([film], [1, 1], [1.0e-6_dp, 2.0e-6_dp], [0.0_dp, 0.0_dp], loads, loads_by_film, loads_by_velocity)
+         call checks%check(.not. any(loads < overflow_load), 'unknown law: loads of several films')
+         call checks%check(.not. steady_film(film, static_load) > 0.0_dp, 'unknown law: steady film')
+      end do
+   end subroutine test_unknown_law
 
 end module test_film_law

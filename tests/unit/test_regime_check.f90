@@ -45,9 +45,8 @@ contains
    end function pressure_group
 
    !> Regime of a motion of which some samples are known.
-   pure function regime_of(film, law, films, velocities) result(verdict)
+   pure function regime_of(film, films, velocities) result(verdict)
       type(film_t), intent(in) :: film        !> The film
-      integer, intent(in) :: law              !> Its law
       real(dp), intent(in) :: films(:)        !> h [m]
       real(dp), intent(in) :: velocities(:)   !> z' [m/s]
       type(regime_verdict_t) :: verdict
@@ -56,7 +55,7 @@ contains
 
       extremes = extremes_of_samples(film, films, velocities, velocities)
       associate (pressure => extremes%highest(seen_pressure))
-         verdict = check_regime(film, law, pressure%value, pressure%film)
+         verdict = check_regime(film, pressure%value, pressure%film)
       end associate
    end function regime_of
 
@@ -81,7 +80,7 @@ contains
       call checks%check_close(steady_alpha_p(film, h)/(pressure_group(film, h)/critical_at_rest), 1.0_dp, &
          rounding, &
          'alpha p at rest')
-      verdict = regime_of(film, law_iso_viscous, [h], [0.0_dp])
+      verdict = regime_of(film, [h], [0.0_dp])
       call checks%check_close(verdict%alpha_p_maximum, steady_alpha_p(film, h), 0.0_dp, 'one sample at rest')
       call checks%check_close(verdict%pressure_maximum*film%pressure_viscosity/verdict%alpha_p_maximum, &
          1.0_dp, rounding, &
@@ -92,7 +91,7 @@ contains
          1.0_dp, &
          rounding, 'deflection')
       w = -0.25_dp*film%speed*sqrt(2.0_dp*h/film%radius)
-      verdict = regime_of(film, law_iso_viscous, [h], [w])
+      verdict = regime_of(film, [h], [w])
       call checks%check_close(verdict%alpha_p_maximum/(pressure_group(film, h)/critical_falling), 1.0_dp, &
          rounding, &
          'alpha p with A = -1')
@@ -112,7 +111,7 @@ contains
          film = new_film(canonical_scene(law, 512))
          h = steady_film(film, static_load)
          call checks%check_close(steady_alpha_p(film, h), known(law), 0.005_dp, 'canonical scene: alpha p')
-         verdict = regime_of(film, law, [h, 2.0_dp*h], [0.0_dp, 0.0_dp])
+         verdict = regime_of(film, [h, 2.0_dp*h], [0.0_dp, 0.0_dp])
          call checks%check(verdict%regime == film_elastohydrodynamic, 'canonical scene: elastohydrodynamic')
          call checks%check(verdict%law_contradicted, 'canonical scene: law contradicted')
          call checks%check(verdict%pressure_exists .eqv. law == law_iso_viscous, &
@@ -134,7 +133,7 @@ contains
          films = [3.0e-6_dp, 3.5e-6_dp, 4.0e-6_dp, 5.0e-6_dp, 6.0e-6_dp]
          velocities = 0.0_dp
          films(i) = 2.5e-6_dp
-         verdict = regime_of(film, law_iso_viscous, films, velocities)
+         verdict = regime_of(film, films, velocities)
          call checks%check_close(verdict%film, 2.5e-6_dp, 0.0_dp, 'the thinnest film at rest')
          call checks%check_close(verdict%alpha_p_maximum, steady_alpha_p(film, 2.5e-6_dp), 0.0_dp, &
             'its alpha p')
@@ -142,12 +141,12 @@ contains
       do i = 1, 1000, 37
          many = 4.0e-6_dp
          many(i) = 2.5e-6_dp
-         verdict = regime_of(film, law_iso_viscous, many, [(0.0_dp, k=1, 1000)])
+         verdict = regime_of(film, many, [(0.0_dp, k=1, 1000)])
          call checks%check_close(verdict%film, 2.5e-6_dp, 0.0_dp, 'the thinnest film of many')
       end do
       ! A thicker film that falls fast has the larger pressure.
       velocities(3) = -1.0_dp
-      verdict = regime_of(film, law_iso_viscous, films, velocities)
+      verdict = regime_of(film, films, velocities)
       call checks%check_close(verdict%film, films(3), 0.0_dp, 'the falling film')
    end subroutine test_largest
 
@@ -179,7 +178,7 @@ contains
 
          film = new_film(canonical_scene(law, 512))
          film%modulus = 1.0e15_dp
-         verdict = regime_of(film, law, [film_of_group(film, alpha_p*critical_at_rest)], [0.0_dp])
+         verdict = regime_of(film, [film_of_group(film, alpha_p*critical_at_rest)], [0.0_dp])
          write (digits, '(f4.2)') alpha_p
          call checks%check_close(verdict%alpha_p_maximum, alpha_p, rounding, 'alpha p = '//digits)
          call checks%check(verdict%regime == regime, 'regime at alpha p = '//digits)
@@ -209,7 +208,7 @@ contains
       film = new_film(scene)
       film%modulus = 1.0e15_dp
       do i = 1, 3
-         verdict = regime_of(film, law_piezo_viscous, [film_of_group(film, alpha_p(i)*critical_at_rest)], [0.0_dp])
+         verdict = regime_of(film, [film_of_group(film, alpha_p(i)*critical_at_rest)], [0.0_dp])
          call checks%check(verdict%regime == regimes(i), 'exact piezo-viscous film: regime')
          call checks%check(verdict%law_contradicted .eqv. alpha_p(i) > 1.0_dp, 'exact piezo-viscous film: contradiction')
       end do
@@ -224,7 +223,7 @@ contains
 
       film = new_film(canonical_scene(law_piezo_viscous, 512))
       film%modulus = 1.0e9_dp
-      verdict = regime_of(film, law_piezo_viscous, [film_of_group(film, 0.5_dp*critical_at_rest)], &
+      verdict = regime_of(film, [film_of_group(film, 0.5_dp*critical_at_rest)], &
          [0.0_dp])
       call checks%check(verdict%regime == film_elastohydrodynamic .and. verdict%law_contradicted, &
          'soft flanks')

@@ -171,6 +171,7 @@ contains
       scene%steady_force = 199.2_dp
       scene%force_amplitude = 205.7_dp
       scene%frequency = 600.0_dp
+      scene%film%kernel = kernel_half_pi
       scene%film%rolling = rolling_coefficient(0.010_dp, 1.905_dp, 0.3_dp, radius)
       scene%film%squeeze = squeeze_coefficient(0.010_dp, 0.3_dp, radius)
       scene%initial_film = scene%film%rolling/(scene%steady_force + scene%weight)
