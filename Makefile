@@ -43,7 +43,7 @@ ROOMS := foundation scene film film/coefficients motion motion/$(if $(WIDE_REGIS
   orbit spectrum verdict files run campaign campaign/$(if $(MPI),mpi,serial)
 SOURCES := $(foreach room,$(ROOMS),$(sort $(wildcard fsrc/$(room)/*.f90)))
 OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(SOURCES)))
-UNIT_SOURCES := $(sort $(wildcard tests/unit/*.f90))
+UNIT_SOURCES := $(sort $(wildcard tests/unit/*.f90)) $(BUILD)/unit_suites.f90
 UNIT_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(UNIT_SOURCES)))
 BENCH_SOURCES := $(sort $(wildcard tests/benchmarks/*.f90))
 BENCH_PROGRAMS := $(patsubst %.f90,$(BUILD)/%,$(notdir $(BENCH_SOURCES)))
@@ -125,6 +125,16 @@ $(BUILD)/rattle: $(OBJECTS) $(BUILD)/main.o
 	@echo 'link $@'
 	@$(FC) $(FFLAGS) $^ $(LIBRARIES) -o $@
 
+# The suites of unit tests are the files that are there.
+$(BUILD)/unit_suites.f90: FORCE
+	@mkdir -p $(BUILD)
+	@tests/unit/write_suites.sh > $@.new
+	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+
+$(BUILD)/unit_suites.o: $(BUILD)/unit_suites.f90 $(BUILD)/flags
+	@echo 'compile $<'
+	@$(FC) $(FFLAGS) -J$(BUILD) -c $< -o $@
+
 $(BUILD)/unit_tests: $(OBJECTS) $(UNIT_OBJECTS)
 	@echo 'link $@'
 	@$(FC) $(FFLAGS) $^ $(LIBRARIES) -o $@
@@ -160,7 +170,7 @@ unit: $(BUILD)/unit_tests
 	@echo 'unit tests, debug build with every run-time check'
 	@$(BUILD)/debug/unit_tests
 
-user: $(BUILD)/rattle $(BUILD)/kernels/built
+user: $(BUILD)/rattle $(BUILD)/unit_tests $(BUILD)/kernels/built
 	@echo 'user tests'
 	@RATTLE_PROGRAM=$(abspath $(BUILD)/rattle) $(PYTHON) -m pytest
 

@@ -11,10 +11,13 @@ module checks
       integer :: failed = 0
       !> Name of the module under test, printed with a failure
       character(40) :: topic = ''
+      !> Only checks whose sentence has these words are made, and each is printed; blank: all are, in silence
+      character(:), allocatable :: wanted
    contains
       procedure :: start => start_topic
       procedure :: check => check_condition
       procedure :: check_close
+      procedure, private :: is_wanted
    end type check_list_t
 
    public :: same_bits
@@ -38,6 +41,7 @@ contains
       !> What it says
       character(*), intent(in) :: message
 
+      if (.not. self%is_wanted(message)) return
       if (condition) then
          self%passed = self%passed + 1
       else
@@ -58,6 +62,7 @@ contains
       !> What is compared
       character(*), intent(in) :: message
 
+      if (.not. self%is_wanted(message)) return
       if (abs(actual - expected) <= tolerance) then
          self%passed = self%passed + 1
       else
@@ -66,6 +71,19 @@ contains
             ', tolerance', tolerance
       end if
    end subroutine check_close
+
+   !> Whether a check is to be made; what is asked for by its words is printed too.
+   logical function is_wanted(self, message)
+      class(check_list_t), intent(in) :: self
+      !> What the check says
+      character(*), intent(in) :: message
+
+      is_wanted = .true.
+      if (.not. allocated(self%wanted)) return
+      if (self%wanted == '') return
+      is_wanted = index(message, self%wanted) > 0
+      if (is_wanted) print '(4a)', 'check  ', trim(self%topic), ': ', message
+   end function is_wanted
 
    !> Whether two numbers are finite and the same to the last bit.
    elemental logical function same_bits(x, y)
