@@ -5,21 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rattle.campaign_plan import GRID, LINEAR, Plan, PlannedAxis, read_plan
-from rattle.chunk_table import CAMPAIGN
-from rattle.codes import SUCCESSES
+from rattle.codes import CODES, SUCCESSES, words_of
 from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
-from rattle.result_header import ResultError, ResultHeader, read_header
+from rattle.result_header import CAMPAIGN, ResultError, ResultHeader, read_header
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
 SCENE = "scene"
+WORD_ENDING = "_word"
 
 
 @dataclass(frozen=True)
@@ -138,15 +138,56 @@ class Campaign(ResultFile):
 
     def frame(self) -> pandas.DataFrame:
         """The scenes that are done as a pandas DataFrame; codes also as words, in columns NAME_word."""
-        from rattle.campaign_tables import frame
+        import pandas
 
-        return frame(self)
+        rows = np.asarray(self.rows)
+        done = self.done[: rows.shape[0]]
+        table = pandas.DataFrame(rows if done.all() else rows[done], columns=list(self.names))
+        table["scene"] = table["scene"].astype("int64")
+        for name, words in CODES.items():
+            if name in self:
+                dtype = pandas.CategoricalDtype(list(words.values()), ordered=False)
+                table[name + WORD_ENDING] = table[name].map(words).astype(dtype)
+        table.attrs = {
+            "campaign": self.name,
+            "units": dict(self.units),
+            "resolved_input": self.input_text,
+            "program_version": self.program_version,
+        }
+        return table
 
     def dataset(self) -> xarray.Dataset:
-        """An xarray Dataset over the axes of the grid, or over the scenes if the campaign is no grid."""
-        from rattle.campaign_tables import dataset
+        """An xarray Dataset over the axes of the grid, or over the scenes if the campaign is no grid.
 
-        return dataset(self)
+        Codes carry flag_values and flag_meanings.
+        """
+        import xarray
+
+        on_grid = self.kind == GRID
+        dimensions: tuple[str, ...] = self.varied if on_grid else ("scene",)
+        coordinates: dict[str, Any] = {}
+        if on_grid:
+            for axis in self.axes:
+                coordinates[axis.key] = ((axis.key,), axis.values, _attributes(self, axis.key))
+        else:
+            scenes = self["scene"][self.done].astype("int64")
+            coordinates["scene"] = (dimensions, scenes, _attributes(self, "scene"))
+            for key in self.varied:
+                coordinates[key] = (dimensions, self[key][self.done], _attributes(self, key))
+        variables = {}
+        for name in self.names:
+            if name in coordinates:
+                continue
+            values = self.grid(name) if on_grid else self[name][self.done]
+            variables[name] = (dimensions, values, _attributes(self, name))
+        attributes = {
+            "title": self.name,
+            "source": f"rattle {self.program_version}",
+            "scenes_done": int(self.done.sum()),
+            "scenes": self.row_count,
+            "resolved_input": self.input_text,
+        }
+        return xarray.Dataset(variables, coordinates, attributes)
 
     def _axis(self, key: str, planned: PlannedAxis | None) -> Axis:
         values = np.unique(self[key][self.done])
@@ -227,3 +268,21 @@ def _completed(values: np.ndarray, expected: np.ndarray, complaint: str) -> np.n
             raise ResultError(f"{complaint} such as {values[strange][0]:.6g} that are not on its axis.")
         completed[place] = values
     return completed
+
+
+def _attributes(campaign: Campaign, name: str) -> dict[str, Any]:
+    attributes: dict[str, Any] = {
+        "units": _udunits(campaign.units[name]),
+        "long_name": name.replace("_", " "),
+    }
+    words = words_of(name)
+    if words:
+        attributes["flag_values"] = np.array(list(words), dtype=float)
+        attributes["flag_meanings"] = " ".join(words.values())
+    return attributes
+
+
+def _udunits(unit: str) -> str:
+    """The unit as readers of NetCDF know it."""
+    known = {"": "1", "-": "1", "m/s2": "m s-2", "m/s": "m s-1", "1/Pa": "Pa-1"}
+    return known.get(unit, unit)

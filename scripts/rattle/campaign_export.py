@@ -5,12 +5,15 @@ from __future__ import annotations
 import csv
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rattle.campaign import Campaign
-from rattle.campaign_tables import WORD_ENDING, arrow_table, dataset
+from rattle.campaign import WORD_ENDING, Campaign
 from rattle.codes import CODES, word
+
+if TYPE_CHECKING:
+    import pyarrow
 
 ROWS_AT_ONCE = 10000
 
@@ -38,9 +41,31 @@ def write_parquet(campaign: Campaign, path: Path) -> None:
     pyarrow.parquet.write_table(arrow_table(campaign), path)
 
 
+def arrow_table(campaign: Campaign) -> pyarrow.Table:
+    """The frame with the units in the metadata of its fields and the resolved input in that of the table."""
+    import pyarrow
+
+    plain = campaign.frame()
+    plain.attrs = {}
+    table = pyarrow.Table.from_pandas(plain, preserve_index=False)
+    fields = [
+        field.with_metadata({"unit": campaign.units[field.name]}) if field.name in campaign.units else field
+        for field in table.schema
+    ]
+    metadata = dict(table.schema.metadata or {})
+    metadata.update(
+        {
+            b"campaign": campaign.name.encode(),
+            b"program_version": campaign.program_version.encode(),
+            b"resolved_input": campaign.input_text.encode(),
+        }
+    )
+    return table.cast(pyarrow.schema(fields, metadata=metadata))
+
+
 def write_netcdf(campaign: Campaign, path: Path) -> None:
     """A NetCDF-4 file over the varied keys of a grid, or over the scene; not a number where not done."""
-    data = dataset(campaign)
+    data = campaign.dataset()
     encoding = {name: {"zlib": True, "complevel": 1, "_FillValue": np.nan} for name in data.data_vars}
     data.to_netcdf(path, engine="netcdf4", format="NETCDF4", encoding=encoding)
 

@@ -15,9 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from rattle.campaign import SCENE, Campaign, read_campaign
-from rattle.chunk_table import CAMPAIGN, ChunkTable
 from rattle.command import CommandError
-from rattle.result_header import COLUMN_PART, header_bytes_of
+from rattle.result_header import CAMPAIGN, COLUMN_PART, ChunkTable, header_bytes_of
 
 PART_KEY = re.compile(r"^(\s*parts?\s*=\s*)\d+")
 GROUP = re.compile(r"^\s*&(\w+)")

@@ -13,9 +13,8 @@ from typing import Any
 import numpy as np
 
 from rattle.checksums import checksum
-from rattle.chunk_table import SERIES
 from rattle.namelist import NamelistError, parse
-from rattle.result_header import ResultError, ResultHeader
+from rattle.result_header import SERIES, ResultError, ResultHeader
 
 # Threads that verify chunks, and chunks below which another thread is not worth its start.
 MOST_THREADS = 4

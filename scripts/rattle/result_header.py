@@ -23,10 +23,25 @@ offset bytes   content
 112    8       checksum of the 32 bytes from 80 on
 128    48 each name (32) and unit (16) of every column
 ...            resolved input as namelist text
-...            table of chunks, see `chunk_table`
+...            table of chunks
 ====== ======= ==========================================================
 
 The rows follow, then the extreme rows.
+
+The table of chunks holds the checksum of every run of rows. It stands behind the resolved input, at the next
+multiple of 64 bytes:
+
+====== ======= =============================================================
+offset bytes   content
+====== ======= =============================================================
+0      8       magic ``CHUNKTAB`` in a campaign, ``BLOCKTAB`` in a series
+8      8       rows in a chunk; the last chunk may hold fewer
+16     8       count of chunks
+24     8       rows of a campaign; rows that a series has at most
+32     8 each  checksum of every chunk; 0: not done, or not whole
+====== ======= =============================================================
+
+Zeros follow up to the first row, again at a multiple of 64 bytes.
 """
 
 from __future__ import annotations
@@ -38,7 +53,6 @@ from typing import BinaryIO
 import numpy as np
 
 from rattle.checksums import checksum
-from rattle.chunk_table import CAMPAIGN, SERIES, TABLE_HEAD, ChunkTable
 
 MAGIC = b"RATTLE\r\n"
 FORMAT_VERSION = 2
@@ -47,10 +61,34 @@ ALIGNMENT = 64
 FIXED_PART = struct.Struct("<8siiqqii24sqq40s8x")
 SEAL = struct.Struct("<qiiqqq")
 COLUMN_PART = struct.Struct("<32s16s")
+CAMPAIGN, SERIES = b"CHUNKTAB", b"BLOCKTAB"
+TABLE_HEAD = struct.Struct("<8sqqq")
 
 
 class ResultError(Exception):
     """A result file that cannot be used, explained in one plain sentence."""
+
+
+@dataclass(frozen=True)
+class ChunkTable:
+    """Rows in a chunk, rows in all (of a series at most), and the checksum of every chunk."""
+
+    kind: bytes
+    chunk_rows: int
+    row_limit: int
+    checksums: np.ndarray
+
+    @property
+    def done(self) -> np.ndarray:
+        return self.checksums != 0
+
+    @property
+    def head_bytes(self) -> bytes:
+        return TABLE_HEAD.pack(self.kind, self.chunk_rows, self.checksums.size, self.row_limit)
+
+    @property
+    def table_bytes(self) -> bytes:
+        return self.head_bytes + self.checksums.astype("<i8").tobytes()
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,6 @@ from matplotlib.lines import Line2D
 
 from rattle import command, kernels, table
 from rattle.figures import style
-from rattle.figures.film_points import power_words
 
 DESCRIPTION = (
     "Fit the film-thickness law (32) to exact piezo-viscous films over windows of alpha p, and judge the "
@@ -234,7 +233,7 @@ def _title(ranges: Ranges, upper_end: float) -> str:
 
 
 def _power(value: float) -> str:
-    return "0" if value == 0.0 else power_words(value)
+    return "0" if value == 0.0 else style.power_words(value)
 
 
 def windows(upper_end: float) -> list[Window]:

@@ -12,6 +12,7 @@ from matplotlib.colors import to_hex, to_rgb
 
 import rattle
 from rattle import command
+from rattle.figures import style
 from rattle.result import Result, ResultError
 
 # The film of figures 3 and 5 of the paper; of several films in a file the nearest to it is drawn.
@@ -110,14 +111,7 @@ def colours(found: Sequence[Curve]) -> list[str]:
 
 def squeeze_words(ratio: float) -> str:
     """A squeeze ratio for a legend."""
-    return "0 (pure rolling)" if ratio == 0.0 else power_words(ratio)
-
-
-def power_words(value: float, symbol: str = "") -> str:
-    """A number as mantissa and power of ten, as the value of a symbol if one is given."""
-    mantissa, exponent = f"{value:.3e}".split("e")
-    equals = f"{symbol} = " if symbol else ""
-    return rf"${equals}{float(mantissa):g} \times 10^{{{int(exponent)}}}$"
+    return "0 (pure rolling)" if ratio == 0.0 else style.power_words(ratio)
 
 
 def scene_line(result: Result, parts: Iterable[str]) -> str:

@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from rattle import kernels
 from rattle.figures import film_points, style
-from rattle.figures.film_points import PAPER_FILM_RATIO, PAPER_SPEED_GROUP, Choice, Curve, power_words
+from rattle.figures.film_points import PAPER_FILM_RATIO, PAPER_SPEED_GROUP, Choice, Curve
 from rattle.result import Result, ResultError
 
 SHOWN_SHARE = 0.01  # the contact is shown as far as the reduced pressure exceeds this share of its maximum
@@ -37,7 +37,7 @@ def draw_iso_viscous(profiles: Result, choice: Choice) -> Figure:
     axes.set_ylim(bottom=0.0)
     axes.set_ylabel(r"Pressure group $p^*$ [-]")
     axes.legend(title=film_points.SQUEEZE_TITLE, loc="upper right", alignment="left")
-    held = film_points.scene_line(profiles, [power_words(film_ratio, "h^*")])
+    held = film_points.scene_line(profiles, [style.power_words(film_ratio, "h^*")])
     axes.set_title(f"Pressure of the iso-viscous film, (16) corrected\n{held}")
     return figure
 
@@ -56,8 +56,8 @@ def draw_piezo_viscous(profiles: Result, choice: Choice) -> Figure:
         found = film_points.curves(profiles, COLUMNS, "position", fixed)
         peaks = [_peak(film_ratio, curve.squeeze_ratio, speed_group) for curve in found]
         _draw_panel(axes, found, peaks, alpha)
-        axes.set_title(power_words(speed_group, "u^*") + _verdict(peaks))
-    held = film_points.scene_line(profiles, [power_words(film_ratio, "h^*")])
+        axes.set_title(style.power_words(speed_group, "u^*") + _verdict(peaks))
+    held = film_points.scene_line(profiles, [style.power_words(film_ratio, "h^*")])
     panels[0].set_title(
         f"Pressure of the piezo-viscous film, (31)\n{held}\n{panels[0].get_title(loc='left')}"
     )

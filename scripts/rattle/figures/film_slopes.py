@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from rattle.figures import film_points, style
-from rattle.figures.film_points import PAPER_SPEED_GROUP, Choice, Curve, power_words
+from rattle.figures.film_points import PAPER_SPEED_GROUP, Choice, Curve
 from rattle.result import Result, ResultError
 
 
@@ -65,7 +65,7 @@ def draw(points: Result, slope: Slope, choice: Choice) -> Figure:
     _legends(above, found, models)
     figure.align_ylabels()
     held = film_points.scene_line(
-        points, [power_words(speed_group, "u^*"), "the same $u$ in every film, positive is resisting"]
+        points, [style.power_words(speed_group, "u^*"), "the same $u$ in every film, positive is resisting"]
     )
     above.set_title(f"{slope.subject}\n{held}{_remarks(found, names)}")
     return figure

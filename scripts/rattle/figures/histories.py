@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rattle.figures import style
-from rattle.figures.labels import FEW_SAMPLES, curve_label, name_runs
 from rattle.result import TIME, Result
 
 FILM = "film_thickness"
@@ -23,7 +22,9 @@ def draw_film_and_force(results: Sequence[Result], labels: Sequence[str], period
     lines = style.run_lines([result.law for result in results])
     for result, label, line in zip(results, labels, lines, strict=True):
         force_line = {"color": style.FORCE_COLOUR} if len(results) == 1 else line
-        film_axes.plot(*last_periods(result, FILM, periods, 1e6), label=curve_label(result, label), **line)
+        film_axes.plot(
+            *last_periods(result, FILM, periods, 1e6), label=style.curve_label(result, label), **line
+        )
         force_axes.plot(*last_periods(result, "applied_force", periods), **force_line)
     for axes in (film_axes, force_axes):
         period_rules(axes, results, periods)
@@ -33,7 +34,7 @@ def draw_film_and_force(results: Sequence[Result], labels: Sequence[str], period
     figure.align_ylabels()
     force_axes.set_xlabel(time_label(results, periods))
     note = coarse_words(results[0], FILM, periods, r"$\mathrm{\mu}$m", 1e6)
-    name_runs(figure, film_axes, "Film thickness under the applied force", results, labels, note)
+    style.name_runs(figure, film_axes, "Film thickness under the applied force", results, labels, note)
     return figure
 
 
@@ -44,12 +45,14 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], periods:
     axes.axhline(0.0, color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
     lines = style.run_lines([result.law for result in results])
     for result, label, line in zip(results, labels, lines, strict=True):
-        axes.plot(*last_periods(result, "acceleration", periods), label=curve_label(result, label), **line)
+        axes.plot(
+            *last_periods(result, "acceleration", periods), label=style.curve_label(result, label), **line
+        )
     period_rules(axes, results, periods)
     axes.set_ylabel(style.ACCELERATION_LABEL)
     axes.set_xlabel(time_label(results, periods))
     note = coarse_words(results[0], "acceleration", periods, "m/s$^2$")
-    name_runs(figure, axes, "Acceleration of the film surface", results, labels, note)
+    style.name_runs(figure, axes, "Acceleration of the film surface", results, labels, note)
     return figure
 
 
@@ -78,12 +81,12 @@ def coarse_words(result: Result, name: str, periods: int, unit: str, scale: floa
     if not result.coarse:
         return ""
     if TIME not in result or not result.extremes[TIME].size:
-        return f"Series of {FEW_SAMPLES}; what lies between them is not known"
+        return f"Series of {style.FEW_SAMPLES}; what lies between them is not known"
     drawn = np.arange(result.whole_periods - periods, result.whole_periods)
     if (_repetitions(result, periods) | (_own_periods(result)[:, None] == drawn)).all():
-        return f"Series of {FEW_SAMPLES}; the extremes between them stand in every period"
+        return f"Series of {style.FEW_SAMPLES}; the extremes between them stand in every period"
     least, largest = (scale * function(result.extremes[name]) for function in (np.min, np.max))
-    return f"Series of {FEW_SAMPLES}; between them {least:.4g} to {largest:.4g} {unit}, not all drawn"
+    return f"Series of {style.FEW_SAMPLES}; between them {least:.4g} to {largest:.4g} {unit}, not all drawn"
 
 
 def period_rules(axes: Axes, results: Sequence[Result], periods: int) -> None:

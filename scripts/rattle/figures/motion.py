@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 import rattle
 from rattle import command
 from rattle.figures import histories, spectra, style
-from rattle.figures.labels import file_part, run_labels
 from rattle.result import Result, ResultError
 
 DESCRIPTION = (
@@ -76,14 +75,14 @@ def single_figures(
     results: Sequence[Result], numbers: Sequence[int], extent: Extent
 ) -> Iterator[tuple[str, Figure]]:
     """File stem, which ends with the scene's name, and figure for each result, in the order given."""
-    for result, label in zip(results, run_labels(results), strict=True):
+    for result, label in zip(results, style.run_labels(results), strict=True):
         if result.law not in FIGURES_OF_LAW:
             raise ResultError(
                 f"{result.path} has the film law '{result.law}', which no figure of 6 to 10 shows."
             )
         for number, stem in FIGURES_OF_LAW[result.law].items():
             if number in numbers:
-                yield f"{stem}_{file_part(label)}", _draw(number, [result], [label], extent)
+                yield f"{stem}_{style.file_part(label)}", _draw(number, [result], [label], extent)
 
 
 def overlay_figures(
@@ -93,7 +92,7 @@ def overlay_figures(
     most = len(style.RUN_COLOURS)
     if len(results) > most:
         raise command.CommandError(f"An overlay shows {most} runs at most; {len(results)} were given.")
-    labels = run_labels(results)
+    labels = style.run_labels(results)
     for covered, stem in OVERLAYS.items():
         if any(number in numbers for number in covered):
             yield stem, _draw(covered[0], results, labels, extent)

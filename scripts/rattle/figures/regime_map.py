@@ -19,7 +19,6 @@ from matplotlib.patches import Patch
 import rattle
 from rattle import command, kernels, table
 from rattle.figures import style
-from rattle.figures.film_points import power_words
 
 DESCRIPTION = (
     "Draw the regime map of line contacts after Johnson as 'regime_map', place scenes on it by their "
@@ -262,7 +261,7 @@ def draw(scenes: Sequence[Scene]) -> Figure:
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     axes.set_xlabel(r"Elasticity group $g_e = (W/l)/\sqrt{\eta_0 U E^* R}$ [-]")
     axes.set_ylabel(r"Viscosity group $g_v = \alpha \sqrt{(W/l)^3/(\eta_0 U R^2)}$ [-]")
-    alpha = power_words(material.pressure_viscosity, r"\alpha")
+    alpha = style.power_words(material.pressure_viscosity, r"\alpha")
     axes.set_title(
         "Lubrication regimes of line contacts, after Johnson (1970)\n"
         rf"Hatched for {alpha} Pa$^{{-1}}$, "

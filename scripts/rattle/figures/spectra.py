@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rattle.figures import style
-from rattle.figures.labels import FEW_SAMPLES, curve_label, name_runs, overlay_title, title
 from rattle.result import Result, ResultError
 from rattle.summary import Summary, read_summary
 from rattle.verdict import classify, thresholds
@@ -44,7 +43,7 @@ def draw_force(results: Sequence[Result], labels: Sequence[str], window: int | N
     axes.set_ylim(0.0, 1.12 * largest if largest > 0.0 else 1.0)
     axes.set_ylabel("Amplitude of $F$ [N]")
     axes.set_xlabel(style.RATIO_LABEL if single else f"{style.RATIO_LABEL}; runs side by side")
-    name_runs(figure, axes, "Spectrum of the applied force", results, labels)
+    style.name_runs(figure, axes, "Spectrum of the applied force", results, labels)
     return figure
 
 
@@ -78,17 +77,16 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], window: 
     largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
     if len(results) == 1:
         _draw_single(figure, (linear, logarithmic), results[0], spectra[0])
-        linear.set_title(
-            f"{title(SUBJECT, results[0], labels[0])}; {_verdict_words(results[0], summaries[0], window)}"
-        )
+        verdict = _verdict_words(results[0], summaries[0], window)
+        linear.set_title(f"{style.title(SUBJECT, results[0], labels[0])}; {verdict}")
         logarithmic.set_xlabel(style.RATIO_LABEL)
     else:
         names = [
-            f"{label}, by its summary" if summary else curve_label(result, label)
+            f"{label}, by its summary" if summary else style.curve_label(result, label)
             for result, summary, label in zip(results, summaries, labels, strict=True)
         ]
         _draw_overlay((linear, logarithmic), names, spectra)
-        linear.set_title(overlay_title(SUBJECT, results))
+        linear.set_title(style.overlay_title(SUBJECT, results))
         logarithmic.set_xlabel(f"{style.RATIO_LABEL}; runs side by side")
         style.legend_below(figure, linear)
     linear.set_xlim(0.0, _last_ratio(spectra))
@@ -136,7 +134,7 @@ def _draw_single(
 
 def _verdict_words(result: Result, summary: Summary | None, window: int | None) -> str:
     if result.coarse and not summary:
-        return f"{FEW_SAMPLES}\nThe lines are those of the samples, not of the motion"
+        return f"{style.FEW_SAMPLES}\nThe lines are those of the samples, not of the motion"
     verdict = summary or classify(result, window)
     bound = "at least " if verdict.get("line_count_is_bound") else ""
     words = f"{bound}{verdict['line_count']} lines, class {verdict['rattle_class']}"
@@ -144,7 +142,7 @@ def _verdict_words(result: Result, summary: Summary | None, window: int | None) 
         return words
     more_samples = f"of {summary['samples_per_period']} samples a period"
     source = "integrals over the steps" if summary["lines_by_integrals"] else more_samples
-    return f"{words}\nSeries of {FEW_SAMPLES}; lines of the summary, {source}"
+    return f"{words}\nSeries of {style.FEW_SAMPLES}; lines of the summary, {source}"
 
 
 def _draw_overlay(

@@ -14,21 +14,6 @@ speeds, in the published one the entrainment speed; w = dh0/dt is negative on ap
 
 from __future__ import annotations
 
-from rattle.kernels.exact_film import (
-    barus_pressure,
-    critical_pressure_group,
-    iso_viscous_load,
-    limiting_film_ratio,
-    piezo_viscous_load,
-    pressure_group,
-    pressure_scale,
-    reynolds_iso_viscous_load,
-    reynolds_piezo_viscous_load,
-    rupture_angle,
-    rupture_tangent,
-    rupture_tangent_slope,
-    squeeze_group,
-)
 from rattle.kernels.film_fit import (
     PUBLISHED_FILM_LAW,
     FilmFit,
@@ -40,6 +25,25 @@ from rattle.kernels.film_fit import (
     law_film_ratio,
     sample_film_window,
 )
+from rattle.kernels.films import (
+    barus_pressure,
+    critical_pressure_group,
+    half_pi_rupture_load,
+    iso_viscous_load,
+    limiting_film_ratio,
+    piezo_viscous_load,
+    pressure_group,
+    pressure_scale,
+    published_piezo_load,
+    published_stiffness_damping,
+    reynolds_iso_viscous_load,
+    reynolds_piezo_viscous_load,
+    rupture_angle,
+    rupture_tangent,
+    rupture_tangent_slope,
+    solved_rupture_load,
+    squeeze_group,
+)
 from rattle.kernels.numerical_reynolds import (
     REYNOLDS_STATUS,
     VISCOSITY_LAWS,
@@ -47,12 +51,6 @@ from rattle.kernels.numerical_reynolds import (
     ReynoldsFilm,
     scale_film,
     solve_reynolds,
-)
-from rattle.kernels.published_film import (
-    half_pi_rupture_load,
-    published_piezo_load,
-    published_stiffness_damping,
-    solved_rupture_load,
 )
 from rattle.kernels.regime import (
     FILM_REGIMES,

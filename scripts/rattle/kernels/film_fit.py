@@ -9,8 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rattle import _kernels
-from rattle.kernels._arguments import finite_numbers, finite_samples, positive_count
-from rattle.kernels._elementwise import evaluate
+from rattle.kernels._calls import evaluate, finite_numbers, finite_samples, positive_count
 
 
 class FilmLaw(NamedTuple):

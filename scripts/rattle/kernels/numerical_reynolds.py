@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rattle import _kernels
-from rattle.kernels._arguments import finite_numbers, positive_count
+from rattle.kernels._calls import finite_numbers, positive_count
 
 VISCOSITY_LAWS = ("constant", "barus", "roelands")
 REYNOLDS_STATUS = ("converged", "no_rigid_film", "not_converged", "unresolved")

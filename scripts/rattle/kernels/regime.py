@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rattle import codes
-from rattle.kernels._elementwise import elementwise
+from rattle.kernels._calls import elementwise
 
 MAP_REGIMES = (
     "unknown",

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from rattle import _kernels, codes
-from rattle.kernels._arguments import finite_numbers, finite_samples, positive_count
+from rattle.kernels._calls import finite_numbers, finite_samples, positive_count
 
 CLASSES = tuple(codes.CLASSES.values())
 

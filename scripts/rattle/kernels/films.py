@@ -1,11 +1,12 @@
-"""The exact film: rupture, pressure and load from Reynolds' equation, iso- and piezo-viscous."""
+"""The film, iso- and piezo-viscous: exact rupture, pressure and load from Reynolds' equation, and the loads,
+stiffness and damping that the paper prints."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from rattle import _kernels
-from rattle.kernels._elementwise import elementwise, evaluate
+from rattle.kernels._calls import elementwise, evaluate
 
 
 def rupture_tangent(a: Any, *, solver: str = "fast") -> Any:
@@ -121,4 +122,52 @@ def limiting_film_ratio(speed_group: Any, squeeze_ratio: Any) -> Any:
     alpha p_max of that film is one to 1e-12, and the film as exact as that makes it: where it separates fast,
     alpha p_max changes by 1/A**2 only between films of twice the thickness. NaN where the surfaces separate
     so fast that alpha p stays below one for every h* above 1e-15.
+    """
+
+
+@elementwise
+def half_pi_rupture_load(
+    film: Any, velocity: Any, *, radius: Any, length: Any, speed: Any, viscosity: Any
+) -> tuple[Any, Any, Any]:
+    """W [N], dW/dh [N/m], dW/dw [N s/m] of eq (35), as printed: x_e = pi/2, the film can pull.
+
+    For arrays of h [m], w [m/s], R [m], l [m], u [m/s], eta0 [Pa s]. A film that is not positive gives NaN.
+    """
+
+
+@elementwise
+def solved_rupture_load(
+    film: Any, velocity: Any, *, radius: Any, length: Any, speed: Any, viscosity: Any
+) -> tuple[Any, Any, Any]:
+    """W [N], dW/dh [N/m], dW/dw [N s/m] of eq (24) as printed, with x_e of the corrected eq (18).
+
+    The slopes are total: x_e moves with h and w. Arrays as for `half_pi_rupture_load`.
+    """
+
+
+@elementwise
+def published_stiffness_damping(
+    film: Any, velocity: Any, *, radius: Any, length: Any, speed: Any, viscosity: Any
+) -> tuple[Any, Any]:
+    """k = -dW/dh [N/m] and c = -dW/dw [N s/m], eqs (26) to (28): eq (24) differentiated with x_e held.
+
+    Positive where they resist. h0^(1/2) of eq (27) is read as h0^(5/2). Arrays as for `half_pi_rupture_load`.
+    """
+
+
+@elementwise
+def published_piezo_load(
+    film: Any,
+    velocity: Any,
+    *,
+    radius: Any,
+    length: Any,
+    speed: Any,
+    viscosity: Any,
+    pressure_viscosity: Any,
+) -> tuple[Any, Any, Any]:
+    """W [N], dW/dh [N/m], dW/dw [N s/m] of eq (37), with the factor l and the velocity in its exponent.
+
+    For arrays of h [m], w [m/s], R [m], l [m], u [m/s], eta0 [Pa s], alpha [1/Pa]. The exponential is held at
+    exp(550), so an approach faster than 0.78 u has no meaning. A film that is not positive gives NaN.
     """

@@ -1,0 +1,98 @@
+"""Checks of arguments of Fortran kernels, and calls of those of flat arrays for numpy arrays of one shape.
+
+Nothing is cast; the messages name the argument.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Collection, Mapping
+from typing import Any, TypeVar
+
+import numpy as np
+
+from rattle import _kernels
+
+Declared = TypeVar("Declared", bound=Callable[..., Any])
+
+
+def elementwise(declared: Declared) -> Declared:
+    """The compiled kernel of the same name, called as the declared function says, which needs no body.
+
+    The parameters stand in the order of the kernel's arguments.
+    """
+    kernel = getattr(_kernels, f"wrap_{declared.__name__}", None)
+    if kernel is None:
+        raise ImportError(f"the compiled module has no {declared.__name__}")
+    signature = inspect.signature(declared)
+
+    @functools.wraps(declared)
+    def call(*arguments: Any, **named: Any) -> Any:
+        return evaluate(kernel, signature.bind(*arguments, **named).arguments)
+
+    return call
+
+
+def evaluate(kernel: Callable[..., Any], values: Mapping[str, Any], *options: int) -> Any:
+    """Call a kernel of flat arrays of equal length for arrays of equal shape; numbers stretch to it.
+
+    values: argument by name, in the order of the kernel. options: what the kernel takes behind the arrays.
+    """
+    arrays = {name: float_array(value, name) for name, value in values.items()}
+    first, shape = next(((name, array.shape) for name, array in arrays.items() if array.ndim), ("", ()))
+    for name, array in arrays.items():
+        if array.ndim and array.shape != shape:
+            raise ValueError(f"{name} has shape {array.shape}, {first} has {shape}")
+    flat = [np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1) for array in arrays.values()]
+    empty = 0 in shape
+    if empty:  # Fortran is asked for one film, to learn the number and types of the results
+        flat = [np.zeros(1) for _ in flat]
+    found = kernel(*flat, *options)
+    results = tuple(
+        (result[:0] if empty else result).reshape(shape) if shape else result[0].item()
+        for result in (found if isinstance(found, tuple) else (found,))
+    )
+    return results if isinstance(found, tuple) else results[0]
+
+
+def float_array(value: Any, name: str) -> np.ndarray:
+    """The value as a float64 array that is not a copy; Python floats are welcome, other types are not."""
+    if isinstance(value, float):
+        return np.asarray(value, dtype=np.float64)
+    if not isinstance(value, np.ndarray) or isinstance(value, np.ma.MaskedArray):
+        raise TypeError(f"{name} must be a numpy array of float64 or a float, not {type(value).__name__}")
+    if value.dtype != np.float64:
+        raise TypeError(f"{name} must be of type float64, not {value.dtype}")
+    return value
+
+
+def finite_samples(value: Any, name: str) -> np.ndarray:
+    """A contiguous, finite, one-dimensional float64 array with at least one sample."""
+    array = float_array(value, name)
+    if array.ndim != 1 or array.size == 0:
+        raise ValueError(f"{name} must be one-dimensional and not empty, its shape is {array.shape}")
+    if not np.isfinite(array).all():
+        raise ValueError(f"{name} holds values that are not finite")
+    return np.ascontiguousarray(array)
+
+
+def finite_numbers(positive: Collection[str] = (), **values: Any) -> np.ndarray:
+    """Finite floats as an array in the order given; those named in `positive` must be so."""
+    for name, value in values.items():
+        if not isinstance(value, float):
+            raise TypeError(f"{name} must be a float, not {type(value).__name__}")
+        if not np.isfinite(value):
+            raise ValueError(f"{name} must be finite")
+        if name in positive and not value > 0.0:
+            raise ValueError(f"{name} must be positive")
+    return np.array(list(values.values()), dtype=np.float64)
+
+
+def positive_count(value: Any, name: str) -> int:
+    """One positive integer that Fortran can hold."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise TypeError(f"{name} must be an integer, not {type(value).__name__}")
+    if not 1 <= value <= np.iinfo(np.int32).max - 1:
+        raise ValueError(f"{name} must be a positive number below 2^31 - 1")
+    return int(value)
