@@ -39,9 +39,11 @@ WIDE_REGISTERS := $(shell $(FC) $(ARCHITECTURE) -Q --help=target 2>/dev/null | a
   $$1 == "-mavx512f" && $$2 == "[enabled]" { wide = 1 } \
   $$1 == "-mprefer-vector-width=" && $$2 ~ /^(128|256)$$/ { narrow = 1 } \
   END { if (wide && !narrow) print "yes" }')
-ROOMS := foundation scene film film/coefficients motion motion/$(if $(WIDE_REGISTERS),wide,narrow)_registers \
-  orbit spectrum verdict files run campaign campaign/$(if $(MPI),mpi,serial)
-SOURCES := $(foreach room,$(ROOMS),$(sort $(wildcard fsrc/$(room)/*.f90)))
+ROOMS := $(filter-out bindings,$(shell cut -d' ' -f1 fsrc/ROOMS))
+# Folders of rooms that this build takes.
+PARTS := film/coefficients motion/$(if $(WIDE_REGISTERS),wide,narrow)_registers campaign/$(if $(MPI),mpi,serial)
+FOLDERS := $(foreach room,$(ROOMS),$(room) $(filter $(room)/%,$(PARTS)))
+SOURCES := $(foreach folder,$(FOLDERS),$(sort $(wildcard fsrc/$(folder)/*.f90)))
 OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(SOURCES)))
 UNIT_SOURCES := $(sort $(wildcard tests/unit/*.f90)) $(BUILD)/unit_suites.f90
 UNIT_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(UNIT_SOURCES)))
@@ -52,7 +54,7 @@ STRESS_PROGRAMS := $(addprefix $(BUILD)/,stress_scenes stress_summaries lane_ind
 STRESS_SOURCES := $(sort $(filter-out $(STRESS_PROGRAMS:$(BUILD)/%=tests/stress/%.f90),$(wildcard tests/stress/*.f90)))
 STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 
-VPATH := $(addprefix fsrc/,$(ROOMS)) fsrc tests/unit tests/benchmarks tests/stress
+VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
 .PHONY: all run test unit user lint debug python bench stress stress-sample faults faults-sample mutants test-cluster clean install help format pages pictures FORCE
@@ -87,7 +89,7 @@ $(PYTHON_ENV)/installed: pyproject.toml scripts/setup_python.sh scripts/requirem
 # A change of compiler or flags changes this file, and with it rebuilds everything.
 $(BUILD)/flags: FORCE
 	@mkdir -p $(BUILD)
-	@{ $(FC) --version | head -1; echo '$(FFLAGS) $(LIBRARIES)'; echo '$(ROOMS)'; } > $@.new
+	@{ $(FC) --version | head -1; echo '$(FFLAGS) $(LIBRARIES)'; echo '$(FOLDERS)'; } > $@.new
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 # Which object needs which module, read off the use statements.
@@ -108,7 +110,7 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 	@$(FC) $(FFLAGS) -J$(BUILD) -c $< -o $@
 
 # The rooms that compute may not even widen a kind unseen. (Elsewhere gfortran 12 warns of text positions.)
-COMPUTING := $(foreach room,film motion orbit spectrum verdict,$(wildcard fsrc/$(room)/*.f90))
+COMPUTING := $(foreach room,$(filter-out foundation scene files run campaign,$(ROOMS)),$(wildcard fsrc/$(room)/*.f90))
 $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),-Wconversion-extra)
 
 # The loops over lanes run in full registers as they stand; made part of the loop over steps, gfortran 12 leaves some of

@@ -1,29 +1,29 @@
-"""Holds fsrc against its own rules: data flows down the list of rooms, a file holds the module of its name,
-main is a table of contents, and no library routine stops the program."""
+"""Holds the repository against its own rules: data flows down the list of rooms in fsrc/ROOMS, a file holds
+the module of its name, main is a table of contents, no library routine stops the program, Python imports run
+one way, rooms and version are told alike everywhere, and the house does not grow."""
 
 from __future__ import annotations
 
 import argparse
+import ast
 import re
 import sys
+from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
-ROOMS = (
-    "foundation",
-    "scene",
-    "film",
-    "motion",
-    "orbit",
-    "spectrum",
-    "verdict",
-    "files",
-    "run",
-    "campaign",
-    "bindings",
-)
+ROOMS = [line.split()[0] for line in Path("fsrc/ROOMS").read_text().splitlines()]
 TOP_LEVEL = {"Makefile", "fsrc", "input", "scripts", "tests", "README.md"}
 TOP_LEVEL |= {"LICENSE", "CHANGELOG.md", "CITATION.cff", "pyproject.toml", "build", "results"}
 MAIN_LINES = 80
+# Where the version of fsrc/VERSION is repeated.
+VERSIONS = {
+    "CITATION.cff": r"^version: (\S+)$",
+    "pyproject.toml": r'^version = "(\S+)"$',
+    "scripts/rattle/__init__.py": r'^version = "(\S+)"$',
+    "CHANGELOG.md": r"^## (\S+)$",
+}
+GENERATED = Path("fsrc/film/coefficients")
 
 MODULE = re.compile(r"^\s*module\s+(?!procedure\b)(\w+)", re.IGNORECASE)
 USE = re.compile(r"^\s*use\s*(?:,\s*\w+\s*)?(?:::)?\s*(\w+)", re.IGNORECASE)
@@ -38,11 +38,12 @@ def faults() -> list[str]:
     """One sentence per broken rule."""
     found = [f"{entry.name}: stands beside the house" for entry in Path().iterdir() if is_stray(entry)]
     sources = sorted(Path("fsrc").glob("*/**/*.f90"))
+    found += [f"fsrc/{room}: a room that stands empty" for room in {*ROOMS} - {*map(room_of, sources)}]
     home = {path.stem.lower(): room_of(path) for path in sources}
     for path in sources:
         room = room_of(path)
         if room not in ROOMS:
-            found.append(f"{path}: {room} is no room of the house")
+            found.append(f"{path}: {room} is no room of fsrc/ROOMS")
             continue
         for number, line in enumerate(path.read_text().splitlines(), 1):
             place = f"{path}:{number}"
@@ -55,15 +56,78 @@ def faults() -> list[str]:
                 found.append(f"{place}: a library routine stops the program")
     if len(Path("fsrc/main.f90").read_text().splitlines()) > MAIN_LINES:
         found.append(f"fsrc/main.f90: more than {MAIN_LINES} lines")
-    return found
+    found += [f"{what}: {count}, more than {limit}" for what, count, limit in counts() if count > limit]
+    return [*found, *unlike_rooms(), *unlike_versions(), *import_circles()]
 
 
 def is_stray(entry: Path) -> bool:
     return not entry.name.startswith(".") and entry.name not in TOP_LEVEL
 
 
+def counts() -> Iterator[tuple[str, int, int]]:
+    """What the house may not outgrow: its name, how many there are, and how many there may be."""
+    fortran = sorted(Path("fsrc").rglob("*.f90"))
+    lines = sum(len(path.read_text().splitlines()) for path in fortran if path.parent != GENERATED)
+    readme = Path("README.md").read_text()
+    yield "Fortran files in motion", sum("motion" in path.parts for path in fortran), 38
+    yield "Fortran files", len(fortran), 172
+    yield "Fortran lines without generated tables", lines, 24500
+    yield "Python files in scripts", len(list(Path("scripts").rglob("*.py"))), 54
+    yield "README lines", len(readme.splitlines()), 180
+    yield "README words", len(readme.split()), 1800
+
+
+def unlike_rooms() -> Iterator[str]:
+    """Rooms that the map in the README leaves out or puts in another order."""
+    house = Path("README.md").read_text().partition("## The house")[2]
+    told = [
+        room
+        for row in re.findall(r"^\| `.*?\|", house, re.MULTILINE)
+        for room in re.findall(r"`(\w+)/`", row)
+    ]
+    if told != ROOMS:
+        yield f"README.md: the map has the rooms {' '.join(told)}, fsrc/ROOMS has {' '.join(ROOMS)}"
+
+
+def unlike_versions() -> Iterator[str]:
+    """Files whose version is not that of fsrc/VERSION."""
+    version = Path("fsrc/VERSION").read_text().strip()
+    for name, pattern in VERSIONS.items():
+        told = re.search(pattern, Path(name).read_text(), re.MULTILINE)
+        if told is None or told[1] != version:
+            yield f"{name}: version {told[1] if told else 'missing'}, fsrc/VERSION says {version}"
+
+
+def import_circles() -> Iterator[str]:
+    """Modules of scripts/rattle that import each other, also where it is for a function or for types only."""
+    folder = Path("scripts")
+    paths = {
+        ".".join(path.with_suffix("").relative_to(folder).parts): path
+        for path in folder.rglob("rattle/**/*.py")
+    }
+    modules = {name.removesuffix(".__init__"): path for name, path in paths.items()}
+    needs = {}
+    for name, path in modules.items():
+        needs[name] = set()
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Import):
+                needs[name] |= {alias.name for alias in node.names} & modules.keys()
+            elif isinstance(node, ast.ImportFrom) and node.module in modules:
+                parts = {f"{node.module}.{alias.name}" for alias in node.names}
+                needs[name] |= parts & modules.keys() or {node.module}
+    try:
+        TopologicalSorter(needs).prepare()
+    except CycleError as fault:
+        yield f"scripts/rattle: {' imports '.join(reversed(fault.args[1]))}"
+
+
 if __name__ == "__main__":
-    argparse.ArgumentParser(description=__doc__).parse_args()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--counts", action="store_true", help="print what is counted, with its limit")
+    if parser.parse_args().counts:
+        for what, count, limit in counts():
+            print(f"{what:40}{count:7d}  at most {limit}")
+        sys.exit()
     sentences = faults()
     print("\n".join(sentences))
     sys.exit(bool(sentences))

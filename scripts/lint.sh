@@ -29,9 +29,10 @@ formatted() {
 
 tools=$(cd "$tools" && pwd)
 check 'compiler warnings' make --no-print-directory BUILD="$build/lint" STRICT=1 "$build/lint/rattle" "$build/lint/unit_tests"
-check 'rooms and names of fsrc' "$tools/python" scripts/check_house.py
+check 'house: rooms, names, imports, size' "$tools/python" scripts/check_house.py
 check 'style of Fortran' "$tools/fortitude" check --config .fortitude.toml fsrc tests
 check 'format of Fortran and Python' formatted
 check 'style of Python' "$tools/ruff" check scripts tests
 check 'page of all keys' sh -c "'$build/lint/rattle' --keys | diff - input/README.md"
+"$tools/python" scripts/check_house.py --counts
 exit $failed
