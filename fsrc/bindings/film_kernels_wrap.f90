@@ -139,7 +139,7 @@ end subroutine wrap_reynolds_piezo_viscous_load
 ! h* at which alpha p = 1.
 subroutine wrap_limiting_film_ratio(n, speed_group, squeeze_ratio, film_ratio)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use limiting_film, only: limiting_film_ratio
+   use film_pressure, only: limiting_film_ratio
    implicit none
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: speed_group(n)

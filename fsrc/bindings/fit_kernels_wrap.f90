@@ -76,7 +76,7 @@ end subroutine wrap_fit_film_law
 subroutine wrap_sample_film_window( &
    ranges, counts, factors, n, speed_group, load_group, squeeze_ratio, film_ratio, valid)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use film_fit_window, only: film_window_t, sample_film_window, window_is_valid
+   use film_fit, only: film_window_t, sample_film_window, window_is_valid
    implicit none
    real(c_double), intent(in) :: ranges(6)
    integer(c_int), intent(in) :: counts(3)

@@ -53,8 +53,7 @@ end subroutine wrap_solved_rupture_load
 subroutine wrap_published_stiffness_damping( &
    n, film, velocity, radius, length, speed, viscosity, stiffness, damping)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use published_iso_viscous, only: rolling_coefficient, squeeze_coefficient
-   use published_stiffness, only: published_stiffness_damping
+   use published_iso_viscous, only: published_stiffness_damping, rolling_coefficient, squeeze_coefficient
    use reynolds_iso_viscous, only: rupture_tangent_fast
    use rupture, only: squeeze_group
    implicit none

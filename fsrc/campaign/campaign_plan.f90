@@ -5,12 +5,11 @@ module campaign_plan
    use errors, only: fault_list_t
    use kinds, only: dp, int64
    use odd_numbers, only: odd_numbers_of_list
-   use printable_text, only: printable
    use sampling, only: chunk_values, method_grid, method_sobol, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, &
                        sample_plan_t
    use scene_types, only: scene_t
    use signals, only: must_stop
-   use text, only: integer_text
+   use text, only: integer_text, printable
    use varied_keys, only: find_varied_key, is_whole, varied_code, varied_key_name
    use varied_scene, only: is_valid_scene, set_varied_keys, why_invalid
    use word_list, only: word_t

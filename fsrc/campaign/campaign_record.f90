@@ -4,18 +4,17 @@ module campaign_record
    use key_table, only: keys
    use kinds, only: dp, int64
    use lane_scenes, only: lane_ending_t
-   use model_limits, only: model_limit
    use node_extremes, only: seen_acceleration, seen_film, seen_load, seen_velocity
    use rattle_class, only: rattle_verdict_t
    use recorded_quantities, only: quantities, record_acceleration_maximum, record_acceleration_minimum, record_alpha_p_maximum, &
                                   record_certified, record_damping_ratio, record_deflection, record_film_maximum, &
                                   record_film_minimum, record_film_regime, record_harmonic_distortion, record_harmonics, &
                                   record_irregular_fraction, record_law_contradicted, record_line_count, &
-                                  record_line_count_is_bound, record_load_maximum, record_model_limit, &
-                                  record_natural_frequency, record_orbit_period, record_periods_solved, &
-                                  record_pressure_maximum, record_rattle_class, record_reversals_per_period, &
-                                  record_sampling_sufficient, record_steady_film, record_velocity_maximum, record_velocity_minimum
-   use regime_check, only: regime_verdict_t
+                                  record_line_count_is_bound, record_load_maximum, record_model_limit, record_natural_frequency, &
+                                  record_orbit_period, record_periods_solved, record_pressure_maximum, record_rattle_class, &
+                                  record_reversals_per_period, record_sampling_sufficient, record_steady_film, &
+                                  record_velocity_maximum, record_velocity_minimum
+   use regime_check, only: model_limit, regime_verdict_t
    use resolved_scene, only: resolved_scene_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use scene_types, only: scene_t

@@ -5,11 +5,10 @@
 !> makes sense. Until then whatever stands at the place stays as it is.
 module byte_file
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc
-   use errors, only: error_t, exit_system, raise
+   use errors, only: error_t, error_words, exit_system, last_error, raise
    use file_descriptor, only: close_descriptor, open_replacing, synchronise_descriptor, write_bytes
    use file_system, only: delete_file, rename_file
    use kinds, only: dp, int64
-   use system_error, only: error_words, last_error
    implicit none(type, external)
    private
 

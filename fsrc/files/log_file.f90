@@ -1,11 +1,10 @@
 !> Log of a scene: every line goes to the terminal and to NAME.log alike.
 module log_file
-   use errors, only: error_t, exit_system, raise
+   use, intrinsic :: iso_c_binding, only: c_int
+   use errors, only: error_t, error_words, exit_system, last_error, raise
    use file_descriptor, only: close_descriptor, open_replacing
    use file_system, only: delete_file, file_state_t, state_of_path
-   use system_error, only: error_words, last_error
    use text_output, only: lost_text, note_lost_text, put_line, write_line
-   use, intrinsic :: iso_c_binding, only: c_int
    implicit none(type, external)
    private
 

@@ -2,12 +2,12 @@
 !> with every failure seen. Thin calls of the C library.
 module random_access_file
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, c_ptr
-   use errors, only: error_t, exit_system, raise
-   use file_descriptor, only: close_descriptor, open_existing, read_and_write, read_bytes, read_only, &
-                              synchronise_descriptor, write_bytes
+   use errors, only: error_t, error_words, exit_system, interrupted_call, last_error, no_locks, no_such_call, not_supported, &
+                     raise
+   use file_descriptor, only: close_descriptor, open_existing, read_and_write, read_bytes, read_only, synchronise_descriptor, &
+                              write_bytes
    use file_system, only: file_state_t, state_of_descriptor, state_of_path
    use kinds, only: dp, int64
-   use system_error, only: error_words, interrupted_call, last_error, no_locks, no_such_call, not_supported
    implicit none(type, external)
    private
 

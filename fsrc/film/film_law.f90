@@ -6,18 +6,17 @@
 module film_law
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use kinds, only: dp
-   use piezo_viscous_terms, only: piezo_viscous_terms_load
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
-   use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate, squeeze_growth
+   use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_terms_load, published_piezo_viscous_load, &
+                                      squeeze_exponent_rate, squeeze_growth
    use regime, only: equivalent_radius, plane_strain_modulus
    use reynolds_iso_viscous, only: rupture_tangent_fast
    use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, &
-                            reynolds_piezo_viscous_load_array, squeeze_rate
+                            reynolds_piezo_viscous_load_array, squeeze_rate, steady_iso_viscous_film, steady_piezo_viscous_film
    use rupture, only: rupture_tangent_successive, squeeze_group
    use scene_status, only: status_no_rigid_film, status_overflow
    use scene_types, only: contact_t, film_choice_t, law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, &
                           rupture_half_pi, rupture_solved, rupture_solver_fast, rupture_solver_successive, scene_t
-   use steady_reynolds_film, only: steady_iso_viscous_film, steady_piezo_viscous_film
    implicit none(type, external)
    private
 

@@ -1,13 +1,11 @@
 !> A single film in the groups of the paper, and everything the film room knows about it.
 module film_point
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use film_pressure, only: barus_pressure, exact_pressure, pressure_scale
+   use film_pressure, only: barus_pressure, exact_pressure, limiting_film_ratio, pressure_scale
    use kinds, only: dp
-   use limiting_film, only: limiting_film_ratio
    use numerical_reynolds, only: film_problem_t, film_solution_t, law_barus, law_roelands, reynolds_converged, scale_film, &
                                  solve_reynolds
-   use published_iso_viscous, only: rolling_coefficient, solved_rupture_load, squeeze_coefficient
-   use published_stiffness, only: published_stiffness_damping
+   use published_iso_viscous, only: published_stiffness_damping, rolling_coefficient, solved_rupture_load, squeeze_coefficient
    use regime, only: contact_deflection, film_regime
    use reynolds_iso_viscous, only: rupture_tangent_fast
    use reynolds_load, only: load_scale, load_without_film, pressure_rate, reynolds_iso_viscous_load, &

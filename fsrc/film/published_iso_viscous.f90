@@ -11,11 +11,7 @@ module published_iso_viscous
    !> Factor of the rolling term as printed in (23); exact film: 12 Phi(0) = 2.447 with u = u1 + u2.
    real(dp), parameter :: rolling_factor = 2.8_dp
 
-   !> Squeeze term of (24) over its rolling term and A (x_e + pi/2), A the squeeze group: 3/(4*2.8) [-].
-   real(dp), parameter, public :: squeeze_share = 3.0_dp/(4.0_dp*rolling_factor)
-
-   public :: rolling_coefficient, squeeze_coefficient, half_pi_rupture_load, &
-      solved_rupture_load
+   public :: rolling_coefficient, squeeze_coefficient, half_pi_rupture_load, solved_rupture_load, published_stiffness_damping
 
 contains
 
@@ -101,5 +97,30 @@ contains
       load_by_film = (damping*velocity*(1.5_dp*width + 0.5_dp*width_by_log_a) - rolling*inverse)*inverse
       load_by_velocity = -damping*(width + width_by_log_a)
    end subroutine solved_rupture_load
+
+   !> Stiffness k and damping c of (26) to (28), with h0^(5/2) in (27).
+   !>
+   !> Sign: k = -dW/dh0 and c = -dW/dw, both positive where the film resists. (The paper defines them without
+   !> the minus, (25), and then prints the one with it and the other without.) The rupture angle is held fixed in
+   !> the differentiation, as in the paper; the slopes of solved_rupture_load let it move.
+   elemental subroutine published_stiffness_damping(rolling, squeeze, film, velocity, rupture_tangent, stiffness, damping)
+      !> Coefficient of the rolling term of (24) [N m]
+      real(dp), intent(in) :: rolling
+      !> Coefficient of the squeeze term of (24) [N s m^(1/2)]
+      real(dp), intent(in) :: squeeze
+      !> Film thickness h0 > 0 [m]
+      real(dp), intent(in) :: film
+      !> Film velocity w = dh0/dt [m/s]
+      real(dp), intent(in) :: velocity
+      !> t_e = tan x_e of (18) [-]
+      real(dp), intent(in) :: rupture_tangent
+      !> -dW/dh0 at fixed x_e [N/m]
+      real(dp), intent(out) :: stiffness
+      !> -dW/dw at fixed x_e [N s/m]
+      real(dp), intent(out) :: damping
+
+      damping = squeeze*(atan(rupture_tangent) + half_pi)/(film*sqrt(film))
+      stiffness = (rolling/film - 1.5_dp*damping*velocity)/film
+   end subroutine published_stiffness_damping
 
 end module published_iso_viscous

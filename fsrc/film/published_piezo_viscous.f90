@@ -3,14 +3,13 @@
 module published_piezo_viscous
    use elementary_functions, only: exponential, largest_exponent
    use kinds, only: dp
-   use piezo_viscous_terms, only: piezo_viscous_terms_load
    implicit none(type, external)
    private
 
    !> Factors as printed in (37); (32) gives 12*0.787^2.5 = 6.5935 and 2.5*281.2 = 703.
    real(dp), parameter :: load_factor = 6.6_dp, squeeze_factor = 703.0_dp
 
-   public :: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate, squeeze_growth
+   public :: piezo_coefficient, published_piezo_viscous_load, piezo_viscous_terms_load, squeeze_exponent_rate, squeeze_growth
 
 contains
 
@@ -69,5 +68,31 @@ contains
       call piezo_viscous_terms_load(coefficient, rate, film, exp(min(-rate*velocity, largest_exponent)), load, &
                                     load_by_film, load_by_velocity)
    end subroutine published_piezo_viscous_load
+
+   !> The same with the growth exp(-703 w/u) given, for callers that raise many exponentials at once.
+   elemental subroutine piezo_viscous_terms_load(coefficient, rate, film, growth, load, load_by_film, load_by_velocity)
+      !> Coefficient of h^(-7/2) [N m^(7/2)]
+      real(dp), intent(in) :: coefficient
+      !> 703/u [s/m]
+      real(dp), intent(in) :: rate
+      !> Film thickness h > 0 [m]
+      real(dp), intent(in) :: film
+      !> exp(-703 w/u) [-]
+      real(dp), intent(in) :: growth
+      !> Load W [N]
+      real(dp), intent(out) :: load
+      !> dW/dh [N/m]
+      real(dp), intent(out) :: load_by_film
+      !> dW/dw [N s/m]
+      real(dp), intent(out) :: load_by_velocity
+      real(dp) :: inverse, inverse_2
+
+      ! h^(-7/2) as h^(-4) sqrt(h): root and division run side by side.
+      inverse = 1.0_dp/film
+      inverse_2 = inverse*inverse
+      load = (inverse_2*inverse_2)*(coefficient*sqrt(film))*growth
+      load_by_film = -3.5_dp*load*inverse
+      load_by_velocity = -rate*load
+   end subroutine piezo_viscous_terms_load
 
 end module published_piezo_viscous

@@ -2,8 +2,8 @@
 !> on, and every failure is seen; last_error then says why. Thin calls of the C library.
 module file_descriptor
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char, c_size_t
+   use errors, only: interrupted_call, invalid_call, last_error
    use kinds, only: int64
-   use system_error, only: interrupted_call, invalid_call, last_error
    implicit none(type, external)
    private
 

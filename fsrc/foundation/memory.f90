@@ -1,7 +1,7 @@
 !> Memory is asked for at once, before anything is computed whose arrays follow in size from the input: a lack of it is an error with
 !> a sentence then, and not the end of the program somewhere in the middle.
 module memory
-   use, intrinsic :: iso_c_binding, only: c_int, c_long
+   use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_loc, c_long, c_ptr
    use errors, only: error_t, exit_bad_input, exit_system, raise
    use kinds, only: dp, int64
    use text, only: integer_text, short_text
@@ -12,7 +12,7 @@ module memory
    !> own and learns nothing from it, so that asking changes nothing for what follows.
    real(dp), parameter :: margin = 48.0e6_dp
 
-   public :: expect_memory
+   public :: expect_memory, allocate_lines
 
    interface
       function c_sysconf(name) bind(c, name='sysconf') result(value)
@@ -67,5 +67,22 @@ contains
          words = short_text(bytes*1.0e-9_dp, 3)//' GB'
       end if
    end function size_text
+
+   !> Allocate memory for a variable that is to start with a cache line. Registers as wide as a line are loaded and stored at half
+   !> the speed from anywhere else, and no compiler aligns what a procedure keeps on the stack to more than it has to.
+   subroutine allocate_lines(bits, room, place)
+      !> `storage_size` of the variable [bits]
+      integer, intent(in) :: bits
+      !> Memory that holds it, and lives as long as it is used
+      real(dp), allocatable, target, intent(out) :: room(:)
+      !> Its address
+      type(c_ptr), intent(out) :: place
+      integer, parameter :: line_bytes = 64, number_bytes = storage_size(1.0_dp)/8, line = line_bytes/number_bytes
+      integer :: skipped
+
+      allocate (room(bits/storage_size(1.0_dp) + 1 + line))
+      skipped = int(modulo(-transfer(c_loc(room), 1_c_intptr_t), int(line_bytes, c_intptr_t)))/number_bytes
+      place = c_loc(room(1 + skipped))
+   end subroutine allocate_lines
 
 end module memory

@@ -3,7 +3,7 @@
 !> without those before it, and every machine gives the same. Words of 32 bits are held in longer integers,
 !> and no product leaves the positive 64-bit integers.
 module random_numbers
-   use kinds, only: dp, int64
+   use kinds, only: int64
    implicit none(type, external)
    private
 
@@ -14,17 +14,7 @@ module random_numbers
    !> Bits of the integers that become reals
    integer, parameter, public :: random_bit_count = 52
 
-   !> A walk along one stream.
-   type, public :: random_state_t
-      !> Any number; each gives a sequence of its own
-      integer(int64) :: seed = 0_int64
-      !> Any number; streams of one seed are independent
-      integer(int64) :: stream = 0_int64
-      !> Place of the next number
-      integer(int64) :: place = 0_int64
-   end type random_state_t
-
-   public :: philox_words, random_bits, uniform_at, next_uniform, random_permutation
+   public :: philox_words, random_bits
 
 contains
 
@@ -79,47 +69,5 @@ contains
       words = philox_words(counter, key)
       random_bits = ior(shiftl(words(1), random_bit_count - 32), shiftr(words(2), 64 - random_bit_count))
    end function random_bits
-
-   !> Random number between 0 and 1, both excluded: the middle of one of 2^52 equal parts.
-   pure real(dp) function uniform_at(seed, stream, place)
-      !> Any number
-      integer(int64), intent(in) :: seed
-      !> Any number
-      integer(int64), intent(in) :: stream
-      !> Any number
-      integer(int64), intent(in) :: place
-
-      uniform_at = scale(real(random_bits(seed, stream, place), dp) + 0.5_dp, -random_bit_count)
-   end function uniform_at
-
-   !> Next random number of a walk, between 0 and 1, both excluded.
-   pure subroutine next_uniform(state, number)
-      !> Moved on by one place
-      type(random_state_t), intent(inout) :: state
-      !> The number
-      real(dp), intent(out) :: number
-
-      number = uniform_at(state%seed, state%stream, state%place)
-      state%place = state%place + 1_int64
-   end subroutine next_uniform
-
-   !> Random order of the numbers 1 to n (Fisher and Yates).
-   pure subroutine random_permutation(state, order)
-      !> Moved on by n - 1 places
-      type(random_state_t), intent(inout) :: state
-      !> Each of 1 to n once
-      integer, intent(out) :: order(:)
-      real(dp) :: number
-      integer :: i, other, held
-
-      order = [(i, i=1, size(order))]
-      do i = size(order), 2, -1
-         call next_uniform(state, number)
-         other = 1 + int(number*real(i, dp))
-         held = order(i)
-         order(i) = order(other)
-         order(other) = held
-      end do
-   end subroutine random_permutation
 
 end module random_numbers

@@ -7,14 +7,14 @@
 module lane_scenes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
-   use aligned_memory, only: allocate_lines
    use constants, only: pi
    use film_law, only: film_load, film_t, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast, &
-      overflow_load, steady_film
+                       overflow_load, steady_film
    use kinds, only: dp, int64
    use lane_functions, only: lanes
-   use radau_nodes, only: stages
    use load_expansion, only: load_expansion_t
+   use memory, only: allocate_lines
+   use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
    use settling_rate, only: settling_of, settling_t

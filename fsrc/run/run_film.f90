@@ -4,8 +4,7 @@ module run_film
    use errors, only: error_t
    use film_law, only: contact_radius
    use film_point, only: film_contact_t, film_point_t, new_film_point, speed_group_of
-   use film_profiles, only: profile_names, profile_rows, profile_units
-   use film_table, only: film_row, film_row_t
+   use film_table, only: film_row, film_row_t, profile_names, profile_rows, profile_units
    use finished_files, only: place_files
    use kinds, only: dp, int64
    use log_file, only: log_t

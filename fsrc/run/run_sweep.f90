@@ -3,19 +3,19 @@
 module run_sweep
    use clock, only: wall_seconds
    use errors, only: error_t
+   use fine_window, only: solve_whole_window, window_t
    use finished_files, only: place_files
    use floquet, only: orbit_stability
    use integrate_controlled, only: find_steady_motion
    use kinds, only: dp, int64
    use lane_scenes, only: lane_ending_t, lane_scene_t
    use log_file, only: log_t
-   use output_place, only: log_path, result_path, summary_path
-   use model_limits, only: model_limit
    use node_extremes, only: seen_acceleration, seen_film
+   use output_place, only: log_path, result_path, summary_path
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
-   use fine_window, only: solve_whole_window, window_t
    use progress, only: progress_t
    use rattle_class, only: note_orbit, rattle_verdict_t
+   use regime_check, only: model_limit
    use resolved_scene, only: resolve, resolved_scene_t
    use result_writer, only: result_writer_t
    use scene_lane, only: lane_of_scene

@@ -5,11 +5,10 @@ module scene_report
    use floquet, only: orbit_stability, stability_name
    use kinds, only: dp
    use log_file, only: log_magic, log_t
-   use model_limits, only: model_limit, model_limit_sentence, within_model
    use node_extremes, only: seen_acceleration, seen_film
    use output_place, only: result_path, summary_path
    use rattle_class, only: class_name
-   use regime_words, only: regime_sentence
+   use regime_check, only: model_limit, model_limit_sentence, regime_sentence, within_model
    use resolved_scene, only: resolved_scene_t
    use scene_result, only: passes_per_step, scene_result_t
    use scene_status, only: is_success, status_name, status_sentence

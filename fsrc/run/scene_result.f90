@@ -7,12 +7,11 @@ module scene_result
    use integrate_motion, only: motion_end_t
    use kinds, only: dp
    use lane_scenes, only: lane_scene_t
-   use model_limits, only: model_limit, within_model
    use newmark, only: motion_count_t
    use node_extremes, only: seen_film, seen_pressure
    use periodic_orbit, only: periodic_orbit_t
    use rattle_class, only: note_orbit, rattle_verdict_t
-   use regime_check, only: check_regime, regime_verdict_t
+   use regime_check, only: check_regime, model_limit, regime_verdict_t, within_model
    use resolved_scene, only: resolved_scene_t
    use sample_recorder, only: sample_recorder_t
    use scene_lane, only: lane_of_scene

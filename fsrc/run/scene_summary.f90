@@ -5,11 +5,10 @@ module scene_summary
    use floquet, only: orbit_stability, stability_name
    use key_table, only: choice_word
    use kinds, only: dp
-   use model_limits, only: model_limit_name
    use node_extremes, only: seen_acceleration, seen_film, seen_load, seen_velocity
    use rattle_class, only: class_name
    use regime, only: film_elastohydrodynamic
-   use regime_words, only: regime_name
+   use regime_check, only: model_limit_name, regime_name
    use resolved_scene, only: resolved_scene_t
    use scene_report, only: speed_meaning
    use scene_result, only: passes_per_step, scene_result_t

@@ -4,9 +4,8 @@ module odd_numbers
    use input_key, only: is_sensible, real_kind, sensible_text
    use key_table, only: find_key, find_swept_key, keys
    use kinds, only: dp
-   use printable_text, only: printable
    use scene_input, only: scene_input_t
-   use text, only: integer_text, real_text
+   use text, only: integer_text, printable, real_text
    use word_list, only: split_words, word_t
    implicit none(type, external)
    private

@@ -3,15 +3,17 @@
 module scene_reader
    use errors, only: fault_list_t
    use file_system, only: read_whole_file
-   use input_key, only: name_limit
+   use input_entry, only: numbers_text, value_text
+   use input_key, only: name_limit, table_kind
+   use key_table, only: keys, starts_group
+   use keys_in_use, only: in_use
    use kinds, only: dp
    use namelist_text, only: assignment_t, scan_namelists
    use odd_numbers, only: odd_numbers_of_input
-   use resolved_input, only: resolved_text
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
-   use scene_types, only: contact_t, film_choice_t, kinematics_t, load_t, lubricant_t, output_t, scene_t, &
-                          solver_t, spectrum_choice_t, task_campaign, task_sweep
+   use scene_types, only: contact_t, film_choice_t, kinematics_t, load_t, lubricant_t, output_t, scene_t, solver_t, &
+                          spectrum_choice_t, task_campaign, task_sweep
    use task_reader, only: read_campaign, read_points, read_sweep
    use text, only: integer_text, quoted
    implicit none(type, external)
@@ -243,5 +245,49 @@ contains
       allocate (output%columns, source=input%choices('output', 'columns'))
       output%stride = input%count('output', 'stride')
    end function read_output
+
+   !> All keys that have a value and are in use, as namelist text. Where the files go is no property
+   !> of the scene, so that the same scene gives the same bytes in any folder.
+   function resolved_text(input, name) result(text)
+      !> Typed values, without a fault
+      type(scene_input_t), intent(in) :: input
+      !> Name of the scene
+      character(*), intent(in) :: name
+      character(:), allocatable :: text
+      character(:), allocatable :: body
+      integer :: i, column
+
+      text = ''
+      body = ''
+      do i = 1, size(keys)
+         if (keys(i)%group == 'scene' .and. keys(i)%name == 'name') then
+            body = body//'   name = '//quoted(name)//new_line('a')
+         else if (keys(i)%kind == table_kind) then
+            do column = 1, size(input%entries(i)%columns)
+               body = body//'   '//trim(keys(i)%name)//'(:, '//integer_text(column)//') = '// &
+                      numbers_text(input%entries(i)%columns(column)%numbers)//new_line('a')
+            end do
+         else if (is_told(i)) then
+            body = body//'   '//trim(keys(i)%name)//' = '//value_text(keys(i), input%entries(i))//new_line('a')
+         end if
+         if (.not. starts_group(i + 1)) cycle
+         if (len(body) > 0) text = text//'&'//trim(keys(i)%group)//new_line('a')//body//'/'//new_line('a')
+         body = ''
+      end do
+
+   contains
+
+      !> Whether a key belongs into the text: it has a value, is in use, and is no matter of this machine.
+      pure logical function is_told(i)
+         integer, intent(in) :: i
+
+         is_told = input%entries(i)%present .and. in_use(input, i)
+         if (keys(i)%group == 'output') is_told = is_told .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
+         ! In a film task the absent model means more than its default.
+         if (keys(i)%name == 'model') &
+            is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') /= 'film')
+      end function is_told
+
+   end function resolved_text
 
 end module scene_reader

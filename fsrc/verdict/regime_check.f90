@@ -1,9 +1,13 @@
-!> Whether the film law of a scene may be believed: the exact pressure of its motion, computed afterwards.
+!> Whether the film law of a scene may be believed: the exact pressure of its motion, computed afterwards, and its regime in words;
+!> and where a motion leaves what the model can mean: a gap so wide that it is no line contact any more, or so narrow that no oil is
+!> in it.
 module regime_check
    use film_law, only: film_t
    use film_pressure, only: barus_pressure, exact_pressure
    use kinds, only: dp
-   use regime, only: contact_deflection, film_iso_viscous, film_piezo_viscous, film_regime
+   use regime, only: contact_deflection, deflection_limit, film_elastohydrodynamic, film_iso_viscous, film_piezo_viscous, &
+                     film_regime, iso_viscous_limit, rigid_limit
+   use text, only: short_text
    implicit none(type, external)
    private
 
@@ -25,7 +29,14 @@ module regime_check
       logical :: law_contradicted = .false.
    end type regime_verdict_t
 
-   public :: check_regime, steady_alpha_p
+   !> Beyond this share of the radius the parabola h0 + x**2/(2 R), which stands for the round flank, ends [-].
+   real(dp), parameter :: widest_share = 0.1_dp
+   !> Below this film there is no oil film left: a few molecules [m].
+   real(dp), parameter :: thinnest_film = 1.0e-9_dp
+   !> Codes: within, too wide, too narrow, both at different times.
+   integer, parameter, public :: within_model = 0, gap_too_wide = 1, gap_too_narrow = 2, gap_both = 3
+
+   public :: check_regime, steady_alpha_p, regime_name, regime_sentence, model_limit, model_limit_name, model_limit_sentence
 
 contains
 
@@ -68,5 +79,86 @@ contains
 
       steady_alpha_p = film%pressure_viscosity*exact_pressure(film%radius, film%speed, film%viscosity, thickness, 0.0_dp)
    end function steady_alpha_p
+
+   !> Word for the summary.
+   pure function regime_name(regime) result(name)
+      !> Code of module regime
+      integer, intent(in) :: regime
+      character(:), allocatable :: name
+
+      select case (regime)
+      case (film_iso_viscous)
+         name = 'iso-viscous'
+      case (film_piezo_viscous)
+         name = 'piezo-viscous'
+      case (film_elastohydrodynamic)
+         name = 'elastohydrodynamic'
+      case default
+         name = 'unknown'
+      end select
+   end function regime_name
+
+   !> Sentence for the log: the regime and the reason.
+   pure function regime_sentence(verdict) result(sentence)
+      !> Verdict of the regime check
+      type(regime_verdict_t), intent(in) :: verdict
+      character(:), allocatable :: sentence
+
+      sentence = regime_name(verdict%regime)//': the exact film reaches alpha p = '//short_text(verdict%alpha_p_maximum, 3)
+      if (verdict%alpha_p_maximum >= rigid_limit) then
+         sentence = sentence//'; from 1 on there is no piezo-viscous film of rigid flanks'
+      else if (verdict%deflection > deflection_limit*verdict%film) then
+         sentence = sentence//'; the flanks give way by '//short_text(100.0_dp*verdict%deflection/verdict%film, 2)// &
+                    ' % of the film, limit '//short_text(100.0_dp*deflection_limit, 2)//' %'
+      else if (verdict%alpha_p_maximum < iso_viscous_limit) then
+         sentence = sentence//'; below '//short_text(iso_viscous_limit, 1)//' pressure hardly thickens the oil'
+      else
+         sentence = sentence//'; from '//short_text(iso_viscous_limit, 1)//' on pressure thickens the oil'
+      end if
+   end function regime_sentence
+
+   !> Which limits a motion has passed.
+   elemental integer function model_limit(film_minimum, film_maximum, radius)
+      !> Smallest and largest film [m]
+      real(dp), intent(in) :: film_minimum
+      real(dp), intent(in) :: film_maximum
+      !> Equivalent radius R [m]
+      real(dp), intent(in) :: radius
+
+      model_limit = within_model
+      if (film_maximum > widest_share*radius) model_limit = gap_too_wide
+      if (film_minimum < thinnest_film) model_limit = model_limit + gap_too_narrow
+   end function model_limit
+
+   !> Word for the summary.
+   pure function model_limit_name(limit) result(name)
+      !> Code of a limit
+      integer, intent(in) :: limit
+      character(:), allocatable :: name
+      character(*), parameter :: names(0:3) = [character(19) :: 'within', 'too_wide', 'too_narrow', 'too_wide_and_narrow']
+
+      name = trim(names(limit))
+   end function model_limit_name
+
+   !> What it means, in a sentence; empty within the limits.
+   pure function model_limit_sentence(limit) result(sentence)
+      !> Code of a limit
+      integer, intent(in) :: limit
+      character(:), allocatable :: sentence
+      character(*), parameter :: wide = 'the film grows beyond a tenth of the radius, where the parabolic gap of a line '// &
+                                         'contact ends'
+      character(*), parameter :: narrow = 'the film falls below 1 nm, where no oil film is left'
+
+      select case (limit)
+      case (gap_too_wide)
+         sentence = wide
+      case (gap_too_narrow)
+         sentence = narrow
+      case (gap_both)
+         sentence = wide//', and '//narrow
+      case default
+         sentence = ''
+      end select
+   end function model_limit_sentence
 
 end module regime_check

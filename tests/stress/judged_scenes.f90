@@ -5,7 +5,7 @@ module judged_scenes
    use constants, only: standard_gravity
    use film_law, only: new_film, steady_film
    use kinds, only: dp, int64
-   use random_numbers, only: next_uniform, random_state_t
+   use random_walk, only: next_uniform, random_state_t
    use random_scenes, only: choose_law, draw, draw_scene, drawn_scene_t, laws
    use resolved_scene, only: resolve
    use scene_lane, only: lane_of_scene

@@ -10,7 +10,7 @@ program lane_independence
    use kinds, only: dp, int64
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use random_numbers, only: next_uniform, random_permutation, random_state_t
+   use random_walk, only: next_uniform, random_permutation, random_state_t
    use random_scenes, only: draw_scene, drawn_scene_t, group_size
    use stress_engines, only: engine_names, engines
    implicit none(type, external)

@@ -2,10 +2,8 @@
 module test_film_fit
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use checks, only: check_list_t
-   use film_fit, only: film_fit_t, fit_bad_points, fit_done, fit_film_law, fit_rank_deficient, &
-      judge_film_law, &
-      law_error_t, law_film_ratio, published_film_law, thickness_law_t
-   use film_fit_window, only: film_window_t, sample_film_window, window_is_valid
+   use film_fit, only: film_fit_t, film_window_t, fit_bad_points, fit_done, fit_film_law, fit_rank_deficient, judge_film_law, &
+                       law_error_t, law_film_ratio, published_film_law, sample_film_window, thickness_law_t, window_is_valid
    use kinds, only: dp
    implicit none(type, external)
    private

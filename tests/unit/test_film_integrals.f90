@@ -2,8 +2,8 @@
 module test_film_integrals
    use checks, only: check_list_t
    use constants, only: pi
-   use film_integrals, only: pressure_integrals
    use kinds, only: dp
+   use rupture, only: pressure_integrals
    use rupture_reference, only: integral_table
    implicit none(type, external)
    private

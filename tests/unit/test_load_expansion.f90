@@ -8,13 +8,14 @@ module test_load_expansion
    use lane_functions, only: lanes
    use load_expansion, only: expand_load, highest_power, load_expansion_t
    use load_pieces, only: exact_load, published_load
-   use published_iso_viscous, only: squeeze_share
    use reynolds_iso_viscous, only: iso_viscous_load, rupture_tangent_fast
    implicit none(type, external)
    private
 
    !> The last piece begins at |A| = 2**25 - 2.
    real(dp), parameter :: last_piece_start = 2.0_dp**25 - 2.0_dp
+   !> Squeeze term of (24) over its rolling term and A (x_e + pi/2), A the squeeze group [-].
+   real(dp), parameter :: squeeze_share = 3.0_dp/(4.0_dp*2.8_dp)
 
    public :: run_load_expansion_tests
 

@@ -1,7 +1,7 @@
 !> Tests of the text that a terminal may see.
 module test_printable_text
    use checks, only: check_list_t
-   use printable_text, only: printable
+   use text, only: printable
    implicit none(type, external)
    private
 

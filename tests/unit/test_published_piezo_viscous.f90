@@ -4,8 +4,8 @@ module test_published_piezo_viscous
    use checks, only: check_list_t
    use film_law, only: overflow_load
    use kinds, only: dp
-   use piezo_viscous_terms, only: piezo_viscous_terms_fractions, piezo_viscous_terms_load
-   use published_piezo_viscous, only: piezo_coefficient, published_piezo_viscous_load, squeeze_exponent_rate
+   use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_terms_load, &
+                                      published_piezo_viscous_load, squeeze_exponent_rate
    implicit none(type, external)
    private
 
@@ -24,7 +24,6 @@ contains
       call test_values(checks)
       call test_slopes(checks)
       call test_overflow(checks)
-      call test_fractions(checks)
    end subroutine run_published_piezo_viscous_tests
 
    !> (37) in groups: W = 6.6 l (R/alpha) u*^2.75 h*^-3.5 exp(-703 w*), from (32) turned round.
@@ -48,21 +47,6 @@ contains
          end do
       end do
    end subroutine test_values
-
-   !> Numerators over the common denominator are load and slopes, over twelve powers of ten.
-   subroutine test_fractions(checks)
-      type(check_list_t), intent(inout) :: checks
-      real(dp) :: values(3), numerators(3), film, denominator
-      integer :: i
-
-      do i = 0, 24
-         film = 1.0e-12_dp*sqrt(10.0_dp)**i
-         call piezo_viscous_terms_load(2.0_dp, 3.0_dp, film, 5.0_dp, values(1), values(2), values(3))
-         call piezo_viscous_terms_fractions(2.0_dp, 3.0_dp, film, 5.0_dp, numerators(1), numerators(2), numerators(3), &
-            denominator)
-         call checks%check(all(abs(numerators/denominator/values - 1.0_dp) < 8.0_dp*epsilon(1.0_dp)), 'one division')
-      end do
-   end subroutine test_fractions
 
    !> ln W is linear in ln h and in w; its slopes are known numbers, and so is a difference.
    subroutine test_slopes(checks)

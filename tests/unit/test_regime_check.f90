@@ -4,10 +4,9 @@ module test_regime_check
    use checks, only: check_list_t
    use film_law, only: film_t, new_film, steady_film
    use kinds, only: dp
-   use regime, only: film_elastohydrodynamic, film_iso_viscous, film_piezo_viscous
    use node_extremes, only: seen_pressure
-   use regime_check, only: check_regime, regime_verdict_t, steady_alpha_p
-   use regime_words, only: regime_sentence
+   use regime, only: film_elastohydrodynamic, film_iso_viscous, film_piezo_viscous
+   use regime_check, only: check_regime, regime_sentence, regime_verdict_t, steady_alpha_p
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, scene_t
    use window_extremes, only: extremes_of_samples, window_extremes_t
    implicit none(type, external)

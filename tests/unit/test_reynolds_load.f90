@@ -2,8 +2,8 @@
 module test_reynolds_load
    use checks, only: check_list_t
    use kinds, only: dp
-   use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate
-   use steady_reynolds_film, only: steady_iso_viscous_film, steady_piezo_viscous_film
+   use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, squeeze_rate, &
+                            steady_iso_viscous_film, steady_piezo_viscous_film
    implicit none(type, external)
    private
 

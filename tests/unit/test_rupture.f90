@@ -1,10 +1,9 @@
 !> Tests of the rupture point against roots in arbitrary precision, and of its limits.
 module test_rupture
    use checks, only: check_list_t
-   use film_integrals, only: pressure_integrals
    use kinds, only: dp
    use reynolds_iso_viscous, only: rupture_tangent_fast, rupture_tangent_slope
-   use rupture, only: rupture_tangent_successive, squeeze_group
+   use rupture, only: pressure_integrals, rupture_tangent_successive, squeeze_group
    use rupture_reference, only: rupture_table
    implicit none(type, external)
    private
