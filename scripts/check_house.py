@@ -50,7 +50,7 @@ def faults() -> list[str]:
             if (module := MODULE.match(line)) and room != "bindings" and module[1].lower() != path.stem:
                 found.append(f"{place}: module {module[1]} stands in a file of another name")
             other = home.get(use[1].lower()) if (use := USE.match(line)) else None
-            if other and ROOMS.index(other) > ROOMS.index(room):
+            if other in ROOMS and ROOMS.index(other) > ROOMS.index(room):
                 found.append(f"{place}: {room} uses {use[1]} of {other}, a room below it")
             if STOP.match(line):
                 found.append(f"{place}: a library routine stops the program")
