@@ -3,6 +3,7 @@
 #   MPI=1        campaigns over the ranks of an MPI job (needs Open MPI)
 #   NATIVE=1     compile for this very processor instead of any x86-64-v3
 #   BUILD=DIR    build folder (default: build)
+#   FC=COMPILER  gfortran, or flang of LLVM 19 or later
 #   PREFIX=DIR   where make install puts the program
 
 BUILD ?= build
@@ -26,11 +27,23 @@ ARCHITECTURE := $(if $(NATIVE),-march=native,$(if $(filter x86_64,$(UNAME_MACHIN
 FFTW_INCLUDE := $(firstword $(wildcard /usr/include/fftw3.f03 $(CONDA_PREFIX)/include/fftw3.f03 $(FFTW_ROOT)/include/fftw3.f03))
 LIBRARIES := $(if $(FFTW_ROOT),-L$(FFTW_ROOT)/lib) $(if $(CONDA_PREFIX),-L$(CONDA_PREFIX)/lib) -lfftw3 -llapack -lblas
 
+# Flags of each compiler.
 # Not -ffast-math: it drops the tests for NaN, and at link time sets flush-to-zero for the whole process.
 # -flto lets the film kernels become part of the loops over time, which live in other files.
-WARNINGS := -std=f2018 -Wall -Wextra $(if $(STRICT),-Werror)
-RELEASE_FLAGS := -O3 $(ARCHITECTURE) -fno-math-errno -fno-trapping-math -flto=auto -fopenmp -fPIC
-DEBUG_FLAGS := -O1 -g -fcheck=all -finit-real=snan -ffpe-trap=invalid,overflow,zero -fbacktrace -fopenmp -fPIC
+# The loops over lanes run in full registers as they stand; made part of the loop over steps, gfortran 12 leaves some of
+# them scalar. Elementary functions run so only as part of the loops that call them, which gfortran finds too long.
+ifneq ($(findstring flang,$(FC)),)
+  WARNINGS := -std=f2018
+  RELEASE_FLAGS := -O3 $(ARCHITECTURE) -fopenmp -fPIC
+  DEBUG_FLAGS := -O1 -g -fopenmp -fPIC
+else
+  WARNINGS := -std=f2018 -Wall -Wextra $(if $(STRICT),-Werror)
+  RELEASE_FLAGS := -O3 $(ARCHITECTURE) -fno-math-errno -fno-trapping-math -flto=auto -fopenmp -fPIC
+  DEBUG_FLAGS := -O1 -g -fcheck=all -finit-real=snan -ffpe-trap=invalid,overflow,zero -fbacktrace -fopenmp -fPIC
+  LANE_FLAGS := $(if $(DEBUG),,-fno-inline)
+  ELEMENTARY_FLAGS := -finline-limit=4000
+  WIDENING := -Wconversion-extra
+endif
 STRICT_FLAGS := -O1 -fopenmp
 FFLAGS := $(WARNINGS) $(if $(DEBUG),$(DEBUG_FLAGS),$(if $(STRICT),$(STRICT_FLAGS),$(RELEASE_FLAGS))) $(addprefix -I,$(dir $(FFTW_INCLUDE)))
 
@@ -111,14 +124,10 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 
 # The rooms that compute may not even widen a kind unseen. (Elsewhere gfortran 12 warns of text positions.)
 COMPUTING := $(foreach room,$(filter-out foundation scene files run campaign,$(ROOMS)),$(wildcard fsrc/$(room)/*.f90))
-$(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),-Wconversion-extra)
+$(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),$(WIDENING))
 
-# The loops over lanes run in full registers as they stand; made part of the loop over steps, gfortran 12 leaves some of
-# them scalar.
-$(BUILD)/lane_advance.o $(BUILD)/lane_integration.o: private FFLAGS += $(if $(DEBUG),,-fno-inline)
-
-# Elementary functions run in full registers only as part of the loops that call them, which the compiler finds too long.
-$(BUILD)/lane_functions.o $(BUILD)/elementary_functions.o: private FFLAGS += -finline-limit=4000
+$(BUILD)/lane_advance.o $(BUILD)/lane_integration.o: private FFLAGS += $(LANE_FLAGS)
+$(BUILD)/lane_functions.o $(BUILD)/elementary_functions.o: private FFLAGS += $(ELEMENTARY_FLAGS)
 
 $(BUILD)/version.o: private FFLAGS += -cpp -DPROGRAM_VERSION='"$(VERSION)"'
 $(BUILD)/version.o: fsrc/VERSION
@@ -151,7 +160,7 @@ python: $(BUILD)/kernels/built
 
 $(BUILD)/kernels/built: $(wildcard fsrc/bindings/*.f90) scripts/build_kernels.sh $(OBJECTS) $(PYTHON_ENV)/installed
 	@echo 'build the Python module of the kernels'
-	@scripts/build_kernels.sh $(PYTHON) $(BUILD) '$(OBJECTS)' '$(LIBRARIES)'
+	@scripts/build_kernels.sh $(PYTHON) $(BUILD) '$(OBJECTS)' '$(LIBRARIES)' '$(FC)'
 	@touch $@
 
 # --- the two scenes of the paper ---------------------------------------------------------------------

@@ -1,11 +1,12 @@
 #!/bin/sh
-# Builds the Python module of the Fortran kernels. Usage: build_kernels.sh PYTHON BUILD OBJECTS LIBRARIES
+# Builds the Python module of the Fortran kernels. Usage: build_kernels.sh PYTHON BUILD OBJECTS LIBRARIES COMPILER
 # f2py writes the C layer; compiler and linker are called here, with the flags of the program.
 set -eu
 python=$1
 build=$2
 objects=$3
 libraries=$4
+compiler=$5
 place=$build/kernels
 mkdir -p "$place"
 
@@ -31,5 +32,5 @@ for source in "$place"/_kernels-f2pywrappers*.f*; do
     [ -e "$source" ] && wrappers="$wrappers $source"
 done
 # shellcheck disable=SC2086
-gfortran -shared -O2 -fPIC -fopenmp -I"$build" -J"$place" fsrc/bindings/*.f90 $wrappers \
+$compiler -shared -O2 -fPIC -fopenmp -I"$build" -J"$place" fsrc/bindings/*.f90 $wrappers \
     "$place/_kernelsmodule.o" "$place/fortranobject.o" $objects $libraries -o "scripts/rattle/_kernels$suffix"

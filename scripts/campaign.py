@@ -277,7 +277,7 @@ def parse_options() -> argparse.Namespace:
     other.set_defaults(act=export)
 
     add_rerun(commands)
-    return parser.parse_args()
+    return command.parse(parser)
 
 
 def add_slurm(commands: argparse._SubParsersAction) -> None:

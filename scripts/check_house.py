@@ -6,12 +6,14 @@ from __future__ import annotations
 
 import argparse
 import ast
+import os
 import re
 import sys
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
+os.chdir(Path(__file__).resolve().parents[1])
 ROOMS = [line.split()[0] for line in Path("fsrc/ROOMS").read_text().splitlines()]
 TOP_LEVEL = {"Makefile", "fsrc", "input", "scripts", "tests", "README.md"}
 TOP_LEVEL |= {"LICENSE", "CHANGELOG.md", "CITATION.cff", "pyproject.toml", "build", "results"}

@@ -87,7 +87,7 @@ def parse_options() -> argparse.Namespace:
         metavar="X",
         help="irregular, or subharmonic if known to repeat, above this fraction between harmonics",
     )
-    return parser.parse_args()
+    return command.parse(parser)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,8 @@ from rattle.summary import comparison_table
 
 def main() -> None:
     options = parse_options()
-    rows = comparison_table([rattle.read_summary(path) for path in options.summaries])
+    paths = [path.with_suffix(".summary.nml") if path.suffix == ".rattle" else path for path in options.paths]
+    rows = comparison_table([rattle.read_summary(path) for path in paths])
     print(table.markdown(rows) if options.markdown else table.plain(rows))
 
 
@@ -21,9 +22,15 @@ def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description="Print a table with a column for each scene; '-' is what a summary does not know."
     )
-    parser.add_argument("summaries", nargs="+", type=Path, metavar="SUMMARY", help="NAME.summary.nml")
+    parser.add_argument(
+        "paths",
+        nargs="+",
+        type=Path,
+        metavar="SUMMARY|RESULT",
+        help="NAME.summary.nml, or NAME.rattle beside it",
+    )
     parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
-    return parser.parse_args()
+    return command.parse(parser)
 
 
 if __name__ == "__main__":

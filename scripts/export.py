@@ -83,7 +83,7 @@ def parse_options() -> argparse.Namespace:
     parser.add_argument(
         "--stride", type=command.positive, default=1, metavar="N", help="write every N-th row only (1)"
     )
-    return parser.parse_args()
+    return command.parse(parser)
 
 
 if __name__ == "__main__":

@@ -25,28 +25,28 @@ MILLIMETRES = 1.0 / 25.4
 
 
 def main() -> int | None:
-    options = parse_options(sys.argv[1:])
+    options = parse_options()
     return options.run(options)
 
 
-def parse_options(arguments: list[str]) -> argparse.Namespace:
+def parse_options() -> argparse.Namespace:
+    first = "".join(sys.argv[1:2])
     parser = argparse.ArgumentParser(
         description="Draw results, each figure as PNG and PDF. Each command has its own --help."
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for name, words in COMMANDS.items():
         chosen = commands.add_parser(name, help=words, parents=[common_options()])
-        if name in arguments[:1]:  # only its module is loaded
+        if name == first:  # only its module is loaded
             module = importlib.import_module(f"rattle.figures.{name.replace('-', '_')}")
             chosen.description = module.DESCRIPTION
             module.add_options(chosen)
-            chosen.set_defaults(run=module.run)
-    for name in arguments[:1]:
-        if name not in COMMANDS and Path(name).is_file():
-            task = rattle.read(name).task
-            right = f"; 'plot.py {task} {name}' draws it" if task in COMMANDS else ""
-            raise command.CommandError(f"{name} is no command{right}.")
-    return parser.parse_args(arguments)
+            chosen.set_defaults(run=module.run, parser=chosen)
+    if first not in COMMANDS and (first.endswith(".rattle") or Path(first).is_file()):
+        task = rattle.read(first).task
+        right = f"; 'plot.py {task} {first}' draws it" if task in COMMANDS else ""
+        raise command.CommandError(f"{first} is no command{right}.")
+    return command.parse(parser)
 
 
 def common_options() -> argparse.ArgumentParser:

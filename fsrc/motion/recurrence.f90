@@ -27,7 +27,7 @@ module recurrence
    !> What a motion looks back on.
    type, public :: recurrence_t
       private
-      type(mark_t) :: marks(size(distances))
+      type(mark_t) :: marks(size(distances)) = mark_t()
    end type recurrence_t
 
    public :: look_back

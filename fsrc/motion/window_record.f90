@@ -49,7 +49,7 @@ module window_record
       !> z' where the recorded periods end [m/s]
       real(dp) :: end_velocity = 0.0_dp
       !> Smallest and largest values
-      type(extreme_t) :: lowest(seen_quantities), highest(seen_quantities)
+      type(extreme_t) :: lowest(seen_quantities) = extreme_t(), highest(seen_quantities) = extreme_t()
       !> Integrals of z'', |z''| and z''**2 over the time in periods [m/s2], [m/s2], [m2/s4]
       real(dp) :: acceleration_sum = 0.0_dp
       real(dp) :: acceleration_size = 0.0_dp

@@ -218,6 +218,7 @@ def read_campaign(path: str | Path) -> Campaign:
     except OSError as fault:
         raise ResultError(f"{path} cannot be read: {fault.strerror or fault}.") from None
     if header.chunks.kind != CAMPAIGN:
+        ResultFile(path, header).require_task("campaign")
         raise ResultError(f"{path} is no campaign: it has no chunk table.")
     try:
         plan = read_plan(header.input_text)

@@ -58,6 +58,17 @@ def note_open(result: Result) -> None:
         note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")
 
 
+def parse(parser: argparse.ArgumentParser) -> argparse.Namespace:
+    """The options of a script; the whole help where there is no argument at all."""
+    if len(sys.argv) == 1:
+        parser.print_help(sys.stderr)
+        sys.exit(BAD_INPUT)
+    options, rest = parser.parse_known_args()
+    if rest:
+        getattr(options, "parser", parser).error(f"unrecognized arguments: {' '.join(rest)}")
+    return options
+
+
 def positive(text: str) -> int:
     """The value of an option that is a positive whole number."""
     if not (text.isascii() and text.isdecimal() and int(text) > 0):

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
@@ -15,7 +14,6 @@ from rattle.result_header import ResultError, ResultHeader, read_header
 from rattle.summary import read_summary
 
 TIME = "time"
-DRAWN = ("motion", "film", "sweep", "campaign")
 
 
 class Columns(Mapping[str, np.ndarray]):
@@ -93,13 +91,6 @@ class Result(ResultFile):
         state = "closed" if self.closed else "not closed"
         return f"<Result {self.path}: {self.row_count} rows of {', '.join(self.columns)}; {state}>"
 
-    def value(self, group: str, key: str) -> Any:
-        """One value of the resolved input."""
-        try:
-            return self.input[group][key]
-        except KeyError:
-            raise ResultError(f"The resolved input in {self.path} has no {group}.{key}.") from None
-
     def number(self, group: str, key: str) -> float:
         """One number of the resolved input."""
         number = self.value(group, key)
@@ -125,17 +116,6 @@ class Result(ResultFile):
     @property
     def scene_name(self) -> str:
         return str(self.value("scene", "name")).strip()
-
-    @property
-    def task(self) -> str:
-        """What the program was to do, as in 'motion', 'film' or 'sweep'."""
-        return str(self.value("scene", "task")).strip()
-
-    def require_task(self, task: str) -> None:
-        """Raise ResultError, with the command that draws this result, if it is that of another task."""
-        if self.task != task:
-            drawn_by = f"; 'plot.py {self.task}' draws it" if self.task in DRAWN else ""
-            raise ResultError(f"{self.path} is no {task} but the result of task = '{self.task}'{drawn_by}.")
 
     @property
     def law(self) -> str:

@@ -19,6 +19,8 @@ from rattle.result_header import SERIES, ResultError, ResultHeader
 # Threads that verify chunks, and chunks below which another thread is not worth its start.
 MOST_THREADS = 4
 FEWEST_CHUNKS = 4
+# Tasks whose results plot.py draws, with a command of that name.
+DRAWN = ("motion", "film", "sweep", "campaign")
 
 
 class ResultFile:
@@ -55,6 +57,24 @@ class ResultFile:
             return parse(self.input_text)
         except NamelistError as fault:
             raise ResultError(f"The resolved input in {self.path} cannot be read: {fault}") from None
+
+    def value(self, group: str, key: str) -> Any:
+        """One value of the resolved input."""
+        try:
+            return self.input[group][key]
+        except KeyError:
+            raise ResultError(f"The resolved input in {self.path} has no {group}.{key}.") from None
+
+    @property
+    def task(self) -> str:
+        """What the program was to do, as in 'motion', 'film' or 'sweep'."""
+        return str(self.value("scene", "task")).strip()
+
+    def require_task(self, task: str) -> None:
+        """Raise ResultError, with the command that draws this result, if it is that of another task."""
+        if self.task != task:
+            drawn_by = f"; 'plot.py {self.task}' draws it" if self.task in DRAWN else ""
+            raise ResultError(f"{self.path} is no {task} but the result of task = '{self.task}'{drawn_by}.")
 
 
 class CheckedRows:

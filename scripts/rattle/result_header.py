@@ -171,7 +171,8 @@ def read_header(stream: BinaryIO, path: object) -> ResultHeader:
     """Read and check the header at the start of `stream`; `path` is named in the messages."""
     fixed = stream.read(FIXED_PART.size)
     if not fixed.startswith(MAGIC[: len(fixed)]) or not fixed:
-        raise ResultError(f"{path} is not a rattle result file.")
+        ending = "" if str(path).endswith(".rattle") else ", which is called NAME.rattle"
+        raise ResultError(f"{path} is not a rattle result file{ending}.")
     if len(fixed) >= 16:
         _check_encoding(*struct.unpack("<ii", fixed[8:16]), path)
     if len(fixed) < FIXED_PART.size:

@@ -276,7 +276,9 @@ def test_every_cut_is_refused_or_read(tmp_path):
 
 def test_a_time_series_is_no_campaign(tmp_path):
     path = write_motion(tmp_path / "idle.rattle", lines={1.0: 1.0})
-    with pytest.raises(rattle.ResultError, match="is no campaign: it has no chunk table"):
+    with pytest.raises(
+        rattle.ResultError, match="is no campaign but the result of task = 'motion'; 'plot.py motion'"
+    ):
         rattle.read_campaign(path)
     with pytest.raises(rattle.ResultError, match="No such file"):
         rattle.read_campaign(tmp_path / "absent.rattle")

@@ -65,7 +65,7 @@ def test_a_bad_file_is_named_and_the_others_are_classified(results, tmp_path):
     (tmp_path / "notes.txt").write_text("no result")
     done = classify(tmp_path, "notes.txt", "idle.rattle")
     assert done.returncode == 2
-    assert done.stderr == "classify.py: notes.txt is not a rattle result file.\n"
+    assert done.stderr == "classify.py: notes.txt is not a rattle result file, which is called NAME.rattle.\n"
     assert "idle" in done.stdout
 
 

@@ -147,3 +147,12 @@ def test_curves_beyond_the_most_are_thinned_with_a_word(tmp_path, capsys):
     assert "holds 21 squeeze ratios; 9 of them are drawn." in capsys.readouterr().err
     shades = film_points.colours(found)
     assert len(set(shades)) == len(shades) and shades[4] == film_points.ROLLING
+
+
+def test_a_result_of_another_task_is_refused_once(tmp_path):
+    path = write_motion(tmp_path / "motion.rattle", lines={1.0: 1.0})
+    done = call("plot.py", "film", path, "--output", tmp_path)
+    assert done.returncode == 2
+    assert done.stderr == (
+        f"plot.py: {path} is no film but the result of task = 'motion'; 'plot.py motion' draws it.\n"
+    )

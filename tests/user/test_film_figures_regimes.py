@@ -120,7 +120,7 @@ def test_scenes_without_a_place_are_refused(tmp_path):
     many = call("plot.py", "regime-map", *[write_scene(tmp_path / "s.rattle")] * 8, "--output", tmp_path)
     for done, sentence in (
         (alone, "alone.rattle, which would, does not exist."),
-        (film_task, "is no motion: its contact has no static load."),
+        (film_task, "is no motion but the result of task = 'film'; 'plot.py film' draws it."),
         (bare, "has no number as contact."),
         (many, "The map shows 7 scenes at most; 8 were given."),
     ):

@@ -129,3 +129,18 @@ def test_tables_put_words_to_the_left_and_numbers_to_the_right():
         "| film [um] | 1.5 | 10.25 |",
         "| x \\| y    |   - |     2 |",
     ]
+
+
+def test_a_result_stands_for_its_summary(tmp_path):
+    (tmp_path / "idle.summary.nml").write_text("&summary\n   name = 'idle'\n   status = 'complete'\n/\n")
+    done = call_script("compare.py", tmp_path / "idle.rattle")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[0].split() == ["idle"]
+
+
+@pytest.mark.parametrize("script", ["plot.py", "compare.py", "classify.py", "export.py", "campaign.py"])
+def test_without_arguments_a_script_shows_its_help(script):
+    done, asked = call_script(script), call_script(script, "--help")
+    assert (done.returncode, asked.returncode) == (2, 0)
+    assert done.stderr == asked.stdout
+    assert len(asked.stdout.splitlines()) > 8

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+import rattle
 from rattle import command
 from rattle.figures import film_points, film_pressures, film_slopes, style
 from rattle.result import ResultError
@@ -42,6 +43,9 @@ def add_options(parser: ArgumentParser) -> None:
 
 
 def run(options: Namespace) -> int:
+    profiles = options.result.with_suffix(".profiles.rattle")
+    if options.result.exists() or not profiles.exists():
+        rattle.read(options.result).require_task("film")
     choice = film_points.Choice(options.film_ratio, options.speed_group)
     numbers = options.figures or NUMBERS
     makers = [(stem, maker) for number, stem, maker in FIGURES if number in numbers]

@@ -122,8 +122,7 @@ def read_scene(path: Path) -> Scene:
             f"{path} does not hold the contact of its scene, and {result_path}, which would, does not exist."
         )
     result = rattle.read(result_path)
-    if result.task != "motion":
-        raise command.CommandError(f"{result_path} is no motion: its contact has no static load.")
+    result.require_task("motion")
     summary = rattle.read_summary(summary_path) if summary_path.exists() else {}
     return new_scene(result.scene_name, result.input, summary)
 
