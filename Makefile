@@ -51,10 +51,10 @@ FFLAGS := $(WARNINGS) $(if $(DEBUG),$(DEBUG_FLAGS),$(if $(STRICT),$(STRICT_FLAGS
 WIDE_REGISTERS := $(shell $(FC) $(ARCHITECTURE) -Q --help=target 2>/dev/null | awk '\
   $$1 == "-mavx512f" && $$2 == "[enabled]" { wide = 1 } \
   $$1 == "-mprefer-vector-width=" && $$2 ~ /^(128|256)$$/ { narrow = 1 } \
-  END { if (wide && !narrow) print "yes" }')
+  END { print wide && !narrow ? ".true." : ".false." }')
 ROOMS := $(filter-out bindings,$(shell cut -d' ' -f1 fsrc/ROOMS))
 # Folders of rooms that this build takes.
-PARTS := film/coefficients motion/$(if $(WIDE_REGISTERS),wide,narrow)_registers campaign/$(if $(MPI),mpi,serial)
+PARTS := film/coefficients campaign/$(if $(MPI),mpi,serial)
 FOLDERS := $(foreach room,$(ROOMS),$(room) $(filter $(room)/%,$(PARTS)))
 SOURCES := $(foreach folder,$(FOLDERS),$(sort $(wildcard fsrc/$(folder)/*.f90)))
 OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(SOURCES)))
@@ -129,6 +129,7 @@ $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(
 $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o: private FFLAGS += $(LANE_FLAGS)
 $(BUILD)/lane_functions.o $(BUILD)/elementary_functions.o: private FFLAGS += $(ELEMENTARY_FLAGS)
 
+$(BUILD)/lane_rows.o: private FFLAGS += -cpp -DWIDE_REGISTERS=$(WIDE_REGISTERS)
 $(BUILD)/version.o: private FFLAGS += -cpp -DPROGRAM_VERSION='"$(VERSION)"'
 $(BUILD)/version.o: fsrc/VERSION
 

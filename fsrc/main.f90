@@ -7,7 +7,7 @@ program main
    use key_page, only: page_text, template_text
    use key_table, only: known_group, nearest_group
    use ranks, only: parallel_words
-   use register_width, only: wide_registers
+   use lane_rows, only: wide_registers
    use run_tasks, only: run_all_tasks
    use signals, only: catch_signals
    use text_output, only: lost_text, put_line, put_text

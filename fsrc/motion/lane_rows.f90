@@ -6,9 +6,11 @@
 module lane_rows
    use kinds, only: dp
    use lane_functions, only: half_block
-   use register_width, only: wide_registers
    implicit none(type, external)
    private
+
+   !> Whether one register of the processor that is compiled for holds half a block.
+   logical, parameter, public :: wide_registers = WIDE_REGISTERS
 
    public :: interleave_rows
 

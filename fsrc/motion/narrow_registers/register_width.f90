@@ -1,9 +1,0 @@
-!> The registers of the processor that is compiled for: less than half a block of lanes.
-module register_width
-   implicit none(type, external)
-   private
-
-   !> Whether one register holds half a block.
-   logical, parameter, public :: wide_registers = .false.
-
-end module register_width
