@@ -23,7 +23,7 @@ contains
 
    !> The certificate holds the motion that follows from its start against the same periods solved tighter. So the periods
    !> that a forecast has saved in the campaign are solved here.
-   subroutine test_class(scene, resolved, lane, request, verdict, class_stands, error)
+   subroutine test_class(scene, resolved, lane, request, verdict, certificate, error)
       !> The scene with its varied keys set
       type(scene_t), intent(in) :: scene
       !> What follows from it
@@ -34,20 +34,19 @@ contains
       type(lane_request_t), intent(in) :: request
       !> Verdict to be tested
       type(rattle_verdict_t), intent(in) :: verdict
-      !> Whether its class stands
-      logical, intent(out) :: class_stands
+      !> Its certificate
+      type(certificate_t), intent(out) :: certificate
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
       type(lane_request_t) :: from_start
       type(lane_ending_t) :: endings(1)
       type(window_record_t) :: records(1)
       type(rattle_verdict_t) :: own_verdict
-      type(certificate_t) :: certificate
       type(window_t) :: window
       real(dp), allocatable :: films(:, :), velocities(:, :)
       integer :: samples
 
-      class_stands = .false.
+      certificate%exists = .true.
       from_start = request
       from_start%forecast = .false.
       samples = request%sampled_periods*scene%campaign%samples_per_period
@@ -70,7 +69,7 @@ contains
       call certify(scene, resolved, lane, endings(1)%periods, window, extremes_of_record(records(1)), own_verdict, certificate, &
                    error)
       ! An irregular class does not stand where the certificate has found that the motion repeats.
-      class_stands = certificate%certified .and. own_verdict%class == verdict%class
+      certificate%certified = certificate%certified .and. own_verdict%class == verdict%class
    end subroutine test_class
 
 end module campaign_certificate

@@ -15,7 +15,7 @@ module run_campaign
    use output_lock, only: output_lock_t
    use output_place, only: check_output_place, log_path, progress_path, result_path, stem, summary_path
    use ranks, only: abort_ranks, next_ticket, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
-   use recorded_quantities, only: needs_certificate, quantities
+   use quantities, only: needs_certificate, quantity_table
    use sampling, only: largest_value, sample_plan_t
    use scene_report, only: law_sentence
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
@@ -240,7 +240,7 @@ contains
       if (faults%count() > 0) return
       layout%chunk_rows = int(chunk_rows_for(plan%size, largest_value(plan, find_key('solver', 'periods'), &
                                                                       real(scene%solver%periods, dp)), &
-                                             any(quantities(scene%campaign%record)%need == needs_certificate)), int64)
+                                             any(quantity_table(scene%campaign%record)%need == needs_certificate)), int64)
       call share_of_part(scene, plan%size, layout%chunk_rows, first, last)
       layout%input_text = scene%resolved_input
       layout%source_checksum = plan%table_checksum

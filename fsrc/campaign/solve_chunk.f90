@@ -1,19 +1,20 @@
 !> Solves and judges the scenes of a chunk: the kernels of the single scene, eight scenes to a register.
 module solve_chunk
    use campaign_certificate, only: test_class
-   use campaign_record, only: judged_scene_t, record_row
+   use campaign_record, only: record_row
    use errors, only: error_t
    use fine_window, only: classify_window, integral_record, window_again
    use integrate_controlled, only: reserved_periods
+   use judged_scene, only: judged_scene_t
    use key_table, only: find_key
    use kinds, only: dp, int64
    use lane_motions, only: solve_motions
    use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
    use memory_need, only: window_bytes
-   use node_extremes, only: seen_acceleration, seen_film, seen_load, seen_pressure, seen_velocity
+   use node_extremes, only: seen_pressure, seen_quantities
    use rattle_class, only: classify_steps, note_orbit
-   use recorded_quantities, only: need_count, needs_acceleration_range, needs_certificate, needs_film_range, needs_load_range, &
-                                  needs_regime, needs_spectrum, needs_velocity_range, quantities
+   use periodic_orbit, only: periodic_orbit_t
+   use quantities, only: need_count, needs_certificate, needs_regime, needs_spectrum, quantity_table
    use regime_check, only: check_regime
    use resolved_scene, only: resolve, resolved_scene_t
    use sample_accelerations, only: accelerations_of_samples
@@ -77,7 +78,7 @@ contains
       batch = scenes_together(base, plan)
       allocate (values(size(plan%positions), min(batch, size(rows, 2))))
       codes = varied_code(plan%positions)
-      needed = [(any(quantities(base%campaign%record)%need == i), i=1, need_count)]
+      needed = [(any(quantity_table(base%campaign%record)%need == i), i=1, need_count)]
       scene = base
       scene%resolved_input = ''
       do start = 1, size(rows, 2), batch
@@ -182,18 +183,15 @@ contains
                if (.not. together) call solve_motions(lanes(scene_number:scene_number), requests(scene_number), &
                                                       space%films(:, :1), space%velocities(:, :1), endings(i:i), &
                                                       records=space%records(i:i))
-               space%judged%ending = endings(i)
-               space%judged%resolved = resolved(scene_number)
-               call judge_by_samples(scene, lanes(scene_number), needed, i, merge(i, 1, together), space)
-               coarse(i) = space%judged%success .and. .not. space%judged%rattle%lines%sampling_sufficient
+               call note_ending(resolved(scene_number), endings(i), space%judged)
+               call judge_by_samples(scene, lanes(scene_number), endings(i)%samples, needed, i, merge(i, 1, together), space)
+               coarse(i) = space%judged%judged .and. .not. space%judged%rattle%lines%sampling_sufficient
                ! What the samples are too few for is judged below, by the steps.
                if (.not. coarse(i)) call complete(scene, lanes(scene_number), needed, space%records(i), space%judged, &
                                                       error)
                if (allocated(error)) return
             else
-               space%judged%success = .false.
-               space%judged%ending = lane_ending_t(status=status_invalid)
-               space%judged%resolved = resolved_scene_t()
+               call note_ending(resolved_scene_t(), lane_ending_t(status=status_invalid), space%judged)
             end if
             if (.not. coarse(i)) call record_row(scene, first + int(scene_number - 1, int64), values(:, scene_number), &
                                                  space%judged, rows(:, scene_number))
@@ -209,15 +207,14 @@ contains
             call set_varied_keys(scene, codes, values(:, scene_number))
             if (.not. together) windows = integral_windows(scene, lanes([scene_number]), endings([place]), &
                                                            space%records([place]), requests(scene_number))
-            space%judged%ending = endings(place)
-            space%judged%resolved = resolved(scene_number)
-            space%judged%success = .true.
+            call note_ending(resolved(scene_number), endings(place), space%judged)
             associate (window => windows(merge(i, 1, together)))
                if (window%periods > 0) then
                   call classify_steps(window, scene%load%frequency, scene%spectrum, space%judged%resolved%noise_floor, &
                                       space%judged%rattle)
                else
-                  call judge_by_samples(scene, lanes(scene_number), needed, place, merge(place, 1, together), space)
+                  call judge_by_samples(scene, lanes(scene_number), endings(place)%samples, needed, place, &
+                                        merge(place, 1, together), space)
                end if
             end associate
             call complete(scene, lanes(scene_number), needed, space%records(place), space%judged, error)
@@ -276,12 +273,7 @@ contains
       type(window_record_t) :: blank
       integer :: samples, i
 
-      blank%wants = .false.
-      blank%wants(seen_film) = needed(needs_film_range)
-      blank%wants(seen_velocity) = needed(needs_velocity_range)
-      blank%wants(seen_acceleration) = needed(needs_acceleration_range)
-      blank%wants(seen_load) = needed(needs_load_range)
-      blank%wants(seen_pressure) = needed(needs_regime)
+      blank%wants = needed(:seen_quantities)
       if (allocated(space%records)) then
          if (size(space%records) < scenes) deallocate (space%records)
       end if
@@ -343,10 +335,27 @@ contains
                     (4.0_dp + settling + irregular_share*ratio**5*settling**2)
    end function likely_cost
 
+   !> Note what is known of a scene before it is judged.
+   pure subroutine note_ending(resolved, ending, judged)
+      type(resolved_scene_t), intent(in) :: resolved
+      type(lane_ending_t), intent(in) :: ending
+      type(judged_scene_t), intent(inout) :: judged
+
+      judged%resolved = resolved
+      judged%status = ending%status
+      judged%judged = is_success(ending%status)
+      judged%periods = ending%periods
+      judged%repeats_after = ending%orbit
+      ! None is looked for.
+      judged%orbit = periodic_orbit_t()
+   end subroutine note_ending
+
    !> Class of the window of a scene by its samples, if its columns ask for it.
-   subroutine judge_by_samples(scene, lane, needed, place, column, space)
+   subroutine judge_by_samples(scene, lane, samples, needed, place, column, space)
       type(scene_t), intent(in) :: scene
       type(lane_scene_t), intent(in) :: lane
+      !> Samples of its window
+      integer, intent(in) :: samples
       !> What the columns need
       logical, intent(in) :: needed(:)
       !> Where its record and where its samples stand
@@ -354,12 +363,9 @@ contains
       integer, intent(in) :: column
       !> With its ending and what follows from it; the verdict is added
       type(chunk_space_t), intent(inout) :: space
-      integer :: samples
 
-      samples = space%judged%ending%samples
-      space%judged%success = is_success(space%judged%ending%status)
       space%judged%rattle%lines%sampling_sufficient = .true.
-      if (.not. (space%judged%success .and. any(needed([needs_spectrum, needs_certificate])))) return
+      if (.not. (space%judged%judged .and. any(needed([needs_spectrum, needs_certificate])))) return
       associate (values => space%accelerations(:samples))
          call accelerations_of_samples(lane, scene%campaign%samples_per_period, space%films(:samples, column), &
                                        space%velocities(:samples, column), values)
@@ -379,14 +385,14 @@ contains
       type(judged_scene_t), intent(inout) :: judged
       type(error_t), allocatable, intent(out) :: error
 
-      if (.not. judged%success) return
-      call note_orbit(judged%rattle, judged%ending%orbit)
+      if (.not. judged%judged) return
+      call note_orbit(judged%rattle, judged%repeats_after)
       judged%extremes = extremes_of_record(record)
       associate (pressure => record%highest(seen_pressure))
          if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, pressure%value, pressure%film)
       end associate
       if (needed(needs_certificate)) call test_class(scene, judged%resolved, lane, request_of(scene, needed), judged%rattle, &
-                                                     judged%certified, error)
+                                                     judged%certificate, error)
    end subroutine complete
 
 end module solve_chunk

@@ -1,4 +1,4 @@
-!> Lists of words in one text, a single blank between two words and none around them.
+!> Lists of words in one text, one or more blanks between two words and none before them.
 module word_list
    implicit none(type, external)
    private
@@ -19,7 +19,7 @@ contains
       integer :: i
 
       word_count = 0
-      if (len(list) > 0) word_count = 1 + count([(list(i:i) == ' ', i=1, len(list))])
+      if (len(list) > 0) word_count = 1 + count([(list(i:i + 1) /= '  ' .and. list(i:i) == ' ', i=1, len(list) - 1)])
    end function word_count
 
    !> The words one by one.
@@ -35,7 +35,8 @@ contains
          length = index(list(start:), ' ') - 1
          if (length < 0) length = len(list) - start + 1
          words(i)%text = list(start:start + length - 1)
-         start = start + length + 1
+         start = start + length
+         start = start + verify(list(start:)//'.', ' ') - 1
       end do
    end function split_words
 
@@ -45,11 +46,12 @@ contains
       character(*), intent(in) :: list
       !> One word
       character(*), intent(in) :: word
-      integer :: place, i
+      integer :: place
 
       word_position = 0
+      if (len(word) == 0) return
       place = index(' '//list//' ', ' '//word//' ')
-      if (place > 0) word_position = 1 + count([(list(i:i) == ' ', i=1, place - 1)])
+      if (place > 0) word_position = word_count(list(:place))
    end function word_position
 
 end module word_list

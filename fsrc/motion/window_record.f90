@@ -29,13 +29,16 @@ module window_record
    !> Pieces that are looked at together: their arrays stay in the cache.
    integer, parameter :: block_pieces = 64, block_nodes = nodes_per_piece*block_pieces
 
+   !> Oscillations that the eight nodes of a piece of a step integrate to eight digits.
+   real(dp), parameter :: oscillations_per_piece = 1.27_dp
+
    !> Record of a window.
    type, public :: window_record_t
       !> What is asked for: which extremes, by the codes of node_extremes, and the highest multiple of the frequency that Fourier
       !> coefficients are wanted for, 0: none
       logical :: wants(seen_quantities) = .true.
       integer :: multiples = 0
-      !> Longest piece of a step [periods]
+      !> Longest piece of a step, by the multiples [periods]
       real(dp) :: longest_piece = 1.0_dp
       !> Shortest piece met [periods]
       real(dp) :: shortest_piece = 1.0_dp
@@ -83,10 +86,10 @@ contains
       !> The record
       type(window_record_t), intent(inout) :: record
 
-      record = window_record_t(wants=record%wants, multiples=record%multiples, longest_piece=record%longest_piece, &
-                               start_film=film, start_velocity=velocity, start_momentum=momentum, start_implicit=implicit, &
-                               end_velocity=velocity)
+      record = window_record_t(wants=record%wants, multiples=record%multiples, start_film=film, start_velocity=velocity, &
+                               start_momentum=momentum, start_implicit=implicit, end_velocity=velocity)
       if (record%multiples == 0) return
+      record%longest_piece = oscillations_per_piece/real(record%multiples, dp)
       allocate (record%line_sums(0:record%multiples), record%integrals(record%multiples), source=(0.0_dp, 0.0_dp))
       allocate (record%line_squares(0:record%multiples), source=0.0_dp)
    end subroutine start_record

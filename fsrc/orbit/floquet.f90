@@ -12,7 +12,7 @@ module floquet
    !> Error of the multipliers themselves.
    real(dp), parameter :: tolerance = 1.0e-6_dp
 
-   public :: floquet_multipliers, orbit_stability, stability_name
+   public :: floquet_multipliers, orbit_stability
 
 contains
 
@@ -56,16 +56,5 @@ contains
          end if
       end if
    end function orbit_stability
-
-   !> Stability in words.
-   pure function stability_name(code) result(name)
-      !> Code of a stability
-      integer, intent(in) :: code
-      character(:), allocatable :: name
-      character(*), parameter :: names(5) = [character(28) :: 'stable', 'stable, period doubling near', &
-                                             'stable, fold near', 'stable, torus near', 'unstable']
-
-      name = trim(names(code))
-   end function stability_name
 
 end module floquet

@@ -8,7 +8,8 @@ module certify_scene
    use kinds, only: dp
    use lane_scenes, only: carried_on_from, lane_ending_t, lane_scene_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
-   use rattle_class, only: class_irregular, class_name, note_orbit, rattle_verdict_t
+   use quantities, only: quantity_rattle_class, quantity_word
+   use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
    use scene_types, only: method_newmark, method_taylor, scene_t
@@ -138,7 +139,7 @@ contains
             reason = 'Behind the window the motion ends as '//status_name(last%status)//'.'
          else if (verdict%class /= class_irregular) then
             reason = 'The class is that of this window: '//counted(i, 'window')//' later the motion is '// &
-                     class_name(verdict%class)//'.'
+                     quantity_word(quantity_rattle_class, verdict%class)//'.'
          end if
          if (len(reason) > 0) return
       end do

@@ -21,8 +21,6 @@ module fine_window
    real(dp), parameter :: least_piece = 0.25_dp/real(most_samples_per_period, dp)
    !> Highest multiple of the frequency that is integrated for, as many as a summary lists.
    integer, parameter :: usual_multiples = 40
-   !> Oscillations that the eight nodes of a piece of a step integrate to eight digits.
-   real(dp), parameter :: oscillations_per_piece = 1.27_dp
    !> Share of the first harmonic by which the mean of the samples may miss the change of velocity, and of the power by which
    !> theirs may miss that of the steps: a line may then be off by a tenth of the line threshold at most.
    real(dp), parameter :: mean_share = 1.0e-5_dp, power_share = 1.0e-6_dp
@@ -145,7 +143,6 @@ contains
 
       record%wants = .false.
       record%multiples = max(usual_multiples, 2*spectrum%idle_lines)
-      record%longest_piece = oscillations_per_piece/real(record%multiples, dp)
    end function integral_record
 
    !> The motion from where a window begins.

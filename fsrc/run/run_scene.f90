@@ -5,17 +5,18 @@ module run_scene
    use errors, only: error_t
    use finished_files, only: place_files
    use integrate_controlled, only: solve_controlled
-   use integrate_motion, only: solve_motion
+   use integrate_motion, only: motion_end_t, solve_motion
+   use judge_scene, only: judge, note_ending
+   use judged_scene, only: judged_scene_t
    use kinds, only: dp
    use log_file, only: log_t
    use output_place, only: log_path, result_path, state_path, summary_path
    use progress, only: progress_t
-   use resolved_scene, only: resolve, resolved_scene_t
+   use resolved_scene, only: resolve
    use resume, only: load_state, save_state
    use sample_recorder, only: sample_recorder_t
    use scene_lane, only: lane_of_scene
    use scene_report, only: report_ending, report_start
-   use scene_result, only: judge, scene_result_t
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written
    use scene_summary, only: write_scene_summary
    use scene_types, only: method_taylor, scene_t
@@ -42,18 +43,19 @@ contains
       integer, intent(out) :: status
       !> Set if a file could not be written
       type(error_t), allocatable, intent(out) :: error
-      type(resolved_scene_t) :: resolved
-      type(scene_result_t) :: result
+      type(motion_end_t) :: ending
+      type(judged_scene_t) :: judged
       type(sample_recorder_t) :: recorder
       type(checkpoint_t) :: start
       type(progress_t) :: watcher
       type(log_t), target :: log
       type(error_t), allocatable :: write_error
-      real(dp) :: started
+      real(dp) :: started, solve_seconds
 
       status = status_complete
       started = wall_seconds()
-      resolved = resolve(scene)
+      solve_seconds = 0.0_dp
+      judged%resolved = resolve(scene)
       if (carry_on) call load_state(scene, start, error)
       if (carry_on .and. caught_signal() /= 0) then
          ! The files of the earlier run were not verified to their end; they stay as they are.
@@ -62,7 +64,7 @@ contains
       end if
       if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
-      call report_start(log, scene, resolved)
+      call report_start(log, scene, judged)
       if (start%orbit > 0) then
          call log%line('  found steady by the earlier run; its orbit is solved again from period '//integer_text(start%periods))
       else if (start%periods > 0) then
@@ -72,31 +74,31 @@ contains
       if (.not. allocated(error)) then
          call watcher%start(log, quiet)
          if (scene%solver%method /= method_taylor) then
-            call solve_motion(scene, resolved%film, resolved%initial_film, start, recorder, watcher, result%ending, error)
+            call solve_motion(scene, judged%resolved%film, judged%resolved%initial_film, start, recorder, watcher, ending, error)
          else
-            call solve_controlled(scene, resolved%film, resolved%initial_film, start, scene%output%series, recorder, &
-                                  watcher, result%ending, error)
+            call solve_controlled(scene, judged%resolved%film, judged%resolved%initial_film, start, scene%output%series, &
+                                  recorder, watcher, ending, error)
          end if
          call watcher%clear()
-         result%solve_seconds = wall_seconds() - started
-         if (.not. allocated(error)) call judge(scene, resolved, recorder, result, error)
+         solve_seconds = wall_seconds() - started
+         call note_ending(ending, judged)
+         if (.not. allocated(error)) call judge(scene, recorder, ending%record, judged, error)
          ! A signal that came meanwhile has cut the certificate short.
-         if (is_success(result%ending%status) .and. caught_signal() /= 0) result%ending%status = status_interrupted
-         result%judge_seconds = wall_seconds() - started - result%solve_seconds
-         if (result%judged) call recorder%add_extremes( &
-            lane_of_scene(scene, resolved%film, resolved%initial_film, scene%film%initial_velocity), result%ending%record, &
-            result%ending%periods - result%window_periods, result%series_coarse)
+         if (is_success(judged%status) .and. caught_signal() /= 0) judged%status = status_interrupted
+         if (judged%judged) call recorder%add_extremes( &
+            lane_of_scene(scene, judged%resolved%film, judged%resolved%initial_film, scene%film%initial_velocity), ending%record, &
+            judged%periods - judged%window_periods, judged%series_coarse)
          call recorder%close(write_error)
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
-         if (.not. allocated(error)) call save_state(scene, result%ending%checkpoint, error)
+         if (.not. allocated(error)) call save_state(scene, ending%checkpoint, error)
       end if
-      if (allocated(error)) result%ending%status = status_not_written
-      call write_scene_summary(summary_path(scene), scene, resolved, result, write_error)
+      if (allocated(error)) judged%status = status_not_written
+      call write_scene_summary(summary_path(scene), scene, judged, wall_seconds() - started, write_error)
       if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
       call place_files(result_files(scene), summary_path(scene), error)
-      if (.not. allocated(error)) call report_ending(log, scene, result)
-      if (allocated(error)) result%ending%status = status_not_written
-      status = result%ending%status
+      if (.not. allocated(error)) call report_ending(log, scene, judged, solve_seconds)
+      if (allocated(error)) judged%status = status_not_written
+      status = judged%status
       if (allocated(error)) call log%line('  '//error%message)
       call log%close()
    end subroutine run_one_scene

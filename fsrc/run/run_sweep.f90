@@ -1,22 +1,24 @@
 !> A sweep from input to files: steady motions along a key, each carried on from the one before, there and back.
 !> Where two motions are possible, the way there and the way back show different ones: jumps and hysteresis.
 module run_sweep
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use clock, only: wall_seconds
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use finished_files, only: place_files
-   use floquet, only: orbit_stability
    use integrate_controlled, only: find_steady_motion
+   use judged_scene, only: judged_scene_t, quantity_value
+   use key_table, only: choice_word, find_swept_key, keys
    use kinds, only: dp, int64
    use lane_scenes, only: lane_ending_t, lane_scene_t
    use log_file, only: log_t
-   use node_extremes, only: seen_acceleration, seen_film
    use output_place, only: log_path, result_path, summary_path
-   use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit
    use progress, only: progress_t
-   use rattle_class, only: note_orbit, rattle_verdict_t
-   use regime_check, only: model_limit
-   use resolved_scene, only: resolve, resolved_scene_t
+   use quantities, only: quantities_told_in, quantity_model_limit, quantity_table
+   use rattle_class, only: note_orbit
+   use resolved_scene, only: resolve
+   use result_format, only: column_name_bytes, column_unit_bytes
    use result_writer, only: result_writer_t
    use scene_lane, only: lane_of_scene
    use scene_report, only: law_sentence, report_head
@@ -26,18 +28,11 @@ module run_sweep
    use signals, only: caught_signal
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
+   use window_extremes, only: extremes_of_record
    use word_list, only: word_t
    implicit none(type, external)
    private
 
-   !> Columns of the table.
-   integer, parameter, public :: sweep_columns = 18
-   character(*), parameter :: names(sweep_columns) = [character(24) :: 'value', 'direction', 'film_minimum', 'film_maximum', &
-      'acceleration_minimum', 'acceleration_maximum', 'orbit_period', 'floquet_modulus', 'orbit_stability', 'line_count', &
-      'harmonic_distortion', 'irregular_fraction', 'rattle_class', 'natural_frequency', 'periods', 'status', 'first_harmonic', &
-      'model_limit']
-   character(*), parameter :: units(sweep_columns) = [character(8) :: '-', '-', 'm', 'm', 'm/s2', 'm/s2', '-', '-', '-', '-', &
-      '-', '-', '-', 'Hz', '-', '-', 'm/s2', '-']
    !> A periodic motion farther away than this is another one [-].
    real(dp), parameter :: orbit_nearness = 1.0e-3_dp
 
@@ -59,14 +54,18 @@ contains
       type(progress_t) :: watcher
       type(result_writer_t) :: writer
       type(error_t), allocatable :: close_error, summary_error
-      real(dp) :: started, film, velocity, row(sweep_columns, 1)
-      integer :: i, failed, ended, beyond_model
+      type(judged_scene_t) :: judged
+      character(column_name_bytes), allocatable :: names(:)
+      character(column_unit_bytes), allocatable :: units(:)
+      real(dp) :: started, film, velocity
+      integer :: i, failed, beyond_model
 
       status = status_complete
       started = wall_seconds()
       call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
       call report_head(log, scene, 'sweep of '//integer_text(size(scene%sweep%values))//' motions, '//law_sentence(scene))
+      call sweep_columns(scene, names, units)
       call writer%open(result_path(scene), scene%resolved_input, names, units, size(scene%sweep%values, kind=int64), .true., error)
       call watcher%start(log, quiet)
       film = 0.0_dp
@@ -75,18 +74,16 @@ contains
       beyond_model = 0
       do i = 1, size(scene%sweep%values)
          if (allocated(error)) exit
-         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, row(:, 1), ended, error)
+         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, judged, error)
          ! A motion under way when the signal came may be half judged.
          if (caught_signal() /= 0) then
             status = status_interrupted
             exit
          end if
          if (allocated(error)) exit
-         row(1:2, 1) = [scene%sweep%values(i), merge(1.0_dp, -1.0_dp, i <= scene%sweep%outward)]
-         row(16, 1) = real(ended, dp)
-         if (.not. is_success(ended)) failed = failed + 1
-         if (row(18, 1) > 0.0_dp) beyond_model = beyond_model + 1
-         call writer%write_rows(row, error)
+         if (.not. is_success(judged%status)) failed = failed + 1
+         if (quantity_value(quantity_model_limit, judged) > 0.0_dp) beyond_model = beyond_model + 1
+         call writer%write_rows(reshape(sweep_row(scene, i, judged), [size(names), 1]), error)
          call watcher%period_done(i, size(scene%sweep%values))
       end do
       call watcher%clear()
@@ -129,69 +126,84 @@ contains
       end select
    end function swept_scene
 
+   !> Names and units of the columns: the swept key, the way, then the quantities that sweeps tell.
+   pure subroutine sweep_columns(scene, names, units)
+      type(scene_t), intent(in) :: scene
+      character(column_name_bytes), allocatable, intent(out) :: names(:)
+      character(column_unit_bytes), allocatable, intent(out) :: units(:)
+
+      integer :: key
+
+      key = find_swept_key(choice_word('sweep', 'key', scene%sweep%key))
+      names = [character(column_name_bytes) :: keys(key)%name, 'direction', quantity_table(quantities_told_in('sweep'))%name]
+      units = [character(column_unit_bytes) :: keys(key)%unit, '-', quantity_table(quantities_told_in('sweep'))%unit]
+   end subroutine sweep_columns
+
+   !> Row of a value; what is unknown is 0.
+   pure function sweep_row(scene, place, judged) result(row)
+      type(scene_t), intent(in) :: scene
+      !> Place of the value in the sweep
+      integer, intent(in) :: place
+      !> The motion there
+      type(judged_scene_t), intent(in) :: judged
+      real(dp), allocatable :: row(:)
+      integer, allocatable :: told(:)
+      integer :: i
+
+      allocate (told, source=quantities_told_in('sweep'))
+      row = [scene%sweep%values(place), merge(1.0_dp, -1.0_dp, place <= scene%sweep%outward), &
+             (quantity_value(told(i), judged), i=1, size(told))]
+      where (ieee_is_nan(row)) row = 0.0_dp
+   end function sweep_row
+
    !> Steady motion of one value, from the state given; that state becomes the one for the next value.
-   subroutine solve_value(scene, film, velocity, row, status, error)
+   subroutine solve_value(scene, film, velocity, judged, error)
       !> Checked scene with that value
       type(scene_t), intent(in) :: scene
       !> State to start from; no film: the steady film at rest [m], [m/s]
       real(dp), intent(inout) :: film
       real(dp), intent(inout) :: velocity
-      !> Row of the table, by the places of its names, but the first two values and the status; what is unknown is 0
-      real(dp), intent(out) :: row(:)
-      !> Status of scene_status
-      integer, intent(out) :: status
+      !> The motion
+      type(judged_scene_t), intent(out) :: judged
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
-      type(resolved_scene_t) :: resolved
-      type(lane_scene_t) :: lane
       type(lane_ending_t) :: ending, window_ending
-      type(periodic_orbit_t) :: orbit
-      type(rattle_verdict_t) :: verdict
+      type(lane_scene_t) :: lane
       type(window_t) :: window
 
-      row = 0.0_dp
-      resolved = resolve(scene)
-      row(14) = resolved%natural_frequency
+      judged%resolved = resolve(scene)
       if (.not. film > 0.0_dp) then
-         film = resolved%initial_film
+         film = judged%resolved%initial_film
          velocity = scene%film%initial_velocity
       end if
-      status = resolved%film%status_without_load
+      judged%status = judged%resolved%film%status_without_load
       if (.not. film > 0.0_dp) return
-      call find_steady_motion(lane_of_scene(scene, resolved%film, film, velocity), scene%solver%accuracy, &
-                              scene%solver%periods, scene%spectrum%periods, ending)
-      row(15) = real(ending%periods, dp)
-      status = ending%status
-      if (.not. is_success(status)) then
+      lane = lane_of_scene(scene, judged%resolved%film, film, velocity)
+      call find_steady_motion(lane, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
+      judged%status = ending%status
+      judged%periods = ending%periods
+      if (.not. is_success(ending%status)) then
          film = 0.0_dp
          return
       end if
       film = ending%film
       velocity = ending%velocity
-      lane = lane_of_scene(scene, resolved%film, film, velocity)
+      lane = lane_of_scene(scene, judged%resolved%film, film, velocity)
       window%periods = scene%spectrum%periods
       if (ending%orbit > 0) window%periods = ending%orbit
       window%samples_per_period = scene%solver%samples_per_period()
-      call solve_whole_window(scene, lane, scene%solver%accuracy, window%periods, resolved%noise_floor, window, verdict, &
-                              window_ending, error)
+      call solve_whole_window(scene, lane, scene%solver%accuracy, window%periods, judged%resolved%noise_floor, window, &
+                              judged%rattle, window_ending, error)
       if (allocated(error)) return
-      if (.not. is_success(window_ending%status)) then
-         status = window_ending%status
+      judged%judged = is_success(window_ending%status)
+      if (.not. judged%judged) then
+         judged%status = window_ending%status
          return
       end if
-      orbit = find_periodic_orbit(lane, film, velocity, orbit_nearness)
-      call note_orbit(verdict, max(ending%orbit, attracting_period(orbit)))
-      associate (lowest => window%record%lowest, highest => window%record%highest)
-         row(3:6) = [lowest(seen_film)%value, highest(seen_film)%value, lowest(seen_acceleration)%value, &
-                     highest(seen_acceleration)%value]
-         row(18) = real(model_limit(row(3), row(4), resolved%film%radius), dp)
-      end associate
-      row(7) = real(orbit%period, dp)
-      if (orbit%period > 0) row(8:9) = [abs(orbit%multipliers(1)), real(orbit_stability(orbit%multipliers), dp)]
-      if (verdict%lines%moving) row(10:12) = [real(verdict%lines%line_count, dp), verdict%lines%harmonic_distortion, &
-                                              verdict%lines%irregular_fraction]
-      row(13) = real(verdict%class, dp)
-      row(17) = verdict%lines%harmonics(1)
+      judged%repeats_after = ending%orbit
+      judged%orbit = find_periodic_orbit(lane, film, velocity, orbit_nearness)
+      call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
+      judged%extremes = extremes_of_record(window%record)
    end subroutine solve_value
 
    !> What the sweep did.

@@ -1,16 +1,17 @@
 !> What the terminal and the log tell of a scene.
 module scene_report
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use certificate, only: certificate_word
    use film_law, only: law_words
-   use floquet, only: orbit_stability, stability_name
+   use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp
    use log_file, only: log_magic, log_t
    use node_extremes, only: seen_acceleration, seen_film
    use output_place, only: result_path, summary_path
-   use rattle_class, only: class_name
+   use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_iterations_per_step, quantity_model_limit, &
+                         quantity_orbit_stability, quantity_rattle_class, quantity_t, quantity_table, quantity_word
    use regime_check, only: model_limit, model_limit_sentence, regime_sentence, within_model
    use resolved_scene, only: resolved_scene_t
-   use scene_result, only: passes_per_step, scene_result_t
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: method_newmark, model_reynolds, scene_t, speed_mean, task_film
    use text, only: integer_text, short_text
@@ -39,22 +40,63 @@ contains
    end subroutine report_head
 
    !> Head of a motion: what will be solved, and what is known beforehand.
-   subroutine report_start(log, scene, resolved)
+   subroutine report_start(log, scene, judged)
       !> Log of the scene
       type(log_t), intent(in) :: log
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
-      type(resolved_scene_t), intent(in) :: resolved
+      type(judged_scene_t), intent(in) :: judged
 
       call report_head(log, scene, law_sentence(scene))
-      if (.not. resolved%steady_film > 0.0_dp) then
+      if (judged%resolved%steady_film > 0.0_dp) then
+         call report_part(log, judged, part_scene)
+      else
          call log%line('  no rigid piezo-viscous film carries the static load')
-         return
       end if
-      call log%line('  steady film '//micrometres(resolved%steady_film)//' um, natural frequency '// &
-                    short_text(resolved%natural_frequency, 5)//' Hz, damping ratio '//short_text(resolved%damping_ratio, 4))
    end subroutine report_start
+
+   !> A line with the quantities of a part that the log tells, by their names; without any there is no line.
+   subroutine report_part(log, judged, part)
+      type(log_t), intent(in) :: log
+      type(judged_scene_t), intent(in) :: judged
+      !> Part of the summary, a code of module quantities
+      integer, intent(in) :: part
+      character(:), allocatable :: words
+      integer :: i, k
+
+      words = ''
+      do i = 1, size(quantity_table)
+         if (quantity_table(i)%part /= part .or. index(quantity_table(i)%told_in, 'log') == 0) cycle
+         if (ieee_is_nan(quantity_value(i, judged))) cycle
+         words = words//', '//trim(quantity_table(i)%name)//' '//told_value(i, quantity_value(i, judged))
+      end do
+      do k = 1, len(words)
+         if (words(k:k) == '_') words(k:k) = ' '
+      end do
+      if (len(words) > 0) call log%line('  '//words(3:))
+   end subroutine report_part
+
+   !> A known value as a person says it.
+   pure function told_value(quantity, value) result(words)
+      !> Code of the quantity
+      integer, intent(in) :: quantity
+      real(dp), intent(in) :: value
+      character(:), allocatable :: words
+      type(quantity_t) :: row
+
+      row = quantity_table(quantity)
+      if (row%kind == a_code) then
+         words = quantity_word(quantity, nint(value))
+      else if (row%kind == a_flag) then
+         words = trim(merge('yes', 'no ', value > 0.0_dp))
+      else if (row%unit == 'm') then
+         words = short_text(1.0e6_dp*value, row%digits)//' um'
+      else
+         words = short_text(value, row%digits)
+         if (row%unit /= '-') words = words//' '//trim(row%unit)
+      end if
+   end function told_value
 
    !> The film law of a scene in words.
    pure function law_sentence(scene) result(sentence)
@@ -119,54 +161,63 @@ contains
    end function resolved_lines
 
    !> How the scene ended and what it amounts to.
-   subroutine report_ending(log, scene, result)
+   subroutine report_ending(log, scene, judged, solve_seconds)
       !> Log of the scene
       type(log_t), intent(in) :: log
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Its result
-      type(scene_result_t), intent(in) :: result
+      type(judged_scene_t), intent(in) :: judged
+      !> Wall time of its solution [s]
+      real(dp), intent(in) :: solve_seconds
+      real(dp) :: passes
+      integer :: part
 
-      associate (count => result%ending%count)
-         call log%line('  '//integer_text(count%steps)//' steps in '//short_text(result%solve_seconds, 3)//' s, '// &
-                       short_text(passes_per_step(count), 3)//' passes a step, '//integer_text(count%cuts)// &
-                       ' steps cut where the film law had no value')
-      end associate
-      if (.not. is_success(result%ending%status)) call log%line('  '//status_name(result%ending%status)//' at t = '// &
-                           short_text(result%ending%time, 6)//' s, film '//micrometres(result%ending%film)//' um: '// &
-                                                                status_sentence(result%ending%status))
-      if (result%judged) call report_window(log, scene, result)
+      passes = 0.0_dp
+      if (judged%count%steps > 0) passes = quantity_value(quantity_iterations_per_step, judged)
+      call log%line('  '//integer_text(judged%count%steps)//' steps in '//short_text(solve_seconds, 3)//' s, '// &
+                    short_text(passes, 3)//' passes a step, '//integer_text(judged%count%cuts)// &
+                    ' steps cut where the film law had no value')
+      if (.not. is_success(judged%status)) call log%line('  '//status_name(judged%status)//' at t = '// &
+                           short_text(judged%time, 6)//' s, film '//micrometres(judged%film)//' um: '// &
+                                                                status_sentence(judged%status))
+      if (judged%judged) call report_window(log, scene, judged)
+      do part = part_window, part_cost
+         call report_part(log, judged, part)
+      end do
       if (scene%output%series) call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
    end subroutine report_ending
 
    !> The window: extremes, spectrum, class, regime.
-   subroutine report_window(log, scene, result)
+   subroutine report_window(log, scene, judged)
       type(log_t), intent(in) :: log
       type(scene_t), intent(in) :: scene
-      type(scene_result_t), intent(in) :: result
+      type(judged_scene_t), intent(in) :: judged
+      integer :: limit
 
-      associate (lowest => result%extremes%lowest, highest => result%extremes%highest)
+      associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
          call log%line('  film '//micrometres(lowest(seen_film)%value)//' to '//micrometres(highest(seen_film)%value)// &
                        ' um, acceleration '//short_text(lowest(seen_acceleration)%value, 5)//' to '// &
                        short_text(highest(seen_acceleration)%value, 5)//' m/s2')
       end associate
-      associate (rattle => result%rattle, lines => result%rattle%lines)
+      associate (rattle => judged%rattle, lines => judged%rattle%lines)
          if (lines%moving) then
             call log%line('  '//at_least(lines%count_is_bound)//integer_text(lines%line_count)//' lines, harmonic distortion '// &
                           at_least(lines%distortion_is_bound)//short_text(lines%harmonic_distortion, 3)//', '// &
-                          short_text(rattle%reversals_per_period, 3)//' reversals a period: '//class_name(rattle%class)// &
+                          short_text(rattle%reversals_per_period, 3)//' reversals a period: '// &
+                          quantity_word(quantity_rattle_class, rattle%class)// &
                           certified_in_brackets())
          else
-            call log%line('  no motion but rounding: '//class_name(rattle%class))
+            call log%line('  no motion but rounding: '//quantity_word(quantity_rattle_class, rattle%class))
          end if
-         if (result%series_coarse) call log%line('  warning: '//coarse_sentence(scene, result))
+         if (judged%series_coarse) call log%line('  warning: '//coarse_sentence(scene, judged))
       end associate
-      if (result%model_limit /= within_model) call log%line('  warning: '//model_limit_sentence(result%model_limit)// &
-                                                            ' (model_limit)')
-      call report_certificate(log, result)
-      call log%line('  '//regime_sentence(result%regime))
-      if (result%regime%law_contradicted) &
+      limit = nint(quantity_value(quantity_model_limit, judged))
+      if (limit /= within_model) call log%line('  warning: '//model_limit_sentence(limit)//' (model_limit)')
+      call report_certificate(log, judged)
+      call log%line('  '//regime_sentence(judged%regime))
+      if (judged%regime%law_contradicted) &
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted)')
 
    contains
@@ -185,25 +236,25 @@ contains
          character(:), allocatable :: words
 
          words = ''
-         if (result%certificate%exists) words = ' ('//certificate_word(result%certificate)//')'
+         if (judged%certificate%exists) words = ' ('//certificate_word(judged%certificate)//')'
       end function certified_in_brackets
 
    end subroutine report_window
 
    !> What samples that are too few for the motion mean, and how many would do.
-   pure function coarse_sentence(scene, result) result(sentence)
+   pure function coarse_sentence(scene, judged) result(sentence)
       type(scene_t), intent(in) :: scene
-      type(scene_result_t), intent(in) :: result
+      type(judged_scene_t), intent(in) :: judged
       character(:), allocatable :: sentence
       character(:), allocatable :: key
 
       key = 'solver.samples_per_period'
       if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
       sentence = 'the samples of the series are too few for its motion; '
-      if (.not. result%rattle%lines%sampling_sufficient) then
+      if (.not. judged%rattle%lines%sampling_sufficient) then
          sentence = sentence//'the lines are those of the samples: raise '//key
-      else if (.not. result%lines_by_integrals) then
-         sentence = sentence//key//' = '//integer_text(result%samples_per_period)//' would do, as many as gave the lines here'
+      else if (.not. judged%lines_by_integrals) then
+         sentence = sentence//key//' = '//integer_text(judged%samples_per_period)//' would do, as many as gave the lines here'
       else
          sentence = sentence//key//' up to 16384 would not do. The lines here are integrals over the steps'
       end if
@@ -212,19 +263,20 @@ contains
    end function coarse_sentence
 
    !> Errors by the tighter solution, and the periodic motion.
-   subroutine report_certificate(log, result)
+   subroutine report_certificate(log, judged)
       type(log_t), intent(in) :: log
-      type(scene_result_t), intent(in) :: result
+      type(judged_scene_t), intent(in) :: judged
 
-      if (.not. result%certificate%exists) return
-      call log%line('  '//result%certificate%reason)
-      if (size(result%certificate%harmonic_errors) > 0) &
-         call log%line('  error of the film '//short_text(result%certificate%film_error, 2)// &
-                       ', of the extremes of the acceleration '//short_text(result%certificate%acceleration_minimum_error, 2)// &
-                       ' and '//short_text(result%certificate%acceleration_maximum_error, 2)//' m/s2')
-      associate (orbit => result%orbit)
+      if (.not. judged%certificate%exists) return
+      call log%line('  '//judged%certificate%reason)
+      if (size(judged%certificate%harmonic_errors) > 0) &
+         call log%line('  error of the film '//short_text(judged%certificate%film_error, 2)// &
+                       ', of the extremes of the acceleration '//short_text(judged%certificate%acceleration_minimum_error, 2)// &
+                       ' and '//short_text(judged%certificate%acceleration_maximum_error, 2)//' m/s2')
+      associate (orbit => judged%orbit)
          if (orbit%period > 0) call log%line('  the motion repeats after '//integer_text(orbit%period)// &
-            trim(merge(' period ', ' periods', orbit%period == 1))//': '//stability_name(orbit_stability(orbit%multipliers))// &
+            trim(merge(' period ', ' periods', orbit%period == 1))//': '//quantity_word(quantity_orbit_stability, &
+               nint(quantity_value(quantity_orbit_stability, judged)))// &
                                              ', largest Floquet multiplier '//short_text(abs(orbit%multipliers(1)), 3))
       end associate
    end subroutine report_certificate

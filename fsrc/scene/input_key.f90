@@ -33,7 +33,7 @@ module input_key
       !> Allowed numbers
       type(range_t) :: range
       !> Allowed words, separated by blanks; empty: any text that the reader accepts
-      character(500) :: choices
+      character(1200) :: choices
       !> 'group.key=word[|word] [& ...]': legal only then; empty: always
       character(48) :: used_when
       !> What it means

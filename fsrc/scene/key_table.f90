@@ -5,6 +5,7 @@
 module key_table
    use input_key, only: integer_kind, key_t, list_kind, logical_kind, range_t, real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
+   use quantities, only: recordable
    use text, only: edit_distance
    use word_list, only: split_words, word_t
    implicit none(type, external)
@@ -248,12 +249,8 @@ module key_table
             'Table of scenes instead of vary: a CSV file whose header names group.key, one scene per row.'), &
       key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
             'natural_frequency damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period '// &
-            'rattle_class sampling_sufficient film_regime alpha_p_maximum model_limit harmonics', any_number, &
-            'film_minimum film_maximum acceleration_minimum acceleration_maximum steady_film natural_frequency '// &
-            'damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period rattle_class '// &
-            'film_regime law_contradicted alpha_p_maximum pressure_maximum deflection harmonics orbit_period '// &
-            'periods_solved sampling_sufficient certified model_limit velocity_minimum velocity_maximum load_maximum '// &
-            'line_count_is_bound', 'scene.task=campaign', &
+            'rattle_class sampling_sufficient film_regime alpha_p_maximum model_limit harmonics', any_number, recordable, &
+            'scene.task=campaign', &
             'Recorded of every scene beside number, varied keys and status; certified (1 or 0) solves each again, tighter.'), &
       key_t('campaign', 'samples_per_period', integer_kind, '-', '256', range_t(32.0_dp, .false., 16384.0_dp, .false.), '', &
             'scene.task=campaign', &

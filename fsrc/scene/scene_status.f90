@@ -1,5 +1,6 @@
 !> How a scene ended.
 module scene_status
+   use quantities, only: quantity_status, quantity_word
    implicit none(type, external)
    private
 
@@ -17,10 +18,8 @@ contains
       !> Status code
       integer, intent(in) :: status
       character(:), allocatable :: name
-      character(*), parameter :: names(0:9) = [character(13) :: 'complete', 'steady', 'not_converged', 'film_lost', &
-                                               'no_rigid_film', 'overflow', 'interrupted', 'time_limit', 'not_written', 'invalid']
 
-      name = trim(names(status))
+      name = quantity_word(quantity_status, status)
    end function status_name
 
    !> Plain sentence for log and summary.

@@ -196,7 +196,7 @@ module scene_types
       integer :: size = 0
       integer :: seed = 1
       character(:), allocatable :: csv
-      !> Recorded quantities, by their codes in recorded_quantities
+      !> Recorded quantities, by their codes
       integer, allocatable :: record(:)
       integer :: samples_per_period = 256
       logical :: allow_invalid = .false.

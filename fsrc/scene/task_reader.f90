@@ -3,7 +3,7 @@ module task_reader
    use key_table, only: keys
    use keys_in_use, only: in_use
    use kinds, only: dp
-   use recorded_quantities, only: quantity_code
+   use quantities, only: quantity_code
    use scene_input, only: scene_input_t
    use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t
    use word_list, only: split_words, word_t

@@ -2,7 +2,8 @@
 module certificate
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_film
-   use rattle_class, only: class_irregular, class_name, class_subharmonic, rattle_verdict_t
+   use quantities, only: quantity_rattle_class, quantity_word
+   use rattle_class, only: class_irregular, class_subharmonic, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    use text, only: integer_text, short_text
    use window_extremes, only: window_extremes_t
@@ -122,7 +123,7 @@ contains
 
          reason = ''
          if (tight_verdict%class /= verdict%class) then
-            reason = 'Solved tighter, the class is '//class_name(tight_verdict%class)//'.'
+            reason = 'Solved tighter, the class is '//quantity_word(quantity_rattle_class, tight_verdict%class)//'.'
          else if (len(unclosed) > 0) then
             reason = unclosed
          else if (verdict%class == class_irregular) then

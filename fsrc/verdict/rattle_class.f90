@@ -17,7 +17,7 @@ module rattle_class
       type(spectral_lines_t) :: lines
    end type rattle_verdict_t
 
-   public :: classify, classify_steps, note_orbit, class_name
+   public :: classify, classify_steps, note_orbit
 
 contains
 
@@ -113,15 +113,5 @@ contains
          class = class_creep
       end if
    end function class_of
-
-   !> Word of a class.
-   pure function class_name(class) result(name)
-      !> Code of a class
-      integer, intent(in) :: class
-      character(:), allocatable :: name
-      character(*), parameter :: names(5) = [character(11) :: 'quiet', 'creep', 'idle', 'irregular', 'subharmonic']
-
-      name = trim(names(class))
-   end function class_name
 
 end module rattle_class

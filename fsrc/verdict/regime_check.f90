@@ -5,7 +5,8 @@ module regime_check
    use film_law, only: film_t
    use film_pressure, only: barus_pressure, exact_pressure
    use kinds, only: dp
-   use regime, only: contact_deflection, deflection_limit, film_elastohydrodynamic, film_iso_viscous, film_piezo_viscous, &
+   use quantities, only: quantity_film_regime, quantity_word
+   use regime, only: contact_deflection, deflection_limit, film_iso_viscous, film_piezo_viscous, &
                      film_regime, iso_viscous_limit, rigid_limit
    use text, only: short_text
    implicit none(type, external)
@@ -36,7 +37,7 @@ module regime_check
    !> Codes: within, too wide, too narrow, both at different times.
    integer, parameter, public :: within_model = 0, gap_too_wide = 1, gap_too_narrow = 2, gap_both = 3
 
-   public :: check_regime, steady_alpha_p, regime_name, regime_sentence, model_limit, model_limit_name, model_limit_sentence
+   public :: check_regime, steady_alpha_p, regime_sentence, model_limit, model_limit_sentence
 
 contains
 
@@ -80,31 +81,14 @@ contains
       steady_alpha_p = film%pressure_viscosity*exact_pressure(film%radius, film%speed, film%viscosity, thickness, 0.0_dp)
    end function steady_alpha_p
 
-   !> Word for the summary.
-   pure function regime_name(regime) result(name)
-      !> Code of module regime
-      integer, intent(in) :: regime
-      character(:), allocatable :: name
-
-      select case (regime)
-      case (film_iso_viscous)
-         name = 'iso-viscous'
-      case (film_piezo_viscous)
-         name = 'piezo-viscous'
-      case (film_elastohydrodynamic)
-         name = 'elastohydrodynamic'
-      case default
-         name = 'unknown'
-      end select
-   end function regime_name
-
    !> Sentence for the log: the regime and the reason.
    pure function regime_sentence(verdict) result(sentence)
       !> Verdict of the regime check
       type(regime_verdict_t), intent(in) :: verdict
       character(:), allocatable :: sentence
 
-      sentence = regime_name(verdict%regime)//': the exact film reaches alpha p = '//short_text(verdict%alpha_p_maximum, 3)
+      sentence = quantity_word(quantity_film_regime, verdict%regime)//': the exact film reaches alpha p = '// &
+                 short_text(verdict%alpha_p_maximum, 3)
       if (verdict%alpha_p_maximum >= rigid_limit) then
          sentence = sentence//'; from 1 on there is no piezo-viscous film of rigid flanks'
       else if (verdict%deflection > deflection_limit*verdict%film) then
@@ -129,16 +113,6 @@ contains
       if (film_maximum > widest_share*radius) model_limit = gap_too_wide
       if (film_minimum < thinnest_film) model_limit = model_limit + gap_too_narrow
    end function model_limit
-
-   !> Word for the summary.
-   pure function model_limit_name(limit) result(name)
-      !> Code of a limit
-      integer, intent(in) :: limit
-      character(:), allocatable :: name
-      character(*), parameter :: names(0:3) = [character(19) :: 'within', 'too_wide', 'too_narrow', 'too_wide_and_narrow']
-
-      name = trim(names(limit))
-   end function model_limit_name
 
    !> What it means, in a sentence; empty within the limits.
    pure function model_limit_sentence(limit) result(sentence)

@@ -6,19 +6,18 @@ module told_summary
    use checkpoint, only: checkpoint_t
    use impact_reference, only: compared_harmonics
    use integrate_controlled, only: reserved_periods, solve_controlled
-   use integrate_motion, only: motion_watcher_t, solve_motion
+   use integrate_motion, only: motion_end_t, motion_watcher_t, solve_motion
+   use judge_scene, only: judge, note_ending
+   use judged_scene, only: judged_scene_t
    use kinds, only: dp, int64
    use node_extremes, only: seen_acceleration, seen_film
-   use rattle_class, only: class_name
+   use quantities, only: quantity_acceleration_maximum, quantity_acceleration_minimum, quantity_certified, &
+                         quantity_film_maximum, quantity_film_minimum, quantity_harmonics, quantity_orbit_period, &
+                         quantity_periods_solved, quantity_rattle_class, quantity_sampling_sufficient, quantity_word
    use random_scenes, only: drawn_scene_t
-   use recorded_quantities, only: record_acceleration_maximum, record_acceleration_minimum, record_certified, &
-                                  record_film_maximum, &
-                                  record_film_minimum, record_harmonics, record_orbit_period, record_periods_solved, &
-                                  record_rattle_class, record_sampling_sufficient
-   use run_sweep, only: solve_value, sweep_columns
+   use run_sweep, only: solve_value
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t
-   use scene_result, only: judge, scene_result_t
    use scene_status, only: is_success, status_name
    use scene_types, only: method_taylor, scene_t, task_campaign, until_steady
    use solve_chunk, only: chunk_space_t, solve_scenes
@@ -60,7 +59,8 @@ contains
       !> The scene with its solver
       type(drawn_scene_t), intent(in) :: drawn
       type(told_t), intent(out) :: told
-      type(scene_result_t) :: result
+      type(judged_scene_t) :: result
+      type(motion_end_t) :: ending
       type(sample_recorder_t) :: recorder
       type(checkpoint_t) :: start
       type(nobody_t) :: nobody
@@ -70,20 +70,22 @@ contains
       call recorder%open(drawn%scene, '', 0, error)
       if (drawn%scene%solver%method == method_taylor) then
          call solve_controlled(drawn%scene, drawn%resolved%film, drawn%resolved%initial_film, start, .false., recorder, &
-                               nobody, result%ending, error)
+                               nobody, ending, error)
       else
          call solve_motion(drawn%scene, drawn%resolved%film, drawn%resolved%initial_film, start, recorder, nobody, &
-                           result%ending, error)
+                           ending, error)
       end if
-      if (.not. allocated(error)) call judge(drawn%scene, drawn%resolved, recorder, result, error)
-      told%status = status_name(result%ending%status)
+      result%resolved = drawn%resolved
+      call note_ending(ending, result)
+      if (.not. allocated(error)) call judge(drawn%scene, recorder, ending%record, result, error)
+      told%status = status_name(result%status)
       if (allocated(error)) told%status = 'not_written'
-      told%judged = is_success(result%ending%status) .and. result%judged .and. .not. allocated(error)
+      told%judged = is_success(result%status) .and. result%judged .and. .not. allocated(error)
       if (.not. told%judged) return
-      told%class = class_name(result%rattle%class)
-      told%periods = result%ending%periods
+      told%class = quantity_word(quantity_rattle_class, result%rattle%class)
+      told%periods = result%periods
       told%window = result%window_periods
-      told%orbit = result%ending%orbit
+      told%orbit = result%repeats_after
       told%sampling_sufficient = result%rattle%lines%sampling_sufficient
       associate (lowest => result%extremes%lowest, highest => result%extremes%highest)
          told%extremes = [lowest(seen_film)%value, highest(seen_film)%value, lowest(seen_acceleration)%value, &
@@ -118,9 +120,10 @@ contains
       logical, intent(in) :: certified
       !> What is told of each scene
       type(told_t), intent(out) :: told(:)
-      integer, parameter :: quantities(9) = [record_film_minimum, record_film_maximum, record_acceleration_minimum, &
-         record_acceleration_maximum, record_rattle_class, record_sampling_sufficient, record_orbit_period, record_periods_solved, &
-         record_harmonics], row_harmonics = 8
+      integer, parameter :: recorded(9) = [quantity_film_minimum, quantity_film_maximum, quantity_acceleration_minimum, &
+         quantity_acceleration_maximum, quantity_rattle_class, quantity_sampling_sufficient, quantity_orbit_period, &
+         quantity_periods_solved, &
+         quantity_harmonics], row_harmonics = 8
       integer, allocatable :: record(:)
       type(scene_t) :: scene
       type(sample_plan_t) :: plan
@@ -135,8 +138,8 @@ contains
       end do
       scene = base
       scene%task = task_campaign
-      record = quantities
-      if (certified) record = [quantities(:8), record_certified, record_harmonics]
+      record = recorded
+      if (certified) record = [recorded(:8), quantity_certified, quantity_harmonics]
       scene%campaign%record = record
       scene%resolved_input = ''
       table = values
@@ -151,7 +154,7 @@ contains
             told(i)%judged = is_success(nint(row(1)))
             if (.not. told(i)%judged) cycle
             told(i)%extremes = row(2:5)
-            told(i)%class = class_name(nint(row(6)))
+            told(i)%class = quantity_word(quantity_rattle_class, nint(row(6)))
             told(i)%sampling_sufficient = row(7) > 0.5_dp
             told(i)%orbit = nint(row(8))
             told(i)%periods = nint(row(9))
@@ -177,22 +180,24 @@ contains
       real(dp), intent(inout) :: velocity
       type(told_t), intent(out) :: told
       type(error_t), allocatable :: error
-      real(dp) :: row(sweep_columns)
-      integer :: status
+      type(judged_scene_t) :: judged
 
-      call solve_value(scene, film, velocity, row, status, error)
-      told%status = status_name(status)
-      told%judged = is_success(status) .and. .not. allocated(error)
+      call solve_value(scene, film, velocity, judged, error)
+      told%status = status_name(judged%status)
+      told%judged = is_success(judged%status) .and. .not. allocated(error)
       told%certificate_asked = .false.
       if (.not. told%judged) return
-      told%extremes = row(3:6)
-      told%class = class_name(nint(row(13)))
+      associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
+         told%extremes = [lowest(seen_film)%value, highest(seen_film)%value, lowest(seen_acceleration)%value, &
+                          highest(seen_acceleration)%value]
+      end associate
+      told%class = quantity_word(quantity_rattle_class, judged%rattle%class)
       ! The window is the orbit of a motion found steady; it begins where the motion ended.
       told%window = scene%spectrum%periods
-      if (nint(row(15)) < scene%solver%periods) told%orbit = nint(row(7))
+      if (judged%periods < scene%solver%periods) told%orbit = judged%orbit%period
       if (told%orbit > 0) told%window = told%orbit
-      told%periods = nint(row(15)) + told%window
-      told%harmonics(1) = row(17)
+      told%periods = judged%periods + told%window
+      told%harmonics(1) = judged%rattle%lines%harmonics(1)
       told%harmonic_count = 1
    end subroutine value_told
 

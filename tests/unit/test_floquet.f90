@@ -2,7 +2,8 @@
 module test_floquet
    use checks, only: check_list_t
    use floquet, only: floquet_multipliers, orbit_doubling_near, orbit_fold_near, orbit_stability, orbit_stable, &
-      orbit_torus_near, orbit_unstable, stability_name
+      orbit_torus_near, orbit_unstable
+   use quantities, only: quantity_orbit_stability, quantity_word
    use kinds, only: dp
    implicit none(type, external)
    private
@@ -79,7 +80,7 @@ contains
          character(*), intent(in) :: words      !> In words
 
          call checks%check(orbit_stability([multiplier, conjg(multiplier)]) == code, 'stability: '//words)
-         call checks%check(stability_name(code) == words, 'words: '//words)
+         call checks%check(quantity_word(quantity_orbit_stability, code) == words, 'words: '//words)
       end subroutine expect
 
    end subroutine test_stability

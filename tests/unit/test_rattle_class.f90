@@ -2,7 +2,8 @@
 module test_rattle_class
    use checks, only: check_list_t
    use kinds, only: dp
-   use rattle_class, only: class_creep, class_idle, class_irregular, class_name, class_quiet, class_subharmonic, classify, &
+   use quantities, only: quantity_rattle_class, quantity_word
+   use rattle_class, only: class_creep, class_idle, class_irregular, class_quiet, class_subharmonic, classify, &
       note_orbit, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    implicit none(type, external)
@@ -51,9 +52,8 @@ contains
       call test_own_limits(checks)
       call test_reversals_per_period(checks)
       call test_known_orbit(checks)
-      call checks%check(class_name(class_quiet) == 'quiet' .and. class_name(class_creep) == 'creep' .and. &
-         class_name(class_idle) == 'idle' .and. class_name(class_irregular) == 'irregular' .and. &
-         class_name(class_subharmonic) == 'subharmonic', 'words')
+      call checks%check(word(class_quiet) == 'quiet' .and. word(class_creep) == 'creep' .and. word(class_idle) == 'idle' .and. &
+         word(class_irregular) == 'irregular' .and. word(class_subharmonic) == 'subharmonic', 'words')
 
    contains
 
@@ -67,7 +67,7 @@ contains
          type(rattle_verdict_t) :: verdict
 
          call classify(signal(harmonics, half_line), spectrum_choice_t(periods=periods), noise_floor, verdict)
-         call checks%check(verdict%class == class, message//' is '//class_name(class))
+         call checks%check(verdict%class == class, message//' is '//word(class))
       end subroutine expect
 
    end subroutine run_rattle_class_tests
@@ -98,7 +98,7 @@ contains
             verdict%class = class
             call note_orbit(verdict, orbit)
             call checks%check(verdict%class == merge(class_subharmonic, class, class == class_irregular .and. orbit > 1), &
-               'known orbit: '//class_name(class))
+               'known orbit: '//word(class))
          end do
       end do
    end subroutine test_known_orbit
@@ -151,5 +151,13 @@ contains
       call classify(signal([0.0_dp], 0.0_dp), spectrum_choice_t(periods=periods), noise_floor, verdict)
       call checks%check_close(verdict%reversals_per_period, 0.0_dp, 0.0_dp, 'no motion, no reversal')
    end subroutine test_reversals_per_period
+
+   !> Word of a class.
+   pure function word(class)
+      integer, intent(in) :: class  !> Its code
+      character(:), allocatable :: word
+
+      word = quantity_word(quantity_rattle_class, class)
+   end function word
 
 end module test_rattle_class

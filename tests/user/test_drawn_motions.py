@@ -229,7 +229,6 @@ def test_the_tolerance_figure_says_where_samples_are_too_few(tmp_path):
 # --- sweeps --------------------------------------------------------------------------------------------
 
 SWEEP_COLUMNS = {
-    "value": "Hz",
     "direction": "-",
     "film_minimum": "m",
     "film_maximum": "m",
@@ -258,15 +257,19 @@ def sweep_input(key: str) -> str:
     )
 
 
-def sweep_figure(path: Path, key: str = "frequency", rows: list | None = None) -> Figure:
-    text = sweep_input(key)
-    write_result(path, list(SWEEP_COLUMNS.items()), rows or SWEEP_ROWS, input_text=text)
+def sweep_figure(
+    path: Path, key: str = "frequency", rows: list | None = None, first_column: str | None = None
+) -> Figure:
+    columns = [(first_column or key, "-"), *SWEEP_COLUMNS.items()]
+    write_result(path, columns, rows or SWEEP_ROWS, input_text=sweep_input(key))
     with style.house_style():
         return sweep.draw(rattle.read(path))
 
 
-def test_a_sweep_shows_both_ways_and_leaves_gaps(tmp_path):
-    made = sweep_figure(tmp_path / "climb.rattle")
+@pytest.mark.parametrize("first_column", ["frequency", "value"])
+def test_a_sweep_shows_both_ways_and_leaves_gaps(first_column, tmp_path):
+    """The first column is the swept key; early files call it value."""
+    made = sweep_figure(tmp_path / "climb.rattle", first_column=first_column)
     film, acceleration, period, multiplier = made.axes
     lost = np.nan
     there, back = [100.0, 200.0, 300.0, 400.0], [400.0, 300.0, 200.0, 100.0]

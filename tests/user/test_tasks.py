@@ -284,7 +284,7 @@ def test_sweep_goes_there_and_back(run, repository: Path, tmp_path: Path) -> Non
     assert result.row_count == 2 * count - 1
     assert (result["status"] == 1).all() and (result["floquet_modulus"] < 1.0).all()
     assert list(result["direction"]) == [1.0] * count + [-1.0] * (count - 1)
-    np.testing.assert_array_equal(result["value"][:count], result["value"][count - 1 :][::-1])
+    np.testing.assert_array_equal(result["frequency"][:count], result["frequency"][count - 1 :][::-1])
     there = result["film_maximum"][:count]
     back = result["film_maximum"][count - 1 :][::-1]
     differs = np.abs(back / there - 1.0)

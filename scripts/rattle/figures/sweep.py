@@ -49,7 +49,7 @@ def draw(result: Result) -> Figure:
         rows = way(result, direction)
         if rows.size == 0:
             continue
-        value = result["value"][rows]
+        value = result[result.names[0]][rows]
         line = {"color": colour, "linestyle": dashes}
         film.semilogy(value, column(result, "film_maximum", rows, 1e6), label=f"way {name}", **line)
         film.semilogy(value, column(result, "film_minimum", rows, 1e6), **line)
@@ -83,7 +83,7 @@ def way(result: Result, direction: float) -> np.ndarray:
 def column(result: Result, name: str, rows: np.ndarray, scale: float = 1.0) -> np.ndarray:
     """Values of some rows; motions that failed or were not found leave a gap."""
     values = scale * np.asarray(result[name][rows])
-    unknown = result["orbit_period"][rows] == 0 if name in ("orbit_period", "floquet_modulus") else False
+    unknown = (values == 0) & (name in ("orbit_period", "floquet_modulus"))
     return np.where(~np.isin(result["status"][rows], SUCCESSES) | unknown, np.nan, values)
 
 

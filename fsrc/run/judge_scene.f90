@@ -1,0 +1,91 @@
+!> Judges a solved scene: its window, class and regime, and how far they can be trusted.
+module judge_scene
+   use certify_scene, only: certify
+   use errors, only: error_t
+   use fine_window, only: classify_window, judge_window, window_t
+   use integrate_motion, only: motion_end_t
+   use judged_scene, only: judged_scene_t
+   use lane_scenes, only: lane_scene_t
+   use node_extremes, only: seen_pressure
+   use rattle_class, only: note_orbit
+   use regime_check, only: check_regime
+   use sample_recorder, only: sample_recorder_t
+   use scene_lane, only: lane_of_scene
+   use scene_status, only: is_success
+   use scene_types, only: scene_t
+   use signals, only: must_stop
+   use window_extremes, only: extremes_of_record, extremes_of_samples
+   use window_record, only: window_record_t
+   implicit none(type, external)
+   private
+
+   public :: note_ending, judge
+
+contains
+
+   !> Note how a motion ended.
+   pure subroutine note_ending(ending, judged)
+      type(motion_end_t), intent(in) :: ending
+      type(judged_scene_t), intent(inout) :: judged
+
+      judged%status = ending%status
+      judged%time = ending%time
+      judged%film = ending%film
+      judged%periods = ending%periods
+      judged%repeats_after = ending%orbit
+      judged%count = ending%count
+   end subroutine note_ending
+
+   !> Judge the window of a motion.
+   subroutine judge(scene, recorder, record, judged, error)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Samples of the window
+      type(sample_recorder_t), intent(in) :: recorder
+      !> What the steps tell of it; no periods: the samples are all that is known
+      type(window_record_t), intent(in) :: record
+      !> With what follows from the scene and how it ended; the verdict is added
+      type(judged_scene_t), intent(inout) :: judged
+      !> Set if there is not enough memory; nothing is judged then
+      type(error_t), allocatable, intent(out) :: error
+      type(lane_scene_t) :: lane
+      type(window_t) :: window
+
+      judged%judged = is_success(judged%status)
+      if (.not. judged%judged) return
+      window%samples_per_period = scene%solver%samples_per_period()
+      window%periods = size(recorder%films)/window%samples_per_period
+      allocate (window%films, source=recorder%films)
+      allocate (window%velocities, source=recorder%velocities)
+      allocate (window%accelerations, source=recorder%accelerations)
+      lane = lane_of_scene(scene, judged%resolved%film, judged%resolved%initial_film, scene%film%initial_velocity)
+      window%record = record
+      call classify_window(scene, lane, window%periods, window%accelerations, window%record, &
+                           judged%resolved%noise_floor, judged%rattle)
+      ! A signal ends the verdict on a long window here, between two stretches of some seconds.
+      judged%judged = .not. must_stop()
+      if (.not. judged%judged) return
+      judged%series_coarse = .not. judged%rattle%lines%sampling_sufficient
+      ! What the error-controlled engine has solved can be solved again, sampled finer, from where the window begins.
+      if (judged%series_coarse .and. window%record%periods > 0) &
+         call judge_window(scene, lane, scene%solver%accuracy, judged%resolved%noise_floor, window, judged%rattle, error)
+      judged%judged = .not. allocated(error)
+      if (.not. judged%judged) return
+      call note_orbit(judged%rattle, judged%repeats_after)
+      judged%window_periods = window%periods
+      judged%samples_per_period = window%samples_per_period
+      judged%lines_by_integrals = window%by_integrals
+      if (window%record%periods > 0) then
+         judged%extremes = extremes_of_record(record)
+      else
+         judged%extremes = extremes_of_samples(judged%resolved%film, window%films, window%velocities, window%accelerations)
+      end if
+      associate (pressure => judged%extremes%highest(seen_pressure))
+         judged%regime = check_regime(judged%resolved%film, pressure%value, pressure%film)
+      end associate
+      if (scene%spectrum%certify) call certify(scene, judged%resolved, lane, judged%periods, window, judged%extremes, &
+                                               judged%rattle, judged%certificate, error, judged%orbit)
+      judged%judged = .not. allocated(error)
+   end subroutine judge
+
+end module judge_scene

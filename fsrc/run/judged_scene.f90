@@ -1,0 +1,223 @@
+!> A judged scene, whether a single one, a value of a sweep or a row of a campaign, and the values of all quantities of it.
+module judged_scene
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use certificate, only: certificate_t
+   use floquet, only: orbit_stability
+   use kinds, only: dp
+   use newmark, only: motion_count_t
+   use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_load, seen_velocity
+   use periodic_orbit, only: periodic_orbit_t
+   use quantities, only: quantity_acceleration_error, quantity_acceleration_maximum, quantity_acceleration_maximum_error, &
+      quantity_acceleration_minimum, quantity_acceleration_minimum_error, quantity_alpha_p_maximum, quantity_certified, &
+      quantity_damping_ratio, quantity_deflection, quantity_evaluations, quantity_film_error, quantity_film_maximum, &
+      quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
+      quantity_first_harmonic, quantity_floquet_modulus, quantity_floquet_multipliers, quantity_harmonic_distortion, &
+      quantity_harmonic_distortion_is_bound, quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, &
+      quantity_iterations_per_step, quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, &
+      quantity_lines_by_integrals, quantity_load_maximum, quantity_load_minimum, quantity_model_limit, &
+      quantity_natural_frequency, quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, &
+      quantity_pressure_maximum, quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, &
+      quantity_sampling_sufficient, quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, &
+      quantity_steps_cut, quantity_velocity_maximum, quantity_velocity_minimum, quantity_window_periods
+   use rattle_class, only: rattle_verdict_t
+   use regime_check, only: model_limit, regime_verdict_t
+   use resolved_scene, only: resolved_scene_t
+   use scene_status, only: status_complete
+   use window_extremes, only: window_extremes_t
+   implicit none(type, external)
+   private
+
+   !> A judged scene. Parts that nobody asks for, or that its ending leaves unknown, are those of the scene before.
+   type, public :: judged_scene_t
+      type(resolved_scene_t) :: resolved
+      !> Status of scene_status, when the motion got it [s] and its film there [m], and whether there is a window that was judged
+      integer :: status = status_complete
+      real(dp) :: time = 0.0_dp, film = 0.0_dp
+      logical :: judged = .false.
+      !> Periods solved, and those after which their end was seen to repeat, else 0
+      integer :: periods = 0, repeats_after = 0
+      type(motion_count_t) :: count
+      !> Whole periods of the window, samples of each, and whether its lines are integrals over the steps
+      integer :: window_periods = 0, samples_per_period = 0
+      logical :: lines_by_integrals = .false.
+      !> Whether the samples of the scene are too few for its motion
+      logical :: series_coarse = .false.
+      !> Extremes of the window
+      type(window_extremes_t) :: extremes
+      type(rattle_verdict_t) :: rattle
+      type(regime_verdict_t) :: regime
+      type(certificate_t) :: certificate
+      !> The periodic motion behind it, where one was looked for
+      type(periodic_orbit_t) :: orbit
+   end type judged_scene_t
+
+   public :: quantity_value, quantity_list
+
+contains
+
+   !> Value of a quantity, NaN where it is unknown; flags are 1 or 0.
+   pure real(dp) function quantity_value(quantity, judged) result(value)
+      !> Code of a quantity that is no list
+      integer, intent(in) :: quantity
+      type(judged_scene_t), intent(in) :: judged
+
+      value = ieee_value(value, ieee_quiet_nan)
+      select case (quantity)
+      case (quantity_status)
+         value = real(judged%status, dp)
+      case (quantity_steady_film)
+         if (judged%resolved%steady_film > 0.0_dp) value = judged%resolved%steady_film
+      case (quantity_natural_frequency)
+         if (judged%resolved%steady_film > 0.0_dp) value = judged%resolved%natural_frequency
+      case (quantity_damping_ratio)
+         if (judged%resolved%steady_film > 0.0_dp) value = judged%resolved%damping_ratio
+      case (quantity_orbit_period)
+         value = real(merge(judged%orbit%period, judged%repeats_after, judged%orbit%period > 0), dp)
+      case (quantity_periods_solved)
+         value = real(judged%periods, dp)
+      case (quantity_evaluations)
+         value = real(judged%count%evaluations, dp)
+      case (quantity_steps)
+         value = real(judged%count%steps, dp)
+      case (quantity_steps_cut)
+         value = real(judged%count%cuts, dp)
+      case (quantity_iterations_per_step)
+         if (judged%count%steps > 0) value = real(judged%count%evaluations, dp)/real(judged%count%steps, dp)
+      case default
+         if (judged%judged) value = window_value(quantity, judged)
+      end select
+   end function quantity_value
+
+   !> Value of a quantity that rests on the window.
+   pure real(dp) function window_value(quantity, judged) result(value)
+      integer, intent(in) :: quantity
+      type(judged_scene_t), intent(in) :: judged
+
+      value = ieee_value(value, ieee_quiet_nan)
+      associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest, lines => judged%rattle%lines, &
+                 regime => judged%regime, certificate => judged%certificate)
+         select case (quantity)
+         case (quantity_window_periods)
+            value = real(judged%window_periods, dp)
+         case (quantity_samples_per_period)
+            value = real(judged%samples_per_period, dp)
+         case (quantity_series_coarse)
+            value = flag(judged%series_coarse)
+         case (quantity_lines_by_integrals)
+            value = flag(judged%lines_by_integrals)
+         case (quantity_film_minimum)
+            value = lowest(seen_film)%value
+         case (quantity_film_maximum)
+            value = highest(seen_film)%value
+         case (quantity_velocity_minimum)
+            value = lowest(seen_velocity)%value
+         case (quantity_velocity_maximum)
+            value = highest(seen_velocity)%value
+         case (quantity_acceleration_minimum)
+            value = lowest(seen_acceleration)%value
+         case (quantity_acceleration_maximum)
+            value = highest(seen_acceleration)%value
+         case (quantity_load_minimum)
+            value = lowest(seen_load)%value
+         case (quantity_load_maximum)
+            value = highest(seen_load)%value
+         case (quantity_model_limit)
+            value = real(model_limit(lowest(seen_film)%value, highest(seen_film)%value, judged%resolved%film%radius), dp)
+         case (quantity_reversals_per_period)
+            value = judged%rattle%reversals_per_period
+         case (quantity_first_harmonic)
+            value = lines%harmonics(1)
+         case (quantity_line_count)
+            if (lines%moving) value = real(lines%line_count, dp)
+         case (quantity_line_count_is_bound)
+            value = flag(lines%count_is_bound)
+         case (quantity_harmonic_distortion)
+            if (lines%moving) value = lines%harmonic_distortion
+         case (quantity_harmonic_distortion_is_bound)
+            value = flag(lines%distortion_is_bound)
+         case (quantity_irregular_fraction)
+            if (lines%moving) value = lines%irregular_fraction
+         case (quantity_sampling_sufficient)
+            value = flag(lines%sampling_sufficient)
+         case (quantity_rattle_class)
+            value = real(judged%rattle%class, dp)
+         case (quantity_certified)
+            if (certificate%exists) value = flag(certificate%certified)
+         case (quantity_orbit_stability)
+            if (judged%orbit%period > 0) value = real(orbit_stability(judged%orbit%multipliers), dp)
+         case (quantity_floquet_modulus)
+            if (judged%orbit%period > 0) value = abs(judged%orbit%multipliers(1))
+         case (quantity_pressure_maximum)
+            if (regime%pressure_exists) value = regime%pressure_maximum
+         case (quantity_alpha_p_maximum)
+            value = regime%alpha_p_maximum
+         case (quantity_deflection)
+            value = regime%deflection
+         case (quantity_film_regime)
+            value = real(regime%regime, dp)
+         case (quantity_law_contradicted)
+            value = flag(regime%law_contradicted)
+         case default
+            if (allocated(certificate%harmonic_errors)) value = error_value(quantity, certificate)
+         end select
+      end associate
+   end function window_value
+
+   !> An error by the tighter solution, if there is one.
+   pure real(dp) function error_value(quantity, certificate) result(value)
+      integer, intent(in) :: quantity
+      type(certificate_t), intent(in) :: certificate
+
+      value = ieee_value(value, ieee_quiet_nan)
+      if (size(certificate%harmonic_errors) == 0) return
+      select case (quantity)
+      case (quantity_film_error)
+         value = certificate%film_error
+      case (quantity_film_minimum_error)
+         value = certificate%film_minimum_error
+      case (quantity_film_maximum_error)
+         value = certificate%film_maximum_error
+      case (quantity_acceleration_error)
+         value = certificate%acceleration_error
+      case (quantity_acceleration_minimum_error)
+         value = certificate%acceleration_minimum_error
+      case (quantity_acceleration_maximum_error)
+         value = certificate%acceleration_maximum_error
+      case default
+         continue
+      end select
+   end function error_value
+
+   !> Numbers of a quantity that is a list, none where they are unknown.
+   pure function quantity_list(quantity, judged) result(list)
+      !> Code of the quantity
+      integer, intent(in) :: quantity
+      type(judged_scene_t), intent(in) :: judged
+      real(dp), allocatable :: list(:)
+      !> Most numbers of a list
+      integer, parameter :: most = 40
+
+      allocate (list(0))
+      if (.not. judged%judged) return
+      select case (quantity)
+      case (quantity_harmonics)
+         list = judged%rattle%lines%harmonics(:min(most, size(judged%rattle%lines%harmonics)))
+      case (quantity_harmonic_errors)
+         if (allocated(judged%certificate%harmonic_errors)) &
+            list = judged%certificate%harmonic_errors(:min(most, size(judged%certificate%harmonic_errors)))
+      case (quantity_floquet_multipliers)
+         if (judged%orbit%period > 0) list = [judged%orbit%multipliers(1)%re, judged%orbit%multipliers(1)%im, &
+                                              judged%orbit%multipliers(2)%re, judged%orbit%multipliers(2)%im]
+      case default
+         continue
+      end select
+   end function quantity_list
+
+   !> 1 or 0.
+   elemental real(dp) function flag(is_set)
+      logical, intent(in) :: is_set
+
+      flag = merge(1.0_dp, 0.0_dp, is_set)
+   end function flag
+
+end module judged_scene

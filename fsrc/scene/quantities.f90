@@ -1,0 +1,213 @@
+!> The one table of quantities: what is told of a judged scene in summaries, columns of sweeps, rows of campaigns and logs, and
+!> what the codes among them mean. Values are computed in judged_scene. A new quantity is a line of the enumeration, a line of
+!> the table, both in their place in the summary, and a case in judged_scene; then `make pages`.
+module quantities
+   implicit none(type, external)
+   public
+
+   !> Numbers, counts, flags (1 or 0), codes of words, and lists of numbers.
+   integer, parameter :: a_number = 1, a_count = 2, a_flag = 3, a_code = 4, a_list = 5
+   character(*), parameter :: kind_names(5) = [character(6) :: 'number', 'count', 'flag', 'code', 'list']
+
+   !> What has to be found for a quantity beyond the motion itself. The first are the extremes of the window, by the codes of
+   !> node_extremes.
+   integer, parameter :: needs_nothing = 0, needs_film_range = 1, needs_velocity_range = 2, needs_acceleration_range = 3, &
+                                 needs_load_range = 4, needs_regime = 5, needs_spectrum = 6, needs_certificate = 7, need_count = 7
+
+   !> Parts of the summary, in their order.
+   integer, parameter :: part_scene = 1, part_window = 2, part_lines = 3, part_class = 4, part_errors = 5, &
+                                 part_orbit = 6, part_regime = 7, part_cost = 8
+
+   enum, bind(c)
+      enumerator :: quantity_status = 1, quantity_steady_film, quantity_natural_frequency, quantity_damping_ratio, &
+         quantity_window_periods, quantity_samples_per_period, quantity_series_coarse, quantity_lines_by_integrals, &
+         quantity_film_minimum, quantity_film_maximum, quantity_velocity_minimum, quantity_velocity_maximum, &
+         quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
+         quantity_model_limit, quantity_reversals_per_period, quantity_harmonics, quantity_first_harmonic, &
+         quantity_line_count, quantity_line_count_is_bound, quantity_harmonic_distortion, &
+         quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, quantity_sampling_sufficient, &
+         quantity_rattle_class, quantity_certified, quantity_film_error, quantity_film_minimum_error, &
+         quantity_film_maximum_error, quantity_acceleration_error, quantity_acceleration_minimum_error, &
+         quantity_acceleration_maximum_error, quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, &
+         quantity_floquet_multipliers, quantity_floquet_modulus, quantity_pressure_maximum, quantity_alpha_p_maximum, &
+         quantity_deflection, quantity_film_regime, quantity_law_contradicted, quantity_periods_solved, &
+         quantity_evaluations, quantity_steps, quantity_steps_cut, quantity_iterations_per_step
+   end enum
+
+   !> One quantity.
+   type :: quantity_t
+      integer :: code
+      character(28) :: name
+      !> SI unit, '-' for a pure number
+      character(4) :: unit
+      integer :: kind
+      integer :: part
+      integer :: need
+      !> Where it is told, besides the words of its codes: any of summary, sweep, campaign (a word of its key record), log
+      character(28) :: told_in
+      character(160) :: meaning
+      !> Words of the codes, from the first code on, a bar between two
+      character(120) :: words = ''
+      integer :: first_code = 0
+      !> Digits in the log
+      integer :: digits = 5
+   end type quantity_t
+
+   !> All of them, each in the place of its code.
+   type(quantity_t), parameter :: quantity_table(*) = [ &
+      quantity_t(quantity_status, 'status', '-', a_code, part_scene, needs_nothing, 'sweep', &
+         'How the motion ended.', &
+         'complete|steady|not_converged|film_lost|no_rigid_film|overflow|interrupted|time_limit|not_written|invalid'), &
+      quantity_t(quantity_steady_film, 'steady_film', 'm', a_number, part_scene, needs_nothing, 'summary campaign log', &
+         'Film that carries the static load Q + m g without motion.'), &
+      quantity_t(quantity_natural_frequency, 'natural_frequency', 'Hz', a_number, part_scene, needs_nothing, &
+         'summary sweep campaign log', &
+         'Of small motions about the steady film, undamped.'), &
+      quantity_t(quantity_damping_ratio, 'damping_ratio', '-', a_number, part_scene, needs_nothing, 'summary campaign log', &
+         'Of small motions about the steady film, 1: critical.', digits=4), &
+      quantity_t(quantity_window_periods, 'window_periods', '-', a_count, part_window, needs_nothing, 'summary', &
+         'Periods of the force at the end of the run that are judged.'), &
+      quantity_t(quantity_samples_per_period, 'samples_per_period', '-', a_count, part_window, needs_nothing, 'summary', &
+         'Samples of a period that the lines are found from.'), &
+      quantity_t(quantity_series_coarse, 'series_coarse', '-', a_flag, part_window, needs_nothing, 'summary', &
+         'Whether the samples of the time series are too few for its motion.'), &
+      quantity_t(quantity_lines_by_integrals, 'lines_by_integrals', '-', a_flag, part_window, needs_nothing, 'summary', &
+         'Whether the lines are integrals over the steps, since no samples follow the motion.'), &
+      quantity_t(quantity_film_minimum, 'film_minimum', 'm', a_number, part_window, needs_film_range, 'summary sweep campaign', &
+         'Smallest film of the window.'), &
+      quantity_t(quantity_film_maximum, 'film_maximum', 'm', a_number, part_window, needs_film_range, 'summary sweep campaign', &
+         'Largest film of the window.'), &
+      quantity_t(quantity_velocity_minimum, 'velocity_minimum', 'm/s', a_number, part_window, needs_velocity_range, &
+         'summary campaign', &
+         'Smallest film velocity of the window: the fastest approach.'), &
+      quantity_t(quantity_velocity_maximum, 'velocity_maximum', 'm/s', a_number, part_window, needs_velocity_range, &
+         'summary campaign', &
+         'Largest film velocity of the window: the fastest separation.'), &
+      quantity_t(quantity_acceleration_minimum, 'acceleration_minimum', 'm/s2', a_number, part_window, &
+         needs_acceleration_range, 'summary sweep campaign', &
+         'Smallest acceleration of the window.'), &
+      quantity_t(quantity_acceleration_maximum, 'acceleration_maximum', 'm/s2', a_number, part_window, &
+         needs_acceleration_range, 'summary sweep campaign', &
+         'Largest acceleration of the window.'), &
+      quantity_t(quantity_load_minimum, 'load_minimum', 'N', a_number, part_window, needs_load_range, 'summary', &
+         'Smallest load of the film over the window.'), &
+      quantity_t(quantity_load_maximum, 'load_maximum', 'N', a_number, part_window, needs_load_range, 'summary campaign', &
+         'Largest load of the film over the window.'), &
+      quantity_t(quantity_model_limit, 'model_limit', '-', a_code, part_window, needs_film_range, 'summary sweep campaign', &
+         'Where the motion leaves what the model can mean.', &
+         'within|too_wide|too_narrow|too_wide_and_narrow'), &
+      quantity_t(quantity_reversals_per_period, 'reversals_per_period', '-', a_number, part_window, needs_spectrum, &
+         'summary campaign', &
+         'Turns of the acceleration that stand out from the curve, a period of the force.'), &
+      quantity_t(quantity_harmonics, 'harmonics', 'm/s2', a_list, part_window, needs_spectrum, 'summary campaign', &
+         'Amplitudes of the acceleration at multiples of the frequency of the force: 40 in a summary, harmonic_1 to 8 in a row.'), &
+      quantity_t(quantity_first_harmonic, 'first_harmonic', 'm/s2', a_number, part_lines, needs_spectrum, 'sweep', &
+         'Amplitude of the acceleration at the frequency of the force.'), &
+      quantity_t(quantity_line_count, 'line_count', '-', a_count, part_lines, needs_spectrum, 'summary sweep campaign', &
+         'Harmonics above the line threshold.'), &
+      quantity_t(quantity_line_count_is_bound, 'line_count_is_bound', '-', a_flag, part_lines, needs_spectrum, &
+         'summary campaign', &
+         'Whether there may be more lines beyond the highest that is resolved.'), &
+      quantity_t(quantity_harmonic_distortion, 'harmonic_distortion', '-', a_number, part_lines, needs_spectrum, &
+         'summary sweep campaign', &
+         'All harmonics from the second on over the first.'), &
+      quantity_t(quantity_harmonic_distortion_is_bound, 'harmonic_distortion_is_bound', '-', a_flag, part_lines, &
+         needs_spectrum, 'summary', &
+         'Whether lines beyond the highest that is resolved may add to it.'), &
+      quantity_t(quantity_irregular_fraction, 'irregular_fraction', '-', a_number, part_lines, needs_spectrum, &
+         'summary sweep campaign', &
+         'Share of the power that is off the harmonics.'), &
+      quantity_t(quantity_sampling_sufficient, 'sampling_sufficient', '-', a_flag, part_lines, needs_spectrum, &
+         'summary campaign', &
+         'Whether the lines are those of the motion, not of too few samples.'), &
+      quantity_t(quantity_rattle_class, 'rattle_class', '-', a_code, part_class, needs_spectrum, 'summary sweep campaign', &
+         'Class of the motion by its spectrum.', &
+         'quiet|creep|idle|irregular|subharmonic', first_code=1), &
+      quantity_t(quantity_certified, 'certified', '-', a_flag, part_class, needs_certificate, 'campaign', &
+         'Whether the class stands when the scene is solved again, tighter.'), &
+      quantity_t(quantity_film_error, 'film_error', '-', a_number, part_errors, needs_certificate, 'summary', &
+         'Largest error of the film over the window, relative.'), &
+      quantity_t(quantity_film_minimum_error, 'film_minimum_error', 'm', a_number, part_errors, needs_certificate, 'summary', &
+         'Error of film_minimum.'), &
+      quantity_t(quantity_film_maximum_error, 'film_maximum_error', 'm', a_number, part_errors, needs_certificate, 'summary', &
+         'Error of film_maximum.'), &
+      quantity_t(quantity_acceleration_error, 'acceleration_error', '-', a_number, part_errors, needs_certificate, 'summary', &
+         'Larger of both errors below, over the largest size of the acceleration.'), &
+      quantity_t(quantity_acceleration_minimum_error, 'acceleration_minimum_error', 'm/s2', a_number, part_errors, &
+         needs_certificate, 'summary', &
+         'Error of acceleration_minimum.'), &
+      quantity_t(quantity_acceleration_maximum_error, 'acceleration_maximum_error', 'm/s2', a_number, part_errors, &
+         needs_certificate, 'summary', &
+         'Error of acceleration_maximum.'), &
+      quantity_t(quantity_harmonic_errors, 'harmonic_errors', 'm/s2', a_list, part_errors, needs_certificate, 'summary', &
+         'Errors of the harmonics.'), &
+      quantity_t(quantity_orbit_period, 'orbit_period', '-', a_count, part_orbit, needs_nothing, 'summary sweep campaign', &
+         'Periods of the force after which the motion repeats; 0 where that is not known.'), &
+      quantity_t(quantity_orbit_stability, 'orbit_stability', '-', a_code, part_orbit, needs_certificate, 'summary sweep', &
+         'What the Floquet multipliers say of the periodic motion.', &
+         'stable|stable, period doubling near|stable, fold near|stable, torus near|unstable', first_code=1), &
+      quantity_t(quantity_floquet_multipliers, 'floquet_multipliers', '-', a_list, part_orbit, needs_certificate, 'summary', &
+         'What an orbit leaves of a disturbance: real and imaginary part of each, the larger first.'), &
+      quantity_t(quantity_floquet_modulus, 'floquet_modulus', '-', a_number, part_orbit, needs_certificate, 'sweep', &
+         'Modulus of the largest Floquet multiplier.'), &
+      quantity_t(quantity_pressure_maximum, 'pressure_maximum', 'Pa', a_number, part_regime, needs_regime, 'summary campaign', &
+         'Largest pressure of the exact film over the window, where it exists.'), &
+      quantity_t(quantity_alpha_p_maximum, 'alpha_p_maximum', '-', a_number, part_regime, needs_regime, 'summary campaign', &
+         'Largest pressure of the exact iso-viscous film times the pressure-viscosity coefficient.'), &
+      quantity_t(quantity_deflection, 'deflection', 'm', a_number, part_regime, needs_regime, 'summary campaign', &
+         'Deflection (4) of the teeth at the largest pressure.'), &
+      quantity_t(quantity_film_regime, 'film_regime', '-', a_code, part_regime, needs_regime, 'summary campaign', &
+         'Regime of the film by its largest pressure.', &
+         'unknown|iso-viscous|piezo-viscous|elastohydrodynamic'), &
+      quantity_t(quantity_law_contradicted, 'law_contradicted', '-', a_flag, part_regime, needs_regime, 'summary campaign', &
+         'Whether the film law of the scene is not the one of its regime.'), &
+      quantity_t(quantity_periods_solved, 'periods_solved', '-', a_count, part_cost, needs_nothing, 'summary sweep campaign', &
+         'Periods of the force that were solved.'), &
+      quantity_t(quantity_evaluations, 'evaluations', '-', a_count, part_cost, needs_nothing, 'summary', &
+         'Evaluations of the film.'), &
+      quantity_t(quantity_steps, 'steps', '-', a_count, part_cost, needs_nothing, 'summary', &
+         'Steps in time.'), &
+      quantity_t(quantity_steps_cut, 'steps_cut', '-', a_count, part_cost, needs_nothing, 'summary', &
+         'Steps that were cut where the film law had no value.'), &
+      quantity_t(quantity_iterations_per_step, 'iterations_per_step', '-', a_number, part_cost, needs_nothing, 'summary', &
+         'Evaluations of the film a step.')]
+
+   !> Names of those that a campaign can record, blanks between them.
+   logical, parameter, private :: in_campaigns(*) = index(quantity_table%told_in, 'campaign') > 0
+   character(*), parameter :: recordable = transfer(pack(quantity_table%name, in_campaigns), &
+                                                            repeat(' ', len(quantity_table%name)*count(in_campaigns)))
+
+contains
+
+   !> Code of a quantity, 0 if there is none of this name.
+   pure integer function quantity_code(name)
+      character(*), intent(in) :: name
+
+      quantity_code = findloc(quantity_table%name, name, dim=1)
+   end function quantity_code
+
+   !> The word of a code.
+   pure function quantity_word(quantity, code) result(word)
+      !> A quantity that has words
+      integer, intent(in) :: quantity
+      integer, intent(in) :: code
+      character(:), allocatable :: word
+      integer :: i
+
+      word = trim(quantity_table(quantity)%words)//'|'
+      do i = quantity_table(quantity)%first_code, code - 1
+         word = word(index(word, '|') + 1:)
+      end do
+      word = word(:index(word, '|') - 1)
+   end function quantity_word
+
+   !> Codes of the quantities that are told somewhere, in the order of the table.
+   pure function quantities_told_in(place) result(codes)
+      !> summary, sweep, campaign or log
+      character(*), intent(in) :: place
+      integer, allocatable :: codes(:)
+
+      codes = pack(quantity_table%code, index(quantity_table%told_in, place) > 0)
+   end function quantities_told_in
+
+end module quantities

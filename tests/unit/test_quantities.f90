@@ -1,0 +1,182 @@
+!> Tests of the table of quantities: each of them has a value, and a scene has the same ones as a single scene, as a value of a
+!> sweep and as a row of a campaign.
+module test_quantities
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use canonical_scenes, only: canonical_scene, counting_watcher_t
+   use checkpoint, only: checkpoint_t
+   use checks, only: check_list_t
+   use errors, only: error_t
+   use integrate_controlled, only: solve_controlled
+   use integrate_motion, only: motion_end_t
+   use judge_scene, only: judge, note_ending
+   use judged_scene, only: judged_scene_t, quantity_list, quantity_value
+   use key_table, only: find_key
+   use kinds, only: dp, int64
+   use quantities, only: a_list, a_number, quantities_told_in, quantity_certified, quantity_periods_solved, quantity_status, &
+                         quantity_table, quantity_word
+   use resolved_scene, only: resolve
+   use run_sweep, only: solve_value
+   use sample_recorder, only: sample_recorder_t
+   use sampling, only: plan_table, sample_plan_t
+   use scene_types, only: law_iso_viscous, method_taylor, scene_t, until_steady
+   use solve_chunk, only: chunk_space_t, solve_scenes
+   implicit none(type, external)
+   private
+
+   public :: run_quantities_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_quantities_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(judged_scene_t) :: single, swept
+      type(scene_t) :: scene
+      real(dp), allocatable :: row(:)
+
+      call checks%start('quantities')
+      call test_words(checks)
+      scene = steady_scene()
+      call solve_single(scene, single)
+      call test_every_value(single, checks)
+      call solve_swept(scene, swept)
+      call solve_row(scene, row)
+      call test_same_values(single, swept, row, checks)
+   end subroutine run_quantities_tests
+
+   !> Words of codes, the first and the last.
+   subroutine test_words(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%check(quantity_word(quantity_status, 0) == 'complete', 'first word')
+      call checks%check(quantity_word(quantity_status, 9) == 'invalid', 'last word')
+   end subroutine test_words
+
+   !> Every quantity of a scene that has all of them is known.
+   subroutine test_every_value(single, checks)
+      type(judged_scene_t), intent(in) :: single  !> A steady, certified scene
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      integer :: i
+
+      do i = 1, size(quantity_table)
+         if (quantity_table(i)%kind == a_list) then
+            call checks%check(size(quantity_list(i, single)) > 0, trim(quantity_table(i)%name)//' has numbers')
+         else
+            call checks%check(.not. ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' has a value')
+         end if
+      end do
+   end subroutine test_every_value
+
+   !> What sweeps and campaigns tell of a scene is what its summary tells, but for how it was solved.
+   subroutine test_same_values(single, swept, row, checks)
+      type(judged_scene_t), intent(in) :: single  !> As a single scene
+      type(judged_scene_t), intent(in) :: swept   !> As a value of a sweep
+      real(dp), intent(in) :: row(:)              !> As a row of a campaign, from its first quantity on
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      integer, allocatable :: told(:)
+      integer :: i, column
+
+      allocate (told, source=quantities_told_in('sweep'))
+      do i = 1, size(told)
+         if (any(told(i) == [quantity_status, quantity_periods_solved])) cycle
+         call check_same(told(i), quantity_value(told(i), swept), 'in a sweep')
+      end do
+      deallocate (told)
+      allocate (told, source=quantities_told_in('campaign'))
+      column = 0
+      do i = 1, size(told)
+         column = column + 1
+         if (quantity_table(told(i))%kind == a_list) then
+            associate (list => quantity_list(told(i), single))
+               call checks%check(maxval(abs(row(column:column + 7) - list(:8))) < 1.0e-5_dp*maxval(list), &
+                  trim(quantity_table(told(i))%name)//' in a campaign')
+            end associate
+            column = column + 7
+         else if (.not. any(told(i) == [quantity_certified, quantity_periods_solved])) then
+            call check_same(told(i), row(column), 'in a campaign')
+         end if
+      end do
+      call checks%check(column == size(row), 'columns of a row')
+
+   contains
+
+      !> A number agrees to five digits, everything else exactly.
+      subroutine check_same(quantity, value, place)
+         integer, intent(in) :: quantity    !> Its code
+         real(dp), intent(in) :: value      !> Its value elsewhere
+         character(*), intent(in) :: place  !> Where
+         real(dp) :: own, room
+
+         own = quantity_value(quantity, single)
+         room = 0.0_dp
+         if (quantity_table(quantity)%kind == a_number) room = 1.0e-5_dp*abs(own) + 1.0e-9_dp
+         call checks%check(abs(value - own) <= room, trim(quantity_table(quantity)%name)//' '//place)
+      end subroutine check_same
+
+   end subroutine test_same_values
+
+   !> A canonical scene under half the force that comes to rest in a periodic motion.
+   function steady_scene() result(scene)
+      type(scene_t) :: scene
+      integer, allocatable :: recorded(:)
+
+      scene = canonical_scene(law_iso_viscous, 512)
+      scene%load%force_amplitude = 100.0_dp
+      scene%solver%method = method_taylor
+      scene%solver%until = until_steady
+      scene%solver%kept_per_period = 512
+      scene%solver%accuracy = 1.0e-8_dp
+      scene%solver%periods = 400
+      scene%campaign%samples_per_period = 512
+      allocate (recorded, source=quantities_told_in('campaign'))
+      scene%campaign%record = recorded
+      scene%resolved_input = ''
+   end function steady_scene
+
+   !> Solve and judge a single scene.
+   subroutine solve_single(scene, judged)
+      type(scene_t), intent(in) :: scene          !> The scene
+      type(judged_scene_t), intent(out) :: judged  !> Its result
+      type(sample_recorder_t) :: recorder
+      type(counting_watcher_t) :: watcher
+      type(checkpoint_t) :: start
+      type(motion_end_t) :: ending
+      type(error_t), allocatable :: error
+
+      judged%resolved = resolve(scene)
+      call recorder%open(scene, '', 0, error)
+      call solve_controlled(scene, judged%resolved%film, judged%resolved%initial_film, start, .false., recorder, watcher, &
+                            ending, error)
+      call note_ending(ending, judged)
+      call judge(scene, recorder, ending%record, judged, error)
+   end subroutine solve_single
+
+   !> Solve and judge it as the first value of a sweep.
+   subroutine solve_swept(scene, judged)
+      type(scene_t), intent(in) :: scene          !> The scene
+      type(judged_scene_t), intent(out) :: judged  !> Its result
+      type(error_t), allocatable :: error
+      real(dp) :: film, velocity
+
+      film = 0.0_dp
+      velocity = 0.0_dp
+      call solve_value(scene, film, velocity, judged, error)
+   end subroutine solve_swept
+
+   !> Solve and judge it as a row of a campaign.
+   subroutine solve_row(scene, row)
+      type(scene_t), intent(in) :: scene           !> The scene
+      real(dp), allocatable, intent(out) :: row(:)  !> Its quantities
+      type(chunk_space_t), allocatable :: space
+      type(sample_plan_t) :: plan
+      type(error_t), allocatable :: error
+      real(dp), allocatable :: values(:, :), rows(:, :)
+
+      allocate (values(1, 1), source=scene%load%force_amplitude)
+      call plan_table([find_key('load', 'force_amplitude')], values, plan)
+      allocate (rows(3 + size(scene%campaign%record) + 7, 1), space)
+      call solve_scenes(scene, plan, 1_int64, space, rows, error)
+      row = rows(4:, 1)
+   end subroutine solve_row
+
+end module test_quantities
