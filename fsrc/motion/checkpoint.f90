@@ -18,7 +18,7 @@ module checkpoint
       real(dp) :: momentum = 0.0_dp
       logical :: implicit = .false.
       !> Of a run until steady: the states that its search looks back on
-      type(orbit_watch_t) :: watch
+      type(orbit_watch_t) :: watch = orbit_watch_t()
       !> and, once it is over, the periods after which the motion repeats; 0: it goes on
       integer :: orbit = 0
       !> Cost so far

@@ -17,7 +17,7 @@ module lane_run
       !> Period 0: it is on its own way
       integer :: period = 0
       real(dp) :: film = 0.0_dp, momentum = 0.0_dp
-      type(orbit_watch_t) :: states
+      type(orbit_watch_t) :: states = orbit_watch_t()
    end type departure_t
 
    !> What happened to the scene of a lane.
@@ -29,12 +29,12 @@ module lane_run
       !> Start of the present period: scaled film and momentum
       real(dp) :: film = 0.0_dp, momentum = 0.0_dp
       !> Looks for repetition, and for return to the last bit
-      type(orbit_watch_t) :: states
-      type(recurrence_t) :: past
+      type(orbit_watch_t) :: states = orbit_watch_t()
+      type(recurrence_t) :: past = recurrence_t()
       !> Excursion under way, the period at which it has failed, its forecasts, and excursions made
-      type(departure_t) :: departure
+      type(departure_t) :: departure = departure_t()
       integer :: back_at = 0, forecasts = 0, excursions = 0
-      type(lane_ending_t) :: ending
+      type(lane_ending_t) :: ending = lane_ending_t()
    end type lane_watch_t
 
    !> A block at work.

@@ -33,7 +33,7 @@ module fine_window
       !> h [m], z' [m/s], z'' [m/s2]
       real(dp), allocatable :: films(:), velocities(:), accelerations(:)
       !> What the steps of the engine tell of it; no periods: the samples are all that is known
-      type(window_record_t) :: record
+      type(window_record_t) :: record = window_record_t()
       !> Whether its lines are integrals over the steps
       logical :: by_integrals = .false.
    end type window_t
