@@ -86,7 +86,7 @@ help:
 	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
 	@echo 'make faults       runs that meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
-	@echo 'make pages        write input/README.md anew from the key table'
+	@echo 'make pages        write input/README.md and scripts/rattle/quantities.csv anew from the tables'
 	@echo 'make pictures     draw the pictures of the README anew'
 	@echo 'make format       bring Fortran and Python into the one format'
 	@echo 'make install      install the program into PREFIX/bin (PREFIX=$(PREFIX))'
@@ -276,6 +276,7 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 
 pages: $(BUILD)/rattle
 	@$(BUILD)/rattle --keys > input/README.md
+	@$(BUILD)/rattle --quantities > scripts/rattle/quantities.csv
 
 # A sample of the stress study: a silent failure fails it.
 stress-sample: $(BUILD)/stress_summaries $(BUILD)/stress_scenes

@@ -4,7 +4,7 @@ program main
    use batch, only: print_faults
    use command_line, only: command_t, read_arguments, usage_text
    use errors, only: exit_bad_input, exit_complete, exit_scene_failed, exit_system, fault_list_t
-   use key_page, only: page_text, template_text
+   use key_page, only: page_text, quantities_text, template_text
    use key_table, only: known_group, nearest_group
    use ranks, only: parallel_words
    use lane_rows, only: wide_registers
@@ -36,6 +36,8 @@ program main
       call put_text(template_text(command%template_group))
    else if (command%page) then
       call put_text(page_text())
+   else if (command%quantities) then
+      call put_text(quantities_text())
    else if (size(command%files) == 0) then
       call faults%add('rattle', 0, '', '', 'no input file is given'//new_line('a')//usage_text())
       call print_faults(faults)

@@ -12,7 +12,7 @@ from typing import TextIO
 import numpy as np
 
 import rattle
-from rattle import command
+from rattle import codes, command
 
 ROWS_AT_ONCE = 10000
 STANDARD_OUTPUT = Path("-")
@@ -45,10 +45,12 @@ def main() -> None:
 def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) -> None:
     """A head of name[unit], then every `stride`-th row; float repr is the shortest exact form.
 
-    The extreme rows are put in by time, all of them.
+    The extreme rows are put in by time, all of them. Columns of codes come again as words, behind the others.
     """
+    coded = [(names.index(name), name) for name in codes.CODES if name in names]
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(f"{name}[{result.units[name]}]" for name in names)
+    head = [f"{name}[{result.units[name]}]" for name in names]
+    writer.writerow([*head, *(f"{name}_word" for _, name in coded)])
     extremes = np.column_stack([result.extremes[name] for name in names])
     if "time" in result:
         places = np.searchsorted(result["time"][::stride], result.extremes["time"], side="right")
@@ -65,7 +67,9 @@ def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) 
         between = (places > start) & (places <= end)
         if between.any():
             block = np.insert(block, places[between] - start, extremes[between], axis=0)
-        writer.writerows(block.tolist())
+        writer.writerows(
+            [*row, *(codes.word(name, row[place]) for place, name in coded)] for row in block.tolist()
+        )
 
 
 def parse_options() -> argparse.Namespace:

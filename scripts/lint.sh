@@ -34,5 +34,6 @@ check 'style of Fortran' "$tools/fortitude" check --config .fortitude.toml fsrc 
 check 'format of Fortran and Python' formatted
 check 'style of Python' "$tools/ruff" check scripts tests
 check 'page of all keys' sh -c "'$build/lint/rattle' --keys | diff - input/README.md"
+check 'table of quantities' sh -c "'$build/lint/rattle' --quantities | diff - scripts/rattle/quantities.csv"
 "$tools/python" scripts/check_house.py --counts
 exit $failed

@@ -15,7 +15,7 @@ module command_line
       !> Names of the input files
       type(word_t), allocatable :: files(:)
       type(override_t), allocatable :: overrides(:)
-      logical :: check = .false., template = .false., page = .false., resume = .false., quiet = .false.
+      logical :: check = .false., template = .false., page = .false., quantities = .false., resume = .false., quiet = .false.
       logical :: version = .false., help = .false.
       !> Threads of a campaign, 0: as many as there are cores
       integer :: threads = 0
@@ -62,6 +62,8 @@ contains
                command%help = .true.
             case ('--keys')
                command%page = .true.
+            case ('--quantities')
+               command%quantities = .true.
             case ('--resume')
                command%resume = .true.
                ! What is carried on is replaced by what it becomes.
@@ -178,6 +180,7 @@ contains
              '  --check                validate, show resolved and derived values, run nothing'//end_of_line// &
              '  --template [group]     print a commented input'//end_of_line// &
              '  --keys                 print the page of all keys'//end_of_line// &
+             '  --quantities           print the table of quantities as CSV'//end_of_line// &
              '  --set group.key=value  override a key in every file; may be repeated'//end_of_line// &
              '  --output DIR           folder of the output files'//end_of_line// &
              '  --resume               carry on an earlier run from its state, or begin it'//end_of_line// &

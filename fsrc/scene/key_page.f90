@@ -1,14 +1,16 @@
-!> The key table as text: a commented input (--template) and the page of all keys (--keys).
+!> The key table as text: a commented input (--template) and the page of all keys (--keys); and the table of quantities, on that
+!> page and as CSV (--quantities).
 module key_page
    use input_key, only: allowed_text, key_t, list_kind, sensible_text, text_kind
    use key_table, only: keys, starts_group
-   use text, only: quoted, quoted_words
+   use quantities, only: a_code, kind_names, quantity_t, quantity_table
+   use text, only: integer_text, quoted, quoted_words
    implicit none(type, external)
    private
 
    character(1), parameter :: end_of_line = new_line('a')
 
-   public :: template_text, page_text
+   public :: template_text, page_text, quantities_text
 
 contains
 
@@ -66,7 +68,7 @@ contains
                                      '|---|---|---|---|---|---|'//end_of_line
          text = text//page_row(keys(i))
       end do
-      text = text//class_text()
+      text = text//quantity_rows()//class_text()
    end function page_text
 
    function page_row(key) result(text)
@@ -84,6 +86,75 @@ contains
       text = '| `'//trim(key%name)//'` | '//trim(key%unit)//' | '//default//' | '//allowed_text(key)//' | '// &
              sensible//' | '//meaning//' |'//end_of_line
    end function page_row
+
+   !> Quantities for people: a table in Markdown.
+   function quantity_rows() result(text)
+      character(:), allocatable :: text
+      type(quantity_t) :: quantity
+      integer :: i
+
+      text = end_of_line//'## Quantities'//end_of_line//end_of_line// &
+             'What is told of a scene. A summary has words where tables have codes, .true. and .false. where they have 1 and 0.'// &
+             end_of_line//end_of_line//'| quantity | unit | told in | meaning |'//end_of_line//'|---|---|---|---|'//end_of_line
+      do i = 1, size(quantity_table)
+         quantity = quantity_table(i)
+         text = text//'| `'//trim(quantity%name)//'` | '//trim(quantity%unit)//' | '//trim(quantity%told_in)//' | '// &
+                trim(quantity%meaning)
+         if (quantity%kind == a_code) text = text//' '//spaced(words_with_codes(quantity))//'.'
+         text = text//' |'//end_of_line
+      end do
+
+   contains
+
+      !> With a comma for each bar.
+      pure function spaced(words) result(list)
+         character(*), intent(in) :: words
+         character(:), allocatable :: list
+         integer :: k
+
+         list = ''
+         do k = 1, len(words)
+            if (words(k:k) == '|') then
+               list = list//'; '
+            else
+               list = list//words(k:k)
+            end if
+         end do
+      end function spaced
+
+   end function quantity_rows
+
+   !> Quantities for programs, as CSV.
+   function quantities_text() result(text)
+      character(:), allocatable :: text
+      type(quantity_t) :: quantity
+      integer :: i
+
+      text = 'name,unit,kind,words,meaning'//end_of_line
+      do i = 1, size(quantity_table)
+         quantity = quantity_table(i)
+         text = text//trim(quantity%name)//','//trim(quantity%unit)//','//trim(kind_names(quantity%kind))//',"'// &
+                words_with_codes(quantity)//'","'//trim(quantity%meaning)//'"'//end_of_line
+      end do
+   end function quantities_text
+
+   !> Words of the codes, each behind its code, a bar between two.
+   pure function words_with_codes(quantity) result(words)
+      type(quantity_t), intent(in) :: quantity
+      character(:), allocatable :: words
+      integer :: code, k
+
+      words = ''
+      if (quantity%kind /= a_code) return
+      code = quantity%first_code
+      words = integer_text(code)//' '
+      do k = 1, len_trim(quantity%words)
+         words = words//quantity%words(k:k)
+         if (quantity%words(k:k) /= '|') cycle
+         code = code + 1
+         words = words//integer_text(code)//' '
+      end do
+   end function words_with_codes
 
    !> How the class is found, and why the limits are what they are.
    pure function class_text() result(text)

@@ -56,7 +56,7 @@ module quantities
    !> All of them, each in the place of its code.
    type(quantity_t), parameter :: quantity_table(*) = [ &
       quantity_t(quantity_status, 'status', '-', a_code, part_scene, needs_nothing, 'sweep', &
-         'How the motion ended.', &
+         'How the motion ended; in every summary and row.', &
          'complete|steady|not_converged|film_lost|no_rigid_film|overflow|interrupted|time_limit|not_written|invalid'), &
       quantity_t(quantity_steady_film, 'steady_film', 'm', a_number, part_scene, needs_nothing, 'summary campaign log', &
          'Film that carries the static load Q + m g without motion.'), &

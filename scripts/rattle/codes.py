@@ -1,37 +1,34 @@
-"""What the codes mean that stand in columns of results and that the kernels return."""
+"""What the codes and flags mean that stand in columns of results and that the kernels return.
+
+The table is the program's own: `make pages` writes quantities.csv with `rattle --quantities`.
+"""
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Mapping
+from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
 
-CLASSES = MappingProxyType({1: "quiet", 2: "creep", 3: "idle", 4: "irregular", 5: "subharmonic"})
-FILM_REGIMES = MappingProxyType({0: "unknown", 1: "iso-viscous", 2: "piezo-viscous", 3: "elastohydrodynamic"})
-STATUSES = MappingProxyType(
-    {
-        0: "complete",
-        1: "steady",
-        2: "not_converged",
-        3: "film_lost",
-        4: "no_rigid_film",
-        5: "overflow",
-        6: "interrupted",
-        7: "time_limit",
-        8: "not_written",
-        9: "invalid",
-    }
-)
-MODEL_LIMITS = MappingProxyType({0: "within", 1: "too_wide", 2: "too_narrow", 3: "too_wide_and_narrow"})
-NO_OR_YES = MappingProxyType({0: "no", 1: "yes"})
-SUCCESSES = (0, 1)
+with Path(__file__).with_name("quantities.csv").open(newline="", encoding="ascii") as _stream:
+    _TABLE = tuple(csv.DictReader(_stream))
 
 # Columns whose numbers stand for words.
 CODES: Mapping[str, Mapping[int, str]] = MappingProxyType(
-    {"rattle_class": CLASSES, "film_regime": FILM_REGIMES, "status": STATUSES, "model_limit": MODEL_LIMITS}
+    {
+        row["name"]: MappingProxyType(
+            {int(code): word for code, _, word in (pair.partition(" ") for pair in row["words"].split("|"))}
+        )
+        for row in _TABLE
+        if row["kind"] == "code"
+    }
 )
-FLAGS = ("law_contradicted", "certified", "sampling_sufficient", "line_count_is_bound")
+FLAGS = tuple(row["name"] for row in _TABLE if row["kind"] == "flag")
+CLASSES, FILM_REGIMES, STATUSES = (CODES[name] for name in ("rattle_class", "film_regime", "status"))
+NO_OR_YES = MappingProxyType({0: "no", 1: "yes"})
+SUCCESSES = tuple(code for code, word in STATUSES.items() if word in ("complete", "steady"))
 
 
 def words_of(column: str) -> Mapping[int, str] | None:
@@ -40,7 +37,11 @@ def words_of(column: str) -> Mapping[int, str] | None:
 
 
 def word(column: str, code: float) -> str:
-    """The word of one code; a code of a later program version is shown by its number."""
-    if not np.isfinite(code):
+    """The word of one code; a code of a later program version is shown by its number.
+
+    What is unknown is not a number in campaigns, 0 in sweeps.
+    """
+    words = words_of(column) or {}
+    if not np.isfinite(code) or (code == 0 and 0 not in words):
         return "unknown"
-    return (words_of(column) or {}).get(int(code), f"{column} {int(code)}")
+    return words.get(int(code), f"{column} {int(code)}")

@@ -126,7 +126,12 @@ def test_page_of_keys(run, repository: Path, tmp_path: Path) -> None:
     template = run("--template", cwd=tmp_path).stdout
     keys = re.findall(r"^   (?:! )?(\w+) =", template, flags=re.MULTILINE)
     assert len(keys) > 30
-    assert re.findall(r"^\| `(\w+)` \|", ended.stdout, flags=re.MULTILINE) == keys
+    page_of_keys, _, quantities = ended.stdout.partition("## Quantities")
+    assert re.findall(r"^\| `(\w+)` \|", page_of_keys, flags=re.MULTILINE) == keys
+    table = run("--quantities", cwd=tmp_path).stdout.splitlines()
+    assert [row.split(",")[0] for row in table[1:]] == re.findall(
+        r"^\| `(\w+)` \|", quantities, flags=re.MULTILINE
+    )
     assert (repository / "input" / "README.md").read_text() == ended.stdout
 
 
