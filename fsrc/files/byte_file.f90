@@ -50,7 +50,6 @@ contains
 
    !> Where a file is written until it is put in its place.
    pure function new_path(path)
-      !> Path of the file
       character(*), intent(in) :: path
       character(:), allocatable :: new_path
 
@@ -59,7 +58,6 @@ contains
 
    !> Put a file that was written beside its place there, in one step; what stands there is replaced.
    subroutine put_in_place(path, error)
-      !> Path of the file
       character(*), intent(in) :: path
       !> Set if it cannot be done; what stands there stays then
       type(error_t), allocatable, intent(out) :: error
@@ -74,7 +72,6 @@ contains
    !> Create a file beside its place.
    subroutine open_file(self, path, error)
       class(byte_file_t), intent(inout) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> Set if it cannot be written
       type(error_t), allocatable, intent(out) :: error
@@ -99,7 +96,6 @@ contains
    !> Append text.
    subroutine put_text(self, text, error)
       class(byte_file_t), intent(inout) :: self
-      !> Bytes as they are
       character(*), intent(in) :: text
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error
@@ -142,7 +138,6 @@ contains
       class(byte_file_t), intent(inout) :: self
       !> Bytes before it
       integer(int64), intent(in) :: offset
-      !> Bytes as they are
       character(*), intent(in) :: bytes
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error

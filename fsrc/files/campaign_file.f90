@@ -54,7 +54,6 @@ contains
    !> Make the file, without any chunk done. It comes to its path in one step, with its whole header.
    subroutine create_campaign(self, path, layout, overwrite, error)
       class(campaign_file_t), intent(inout) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> What is computed
       type(campaign_layout_t), intent(in) :: layout
@@ -134,7 +133,6 @@ contains
    !> says is computed again. The scenes in a chunk are those of the file, whatever the layout says.
    subroutine resume_campaign(self, path, layout, spoilt_chunks, error)
       class(campaign_file_t), intent(inout) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> What is computed; it must be what the file was begun with
       type(campaign_layout_t), intent(in) :: layout
@@ -160,7 +158,6 @@ contains
    !> Take part in a file that another rank of this run has created or resumed, and has locked.
    subroutine join_campaign(self, path, layout, error)
       class(campaign_file_t), intent(inout) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> What is computed
       type(campaign_layout_t), intent(in) :: layout

@@ -49,7 +49,6 @@ contains
    !> Read the header of a file, and see that it was begun with the same input, scenes, columns and program. The scenes
    !> in a chunk are those of the file, whatever the layout says.
    subroutine check_same_campaign(file, path, layout, header, error)
-      !> Open file
       type(random_access_file_t), intent(in) :: file
       !> Its path, for the error
       character(*), intent(in) :: path

@@ -18,7 +18,6 @@ contains
 
    !> Path of the time series.
    pure function result_path(scene) result(path)
-      !> Checked scene
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
@@ -27,7 +26,6 @@ contains
 
    !> Path of the pressure profiles of a film task.
    pure function profiles_path(scene) result(path)
-      !> Checked scene
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
@@ -36,7 +34,6 @@ contains
 
    !> Path of the progress of a campaign.
    pure function progress_path(scene) result(path)
-      !> Checked scene
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
@@ -45,7 +42,6 @@ contains
 
    !> Path of the state from which a run can be carried on.
    pure function state_path(scene) result(path)
-      !> Checked scene
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
@@ -54,7 +50,6 @@ contains
 
    !> Path of the summary.
    pure function summary_path(scene) result(path)
-      !> Checked scene
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
@@ -63,7 +58,6 @@ contains
 
    !> Path of the log.
    pure function log_path(scene) result(path)
-      !> Checked scene
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: path
 
@@ -82,7 +76,6 @@ contains
 
    !> Make the folder if it is missing, and see that every file of the scene can be written there.
    subroutine check_output_place(scene, file, may_make, faults)
-      !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Its input, for the faults
       character(*), intent(in) :: file

@@ -29,7 +29,6 @@ contains
    !> Begin to watch.
    subroutine start_progress(self, log, quiet)
       class(progress_t), intent(inout) :: self
-      !> Log of the scene
       type(log_t), target, intent(in) :: log
       !> Nothing to the terminal
       logical, intent(in) :: quiet

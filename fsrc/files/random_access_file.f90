@@ -87,7 +87,6 @@ contains
    !> Open a file for reading and writing, whatever it holds.
    subroutine open_file(self, path, may_make, error)
       class(random_access_file_t), intent(inout) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> Whether an empty file is made if there is none
       logical, intent(in) :: may_make
@@ -113,7 +112,6 @@ contains
    !> Open a file for reading alone.
    subroutine open_to_read(self, path, error)
       class(random_access_file_t), intent(inout) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> Set if it cannot be opened
       type(error_t), allocatable, intent(out) :: error
@@ -160,7 +158,6 @@ contains
    !> Whether the open file is the one that stands at a path.
    logical function stands_at(self, path)
       class(random_access_file_t), intent(in) :: self
-      !> Any path
       character(*), intent(in) :: path
       type(file_state_t) :: open_one, at_path
 
@@ -193,7 +190,6 @@ contains
       class(random_access_file_t), intent(in) :: self
       !> Bytes before it
       integer(int64), intent(in) :: offset
-      !> Bytes as they are
       character(*), intent(in) :: text
       !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error

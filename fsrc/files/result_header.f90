@@ -151,7 +151,6 @@ contains
 
    !> Read the header of an open file, and see that it is a result file of this format, sound in all its parts.
    subroutine read_result_header(file, path, header, error)
-      !> Open file
       type(random_access_file_t), intent(in) :: file
       !> Its path, for the error
       character(*), intent(in) :: path

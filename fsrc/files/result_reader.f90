@@ -40,7 +40,6 @@ contains
    !> Open a file and read its header.
    subroutine open_result(self, path, error)
       class(result_reader_t), intent(inout) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> Set if it is no result file of this format, or its header is damaged
       type(error_t), allocatable, intent(out) :: error

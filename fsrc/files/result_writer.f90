@@ -44,7 +44,6 @@ contains
    !> Create the file with its header, beside its place (see byte_file).
    subroutine open_result(self, path, input_text, names, units, row_limit, show_at_once, error)
       class(result_writer_t), intent(inout) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> Resolved input as namelist text
       character(*), intent(in) :: input_text

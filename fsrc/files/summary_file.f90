@@ -34,7 +34,6 @@ contains
    !> Add a real value; a number that is not finite has no namelist spelling and is unknown by rule.
    subroutine add_real(self, name, value)
       class(summary_t), intent(inout) :: self
-      !> Key
       character(*), intent(in) :: name
       !> Finite value
       real(dp), intent(in) :: value
@@ -45,7 +44,6 @@ contains
    !> Add a list of real values, four to a line.
    subroutine add_reals(self, name, values)
       class(summary_t), intent(inout) :: self
-      !> Key
       character(*), intent(in) :: name
       !> Values, none: the key is left out
       real(dp), intent(in) :: values(:)
@@ -65,9 +63,7 @@ contains
    !> Add an integer.
    subroutine add_integer(self, name, value)
       class(summary_t), intent(inout) :: self
-      !> Key
       character(*), intent(in) :: name
-      !> Value
       integer, intent(in) :: value
 
       call self%add_line(name, integer_text(value))
@@ -76,9 +72,7 @@ contains
    !> Add a long integer.
    subroutine add_long(self, name, value)
       class(summary_t), intent(inout) :: self
-      !> Key
       character(*), intent(in) :: name
-      !> Value
       integer(int64), intent(in) :: value
 
       call self%add_line(name, integer_text(value))
@@ -87,9 +81,7 @@ contains
    !> Add a logical.
    subroutine add_logical(self, name, value)
       class(summary_t), intent(inout) :: self
-      !> Key
       character(*), intent(in) :: name
-      !> Value
       logical, intent(in) :: value
 
       call self%add_line(name, logical_text(value))
@@ -98,9 +90,7 @@ contains
    !> Add a text.
    subroutine add_text(self, name, value)
       class(summary_t), intent(inout) :: self
-      !> Key
       character(*), intent(in) :: name
-      !> Value
       character(*), intent(in) :: value
 
       call self%add_line(name, quoted(value))
@@ -118,7 +108,6 @@ contains
    !> Write the file and put it in its place; what stands there stays until then.
    subroutine write_summary(self, path, error)
       class(summary_t), intent(in) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> Set if it cannot be written
       type(error_t), allocatable, intent(out) :: error
@@ -130,7 +119,6 @@ contains
    !> Write the file beside its place, for place_files to bring it there.
    subroutine write_beside(self, path, error)
       class(summary_t), intent(in) :: self
-      !> Path of the file
       character(*), intent(in) :: path
       !> Set if it cannot be written; nothing is left then
       type(error_t), allocatable, intent(out) :: error

@@ -116,21 +116,28 @@ contains
 
    !> Film of a law, h* = c u*^a Wbar^b exp(s w*).
    elemental function law_film_ratio(law, speed_group, load_group, squeeze_ratio) result(film_ratio)
-      type(thickness_law_t), intent(in) :: law        !> Coefficients
-      real(dp), intent(in) :: speed_group        !> u* > 0 [-]
-      real(dp), intent(in) :: load_group         !> Wbar > 0 [-]
-      real(dp), intent(in) :: squeeze_ratio      !> w* [-]
-      real(dp) :: film_ratio                     !> h* [-]
+      type(thickness_law_t), intent(in) :: law
+      !> u* > 0 [-]
+      real(dp), intent(in) :: speed_group
+      !> Wbar > 0 [-]
+      real(dp), intent(in) :: load_group
+      !> w* [-]
+      real(dp), intent(in) :: squeeze_ratio
+      !> h* [-]
+      real(dp) :: film_ratio
 
       film_ratio = exp(log_film(law, speed_group, load_group, squeeze_ratio))
    end function law_film_ratio
 
    !> ln h* of a law.
    elemental function log_film(law, speed_group, load_group, squeeze_ratio) result(logarithm)
-      type(thickness_law_t), intent(in) :: law        !> Coefficients
-      real(dp), intent(in) :: speed_group        !> u* > 0 [-]
-      real(dp), intent(in) :: load_group         !> Wbar > 0 [-]
-      real(dp), intent(in) :: squeeze_ratio      !> w* [-]
+      type(thickness_law_t), intent(in) :: law
+      !> u* > 0 [-]
+      real(dp), intent(in) :: speed_group
+      !> Wbar > 0 [-]
+      real(dp), intent(in) :: load_group
+      !> w* [-]
+      real(dp), intent(in) :: squeeze_ratio
       real(dp) :: logarithm
 
       logarithm = log(law%factor) + law%speed_exponent*log(speed_group) &
@@ -139,11 +146,15 @@ contains
 
    !> Error of a law on given points. All arrays have one size, at least one point, positive u*, Wbar, h*.
    pure function judge_film_law(law, speed_group, load_group, squeeze_ratio, film_ratio) result(error)
-      type(thickness_law_t), intent(in) :: law        !> Coefficients
-      real(dp), intent(in) :: speed_group(:)     !> u* [-]
-      real(dp), intent(in) :: load_group(:)      !> Wbar [-]
-      real(dp), intent(in) :: squeeze_ratio(:)   !> w* [-]
-      real(dp), intent(in) :: film_ratio(:)      !> h* [-]
+      type(thickness_law_t), intent(in) :: law
+      !> u* [-]
+      real(dp), intent(in) :: speed_group(:)
+      !> Wbar [-]
+      real(dp), intent(in) :: load_group(:)
+      !> w* [-]
+      real(dp), intent(in) :: squeeze_ratio(:)
+      !> h* [-]
+      real(dp), intent(in) :: film_ratio(:)
       type(law_error_t) :: error
 
       real(dp) :: residual(size(film_ratio)), points, spread
@@ -160,11 +171,16 @@ contains
    !> Least-squares law of given points. The columns of the design matrix are brought to unit length first: w*
    !> is five orders of magnitude smaller than the logarithms, and the condition number would only show that.
    pure subroutine fit_film_law(speed_group, load_group, squeeze_ratio, film_ratio, fit)
-      real(dp), intent(in) :: speed_group(:)    !> u* > 0 [-]
-      real(dp), intent(in) :: load_group(:)     !> Wbar > 0 [-]
-      real(dp), intent(in) :: squeeze_ratio(:)  !> w* [-]
-      real(dp), intent(in) :: film_ratio(:)     !> h* > 0 [-]
-      type(film_fit_t), intent(out) :: fit      !> Coefficients, errors, rank
+      !> u* > 0 [-]
+      real(dp), intent(in) :: speed_group(:)
+      !> Wbar > 0 [-]
+      real(dp), intent(in) :: load_group(:)
+      !> w* [-]
+      real(dp), intent(in) :: squeeze_ratio(:)
+      !> h* > 0 [-]
+      real(dp), intent(in) :: film_ratio(:)
+      !> Coefficients, errors, rank
+      type(film_fit_t), intent(out) :: fit
 
       !> Singular values below this share of the largest count as zero.
       real(dp), parameter :: negligible = 1.0e-10_dp
@@ -214,10 +230,14 @@ contains
    !> Arrays of one size, more points than coefficients, all numbers finite, groups positive.
    pure function points_are_valid(speed_group, load_group, squeeze_ratio, film_ratio) result(valid)
       use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-      real(dp), intent(in) :: speed_group(:)    !> u* [-]
-      real(dp), intent(in) :: load_group(:)     !> Wbar [-]
-      real(dp), intent(in) :: squeeze_ratio(:)  !> w* [-]
-      real(dp), intent(in) :: film_ratio(:)     !> h* [-]
+      !> u* [-]
+      real(dp), intent(in) :: speed_group(:)
+      !> Wbar [-]
+      real(dp), intent(in) :: load_group(:)
+      !> w* [-]
+      real(dp), intent(in) :: squeeze_ratio(:)
+      !> h* [-]
+      real(dp), intent(in) :: film_ratio(:)
       logical :: valid
 
       valid = size(film_ratio) > coefficients &
@@ -229,7 +249,8 @@ contains
 
    !> Ranges in order and inside their limits, counts and factors positive.
    pure function window_is_valid(window) result(valid)
-      type(film_window_t), intent(in) :: window  !> Range of films
+      !> Range of films
+      type(film_window_t), intent(in) :: window
       logical :: valid
 
       valid = window%film_ratio(1) > 0.0_dp .and. window%film_ratio(2) >= window%film_ratio(1) &
@@ -244,11 +265,16 @@ contains
 
    !> Samples a window. An invalid window gives arrays of size zero.
    pure subroutine sample_film_window(window, speed_group, load_group, squeeze_ratio, film_ratio)
-      type(film_window_t), intent(in) :: window                !> Range of films
-      real(dp), allocatable, intent(out) :: speed_group(:)     !> u* [-]
-      real(dp), allocatable, intent(out) :: load_group(:)      !> Wbar of eq (20) [-]
-      real(dp), allocatable, intent(out) :: squeeze_ratio(:)   !> w* [-]
-      real(dp), allocatable, intent(out) :: film_ratio(:)      !> h* [-]
+      !> Range of films
+      type(film_window_t), intent(in) :: window
+      !> u* [-]
+      real(dp), allocatable, intent(out) :: speed_group(:)
+      !> Wbar of eq (20) [-]
+      real(dp), allocatable, intent(out) :: load_group(:)
+      !> w* [-]
+      real(dp), allocatable, intent(out) :: squeeze_ratio(:)
+      !> h* [-]
+      real(dp), allocatable, intent(out) :: film_ratio(:)
 
       real(dp) :: film, squeeze, pressure, a, b, critical, psi, dpsi_da, dpsi_db
       integer :: points, i, j, k, n
@@ -283,9 +309,12 @@ contains
    !> Value number `index` of `count` equidistant ones from the first limit to the second; the mean for a
    !> single one.
    pure function between(limits, index, count) result(value)
-      real(dp), intent(in) :: limits(2)  !> First and last value
-      integer, intent(in) :: index       !> 1 to count
-      integer, intent(in) :: count       !> Number of values
+      !> First and last value
+      real(dp), intent(in) :: limits(2)
+      !> 1 to count
+      integer, intent(in) :: index
+      !> Number of values
+      integer, intent(in) :: count
       real(dp) :: value
 
       value = 0.5_dp*(limits(1) + limits(2))

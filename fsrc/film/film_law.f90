@@ -89,7 +89,6 @@ contains
 
    !> Coefficients of the film of a scene.
    pure function new_film(scene) result(film)
-      !> Checked scene
       type(scene_t), intent(in) :: scene
       type(film_t) :: film
 

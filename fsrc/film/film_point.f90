@@ -58,7 +58,6 @@ contains
 
    !> A point in its contact. The groups enter every film as given.
    elemental function new_film_point(contact, film_ratio, squeeze_ratio, speed_group) result(point)
-      !> Contact and oil
       type(film_contact_t), intent(in) :: contact
       !> h* [-]
       real(dp), intent(in) :: film_ratio
@@ -82,7 +81,6 @@ contains
 
    !> u* = u eta0 alpha/R [-].
    elemental real(dp) function speed_group_of(contact, speed)
-      !> Contact and oil
       type(film_contact_t), intent(in) :: contact
       !> u [m/s]
       real(dp), intent(in) :: speed
@@ -92,9 +90,7 @@ contains
 
    !> Published film: (24) with x_e of (18), (26) to (28).
    elemental function published_response(contact, point) result(response)
-      !> Contact and oil
       type(film_contact_t), intent(in) :: contact
-      !> The point
       type(film_point_t), intent(in) :: point
       type(film_response_t) :: response
       real(dp) :: rolling, squeeze, load_by_film, load_by_velocity
@@ -109,9 +105,7 @@ contains
 
    !> Exact iso-viscous film.
    elemental function iso_viscous_response(contact, point) result(response)
-      !> Contact and oil
       type(film_contact_t), intent(in) :: contact
-      !> The point
       type(film_point_t), intent(in) :: point
       type(film_response_t) :: response
 
@@ -124,9 +118,7 @@ contains
 
    !> Exact piezo-viscous film; NaN where no rigid one exists.
    elemental function piezo_viscous_response(contact, point) result(response)
-      !> Contact and oil
       type(film_contact_t), intent(in) :: contact
-      !> The point
       type(film_point_t), intent(in) :: point
       type(film_response_t) :: response
 
@@ -147,9 +139,7 @@ contains
 
    !> Highest pressure, deflection (4) and regime of a point.
    elemental function film_peak(contact, point) result(peak)
-      !> Contact and oil
       type(film_contact_t), intent(in) :: contact
-      !> The point
       type(film_point_t), intent(in) :: point
       type(film_peak_t) :: peak
       real(dp) :: pressure
@@ -167,9 +157,7 @@ contains
 
    !> Film at which alpha p reaches 1 for the speed and squeeze ratio of a point [m]; NaN: at none.
    elemental real(dp) function limit_of_point(contact, point)
-      !> Contact and oil
       type(film_contact_t), intent(in) :: contact
-      !> The point
       type(film_point_t), intent(in) :: point
 
       limit_of_point = limiting_film_ratio(point%speed_group, point%squeeze_ratio)*contact%radius
@@ -178,9 +166,7 @@ contains
    !> The referee: load [N], rupture angle [rad] and highest pressure [Pa] of the numerical solution; all NaN
    !> where it finds no film.
    pure subroutine solve_numerically(contact, point, roelands, cells, load, rupture_angle, pressure)
-      !> Contact and oil
       type(film_contact_t), intent(in) :: contact
-      !> The point
       type(film_point_t), intent(in) :: point
       !> Viscosity of Roelands instead of Barus
       logical, intent(in) :: roelands

@@ -49,15 +49,24 @@ contains
    pure subroutine scale_film( &
       radius, film, speed_sum, squeeze_velocity, viscosity, pressure_viscosity, problem, pressure_scale, &
       load_scale)
-      real(dp), intent(in) :: radius              !> Equivalent radius R [m], eq (2)
-      real(dp), intent(in) :: film                !> Thinnest film h0 [m]
-      real(dp), intent(in) :: speed_sum           !> u = u1 + u2 [m/s]
-      real(dp), intent(in) :: squeeze_velocity    !> w = dh0/dt [m/s], negative on approach
-      real(dp), intent(in) :: viscosity           !> eta0 [Pa s]
-      real(dp), intent(in) :: pressure_viscosity  !> alpha [1/Pa]
-      type(film_problem_t), intent(out) :: problem  !> Groups and constants of both laws; set to Barus
-      real(dp), intent(out) :: pressure_scale     !> P [Pa]: q = P q*
-      real(dp), intent(out) :: load_scale         !> 12 v eta0 R/h0 [N/m]: W/l = this times the load group
+      !> Equivalent radius R [m], eq (2)
+      real(dp), intent(in) :: radius
+      !> Thinnest film h0 [m]
+      real(dp), intent(in) :: film
+      !> u = u1 + u2 [m/s]
+      real(dp), intent(in) :: speed_sum
+      !> w = dh0/dt [m/s], negative on approach
+      real(dp), intent(in) :: squeeze_velocity
+      !> eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> alpha [1/Pa]
+      real(dp), intent(in) :: pressure_viscosity
+      !> Groups and constants of both laws; set to Barus
+      type(film_problem_t), intent(out) :: problem
+      !> P [Pa]: q = P q*
+      real(dp), intent(out) :: pressure_scale
+      !> 12 v eta0 R/h0 [N/m]: W/l = this times the load group
+      real(dp), intent(out) :: load_scale
 
       real(dp), parameter :: roelands_reference = 1.96e8_dp, roelands_constant = 9.67_dp
       real(dp) :: squeeze_speed, scale_speed
@@ -83,10 +92,13 @@ contains
    !> the profile stays the fine grid's. Close to the critical group the step must be small against
    !> sqrt(1 - B/B_crit), because the grid's own critical group is off by the square of the step.
    pure subroutine solve_reynolds(problem, cells, extrapolate, solution)
-      type(film_problem_t), intent(in) :: problem    !> Groups and viscosity law
-      integer, intent(in) :: cells                   !> Cells [-]: even, at least 16, 32 to extrapolate
-      logical, intent(in) :: extrapolate             !> Richardson's extrapolation from the half grid
-      type(film_solution_t), intent(out) :: solution !> Profile and integral results
+      type(film_problem_t), intent(in) :: problem
+      !> Cells [-]: even, at least 16, 32 to extrapolate
+      integer, intent(in) :: cells
+      !> Richardson's extrapolation from the half grid
+      logical, intent(in) :: extrapolate
+      !> Profile and integral results
+      type(film_solution_t), intent(out) :: solution
 
       type(film_problem_t) :: turned
       type(film_solution_t) :: coarse
@@ -120,7 +132,7 @@ contains
    !> Groups finite and far from overflow, the viscosity law known, its constants positive and Z <= 2.
    pure function problem_is_valid(problem) result(valid)
       use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-      type(film_problem_t), intent(in) :: problem  !> Groups and viscosity law
+      type(film_problem_t), intent(in) :: problem
       logical :: valid
 
       real(dp), parameter :: largest_group = 1.0e100_dp
@@ -139,9 +151,12 @@ contains
 
    !> One grid: complementarity first, then the rupture inside its cell, then load and maximum.
    pure subroutine solve_grid(problem, cells, solution)
-      type(film_problem_t), intent(in) :: problem    !> Groups and viscosity law, r >= 0
-      integer, intent(in) :: cells                   !> Cells of the grid [-]
-      type(film_solution_t), intent(out) :: solution !> Results
+      !> Groups and viscosity law, r >= 0
+      type(film_problem_t), intent(in) :: problem
+      !> Cells of the grid [-]
+      integer, intent(in) :: cells
+      !> Results
+      type(film_solution_t), intent(out) :: solution
 
       type(grid_t) :: grid
       real(dp) :: rupture, left, right
@@ -183,9 +198,12 @@ contains
 
    !> Top of the parabola through three equidistant values, the middle one the largest.
    elemental function vertex(left, middle, right) result(top)
-      real(dp), intent(in) :: left    !> Value before the largest
-      real(dp), intent(in) :: middle  !> Largest value
-      real(dp), intent(in) :: right   !> Value after the largest
+      !> Value before the largest
+      real(dp), intent(in) :: left
+      !> Largest value
+      real(dp), intent(in) :: middle
+      !> Value after the largest
+      real(dp), intent(in) :: right
       real(dp) :: top
 
       real(dp) :: curvature

@@ -56,10 +56,14 @@ contains
    !> c ((1 + y/g)^Z - 1) with c = ln eta0 + 9.67, g = alpha p_r, Z = g/c. Slope one at y = 0; Barus for
    !> Z = 1.
    elemental subroutine log_viscosity_ratio(problem, pressure, logarithm, slope)
-      type(film_problem_t), intent(in) :: problem  !> Law and constants
-      real(dp), intent(in) :: pressure             !> y = alpha q >= 0 [-]
-      real(dp), intent(out) :: logarithm           !> ln(eta/eta0) [-]
-      real(dp), intent(out) :: slope               !> its derivative with respect to y [-]
+      !> Law and constants
+      type(film_problem_t), intent(in) :: problem
+      !> y = alpha q >= 0 [-]
+      real(dp), intent(in) :: pressure
+      !> ln(eta/eta0) [-]
+      real(dp), intent(out) :: logarithm
+      !> its derivative with respect to y [-]
+      real(dp), intent(out) :: slope
 
       real(dp) :: growth
 
@@ -81,8 +85,10 @@ contains
 
    !> Coefficients of the discrete Reynolds equation.
    pure function film_grid(problem, cells) result(grid)
-      type(film_problem_t), intent(in) :: problem  !> Groups r and s
-      integer, intent(in) :: cells                 !> Cells [-]
+      !> Groups r and s
+      type(film_problem_t), intent(in) :: problem
+      !> Cells [-]
+      integer, intent(in) :: cells
       type(grid_t) :: grid
 
       real(dp) :: left
@@ -102,8 +108,10 @@ contains
 
    !> tan(right) - tan(left) of two film angles: a length along the film over sqrt(2 R h0).
    elemental function width(left, right) result(length)
-      real(dp), intent(in) :: left   !> d = xbar + pi/2 [rad]
-      real(dp), intent(in) :: right  !> d [rad], larger
+      !> d = xbar + pi/2 [rad]
+      real(dp), intent(in) :: left
+      !> d [rad], larger
+      real(dp), intent(in) :: right
       real(dp) :: length
 
       length = sin(right - left)/(sin(left)*sin(right))
@@ -111,9 +119,12 @@ contains
 
    !> G(right) - G(left): what the moving surfaces withdraw from the oil between two film angles.
    elemental function opening(problem, left, right) result(difference)
-      type(film_problem_t), intent(in) :: problem  !> Groups r and s
-      real(dp), intent(in) :: left                 !> d [rad]
-      real(dp), intent(in) :: right                !> d [rad], larger
+      !> Groups r and s
+      type(film_problem_t), intent(in) :: problem
+      !> d [rad]
+      real(dp), intent(in) :: left
+      !> d [rad], larger
+      real(dp), intent(in) :: right
       real(dp) :: difference
 
       difference = width(left, right) &
@@ -122,8 +133,10 @@ contains
 
    !> dG/dxbar at a film angle.
    elemental function opening_rate(problem, angle) result(rate)
-      type(film_problem_t), intent(in) :: problem  !> Groups r and s
-      real(dp), intent(in) :: angle                !> d [rad]
+      !> Groups r and s
+      type(film_problem_t), intent(in) :: problem
+      !> d [rad]
+      real(dp), intent(in) :: angle
       real(dp) :: rate
 
       rate = (problem%squeeze - 2.0_dp*problem%rolling*cos(angle)/sin(angle))/sin(angle)**2
@@ -131,13 +144,20 @@ contains
 
    !> Flux over one face and its derivatives with respect to the two nodal pressures.
    elemental subroutine face_flux(problem, mobility, left, right, flux, dflux_dleft, dflux_dright)
-      type(film_problem_t), intent(in) :: problem  !> Viscosity law and B
-      real(dp), intent(in) :: mobility             !> sec^4/step of the face
-      real(dp), intent(in) :: left                 !> q* before the face
-      real(dp), intent(in) :: right                !> q* behind the face
-      real(dp), intent(out) :: flux                !> sec^4 dq*/dxbar eta0/eta
-      real(dp), intent(out) :: dflux_dleft         !> d flux/d left
-      real(dp), intent(out) :: dflux_dright        !> d flux/d right
+      !> Viscosity law and B
+      type(film_problem_t), intent(in) :: problem
+      !> sec^4/step of the face
+      real(dp), intent(in) :: mobility
+      !> q* before the face
+      real(dp), intent(in) :: left
+      !> q* behind the face
+      real(dp), intent(in) :: right
+      !> sec^4 dq*/dxbar eta0/eta
+      real(dp), intent(out) :: flux
+      !> d flux/d left
+      real(dp), intent(out) :: dflux_dleft
+      !> d flux/d right
+      real(dp), intent(out) :: dflux_dright
 
       real(dp) :: logarithm, slope, conductance, thickening
 

@@ -40,9 +40,12 @@ contains
    !> on. From zero the rupture would travel one cell a step. The constant-viscosity pressure lies below the
    !> one sought, and from below Newton's method climbs monotonically.
    pure recursive subroutine start_pressure(problem, cells, pressure)
-      type(film_problem_t), intent(in) :: problem  !> Groups r and s
-      integer, intent(in) :: cells                 !> Cells of the grid to start [-]
-      real(dp), intent(out) :: pressure(0:cells)   !> q* at its nodes; zero on a grid that needs no help
+      !> Groups r and s
+      type(film_problem_t), intent(in) :: problem
+      !> Cells of the grid to start [-]
+      integer, intent(in) :: cells
+      !> q* at its nodes; zero on a grid that needs no help
+      real(dp), intent(out) :: pressure(0:cells)
 
       integer, parameter :: coarsest = 64
       type(film_problem_t) :: plain
@@ -71,12 +74,15 @@ contains
    !> pressure; a film node that wants tension cavitates, a cavitated one that gets more oil than is withdrawn
    !> refills.
    pure subroutine solve_complementarity(problem, grid, pressure, last, iterations, status)
-      type(film_problem_t), intent(in) :: problem   !> Groups and viscosity law
-      type(grid_t), intent(in) :: grid              !> Coefficients
-      real(dp), intent(inout) :: pressure(0:)       !> q* at the nodes; a guess on entry
-      integer, intent(out) :: last                  !> Last film node before the rupture, 0 without a film
-      integer, intent(out) :: iterations            !> Newton steps
-      integer, intent(out) :: status                !> Outcome
+      type(film_problem_t), intent(in) :: problem
+      type(grid_t), intent(in) :: grid
+      !> q* at the nodes; a guess on entry
+      real(dp), intent(inout) :: pressure(0:)
+      !> Last film node before the rupture, 0 without a film
+      integer, intent(out) :: last
+      !> Newton steps
+      integer, intent(out) :: iterations
+      integer, intent(out) :: status
 
       real(dp), dimension(0:grid%cells - 1) :: flux, dleft, dright
       real(dp), dimension(grid%cells - 1) :: residual, diagonal, step
@@ -111,10 +117,14 @@ contains
    !> Adds a Newton step, keeps the pressure from turning negative, and says whether the iteration has settled
    !> or runs away: beyond the critical group the pressure grows without bound.
    pure subroutine advance(problem, step, pressure, status)
-      type(film_problem_t), intent(in) :: problem  !> Viscosity law and B
-      real(dp), intent(in) :: step(:)              !> Newton step of q*
-      real(dp), intent(inout) :: pressure(:)       !> q* of the film nodes
-      integer, intent(inout) :: status             !> Converged, running away, or unchanged
+      !> Viscosity law and B
+      type(film_problem_t), intent(in) :: problem
+      !> Newton step of q*
+      real(dp), intent(in) :: step(:)
+      !> q* of the film nodes
+      real(dp), intent(inout) :: pressure(:)
+      !> Converged, running away, or unchanged
+      integer, intent(inout) :: status
 
       real(dp), parameter :: settled = 1.0e-10_dp
       real(dp) :: logarithm, slope
@@ -132,13 +142,17 @@ contains
    !> volume ends at the rupture, where no pressure drives oil, and the pressure of the last node falls to
    !> zero over the distance to it. The number of film nodes is corrected when the rupture leaves its cell.
    pure subroutine locate_rupture(problem, grid, pressure, last, rupture, iterations, status)
-      type(film_problem_t), intent(in) :: problem   !> Groups and viscosity law
-      type(grid_t), intent(in) :: grid              !> Coefficients
-      real(dp), intent(inout) :: pressure(0:)       !> q* at the nodes
-      integer, intent(inout) :: last                !> Last film node
-      real(dp), intent(out) :: rupture              !> Rupture angle d = xbar + pi/2 [rad]
-      integer, intent(inout) :: iterations          !> Newton steps so far
-      integer, intent(out) :: status                !> Outcome
+      type(film_problem_t), intent(in) :: problem
+      type(grid_t), intent(in) :: grid
+      !> q* at the nodes
+      real(dp), intent(inout) :: pressure(0:)
+      !> Last film node
+      integer, intent(inout) :: last
+      !> Rupture angle d = xbar + pi/2 [rad]
+      real(dp), intent(out) :: rupture
+      !> Newton steps so far
+      integer, intent(inout) :: iterations
+      integer, intent(out) :: status
 
       !> Share of a cell by which the rupture may stray outside; prevents changing cells to and fro.
       real(dp), parameter :: play = 0.02_dp
@@ -159,13 +173,17 @@ contains
 
    !> Newton with a given number of film nodes; the rupture is the last unknown of a tridiagonal system.
    pure subroutine rupture_newton(problem, grid, last, pressure, rupture, iterations, status)
-      type(film_problem_t), intent(in) :: problem   !> Groups and viscosity law
-      type(grid_t), intent(in) :: grid              !> Coefficients
-      integer, intent(in) :: last                   !> Last film node
-      real(dp), intent(inout) :: pressure(0:last)   !> q* of the inlet and of the film nodes
-      real(dp), intent(inout) :: rupture            !> Rupture angle d [rad]
-      integer, intent(inout) :: iterations          !> Newton steps so far
-      integer, intent(out) :: status                !> Outcome
+      type(film_problem_t), intent(in) :: problem
+      type(grid_t), intent(in) :: grid
+      !> Last film node
+      integer, intent(in) :: last
+      !> q* of the inlet and of the film nodes
+      real(dp), intent(inout) :: pressure(0:last)
+      !> Rupture angle d [rad]
+      real(dp), intent(inout) :: rupture
+      !> Newton steps so far
+      integer, intent(inout) :: iterations
+      integer, intent(out) :: status
 
       !> Shares of a cell: change of the rupture that ends the iteration, distance kept from its limits.
       real(dp), parameter :: settled_share = 1.0e-7_dp, margin = 0.01_dp
@@ -208,13 +226,19 @@ contains
 
    !> Pressure that falls to zero between a node and the rupture behind it, by the midpoint rule.
    pure subroutine outlet_fall(problem, node, rupture, pressure, fall, dfall_dpressure, dfall_drupture)
-      type(film_problem_t), intent(in) :: problem  !> Groups and viscosity law
-      real(dp), intent(in) :: node                 !> Angle d of the node [rad]
-      real(dp), intent(in) :: rupture              !> Angle d of the rupture [rad]
-      real(dp), intent(in) :: pressure             !> q* of the node, for the viscosity
-      real(dp), intent(out) :: fall                !> Fall of q*
-      real(dp), intent(out) :: dfall_dpressure     !> d fall/d pressure
-      real(dp), intent(out) :: dfall_drupture      !> d fall/d rupture [1/rad]
+      type(film_problem_t), intent(in) :: problem
+      !> Angle d of the node [rad]
+      real(dp), intent(in) :: node
+      !> Angle d of the rupture [rad]
+      real(dp), intent(in) :: rupture
+      !> q* of the node, for the viscosity
+      real(dp), intent(in) :: pressure
+      !> Fall of q*
+      real(dp), intent(out) :: fall
+      !> d fall/d pressure
+      real(dp), intent(out) :: dfall_dpressure
+      !> d fall/d rupture [1/rad]
+      real(dp), intent(out) :: dfall_drupture
 
       real(dp) :: middle, logarithm, slope, length, narrowing, gain
 

@@ -47,28 +47,38 @@ contains
 
    !> Radius of the cylinder that over a plane has the gap of two cylinders, eq (2): 1/R = 1/r1 + 1/r2.
    elemental function equivalent_radius(radius_1, radius_2) result(radius)
-      real(dp), intent(in) :: radius_1  !> r1 [m]; negative for a hollow surface
-      real(dp), intent(in) :: radius_2  !> r2 [m], r1 + r2 /= 0
-      real(dp) :: radius                !> R [m]
+      !> r1 [m]; negative for a hollow surface
+      real(dp), intent(in) :: radius_1
+      !> r2 [m], r1 + r2 /= 0
+      real(dp), intent(in) :: radius_2
+      !> R [m]
+      real(dp) :: radius
 
       radius = radius_1/(1.0_dp + radius_1/radius_2)
    end function equivalent_radius
 
    !> Modulus of plane strain, eq (3).
    elemental function plane_strain_modulus(young_modulus, poisson_ratio) result(modulus)
-      real(dp), intent(in) :: young_modulus  !> E [Pa]
-      real(dp), intent(in) :: poisson_ratio  !> nu [-]
-      real(dp) :: modulus                    !> E* [Pa]
+      !> E [Pa]
+      real(dp), intent(in) :: young_modulus
+      !> nu [-]
+      real(dp), intent(in) :: poisson_ratio
+      !> E* [Pa]
+      real(dp) :: modulus
 
       modulus = young_modulus/(1.0_dp - poisson_ratio**2)
    end function plane_strain_modulus
 
    !> Depth by which a pressure flattens the contact, eq (4): 4 R p^2/E*^2.
    elemental function contact_deflection(radius, pressure, modulus) result(deflection)
-      real(dp), intent(in) :: radius    !> R [m]
-      real(dp), intent(in) :: pressure  !> Largest pressure that acts on the surfaces [Pa]
-      real(dp), intent(in) :: modulus   !> E* [Pa]
-      real(dp) :: deflection            !> delta [m]
+      !> R [m]
+      real(dp), intent(in) :: radius
+      !> Largest pressure that acts on the surfaces [Pa]
+      real(dp), intent(in) :: pressure
+      !> E* [Pa]
+      real(dp), intent(in) :: modulus
+      !> delta [m]
+      real(dp) :: deflection
 
       deflection = 4.0_dp*radius*(pressure/modulus)**2
    end function contact_deflection
@@ -78,14 +88,22 @@ contains
    !> entrainment speed.
    elemental function grubin_film( &
       radius, length, speed, viscosity, pressure_viscosity, modulus, load) result(film)
-      real(dp), intent(in) :: radius              !> R [m]
-      real(dp), intent(in) :: length              !> l [m]
-      real(dp), intent(in) :: speed               !> Entrainment speed U = (u1 + u2)/2 [m/s]
-      real(dp), intent(in) :: viscosity           !> eta0 [Pa s]
-      real(dp), intent(in) :: pressure_viscosity  !> alpha [1/Pa]
-      real(dp), intent(in) :: modulus             !> E* [Pa]
-      real(dp), intent(in) :: load                !> W [N]
-      real(dp) :: film                            !> h0 [m]
+      !> R [m]
+      real(dp), intent(in) :: radius
+      !> l [m]
+      real(dp), intent(in) :: length
+      !> Entrainment speed U = (u1 + u2)/2 [m/s]
+      real(dp), intent(in) :: speed
+      !> eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> alpha [1/Pa]
+      real(dp), intent(in) :: pressure_viscosity
+      !> E* [Pa]
+      real(dp), intent(in) :: modulus
+      !> W [N]
+      real(dp), intent(in) :: load
+      !> h0 [m]
+      real(dp) :: film
 
       film = radius*2.076_dp*(speed*viscosity*pressure_viscosity/radius)**0.72_dp &
          *(load/(modulus*radius*length))**(-0.091_dp)
@@ -93,45 +111,66 @@ contains
 
    !> Viscosity group g_v of the regime map.
    elemental function viscosity_group(radius, speed, viscosity, pressure_viscosity, line_load) result(group)
-      real(dp), intent(in) :: radius              !> R [m]
-      real(dp), intent(in) :: speed               !> Entrainment speed U [m/s]
-      real(dp), intent(in) :: viscosity           !> eta0 [Pa s]
-      real(dp), intent(in) :: pressure_viscosity  !> alpha [1/Pa]
-      real(dp), intent(in) :: line_load           !> w = W/l [N/m]
-      real(dp) :: group                           !> g_v [-]
+      !> R [m]
+      real(dp), intent(in) :: radius
+      !> Entrainment speed U [m/s]
+      real(dp), intent(in) :: speed
+      !> eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> alpha [1/Pa]
+      real(dp), intent(in) :: pressure_viscosity
+      !> w = W/l [N/m]
+      real(dp), intent(in) :: line_load
+      !> g_v [-]
+      real(dp) :: group
 
       group = pressure_viscosity*(line_load/radius)*sqrt(line_load/(viscosity*speed))
    end function viscosity_group
 
    !> Elasticity group g_e of the regime map.
    elemental function elasticity_group(radius, speed, viscosity, modulus, line_load) result(group)
-      real(dp), intent(in) :: radius     !> R [m]
-      real(dp), intent(in) :: speed      !> Entrainment speed U [m/s]
-      real(dp), intent(in) :: viscosity  !> eta0 [Pa s]
-      real(dp), intent(in) :: modulus    !> E* [Pa]
-      real(dp), intent(in) :: line_load  !> w = W/l [N/m]
-      real(dp) :: group                  !> g_e [-]
+      !> R [m]
+      real(dp), intent(in) :: radius
+      !> Entrainment speed U [m/s]
+      real(dp), intent(in) :: speed
+      !> eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> E* [Pa]
+      real(dp), intent(in) :: modulus
+      !> w = W/l [N/m]
+      real(dp), intent(in) :: line_load
+      !> g_e [-]
+      real(dp) :: group
 
       group = line_load/sqrt(viscosity*speed*modulus*radius)
    end function elasticity_group
 
    !> Film parameter h^ of the regime map.
    elemental function film_parameter(radius, speed, viscosity, line_load, film) result(value)
-      real(dp), intent(in) :: radius     !> R [m]
-      real(dp), intent(in) :: speed      !> Entrainment speed U [m/s]
-      real(dp), intent(in) :: viscosity  !> eta0 [Pa s]
-      real(dp), intent(in) :: line_load  !> w = W/l [N/m]
-      real(dp), intent(in) :: film       !> h0 [m]
-      real(dp) :: value                  !> h^ [-]
+      !> R [m]
+      real(dp), intent(in) :: radius
+      !> Entrainment speed U [m/s]
+      real(dp), intent(in) :: speed
+      !> eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> w = W/l [N/m]
+      real(dp), intent(in) :: line_load
+      !> h0 [m]
+      real(dp), intent(in) :: film
+      !> h^ [-]
+      real(dp) :: value
 
       value = film*line_load/(viscosity*speed*radius)
    end function film_parameter
 
    !> The four limiting films of the map, in the order of the map's codes.
    pure function limiting_films(g_viscosity, g_elasticity) result(films)
-      real(dp), intent(in) :: g_viscosity   !> g_v >= 0 [-]
-      real(dp), intent(in) :: g_elasticity  !> g_e >= 0 [-]
-      real(dp) :: films(4)                 !> h^ of each limit [-]
+      !> g_v >= 0 [-]
+      real(dp), intent(in) :: g_viscosity
+      !> g_e >= 0 [-]
+      real(dp), intent(in) :: g_elasticity
+      !> h^ of each limit [-]
+      real(dp) :: films(4)
 
       films(map_iso_viscous_rigid) = 4.9_dp
       films(map_piezo_viscous_rigid) = 1.66_dp*g_viscosity**(2.0_dp/3.0_dp)
@@ -141,9 +180,12 @@ contains
 
    !> Regime of a point of the map: the limit with the largest film; of equal ones the first.
    elemental function mapped_regime(g_viscosity, g_elasticity) result(code)
-      real(dp), intent(in) :: g_viscosity   !> g_v >= 0 [-]
-      real(dp), intent(in) :: g_elasticity  !> g_e >= 0 [-]
-      integer :: code                       !> One of map_..., 0 where a group is negative or not a number
+      !> g_v >= 0 [-]
+      real(dp), intent(in) :: g_viscosity
+      !> g_e >= 0 [-]
+      real(dp), intent(in) :: g_elasticity
+      !> One of map_..., 0 where a group is negative or not a number
+      integer :: code
 
       code = 0
       if (ieee_is_nan(g_viscosity) .or. ieee_is_nan(g_elasticity)) return
@@ -154,10 +196,14 @@ contains
    !> Regime of a computed film. The pressure is that of the constant-viscosity film, the p of eq (31): it
    !> stays finite where the piezo-viscous pressure does not exist.
    elemental function film_regime(alpha_p_maximum, deflection, film) result(code)
-      real(dp), intent(in) :: alpha_p_maximum  !> alpha times the largest constant-viscosity pressure [-]
-      real(dp), intent(in) :: deflection       !> delta of eq (4) [m]; read only below alpha p = 1
-      real(dp), intent(in) :: film             !> Thinnest film [m]
-      integer :: code                          !> One of film_...
+      !> alpha times the largest constant-viscosity pressure [-]
+      real(dp), intent(in) :: alpha_p_maximum
+      !> delta of eq (4) [m]; read only below alpha p = 1
+      real(dp), intent(in) :: deflection
+      !> Thinnest film [m]
+      real(dp), intent(in) :: film
+      !> One of film_...
+      integer :: code
 
       code = film_regime_unknown
       if (ieee_is_nan(alpha_p_maximum) .or. ieee_is_nan(film)) return

@@ -131,7 +131,6 @@ contains
       integer, intent(in) :: line
       character(*), intent(in) :: group
       character(*), intent(in) :: key
-      !> The error
       type(error_t), intent(in) :: error
 
       call self%add(file, line, group, key, error%message)

@@ -98,7 +98,6 @@ contains
 
    !> See that everything written stands on the disk itself.
    subroutine synchronise_descriptor(descriptor, stands)
-      !> Open file
       integer(c_int), intent(in) :: descriptor
       !> Whether it does; also where the file system cannot tell
       logical, intent(out) :: stands
@@ -114,7 +113,6 @@ contains
 
    !> Close a file.
    subroutine close_descriptor(descriptor, closed)
-      !> Open file
       integer(c_int), intent(in) :: descriptor
       !> Whether everything written is taken; a disk across the network may report only now that it is full
       logical, intent(out) :: closed
@@ -124,7 +122,6 @@ contains
 
    !> Read bytes, in as many calls as it takes.
    subroutine read_bytes(descriptor, count, bytes, got, failed, offset)
-      !> Open file
       integer(c_int), intent(in) :: descriptor
       !> Bytes that are asked for
       integer(int64), intent(in) :: count
@@ -159,11 +156,9 @@ contains
 
    !> Write bytes, in as many calls as it takes.
    subroutine write_bytes(descriptor, count, bytes, complete, offset)
-      !> Open file
       integer(c_int), intent(in) :: descriptor
       !> Their number
       integer(int64), intent(in) :: count
-      !> Bytes as they are
       character(kind=c_char), intent(in) :: bytes(count)
       !> Whether all were written; .false. if the disk is full, say
       logical, intent(out) :: complete

@@ -134,7 +134,6 @@ contains
 
    !> The first bytes of a file, fewer if it is shorter, none if it cannot be read.
    subroutine first_bytes(path, bytes, got)
-      !> Path of the file
       character(*), intent(in) :: path
       !> Filled from the left
       character(*), intent(out) :: bytes
@@ -155,7 +154,6 @@ contains
 
    !> Whether anything stands at a path.
    logical function path_exists(path)
-      !> Any path
       character(*), intent(in) :: path
 
       path_exists = c_access(trim(path)//c_null_char, test_exists) == 0
@@ -163,7 +161,6 @@ contains
 
    !> What stands at a path; links are followed.
    type(file_state_t) function state_of_path(path)
-      !> Any path
       character(*), intent(in) :: path
 
       state_of_path = state_of(from_working_directory, trim(path)//c_null_char, 0)
@@ -171,7 +168,6 @@ contains
 
    !> What an open file is.
    type(file_state_t) function state_of_descriptor(descriptor)
-      !> Open file
       integer(c_int), intent(in) :: descriptor
 
       state_of_descriptor = state_of(descriptor, c_null_char, path_is_empty)
@@ -193,7 +189,6 @@ contains
 
    !> Whether a path is a directory.
    logical function is_directory(path)
-      !> Any path
       character(*), intent(in) :: path
 
       is_directory = c_access(trim(path)//'/.'//c_null_char, test_exists) == 0
@@ -239,7 +234,6 @@ contains
 
    !> Delete a file, if it is there.
    subroutine delete_file(path)
-      !> Path of the file
       character(*), intent(in) :: path
       integer(c_int) :: ignored
 

@@ -137,7 +137,6 @@ contains
 
    !> ASCII lower case.
    pure function lower(mixed) result(text)
-      !> Any text
       character(*), intent(in) :: mixed
       character(len(mixed)) :: text
       integer :: i
@@ -150,7 +149,6 @@ contains
 
    !> Text in namelist quotes, quotes inside doubled.
    pure function quoted(plain) result(text)
-      !> Any text
       character(*), intent(in) :: plain
       character(:), allocatable :: text
       integer :: i
@@ -165,7 +163,6 @@ contains
 
    !> Words of a list, each in namelist quotes, commas between.
    pure function quoted_words(words, separator) result(text)
-      !> The list
       character(*), intent(in) :: words
       !> What stands between its words
       character(1), intent(in) :: separator

@@ -16,7 +16,6 @@ contains
 
    !> Text to standard output, as it stands.
    subroutine put_text(text)
-      !> Any text
       character(*), intent(in) :: text
 
       call write_text(standard_output, text, 'the standard output')
@@ -24,7 +23,6 @@ contains
 
    !> A line to standard output.
    subroutine put_line(text)
-      !> Any text
       character(*), intent(in) :: text
 
       call put_text(text//new_line('a'))
@@ -32,11 +30,8 @@ contains
 
    !> A line to an open file.
    subroutine write_line(descriptor, text, path)
-      !> Open file
       integer(c_int), intent(in) :: descriptor
-      !> Any text
       character(*), intent(in) :: text
-      !> Its path
       character(*), intent(in) :: path
 
       call write_text(descriptor, text//new_line('a'), path)

@@ -43,7 +43,6 @@ contains
 
    !> Entry that nobody has set: the default of its key, or no value.
    function new_entry(key, file) result(entry)
-      !> Its key
       type(key_t), intent(in) :: key
       !> Name of the input for the faults
       character(*), intent(in) :: file
@@ -75,7 +74,6 @@ contains
 
    !> Read the value of one assignment into its entry.
    subroutine set_entry(key, assignment, entry, file, faults)
-      !> Its key
       type(key_t), intent(in) :: key
       !> The assignment
       type(assignment_t), intent(in) :: assignment
@@ -195,7 +193,6 @@ contains
 
    !> Whether an assignment adds elements to a list: key(i) = ... behind key(i - 1) = ...
    pure logical function continues_list(key, assignment, entry)
-      !> Its key
       type(key_t), intent(in) :: key
       !> The assignment
       type(assignment_t), intent(in) :: assignment
@@ -296,7 +293,6 @@ contains
 
    !> Value of an entry in namelist spelling.
    function value_text(key, entry) result(words)
-      !> Its key
       type(key_t), intent(in) :: key
       !> Entry with a value
       type(entry_t), intent(in) :: entry

@@ -66,7 +66,6 @@ contains
 
    !> Whether an engineer may mean this number.
    pure logical function is_sensible(key, number)
-      !> Any key of the table
       type(key_t), intent(in) :: key
       !> Finite number
       real(dp), intent(in) :: number
@@ -76,7 +75,6 @@ contains
 
    !> Whether a film and its motion can be computed with this number.
    pure logical function is_computable(key, number)
-      !> Any key of the table
       type(key_t), intent(in) :: key
       !> Finite number
       real(dp), intent(in) :: number
@@ -99,7 +97,6 @@ contains
 
    !> Sensible numbers in words, empty where any number is.
    pure function sensible_text(key) result(words)
-      !> Any key of the table
       type(key_t), intent(in) :: key
       character(:), allocatable :: words
 
@@ -110,7 +107,6 @@ contains
 
    !> Whether a key holds several values.
    pure logical function is_list(key)
-      !> Any key of the table
       type(key_t), intent(in) :: key
 
       is_list = any(key%kind == [list_kind, reals_kind, table_kind])
@@ -118,7 +114,6 @@ contains
 
    !> Allowed values in words.
    pure function allowed_text(key) result(allowed)
-      !> Any key of the table
       type(key_t), intent(in) :: key
       character(:), allocatable :: allowed
       logical :: bounded_below, bounded_above

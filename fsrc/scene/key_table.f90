@@ -303,9 +303,7 @@ contains
 
    !> The word of a choice, from its code: its position among the choices of the key.
    pure function choice_word(group, name, code) result(word)
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
       !> Position, from 1
       integer, intent(in) :: code

@@ -11,7 +11,6 @@ contains
 
    !> Whether a key is in use. Where a deciding key is itself in doubt, yes.
    pure recursive logical function in_use(input, position) result(used)
-      !> Typed values
       type(scene_input_t), intent(in) :: input
       !> Position in the key table
       integer, intent(in) :: position

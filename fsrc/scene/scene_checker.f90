@@ -19,7 +19,6 @@ contains
 
    !> Add a fault for every rule that the input breaks.
    subroutine check_together(input, faults)
-      !> Typed values
       type(scene_input_t), intent(inout) :: input
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults

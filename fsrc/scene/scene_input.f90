@@ -94,9 +94,7 @@ contains
    !> Whether the user set a key.
    pure logical function is_given(self, group, name)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
 
       is_given = self%entries(find_key(group, name))%given
@@ -105,9 +103,7 @@ contains
    !> Whether a key was set to something that could not be read, so that no rule can be held against it.
    pure logical function is_faulty(self, group, name)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
 
       is_faulty = self%entries(find_key(group, name))%faulty
@@ -116,9 +112,7 @@ contains
    !> Value of a real key, 0 where it has none.
    pure real(dp) function number_of(self, group, name)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
 
       number_of = self%entries(find_key(group, name))%number
@@ -127,9 +121,7 @@ contains
    !> Value of an integer key.
    pure integer function count_of(self, group, name)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
 
       count_of = self%entries(find_key(group, name))%count
@@ -138,9 +130,7 @@ contains
    !> Value of a logical key.
    pure logical function flag_of(self, group, name)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
 
       flag_of = self%entries(find_key(group, name))%flag
@@ -149,9 +139,7 @@ contains
    !> Value of a text key, empty where it has none.
    pure function word_of(self, group, name) result(word)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
       character(:), allocatable :: word
 
@@ -161,9 +149,7 @@ contains
    !> Blank-separated words of a list key.
    pure function words_of(self, group, name) result(words)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
       character(:), allocatable :: words
 
@@ -173,9 +159,7 @@ contains
    !> Numbers of a list key.
    pure function numbers_of(self, group, name) result(numbers)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
       real(dp), allocatable :: numbers(:)
 
@@ -185,9 +169,7 @@ contains
    !> Columns of a table key.
    pure function columns_of(self, group, name) result(columns)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
       type(numbers_t), allocatable :: columns(:)
 
@@ -197,9 +179,7 @@ contains
    !> Position of the word of a key among its choices in the table, from 1.
    pure integer function choice_of(self, group, name)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
       integer :: position
 
@@ -210,9 +190,7 @@ contains
    !> Positions of the words of a list key among its choices in the table, from 1.
    pure function choices_of(self, group, name) result(choices)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
       integer, allocatable :: choices(:)
       type(word_t), allocatable :: words(:)
@@ -226,9 +204,7 @@ contains
    !> Add a fault at the place of a key: where it was set, or without a line if it was not.
    subroutine add_fault(self, group, name, message, faults)
       class(scene_input_t), intent(in) :: self
-      !> Namelist group
       character(*), intent(in) :: group
-      !> Key in the group
       character(*), intent(in) :: name
       !> What is wrong and what is allowed
       character(*), intent(in) :: message

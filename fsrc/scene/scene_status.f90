@@ -15,7 +15,6 @@ contains
 
    !> Word for the summary.
    pure function status_name(status) result(name)
-      !> Status code
       integer, intent(in) :: status
       character(:), allocatable :: name
 
@@ -24,7 +23,6 @@ contains
 
    !> Plain sentence for log and summary.
    pure function status_sentence(status) result(sentence)
-      !> Status code
       integer, intent(in) :: status
       character(:), allocatable :: sentence
 
@@ -55,7 +53,6 @@ contains
 
    !> Whether the scene has its full result.
    elemental logical function is_success(status)
-      !> Status code
       integer, intent(in) :: status
 
       is_success = status == status_complete .or. status == status_steady

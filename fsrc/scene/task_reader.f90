@@ -16,7 +16,6 @@ contains
 
    !> &points
    function read_points(input, model) result(points)
-      !> Typed values
       type(scene_input_t), intent(in) :: input
       !> Code of the film model
       integer, intent(in) :: model
@@ -58,7 +57,6 @@ contains
 
    !> &sweep
    function read_sweep(input) result(sweep)
-      !> Typed values
       type(scene_input_t), intent(in) :: input
       type(sweep_t) :: sweep
       real(dp), allocatable :: values(:)
@@ -76,7 +74,6 @@ contains
 
    !> &campaign
    function read_campaign(input) result(campaign)
-      !> Typed values
       type(scene_input_t), intent(in) :: input
       type(campaign_choice_t) :: campaign
       type(word_t), allocatable :: recorded(:)

@@ -68,7 +68,6 @@ contains
       real(dp), intent(in) :: tight_accuracy
       !> Acceleration that its errors explain [m/s2]
       real(dp), intent(in) :: tight_noise
-      !> The certificate
       type(certificate_t), intent(out) :: certificate
       real(dp), allocatable :: differences(:)
       real(dp) :: peak, errors(2), film_difference

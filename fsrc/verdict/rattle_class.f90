@@ -29,7 +29,6 @@ contains
       type(spectrum_choice_t), intent(in) :: choice
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
-      !> The verdict
       type(rattle_verdict_t), intent(out) :: verdict
 
       call find_lines(acceleration, choice%periods, choice%line_threshold, noise_floor, verdict%lines)
@@ -59,7 +58,6 @@ contains
       type(spectrum_choice_t), intent(in) :: choice
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
-      !> The verdict
       type(rattle_verdict_t), intent(out) :: verdict
       real(dp), dimension(record%multiples) :: varying, repeating
       real(dp) :: mean, periods, power, off_harmonics, beyond, irregular_beyond

@@ -43,7 +43,6 @@ contains
 
    !> Judge the film law by the largest exact pressure of a motion.
    pure function check_regime(film, largest, thickness) result(verdict)
-      !> Film of the scene
       type(film_t), intent(in) :: film
       !> Largest pressure of the exact iso-viscous film [Pa]
       real(dp), intent(in) :: largest
@@ -73,7 +72,6 @@ contains
 
    !> Largest alpha p of a film without squeeze [-].
    pure real(dp) function steady_alpha_p(film, thickness)
-      !> The film
       type(film_t), intent(in) :: film
       !> Film thickness [m]
       real(dp), intent(in) :: thickness

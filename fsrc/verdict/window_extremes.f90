@@ -35,7 +35,6 @@ contains
 
    !> Extremes of samples.
    pure function extremes_of_samples(film, films, velocities, accelerations) result(extremes)
-      !> Film of the scene
       type(film_t), intent(in) :: film
       !> h [m], z' [m/s], z'' [m/s2]
       real(dp), intent(in) :: films(:)
