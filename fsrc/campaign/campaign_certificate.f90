@@ -2,14 +2,14 @@
 module campaign_certificate
    use certificate, only: certificate_t
    use certify_scene, only: certify
+   use engine, only: ending_t, request_t, start_of
    use errors, only: error_t
    use fine_window, only: judge_window, window_t
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
+   use problem, only: accelerations_of_samples
    use rattle_class, only: note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
-   use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: is_success
    use scene_types, only: scene_t
    use window_extremes, only: extremes_of_record
@@ -23,23 +23,21 @@ contains
 
    !> The certificate holds the motion that follows from its start against the same periods solved tighter. So the periods
    !> that a forecast has saved in the campaign are solved here.
-   subroutine test_class(scene, resolved, lane, request, verdict, certificate, error)
+   subroutine test_class(scene, resolved, request, verdict, certificate, error)
       !> The scene with its varied keys set
       type(scene_t), intent(in) :: scene
       !> What follows from it
       type(resolved_scene_t), intent(in) :: resolved
-      !> Its lane
-      type(lane_scene_t), intent(in) :: lane
       !> What the campaign asked of the engine
-      type(lane_request_t), intent(in) :: request
+      type(request_t), intent(in) :: request
       !> Verdict to be tested
       type(rattle_verdict_t), intent(in) :: verdict
       !> Its certificate
       type(certificate_t), intent(out) :: certificate
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
-      type(lane_request_t) :: from_start
-      type(lane_ending_t) :: endings(1)
+      type(request_t) :: from_start
+      type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
       type(rattle_verdict_t) :: own_verdict
       type(window_t) :: window
@@ -52,7 +50,7 @@ contains
       samples = request%sampled_periods*scene%campaign%samples_per_period
       from_start%samples_per_period = scene%campaign%samples_per_period
       allocate (films(samples, 1), velocities(samples, 1))
-      call solve_motions([lane], from_start, films, velocities, endings, records=records)
+      call solve_motions([resolved%problem], [start_of(resolved%problem)], from_start, films, velocities, endings, records=records)
       if (.not. is_success(endings(1)%status)) return
       samples = endings(1)%samples
       window%periods = samples/request%samples_per_period
@@ -60,13 +58,14 @@ contains
       allocate (window%films, source=films(:samples, 1))
       allocate (window%velocities, source=velocities(:samples, 1))
       allocate (window%accelerations(samples))
-      call accelerations_of_samples(lane, request%samples_per_period, window%films, window%velocities, window%accelerations)
+      call accelerations_of_samples(resolved%problem, request%samples_per_period, window%films, window%velocities, &
+                                    window%accelerations)
       window%record = records(1)
-      call judge_window(scene, lane, request%accuracy, resolved%noise_floor, window, own_verdict, error)
+      call judge_window(scene, resolved%problem, request%accuracy, resolved%noise_floor, window, own_verdict, error)
       if (allocated(error)) return
       call note_orbit(own_verdict, endings(1)%orbit)
       if (own_verdict%class /= verdict%class) return
-      call certify(scene, resolved, lane, endings(1)%periods, window, extremes_of_record(records(1)), own_verdict, certificate, &
+      call certify(scene, resolved, endings(1)%periods, window, extremes_of_record(records(1)), own_verdict, certificate, &
                    error)
       ! An irregular class does not stand where the certificate has found that the motion repeats.
       certificate%certified = certificate%certified .and. own_verdict%class == verdict%class

@@ -2,26 +2,25 @@
 module solve_chunk
    use campaign_certificate, only: test_class
    use campaign_record, only: record_row
+   use controlled_engine, only: reserved_periods
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use errors, only: error_t
-   use fine_window, only: classify_window, integral_record, window_again
-   use integrate_controlled, only: reserved_periods
+   use fine_window, only: classify_window, integral_record
    use judged_scene, only: judged_scene_t
    use key_table, only: find_key
    use kinds, only: dp, int64
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
    use memory_need, only: window_bytes
    use node_extremes, only: seen_pressure, seen_quantities
+   use problem, only: accelerations_of_samples, problem_t
    use rattle_class, only: classify_steps, note_orbit
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: need_count, needs_certificate, needs_regime, needs_spectrum, quantity_table
    use regime_check, only: check_regime
-   use resolved_scene, only: resolve, resolved_scene_t
-   use sample_accelerations, only: accelerations_of_samples
+   use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use sampling, only: chunk_values, largest_value, sample_plan_t
-   use scene_lane, only: lane_of_scene
    use scene_status, only: is_success, status_invalid
-   use scene_types, only: scene_t, until_steady
+   use scene_types, only: scene_t
    use schedule, only: cost_order
    use signals, only: must_stop
    use varied_keys, only: varied_code
@@ -147,9 +146,8 @@ contains
       real(dp), intent(out) :: rows(:, :)
       type(error_t), allocatable, intent(out) :: error
       type(resolved_scene_t) :: resolved(size(values, 2))
-      type(lane_scene_t) :: lanes(size(values, 2))
-      type(lane_request_t) :: requests(size(values, 2))
-      type(lane_ending_t) :: endings(size(values, 2))
+      type(request_t) :: requests(size(values, 2))
+      type(ending_t) :: endings(size(values, 2))
       real(dp) :: costs(size(values, 2))
       type(window_record_t), allocatable :: windows(:)
       integer, allocatable :: number(:)
@@ -164,34 +162,37 @@ contains
          if (.not. valid(i)) cycle
          solved = solved + 1
          resolved(i) = resolve(scene)
-         lanes(i) = lane_of_scene(scene, resolved(i)%film, resolved(i)%initial_film, scene%film%initial_velocity)
          costs(i) = -likely_cost(scene, resolved(i))
          requests(i) = request_of(scene, needed)
       end do
       call cost_order(costs, order)
       together = alike(requests(order(:solved)))
       call provide_space(space, requests(order(:solved)), solved, merge(solved, 1, together), needed)
-      if (together .and. solved > 0) call solve_motions(lanes(order(:solved)), requests(order(1)), space%films(:, :solved), &
-                                                        space%velocities(:, :solved), endings(:solved), &
-                                                        records=space%records(:solved))
+      if (together .and. solved > 0) then
+         associate (problems => resolved(order(:solved))%problem)
+            call solve_motions(problems, start_of(problems), requests(order(1)), space%films(:, :solved), &
+                               space%velocities(:, :solved), endings(:solved), records=space%records(:solved))
+         end associate
+      end if
       coarse = .false.
       do i = 1, size(values, 2)
          if (must_stop()) return
          associate (scene_number => order(i))
             if (valid(scene_number)) then
                call set_varied_keys(scene, codes, values(:, scene_number))
-               if (.not. together) call solve_motions(lanes(scene_number:scene_number), requests(scene_number), &
-                                                      space%films(:, :1), space%velocities(:, :1), endings(i:i), &
-                                                      records=space%records(i:i))
+               associate (problem => resolved(scene_number)%problem)
+                  if (.not. together) call solve_motions([problem], [start_of(problem)], requests(scene_number), &
+                                                         space%films(:, :1), space%velocities(:, :1), endings(i:i), &
+                                                         records=space%records(i:i))
+               end associate
                call note_ending(resolved(scene_number), endings(i), space%judged)
-               call judge_by_samples(scene, lanes(scene_number), endings(i)%samples, needed, i, merge(i, 1, together), space)
+               call judge_by_samples(scene, endings(i)%samples, needed, i, merge(i, 1, together), space)
                coarse(i) = space%judged%judged .and. .not. space%judged%rattle%lines%sampling_sufficient
                ! What the samples are too few for is judged below, by the steps.
-               if (.not. coarse(i)) call complete(scene, lanes(scene_number), needed, space%records(i), space%judged, &
-                                                      error)
+               if (.not. coarse(i)) call complete(scene, needed, space%records(i), space%judged, error)
                if (allocated(error)) return
             else
-               call note_ending(resolved_scene_t(), lane_ending_t(status=status_invalid), space%judged)
+               call note_ending(resolved_scene_t(), ending_t(status=status_invalid), space%judged)
             end if
             if (.not. coarse(i)) call record_row(scene, first + int(scene_number - 1, int64), values(:, scene_number), &
                                                  space%judged, rows(:, scene_number))
@@ -199,13 +200,14 @@ contains
       end do
       number = pack([(i, i=1, size(values, 2))], coarse)
       if (together .and. size(number) > 0) then
-         windows = integral_windows(scene, lanes(order(number)), endings(number), space%records(number), requests(order(1)))
+         windows = integral_windows(scene, resolved(order(number))%problem, endings(number), space%records(number), &
+                                    requests(order(1)))
       end if
       do i = 1, size(number)
          if (must_stop()) return
          associate (place => number(i), scene_number => order(number(i)))
             call set_varied_keys(scene, codes, values(:, scene_number))
-            if (.not. together) windows = integral_windows(scene, lanes([scene_number]), endings([place]), &
+            if (.not. together) windows = integral_windows(scene, [resolved(scene_number)%problem], endings([place]), &
                                                            space%records([place]), requests(scene_number))
             call note_ending(resolved(scene_number), endings(place), space%judged)
             associate (window => windows(merge(i, 1, together)))
@@ -213,11 +215,11 @@ contains
                   call classify_steps(window, scene%load%frequency, scene%spectrum, space%judged%resolved%noise_floor, &
                                       space%judged%rattle)
                else
-                  call judge_by_samples(scene, lanes(scene_number), endings(place)%samples, needed, place, &
+                  call judge_by_samples(scene, endings(place)%samples, needed, place, &
                                         merge(place, 1, together), space)
                end if
             end associate
-            call complete(scene, lanes(scene_number), needed, space%records(place), space%judged, error)
+            call complete(scene, needed, space%records(place), space%judged, error)
             if (allocated(error)) return
             call record_row(scene, first + int(scene_number - 1, int64), values(:, scene_number), space%judged, &
                             rows(:, scene_number))
@@ -227,20 +229,20 @@ contains
 
    !> Records of some windows with Fourier integrals. The windows are solved again from where they begin, side by side; a window
    !> that cannot be has no periods in its record.
-   function integral_windows(scene, lanes, endings, records, asked) result(windows)
+   function integral_windows(scene, problems, endings, records, asked) result(windows)
       !> Any scene of the batch
       type(scene_t), intent(in) :: scene
       !> The motions, how they ended and what the steps of their windows told
-      type(lane_scene_t), intent(in) :: lanes(:)
-      type(lane_ending_t), intent(in) :: endings(:)
+      type(problem_t), intent(in) :: problems(:)
+      type(ending_t), intent(in) :: endings(:)
       type(window_record_t), intent(in) :: records(:)
       !> What was asked of the engine
-      type(lane_request_t), intent(in) :: asked
-      type(window_record_t) :: windows(size(lanes))
-      type(lane_scene_t) :: again(size(lanes))
-      type(lane_request_t) :: request
-      type(lane_ending_t) :: ended(size(lanes))
-      integer :: periods(size(lanes)), i
+      type(request_t), intent(in) :: asked
+      type(window_record_t) :: windows(size(problems))
+      type(motion_state_t) :: starts(size(problems))
+      type(request_t) :: request
+      type(ending_t) :: ended(size(problems))
+      integer :: periods(size(problems)), i
       real(dp), allocatable :: films(:, :), velocities(:, :)
 
       periods = endings%samples/asked%samples_per_period
@@ -249,14 +251,14 @@ contains
       request%sampled_periods = request%periods
       request%samples_per_period = 1
       request%every_period = .true.
-      do i = 1, size(lanes)
-         again(i) = window_again(lanes(i), records(i))
-         again(i)%periods_done = request%periods - periods(i)
+      do i = 1, size(problems)
+         starts(i) = records(i)%start
+         starts(i)%periods = request%periods - periods(i)
          windows(i) = integral_record(scene%spectrum)
       end do
-      allocate (films(request%periods, size(lanes)), velocities(request%periods, size(lanes)), source=0.0_dp)
-      call solve_motions(again, request, films, velocities, ended, records=windows)
-      do i = 1, size(lanes)
+      allocate (films(request%periods, size(problems)), velocities(request%periods, size(problems)), source=0.0_dp)
+      call solve_motions(problems, starts, request, films, velocities, ended, records=windows)
+      do i = 1, size(problems)
          if (.not. is_success(ended(i)%status)) windows(i)%periods = 0
       end do
    end function integral_windows
@@ -264,7 +266,7 @@ contains
    !> See that the samples and records of so many scenes have their place.
    pure subroutine provide_space(space, requests, scenes, sampled, needed)
       type(chunk_space_t), intent(inout) :: space
-      type(lane_request_t), intent(in) :: requests(:)
+      type(request_t), intent(in) :: requests(:)
       !> Scenes, and those whose samples are kept at a time
       integer, intent(in) :: scenes
       integer, intent(in) :: sampled
@@ -291,7 +293,7 @@ contains
 
    !> Whether all scenes of a batch ask for the same.
    pure logical function alike(requests)
-      type(lane_request_t), intent(in) :: requests(:)
+      type(request_t), intent(in) :: requests(:)
 
       alike = .true.
       if (size(requests) < 2) return
@@ -305,14 +307,11 @@ contains
       type(scene_t), intent(in) :: scene
       !> What the columns need
       logical, intent(in) :: needed(:)
-      type(lane_request_t) :: request
+      type(request_t) :: request
 
-      request%accuracy = scene%solver%accuracy
-      request%periods = scene%solver%periods
+      request = engine_request(scene)
       request%samples_per_period = 1
       if (any(needed([needs_spectrum, needs_certificate]))) request%samples_per_period = scene%campaign%samples_per_period
-      request%sampled_periods = scene%spectrum%periods
-      request%until_steady = scene%solver%until == until_steady
       if (request%until_steady) request%sampled_periods = reserved_periods(scene%spectrum%periods)
       request%forecast = request%until_steady
    end function request_of
@@ -338,7 +337,7 @@ contains
    !> Note what is known of a scene before it is judged.
    pure subroutine note_ending(resolved, ending, judged)
       type(resolved_scene_t), intent(in) :: resolved
-      type(lane_ending_t), intent(in) :: ending
+      type(ending_t), intent(in) :: ending
       type(judged_scene_t), intent(inout) :: judged
 
       judged%resolved = resolved
@@ -351,9 +350,8 @@ contains
    end subroutine note_ending
 
    !> Class of the window of a scene by its samples, if its columns ask for it.
-   subroutine judge_by_samples(scene, lane, samples, needed, place, column, space)
+   subroutine judge_by_samples(scene, samples, needed, place, column, space)
       type(scene_t), intent(in) :: scene
-      type(lane_scene_t), intent(in) :: lane
       !> Samples of its window
       integer, intent(in) :: samples
       !> What the columns need
@@ -367,17 +365,16 @@ contains
       space%judged%rattle%lines%sampling_sufficient = .true.
       if (.not. (space%judged%judged .and. any(needed([needs_spectrum, needs_certificate])))) return
       associate (values => space%accelerations(:samples))
-         call accelerations_of_samples(lane, scene%campaign%samples_per_period, space%films(:samples, column), &
-                                       space%velocities(:samples, column), values)
-         call classify_window(scene, lane, samples/scene%campaign%samples_per_period, values, space%records(place), &
-                              space%judged%resolved%noise_floor, space%judged%rattle)
+         call accelerations_of_samples(space%judged%resolved%problem, scene%campaign%samples_per_period, &
+                                       space%films(:samples, column), space%velocities(:samples, column), values)
+         call classify_window(scene, space%judged%resolved%problem, samples/scene%campaign%samples_per_period, values, &
+                              space%records(place), space%judged%resolved%noise_floor, space%judged%rattle)
       end associate
    end subroutine judge_by_samples
 
    !> What the steps of the window of a judged scene tell, and whether its class stands.
-   subroutine complete(scene, lane, needed, record, judged, error)
+   subroutine complete(scene, needed, record, judged, error)
       type(scene_t), intent(in) :: scene
-      type(lane_scene_t), intent(in) :: lane
       !> What the columns need
       logical, intent(in) :: needed(:)
       !> Its record
@@ -389,9 +386,9 @@ contains
       call note_orbit(judged%rattle, judged%repeats_after)
       judged%extremes = extremes_of_record(record)
       associate (pressure => record%highest(seen_pressure))
-         if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%film, pressure%value, pressure%film)
+         if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%problem%film, pressure%value, pressure%film)
       end associate
-      if (needed(needs_certificate)) call test_class(scene, judged%resolved, lane, request_of(scene, needed), judged%rattle, &
+      if (needed(needs_certificate)) call test_class(scene, judged%resolved, request_of(scene, needed), judged%rattle, &
                                                      judged%certificate, error)
    end subroutine complete
 

@@ -3,7 +3,7 @@ module progress
    use, intrinsic :: iso_fortran_env, only: output_unit
    use clock, only: wall_seconds
    use file_system, only: is_terminal
-   use integrate_motion, only: motion_watcher_t
+   use engine, only: motion_watcher_t
    use kinds, only: dp
    use log_file, only: log_t
    use text, only: integer_text, short_text

@@ -3,8 +3,8 @@
 module collocation_newton
    use film_law, only: film_load, film_t, mixed_film_loads, overflow_load
    use kinds, only: dp
+   use lane_block, only: lane_block_t
    use lane_functions, only: half_block, lanes
-   use lane_scenes, only: lane_block_t
    use radau_nodes, only: node, once, stages, twice
    use taylor_step_control, only: film_weight, momentum_weight
    implicit none(type, external)

@@ -22,11 +22,11 @@
 !> of the step and the least film that counts as one at its nodes.
 module collocation_step
    use collocation_newton, only: allowed, correct, newton_pass_t, residual_and_matrix, scaled_load, solve_lanes, stage_states
-   use elementary_functions, only: cosine_sine
    use film_law, only: film_t
    use kinds, only: dp
-   use lane_functions, only: lane_cosine_sine, lanes
-   use lane_scenes, only: lane_block_t
+   use lane_block, only: lane_block_t
+   use lane_force, only: force_values, total_forces
+   use lane_functions, only: lanes
    use radau_nodes, only: node, power, stages
    use taylor_step_control, only: momentum_weight
    implicit none(type, external)
@@ -94,18 +94,17 @@ contains
       end do
    end subroutine choose_steps
 
-   !> Force at the nodes: static load and cosine.
+   !> Force at the nodes, static load included.
    pure subroutine forces_of_stages(block, force)
       type(lane_block_t), intent(in) :: block
       !> Scaled force [-]
       real(dp), intent(out) :: force(lanes, stages)
-      real(dp) :: phase(lanes), cosine(lanes), sine(lanes)
+      real(dp) :: phase(lanes)
       integer :: i
 
       do i = 1, stages
          phase = min(1.0_dp, block%phase + node(i)*block%step)
-         call lane_cosine_sine(phase, cosine, sine)
-         force(:, i) = block%load + block%amplitude*cosine
+         call total_forces(phase, block%load, block%oscillation, force(:, i))
       end do
    end subroutine forces_of_stages
 
@@ -117,16 +116,16 @@ contains
       type(lane_block_t), intent(inout) :: block
       !> Accelerations at the nodes [-]
       real(dp), intent(out) :: k(lanes, stages)
-      real(dp) :: ratio, place, load, by_film, by_momentum, cosine, sine
+      real(dp) :: ratio, place, load, by_film, by_momentum, oscillation(lanes)
       integer :: l, i, j
 
       k = 0.0_dp
+      oscillation = force_values(block%oscillation)
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          if (.not. block%last_step(l) > 0.0_dp) then
             call scaled_load(films(l), block, l, block%film(l, 0), block%momentum(l, 0), load, by_film, by_momentum)
-            call cosine_sine(block%phase(l), cosine, sine)
-            block%acceleration(l) = load - block%load(l) - block%amplitude(l)*cosine
+            block%acceleration(l) = load - block%load(l) - oscillation(l)
          end if
          if (block%last_step(l) > 0.0_dp .and. block%step(l) < most_extrapolation*block%last_step(l)) then
             ratio = block%step(l)/block%last_step(l)

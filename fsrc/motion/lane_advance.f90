@@ -3,8 +3,9 @@ module lane_advance
    use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo
    use film_series, only: film_series_t
    use kinds, only: dp
-   use lane_functions, only: lane_cosine_sine, lanes
-   use lane_scenes, only: lane_block_t
+   use lane_block, only: lane_block_t
+   use lane_force, only: force_derivatives, force_values, lane_force_t, move_forces, turn_forces
+   use lane_functions, only: lanes
    use load_expansion, only: expand_load
    use load_pieces, only: exact_load, published_load
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
@@ -12,7 +13,7 @@ module lane_advance
    use taylor_piezo_viscous, only: distrust_load_from_nothing, piezo_viscous_series
    use taylor_reynolds_piezo, only: reynolds_piezo_series
    use taylor_rupture, only: distrust_load_unforeseen, evaluate_rupture_series, rupture_series
-   use taylor_step_control, only: evaluate_series, lane_steps
+   use taylor_step_control, only: evaluate_series, lane_steps, order
    implicit none(type, external)
    private
 
@@ -37,9 +38,9 @@ contains
       real(dp) :: next_rise(lanes)
       integer :: l
 
-      if (.not. series%solves_rupture) call lane_cosine_sine(block%phase, block%cosine, block%sine)
+      if (.not. series%solves_rupture) call turn_forces(block%phase, block%oscillation)
       block%remaining = 1.0_dp - block%phase
-      call find_series(series%kernel, block)
+      call find_series(series%kernel, series%last_order, block)
       call lane_steps(series%last_order, series%share, block%accuracy, block%force, block%film, block%momentum, &
                       block%damping_rate, block%remaining, block%limit, block%step)
       if (series%solves_rupture) then
@@ -61,26 +62,27 @@ contains
    end subroutine take_series_step
 
    !> Series of film and momentum about the states of a block.
-   pure subroutine find_series(kernel, block)
+   pure subroutine find_series(kernel, last_order, block)
       !> Whose series
       integer, intent(in) :: kernel
+      !> Order of their last coefficients
+      integer, intent(in) :: last_order
       type(lane_block_t), intent(inout) :: block
-      real(dp), dimension(lanes) :: cosine, sine
+      real(dp) :: force(lanes, order)
 
-      cosine = block%amplitude*block%cosine
-      sine = block%amplitude*block%sine
+      call force_derivatives(last_order, block%oscillation, force)
       select case (kernel)
       case (kernel_piezo)
-         call piezo_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+         call piezo_viscous_series(block%strength, block%damping, block%load, force, block%film, &
                                    block%momentum, block%damping_rate)
       case (kernel_half_pi)
-         call iso_viscous_series(block%strength, block%damping, block%load, cosine, sine, block%film, &
+         call iso_viscous_series(block%strength, block%damping, block%load, force, block%film, &
                                  block%momentum, block%damping_rate)
       case (kernel_reynolds_piezo)
-         call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%load, cosine, sine, block%film, &
+         call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%load, force, block%film, &
                                     block%momentum, block%damping_rate, block%piezo_expansion)
       case default
-         call rupture_series(law_of(kernel), block%strength, block%damping, block%load, cosine, sine, block%film, &
+         call rupture_series(law_of(kernel), block%strength, block%damping, block%load, force, block%film, &
                              block%momentum, block%damping_rate, block%expansion)
       end select
    end subroutine find_series
@@ -101,10 +103,12 @@ contains
       !> V' at the ends, by the series [-]
       real(dp), intent(in) :: rise(lanes)
       type(lane_block_t), intent(inout) :: block
-      real(dp), dimension(lanes) :: phase, cosine, sine, film, momentum
+      real(dp), dimension(lanes) :: phase, film, momentum
+      type(lane_force_t) :: oscillation
 
       phase = block%phase + block%step
-      call lane_cosine_sine(phase, cosine, sine)
+      oscillation%amplitude = block%oscillation%amplitude
+      call turn_forces(phase, oscillation)
       film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
       momentum = merge(block%next_momentum, block%momentum(:, 0), block%trust > 0.0_dp)
       if (series%kernel == kernel_reynolds_piezo) then
@@ -119,8 +123,7 @@ contains
             call compare(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, block%trust)
          end associate
       end if
-      block%cosine = merge(cosine, block%cosine, block%trust > 0.0_dp)
-      block%sine = merge(sine, block%sine, block%trust > 0.0_dp)
+      call move_forces(oscillation, block%trust, block%oscillation)
 
    contains
 
@@ -134,7 +137,7 @@ contains
          !> 1 where the step is trusted, set to 0 where they differ
          real(dp), intent(inout) :: trust(lanes)
 
-         call distrust_load_unforeseen(series%share, block%strength, block%damping, block%load, block%amplitude, cosine, &
+         call distrust_load_unforeseen(series%share, block%strength, block%damping, block%load + force_values(oscillation), &
                                      block%force, block%accuracy, inverse_film, root, load, load_slope, film, momentum, rise, trust)
       end subroutine compare
 

@@ -1,4 +1,4 @@
-!> Motions of many scenes, a block of lanes at a time, each lane with its own time and step.
+!> Many motions, a block of lanes at a time, each lane with its own time and step.
 !>
 !> A lane whose scene is done takes the next one; a lane without a scene rests. Every lane goes through the
 !> same instructions whatever its neighbours do, and no number of one lane enters another: a scene has the
@@ -9,16 +9,17 @@
 !> status_not_converged at the start of that period, for collocation to go on.
 module lane_integration
    use collocation_step, only: take_collocation_step
+   use engine, only: ending_t, motion_count_t, motion_state_t, request_t
    use film_series, only: series_of
    use kinds, only: dp, int64
    use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
+   use lane_block, only: load_problem, place_block, rest_lane, start_period, start_status, state_of_lane
    use lane_functions, only: lanes
    use lane_repetition, only: find_repetition, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t, load_scene, place_block, rest_lane, start_period, &
-                          start_status, state_of_lane
    use period_repetition, only: orbit_watch_t, watch_from
+   use problem, only: problem_t
    use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
    use step_nodes, only: take_nodes
@@ -34,20 +35,21 @@ module lane_integration
 contains
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
-   subroutine integrate_lanes(by_series, scenes, queue, request, films, velocities, endings, watches, records)
+   subroutine integrate_lanes(by_series, problems, starts, queue, request, films, velocities, endings, watches, records)
       !> Taylor series, else collocation
       logical, intent(in) :: by_series
-      !> The scenes
-      type(lane_scene_t), intent(in) :: scenes(:)
+      !> What moves, and where each motion starts
+      type(problem_t), intent(in) :: problems(:)
+      type(motion_state_t), intent(in) :: starts(:)
       !> Those of them to be solved, in the order in which lanes take them
       integer, intent(in) :: queue(:)
       !> What is asked for
-      type(lane_request_t), intent(in) :: request
+      type(request_t), intent(in) :: request
       !> Samples of h [m] and z' [m/s]: sample, scene
       real(dp), contiguous, intent(inout) :: films(:, :)
       real(dp), contiguous, intent(inout) :: velocities(:, :)
-      !> How the scenes ended; on entry the steps they took before
-      type(lane_ending_t), intent(inout) :: endings(:)
+      !> How the motions ended; on entry the steps they took before
+      type(ending_t), intent(inout) :: endings(:)
       !> What the watchers of the scenes carried on have seen, kept up
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
       !> What the steps of the sampled periods tell, scene by scene; what stands in the record of a motion that begins within
@@ -59,12 +61,12 @@ contains
 
       call place_block(room, run%block)
       run%by_series = by_series
-      if (size(queue) > 0) run%series = series_of(scenes(queue(1))%film%kernel)
+      if (size(queue) > 0) run%series = series_of(problems(queue(1))%film%kernel)
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
       do l = 1, lanes
-         call next_scene(l, scenes, queue, request, run, endings, watches, records)
+         call next_scene(l, problems, starts, queue, request, run, endings, watches, records)
       end do
       do while (run%active > 0)
          if (must_stop()) exit
@@ -85,31 +87,32 @@ contains
                cycle
             end if
             if (run%block%remaining(l) <= 0.0_dp) then
-               call end_period(l, scenes, request, films, velocities, run, records)
+               call end_period(l, problems, request, films, velocities, run, records)
             else if (in_trouble(l, run) .and. run%watches(l)%departure%period > 0) then
-               run%watches(l)%ending%steps = run%watches(l)%ending%steps + nint(run%block%period_steps(l), int64)
+               run%watches(l)%ending%count%steps = run%watches(l)%ending%count%steps + nint(run%block%period_steps(l), int64)
                call start_period(l, run%block)
                call restore_departure(l, run)
             else if (in_trouble(l, run)) then
                call give_up(l, run)
             end if
             if (run%watches(l)%period < run%watches(l)%last_period) cycle
-            call finish(l, run, endings, watches)
-            call next_scene(l, scenes, queue, request, run, endings, watches, records)
+            call finish(l, problems, run, endings, watches)
+            call next_scene(l, problems, starts, queue, request, run, endings, watches, records)
          end do
       end do
-      if (run%active > 0) call interrupt(scenes, queue, run, endings, watches)
+      if (run%active > 0) call interrupt(problems, starts, queue, run, endings, watches)
    end subroutine integrate_lanes
 
    !> Put the next scene that can start into a lane.
-   pure subroutine next_scene(lane, scenes, queue, request, run, endings, watches, records)
+   pure subroutine next_scene(lane, problems, starts, queue, request, run, endings, watches, records)
       !> Lane
       integer, intent(in) :: lane
-      type(lane_scene_t), intent(in) :: scenes(:)
+      type(problem_t), intent(in) :: problems(:)
+      type(motion_state_t), intent(in) :: starts(:)
       integer, intent(in) :: queue(:)
-      type(lane_request_t), intent(in) :: request
+      type(request_t), intent(in) :: request
       type(lane_run_t), intent(inout) :: run
-      type(lane_ending_t), intent(inout) :: endings(:)
+      type(ending_t), intent(inout) :: endings(:)
       type(orbit_watch_t), optional, intent(in) :: watches(:)
       type(window_record_t), optional, intent(inout) :: records(:)
       integer :: scene, status
@@ -118,21 +121,15 @@ contains
       do while (run%taken < size(queue))
          run%taken = run%taken + 1
          scene = queue(run%taken)
-         status = start_status(scenes(scene))
-         endings(scene) = lane_ending_t(status=status, film=scenes(scene)%initial_film, &
-                                        velocity=scenes(scene)%initial_velocity, &
-                                           implicit=.not. run%by_series, &
-                                        periods=scenes(scene)%periods_done, &
-                                           momentum=scenes(scene)%initial_momentum, &
-                                        steps=endings(scene)%steps)
-         if (status /= status_complete .or. request%periods <= scenes(scene)%periods_done) cycle
-         call load_scene(scenes(scene), run%by_series, request%accuracy, lane, run%block)
-         run%films(lane) = scenes(scene)%film
+         status = start_status(problems(scene), starts(scene))
+         endings(scene) = ending_at(starts(scene), status,.not. run%by_series, endings(scene)%count)
+         if (status /= status_complete .or. request%periods <= starts(scene)%periods) cycle
+         call load_problem(problems(scene), starts(scene), run%by_series, request%accuracy, lane, run%block)
+         run%films(lane) = problems(scene)%film
          associate (watch => run%watches(lane))
             watch%scene = scene
-            watch%ending%implicit = .not. run%by_series
-            watch%ending%steps = endings(scene)%steps
-            watch%period = scenes(scene)%periods_done
+            watch%ending%count = endings(scene)%count
+            watch%period = starts(scene)%periods
             watch%last_period = request%periods
             watch%sample_from = max(0, request%periods - request%sampled_periods)
             watch%film = run%block%film(lane, 0)
@@ -140,7 +137,7 @@ contains
             watch%states = watch_from(watch%film, watch%momentum)
             watch%departure%period = 0
             watch%excursions = 0
-            if (present(watches) .and. scenes(scene)%carried_on) watch%states = watches(scene)
+            if (present(watches) .and. starts(scene)%carried_on) watch%states = watches(scene)
          end associate
          run%samples%written(lane) = samples_before(run%watches(lane), run%samples)
          run%samples%column(lane) = scene
@@ -161,14 +158,15 @@ contains
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
-      real(dp) :: film, velocity, momentum
+      type(motion_state_t) :: start
 
       call begin_samples(run%samples, lane)
       if (.not. present(records)) return
       associate (record => records(run%watches(lane)%scene))
          if (record%periods > 0) return
-         call state_of_lane(lane, run%block, film, velocity, momentum)
-         call start_record(film, velocity, momentum,.not. run%by_series, record)
+         start = state_of_lane(lane, run%block)
+         start%implicit = .not. run%by_series
+         call start_record(start, record)
       end associate
    end subroutine begin_period
 
@@ -193,28 +191,28 @@ contains
    end function samples_before
 
    !> A period has ended: does the motion repeat, are samples due?
-   pure subroutine end_period(lane, scenes, request, films, velocities, run, records)
+   pure subroutine end_period(lane, problems, request, films, velocities, run, records)
       !> Lane
       integer, intent(in) :: lane
-      type(lane_scene_t), intent(in) :: scenes(:)
-      type(lane_request_t), intent(in) :: request
+      type(problem_t), intent(in) :: problems(:)
+      type(request_t), intent(in) :: request
       real(dp), contiguous, intent(inout) :: films(:, :)
       real(dp), contiguous, intent(inout) :: velocities(:, :)
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
-      real(dp) :: film, velocity, momentum
+      type(motion_state_t) :: state
 
       associate (watch => run%watches(lane), block => run%block)
          if (present(records) .and. run%samples%sampled(lane)) then
-            call state_of_lane(lane, block, film, velocity, momentum)
-            call record_period(scenes(watch%scene), velocity, run%nodes(lane), records(watch%scene))
+            state = state_of_lane(lane, block)
+            call record_period(problems(watch%scene), state%velocity, run%nodes(lane), records(watch%scene))
          end if
-         watch%ending%steps = watch%ending%steps + nint(block%period_steps(lane), int64)
+         watch%ending%count%steps = watch%ending%count%steps + nint(block%period_steps(lane), int64)
          call start_period(lane, block)
          watch%period = watch%period + 1
          watch%film = block%film(lane, 0)
          watch%momentum = block%momentum(lane, 0)
-         call find_repetition(lane, request, films, velocities, run)
+         call find_repetition(lane, problems(watch%scene), request, films, velocities, run)
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_period(lane, run, records)
       end associate
@@ -230,8 +228,8 @@ contains
          watch%ending%status = status_not_converged
          if (block%film(lane, 0) < lost_film) watch%ending%status = status_film_lost
          if (block%no_load(lane)) watch%ending%status = run%films(lane)%status_without_load
-         watch%ending%phase = block%phase(lane)
-         watch%ending%steps = watch%ending%steps + nint(block%period_steps(lane), int64)
+         watch%phase = block%phase(lane)
+         watch%ending%count%steps = watch%ending%count%steps + nint(block%period_steps(lane), int64)
          ! Samples of the period that was not finished do not count.
          run%samples%written(lane) = samples_before(watch, run%samples)
          run%nodes(lane)%pieces = 0
@@ -242,11 +240,12 @@ contains
    end subroutine give_up
 
    !> Leave the scenes that are under way at the start of their period, and those that wait where they are.
-   pure subroutine interrupt(scenes, queue, run, endings, watches)
-      type(lane_scene_t), intent(in) :: scenes(:)
+   pure subroutine interrupt(problems, starts, queue, run, endings, watches)
+      type(problem_t), intent(in) :: problems(:)
+      type(motion_state_t), intent(in) :: starts(:)
       integer, intent(in) :: queue(:)
       type(lane_run_t), intent(inout) :: run
-      type(lane_ending_t), intent(inout) :: endings(:)
+      type(ending_t), intent(inout) :: endings(:)
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
       integer :: l, i
 
@@ -258,29 +257,47 @@ contains
          run%samples%written(l) = samples_before(run%watches(l), run%samples)
          run%block%film(l, 0) = run%watches(l)%film
          run%block%momentum(l, 0) = run%watches(l)%momentum
-         call finish(l, run, endings, watches)
+         call finish(l, problems, run, endings, watches)
       end do
       do i = run%taken + 1, size(queue)
-         associate (scene => scenes(queue(i)), ending => endings(queue(i)))
-            ending = lane_ending_t(status=status_interrupted, film=scene%initial_film, velocity=scene%initial_velocity, &
-                                   periods=scene%periods_done, momentum=scene%initial_momentum, steps=ending%steps)
+         associate (scene => queue(i))
+            endings(scene) = ending_at(starts(scene), status_interrupted, starts(scene)%implicit, endings(scene)%count)
          end associate
       end do
    end subroutine interrupt
 
-   !> Record the end of a scene.
-   pure subroutine finish(lane, run, endings, watches)
+   !> Ending of a motion that has not gone on from its start.
+   pure type(ending_t) function ending_at(start, status, implicit, count) result(ending)
+      type(motion_state_t), intent(in) :: start
+      !> Why
+      integer, intent(in) :: status
+      !> Method that was to follow it
+      logical, intent(in) :: implicit
+      !> Cost so far
+      type(motion_count_t), intent(in) :: count
+
+      ending%motion_state_t = start
+      ending%status = status
+      ending%implicit = implicit
+      ending%count = count
+   end function ending_at
+
+   !> Record the end of a motion.
+   pure subroutine finish(lane, problems, run, endings, watches)
       !> Lane
       integer, intent(in) :: lane
+      type(problem_t), intent(in) :: problems(:)
       type(lane_run_t), intent(inout) :: run
-      type(lane_ending_t), intent(inout) :: endings(:)
+      type(ending_t), intent(inout) :: endings(:)
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
 
       if (present(watches)) watches(run%watches(lane)%scene) = run%watches(lane)%states
       associate (ending => run%watches(lane)%ending)
+         ending%motion_state_t = state_of_lane(lane, run%block)
          ending%periods = run%watches(lane)%period
+         ending%implicit = .not. run%by_series
+         ending%time = (real(ending%periods, dp) + run%watches(lane)%phase)/problems(run%watches(lane)%scene)%frequency
          ending%samples = run%samples%written(lane)
-         call state_of_lane(lane, run%block, ending%film, ending%velocity, ending%momentum)
          endings(run%watches(lane)%scene) = ending
       end associate
       call end_samples(run%samples, lane)

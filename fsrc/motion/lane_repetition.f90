@@ -1,15 +1,15 @@
 !> Whether the motion of a lane repeats, asked at the end of every period: within the accuracy, so that a run until steady ends;
 !> to the last bit, so that what follows is known; and where a motion that settles slowly will come to rest.
 module lane_repetition
+   use engine, only: request_t
    use kinds, only: dp, int64
    use lane_run, only: departure_t, lane_run_t
    use lane_sampling, only: repeat_samples
-   use lane_scenes, only: lane_request_t
    use period_repetition, only: note_state, watch_from
+   use problem, only: problem_t, settling_of, settling_t
    use recurrence, only: look_back, recurrence_t
    use scene_status, only: status_steady
    use settling_forecast, only: forecast_rest
-   use settling_rate, only: settling_of, settling_t
    use taylor_step_control, only: momentum_weight
    implicit none(type, external)
    private
@@ -26,11 +26,13 @@ module lane_repetition
 contains
 
    !> Look for repetition at the end of a period.
-   pure subroutine find_repetition(lane, request, films, velocities, run)
+   pure subroutine find_repetition(lane, problem, request, films, velocities, run)
       !> Lane
       integer, intent(in) :: lane
+      !> What moves there
+      type(problem_t), intent(in) :: problem
       !> What is asked for
-      type(lane_request_t), intent(in) :: request
+      type(request_t), intent(in) :: request
       !> Samples of h [m] and z' [m/s]: sample, scene
       real(dp), contiguous, intent(inout) :: films(:, :)
       real(dp), contiguous, intent(inout) :: velocities(:, :)
@@ -43,7 +45,7 @@ contains
          ! A run without samples is one to be carried on: there the last state counts like the others.
          if (request%until_steady .and. (watch%period < watch%sample_from .or. request%sampled_periods == 0)) then
             weight = momentum_weight(watch%film, block%damping_rate(lane), block%force(lane))
-            call note_state(watch%states, watch%film, watch%momentum, weight, settling_of_lane(lane, run), &
+            call note_state(watch%states, watch%film, watch%momentum, weight, settling_of_lane(lane, problem, run), &
                             repetition_share*request%accuracy, orbit, distance)
             if (orbit > 0) then
                watch%ending%orbit = orbit
@@ -61,17 +63,14 @@ contains
    end subroutine find_repetition
 
    !> How the film of a lane settles from where it is.
-   pure type(settling_t) function settling_of_lane(lane, run)
+   pure type(settling_t) function settling_of_lane(lane, problem, run)
       !> Lane
       integer, intent(in) :: lane
+      type(problem_t), intent(in) :: problem
       type(lane_run_t), intent(in) :: run
-      real(dp) :: frequency, mass
 
       associate (block => run%block)
-         frequency = block%velocity_scale(lane)/block%film_scale(lane)
-         mass = block%force_scale(lane)/(block%film_scale(lane)*frequency*frequency)
-         settling_of_lane = settling_of(run%films(lane), run%watches(lane)%film*block%film_scale(lane), &
-                                        block%film_scale(lane), mass, frequency)
+         settling_of_lane = settling_of(problem, run%watches(lane)%film*block%film_scale(lane), block%film_scale(lane))
          ! The momentum of Lienard's form holds the damping.
          if (block%slip(lane) > 0.0_dp) settling_of_lane%damping = 0.0_dp
       end associate
@@ -89,7 +88,7 @@ contains
       integer :: cycle_periods, cycles
 
       associate (watch => run%watches(lane))
-         call look_back(watch%past, watch%period, watch%film, watch%momentum, watch%ending%steps, cycle_periods, cycle_steps)
+         call look_back(watch%past, watch%period, watch%film, watch%momentum, watch%ending%count%steps, cycle_periods, cycle_steps)
          if (cycle_periods == 0) return
          cycles = 0
          if (watch%period < watch%sample_from) then
@@ -100,7 +99,7 @@ contains
          end if
          if (cycles == 0) return
          watch%period = watch%period + cycles*cycle_periods
-         watch%ending%steps = watch%ending%steps + int(cycles, int64)*cycle_steps
+         watch%ending%count%steps = watch%ending%count%steps + int(cycles, int64)*cycle_steps
          watch%past = recurrence_t()
       end associate
    end subroutine skip_returns

@@ -1,11 +1,12 @@
 !> A block of lanes at work: what has become of the scene of every lane, and what is taken of it on the way.
 module lane_run
+   use engine, only: ending_t
    use film_law, only: film_t
    use film_series, only: film_series_t
    use kinds, only: dp
+   use lane_block, only: lane_block_t
    use lane_functions, only: lanes
    use lane_sampling, only: lane_samples_t
-   use lane_scenes, only: lane_block_t, lane_ending_t
    use period_repetition, only: orbit_watch_t
    use recurrence, only: recurrence_t
    use step_nodes, only: step_nodes_t
@@ -34,7 +35,9 @@ module lane_run
       !> Excursion under way, the period at which it has failed, its forecasts, and excursions made
       type(departure_t) :: departure = departure_t()
       integer :: back_at = 0, forecasts = 0, excursions = 0
-      type(lane_ending_t) :: ending = lane_ending_t()
+      !> Phase in the period that was not finished, of a motion that failed [periods]
+      real(dp) :: phase = 0.0_dp
+      type(ending_t) :: ending = ending_t()
    end type lane_watch_t
 
    !> A block at work.

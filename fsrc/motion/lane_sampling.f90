@@ -2,8 +2,8 @@
 !> Nothing is evaluated where no sample is asked for.
 module lane_sampling
    use kinds, only: dp
+   use lane_block, only: lane_block_t
    use lane_functions, only: lanes
-   use lane_scenes, only: lane_block_t
    use taylor_step_control, only: order
    implicit none(type, external)
    private

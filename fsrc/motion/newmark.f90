@@ -7,9 +7,11 @@
 !> A pass evaluates the film at the present iterate. `successive`: its load gives z''_i, as in the paper.
 !> `newton`: the load is linearised about the iterate, which gives z''_i from one linear equation.
 module newmark
-   use film_law, only: film_kernel, film_t, overflow_load
-   use forcing, only: applied_force
+   use engine, only: motion_count_t, request_t
+   use film_law, only: film_kernel, overflow_load
+   use force, only: force_at
    use kinds, only: dp, int64
+   use problem, only: problem_t
    use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
    implicit none(type, external)
@@ -25,92 +27,55 @@ module newmark
    !> Evaluations after which a period looks whether it must end
    integer(int64), parameter :: evaluations_between_looks = 65536_int64
 
-   !> What stays the same from step to step.
-   type, public :: newmark_t
-      !> Mass m [kg]
-      real(dp) :: mass = 0.0_dp
-      !> Weight m g [N]
-      real(dp) :: weight = 0.0_dp
-      !> Steady force Q and amplitude F0 of (34) [N]
-      real(dp) :: steady_force = 0.0_dp
-      real(dp) :: force_amplitude = 0.0_dp
-      !> Frequency f_exc [Hz]
-      real(dp) :: frequency = 0.0_dp
-      !> eps of (36) [m]
-      real(dp) :: tolerance = 0.0_dp
-      !> Most passes in a step
-      integer :: iteration_limit = 0
-      !> Newton's iteration, else the successive one
-      logical :: by_newton = .true.
-      !> First iterate extrapolated, else the previous state
-      logical :: extrapolate = .true.
-   end type newmark_t
-
    !> State of the motion.
-   type, public :: motion_state_t
+   type, public :: newmark_state_t
       !> Film thickness h [m]
       real(dp) :: film = 0.0_dp
       !> z' [m/s]
       real(dp) :: velocity = 0.0_dp
       !> z'' [m/s2]
       real(dp) :: acceleration = 0.0_dp
-   end type motion_state_t
-
-   !> What the motion cost.
-   type, public :: motion_count_t
-      !> Steps of the grid
-      integer(int64) :: steps = 0
-      !> Evaluations of the film
-      integer(int64) :: evaluations = 0
-      !> Steps that were cut in two, cuts within cuts included
-      integer(int64) :: cuts = 0
-   end type motion_count_t
+   end type newmark_state_t
 
    public :: start_motion, advance_period
 
 contains
 
    !> z''(0) from the equation of motion.
-   pure subroutine start_motion(kernel, film, method, thickness, velocity, state, count, status)
+   pure subroutine start_motion(kernel, problem, state, count, status)
       !> Kernel of the film
       procedure(film_kernel) :: kernel
-      !> The film
-      type(film_t), intent(in) :: film
-      !> Constants of the scene
-      type(newmark_t), intent(in) :: method
-      !> Film at t = 0 [m]
-      real(dp), intent(in) :: thickness
-      !> Film velocity at t = 0 [m/s]
-      real(dp), intent(in) :: velocity
+      !> What moves
+      type(problem_t), intent(in) :: problem
       !> State at t = 0
-      type(motion_state_t), intent(out) :: state
+      type(newmark_state_t), intent(out) :: state
       !> Cost so far
       type(motion_count_t), intent(inout) :: count
       !> Status of scene_status
       integer, intent(out) :: status
       real(dp) :: load, load_by_film, load_by_velocity
 
-      call kernel(film, thickness, velocity, load, load_by_film, load_by_velocity)
+      call kernel(problem%film, problem%initial_film, problem%initial_velocity, load, load_by_film, load_by_velocity)
       count%evaluations = count%evaluations + 1
-      state%film = thickness
-      state%velocity = velocity
-      status = merge(status_complete, film%status_without_load, load < overflow_load)
-      if (status == status_complete) state%acceleration = &
-         (load - method%weight - applied_force(method%steady_force, method%force_amplitude, 0.0_dp))/method%mass
+      state%film = problem%initial_film
+      state%velocity = problem%initial_velocity
+      status = merge(status_complete, problem%film%status_without_load, load < overflow_load)
+      if (status == status_complete) &
+         state%acceleration = (load - problem%weight - force_at(problem%force, 0.0_dp))/problem%mass
    end subroutine start_motion
 
    !> Advance one period of the force. On failure the state is that before the failing step.
-   subroutine advance_period(kernel, film, method, force, state, count, films, velocities, accelerations, done, status)
+   subroutine advance_period(kernel, problem, request, force, state, count, films, velocities, accelerations, done, status)
       !> Kernel of the film
       procedure(film_kernel) :: kernel
-      !> The film
-      type(film_t), intent(in) :: film
-      !> Constants of the scene
-      type(newmark_t), intent(in) :: method
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> How the iteration goes and ends
+      type(request_t), intent(in) :: request
       !> Applied force at the end of every step [N]; its size is the number of steps
       real(dp), intent(in) :: force(:)
       !> State, advanced
-      type(motion_state_t), intent(inout) :: state
+      type(newmark_state_t), intent(inout) :: state
       !> Cost, counted up
       type(motion_count_t), intent(inout) :: count
       !> Samples at the end of every step: h [m], z' [m/s], z'' [m/s2]
@@ -121,12 +86,12 @@ contains
       integer, intent(out) :: done
       !> Status of scene_status
       integer, intent(out) :: status
-      type(motion_state_t) :: next
+      type(newmark_state_t) :: next
       real(dp) :: time_step
       integer(int64) :: next_look
       integer :: i, passes
 
-      time_step = 1.0_dp/(method%frequency*real(size(force), dp))
+      time_step = 1.0_dp/(problem%frequency*real(size(force), dp))
       status = status_complete
       next_look = count%evaluations + evaluations_between_looks
       do i = 1, size(force)
@@ -137,14 +102,14 @@ contains
                exit
             end if
          end if
-         if (method%by_newton) then
-            call newton_step(kernel, film, method, time_step, force(i), state, next, passes, status)
+         if (request%by_newton) then
+            call newton_step(kernel, problem, request, time_step, force(i), state, next, passes, status)
          else
-            call successive_step(kernel, film, method, time_step, force(i), state, next, passes, status)
+            call successive_step(kernel, problem, request, time_step, force(i), state, next, passes, status)
          end if
          count%evaluations = count%evaluations + int(passes, int64)
          if (status /= status_complete) then
-            call cut_step(kernel, film, method, time_step, real(i - 1, dp)/real(size(force), dp), &
+            call cut_step(kernel, problem, request, time_step, real(i - 1, dp)/real(size(force), dp), &
                           1.0_dp/real(size(force), dp), 1, count%cuts + most_cuts, state, next, count, status)
             if (status /= status_complete) exit
          end if
@@ -159,10 +124,11 @@ contains
 
    !> A step in which the film law had no value at some iterate, as two halves that end on the grid.
    !> A step that merely did not converge is not helped: it ends the scene.
-   recursive subroutine cut_step(kernel, film, method, time_step, phase, phase_step, depth, last_cut, state, next, count, status)
+   recursive subroutine cut_step(kernel, problem, request, time_step, phase, phase_step, depth, last_cut, state, next, count, &
+                                 status)
       procedure(film_kernel) :: kernel
-      type(film_t), intent(in) :: film
-      type(newmark_t), intent(in) :: method
+      type(problem_t), intent(in) :: problem
+      type(request_t), intent(in) :: request
       !> Step to be cut [s]
       real(dp), intent(in) :: time_step
       !> Phase at its start, and its length in phase [-]
@@ -172,12 +138,12 @@ contains
       integer, intent(in) :: depth
       !> Count of cuts at which this step of the grid is given up
       integer(int64), intent(in) :: last_cut
-      type(motion_state_t), intent(in) :: state
-      type(motion_state_t), intent(out) :: next
+      type(newmark_state_t), intent(in) :: state
+      type(newmark_state_t), intent(out) :: next
       type(motion_count_t), intent(inout) :: count
       !> On entry why the step failed, on return whether the halves did
       integer, intent(inout) :: status
-      type(motion_state_t) :: from
+      type(newmark_state_t) :: from
       real(dp) :: half, end_phase, force
       integer :: part, passes
 
@@ -188,14 +154,14 @@ contains
       from = state
       do part = 1, 2
          end_phase = phase + 0.5_dp*real(part, dp)*phase_step
-         force = applied_force(method%steady_force, method%force_amplitude, end_phase)
-         if (method%by_newton) then
-            call newton_step(kernel, film, method, half, force, from, next, passes, status)
+         force = force_at(problem%force, end_phase)
+         if (request%by_newton) then
+            call newton_step(kernel, problem, request, half, force, from, next, passes, status)
          else
-            call successive_step(kernel, film, method, half, force, from, next, passes, status)
+            call successive_step(kernel, problem, request, half, force, from, next, passes, status)
          end if
          count%evaluations = count%evaluations + int(passes, int64)
-         if (status /= status_complete) call cut_step(kernel, film, method, half, end_phase - 0.5_dp*phase_step, &
+         if (status /= status_complete) call cut_step(kernel, problem, request, half, end_phase - 0.5_dp*phase_step, &
                                                       0.5_dp*phase_step, depth + 1, last_cut, from, next, count, status)
          if (status /= status_complete) return
          from = next
@@ -203,98 +169,98 @@ contains
    end subroutine cut_step
 
    !> One step, each pass one evaluation of load and slopes and one linear equation for z''.
-   pure subroutine newton_step(kernel, film, method, time_step, force, state, next, passes, status)
+   pure subroutine newton_step(kernel, problem, request, time_step, force, state, next, passes, status)
       procedure(film_kernel) :: kernel
-      type(film_t), intent(in) :: film
-      type(newmark_t), intent(in) :: method
+      type(problem_t), intent(in) :: problem
+      type(request_t), intent(in) :: request
       !> Step [s]
       real(dp), intent(in) :: time_step
       !> Applied force at its end [N]
       real(dp), intent(in) :: force
-      type(motion_state_t), intent(in) :: state
+      type(newmark_state_t), intent(in) :: state
       !> State at its end
-      type(motion_state_t), intent(out) :: next
+      type(newmark_state_t), intent(out) :: next
       integer, intent(out) :: passes
       integer, intent(out) :: status
       real(dp) :: load, load_by_film, load_by_velocity, known_film, known_velocity, old_film, film_weight, velocity_weight, &
                   smallest_film
 
-      call begin_step(method, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
+      call begin_step(request, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
       smallest_film = smallest_film_ratio*state%film
       status = status_film_lost
       passes = 0
       if (next%film <= smallest_film) return
-      do passes = 1, method%iteration_limit
-         call kernel(film, next%film, next%velocity, load, load_by_film, load_by_velocity)
+      do passes = 1, request%iteration_limit
+         call kernel(problem%film, next%film, next%velocity, load, load_by_film, load_by_velocity)
          if (.not. load < overflow_load) then
-            status = film%status_without_load
+            status = problem%film%status_without_load
             return
          end if
          next%acceleration = (load + load_by_film*(known_film - next%film) + &
-                              load_by_velocity*(known_velocity - next%velocity) - force - method%weight)/ &
-                             (method%mass - load_by_film*film_weight - load_by_velocity*velocity_weight)
+                              load_by_velocity*(known_velocity - next%velocity) - force - problem%weight)/ &
+                             (problem%mass - load_by_film*film_weight - load_by_velocity*velocity_weight)
          old_film = next%film
          next%film = known_film + film_weight*next%acceleration
          next%velocity = known_velocity + velocity_weight*next%acceleration
          if (next%film <= smallest_film) return
-         if (abs(next%film - old_film) < method%tolerance) then
+         if (abs(next%film - old_film) < request%tolerance) then
             status = status_complete
             return
          end if
       end do
-      passes = method%iteration_limit
+      passes = request%iteration_limit
       status = status_not_converged
    end subroutine newton_step
 
    !> One step of the paper's iteration: z'' of a pass is that of the equation of motion at the iterate.
-   pure subroutine successive_step(kernel, film, method, time_step, force, state, next, passes, status)
+   pure subroutine successive_step(kernel, problem, request, time_step, force, state, next, passes, status)
       procedure(film_kernel) :: kernel
-      type(film_t), intent(in) :: film
-      type(newmark_t), intent(in) :: method
+      type(problem_t), intent(in) :: problem
+      type(request_t), intent(in) :: request
       !> Step [s]
       real(dp), intent(in) :: time_step
       !> Applied force at its end [N]
       real(dp), intent(in) :: force
-      type(motion_state_t), intent(in) :: state
+      type(newmark_state_t), intent(in) :: state
       !> State at its end
-      type(motion_state_t), intent(out) :: next
+      type(newmark_state_t), intent(out) :: next
       integer, intent(out) :: passes
       integer, intent(out) :: status
       real(dp) :: load, load_by_film, load_by_velocity, known_film, known_velocity, old_film, film_weight, velocity_weight, &
                   smallest_film
 
-      call begin_step(method, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
+      call begin_step(request, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
       smallest_film = smallest_film_ratio*state%film
       status = status_film_lost
       passes = 0
       if (next%film <= smallest_film) return
-      do passes = 1, method%iteration_limit
-         call kernel(film, next%film, next%velocity, load, load_by_film, load_by_velocity)
+      do passes = 1, request%iteration_limit
+         call kernel(problem%film, next%film, next%velocity, load, load_by_film, load_by_velocity)
          if (.not. load < overflow_load) then
-            status = film%status_without_load
+            status = problem%film%status_without_load
             return
          end if
-         next%acceleration = (load - force - method%weight)/method%mass
+         next%acceleration = (load - force - problem%weight)/problem%mass
          old_film = next%film
          next%film = known_film + film_weight*next%acceleration
          next%velocity = known_velocity + velocity_weight*next%acceleration
          if (next%film <= smallest_film) return
-         if (abs(next%film - old_film) < method%tolerance) then
+         if (abs(next%film - old_film) < request%tolerance) then
             status = status_complete
             return
          end if
       end do
-      passes = method%iteration_limit
+      passes = request%iteration_limit
       status = status_not_converged
    end subroutine successive_step
 
    !> Known part of Newmark's formulas and the first iterate.
-   pure subroutine begin_step(method, time_step, state, first, known_film, known_velocity, film_weight, velocity_weight)
-      type(newmark_t), intent(in) :: method
+   pure subroutine begin_step(request, time_step, state, first, known_film, known_velocity, film_weight, velocity_weight)
+      type(request_t), intent(in) :: request
       real(dp), intent(in) :: time_step
-      type(motion_state_t), intent(in) :: state
+      type(newmark_state_t), intent(in) :: state
       !> First iterate
-      type(motion_state_t), intent(out) :: first
+      type(newmark_state_t), intent(out) :: first
       !> h and z' at the end of the step were z'' zero there
       real(dp), intent(out) :: known_film
       real(dp), intent(out) :: known_velocity
@@ -307,7 +273,7 @@ contains
       known_film = state%film + time_step*state%velocity + film_weight*state%acceleration
       known_velocity = state%velocity + velocity_weight*state%acceleration
       first = state
-      if (method%extrapolate) then
+      if (request%extrapolate) then
          first%film = known_film + film_weight*state%acceleration
          first%velocity = known_velocity + velocity_weight*state%acceleration
       end if

@@ -6,9 +6,8 @@
 module node_extremes
    use film_law, only: film_load
    use film_pressure, only: exact_pressure
-   use forcing, only: applied_force
    use kinds, only: dp
-   use lane_scenes, only: lane_scene_t
+   use problem, only: acceleration_at, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    use value_range, only: range_of
    implicit none(type, external)
@@ -45,9 +44,8 @@ module node_extremes
 contains
 
    !> Smallest and largest value of a quantity over some pieces, kept where they are beyond those found before.
-   pure subroutine find_extremes(scene, quantity, period, start, length, films, velocities, values, lowest, highest)
-      !> The scene
-      type(lane_scene_t), intent(in) :: scene
+   pure subroutine find_extremes(problem, quantity, period, start, length, films, velocities, values, lowest, highest)
+      type(problem_t), intent(in) :: problem
       !> Code of the quantity
       integer, intent(in) :: quantity
       !> Periods since the window began
@@ -176,7 +174,7 @@ contains
       pure type(extreme_t) function at_place(piece, x)
          integer, intent(in) :: piece
          real(dp), intent(in) :: x
-         real(dp) :: load, by_film, by_velocity
+         real(dp) :: by_film, by_velocity
          integer :: before
 
          before = nodes_per_piece*(piece - 1)
@@ -191,14 +189,12 @@ contains
          case (seen_velocity)
             at_place%value = at_place%velocity
          case (seen_pressure)
-            at_place%value = exact_pressure(scene%film%radius, scene%film%speed, scene%film%viscosity, at_place%film, &
+            at_place%value = exact_pressure(problem%film%radius, problem%film%speed, problem%film%viscosity, at_place%film, &
                                             at_place%velocity)
+         case (seen_acceleration)
+            at_place%value = acceleration_at(problem, at_place%film, at_place%velocity, min(1.0_dp, at_place%phase))
          case default
-            call film_load(scene%film, at_place%film, at_place%velocity, load, by_film, by_velocity)
-            at_place%value = load
-            if (quantity == seen_acceleration) at_place%value = &
-               (load - scene%weight - applied_force(scene%steady_force, scene%force_amplitude, min(1.0_dp, at_place%phase))) &
-               /scene%mass
+            call film_load(problem%film, at_place%film, at_place%velocity, at_place%value, by_film, by_velocity)
          end select
       end function at_place
 

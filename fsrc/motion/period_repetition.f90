@@ -18,12 +18,12 @@
 !>
 !> Where the film takes many periods to settle, its steps may stay below the errors of the states all along, and their ratios mean
 !> nothing; nor does it help that a state is met again to the last bit, for it may move by less. But there the force moves the
-!> film little in a period, and its law tells how far it has to go (module settling_rate): with steps of film and velocity d_h
+!> film little in a period, and its law tells how far it has to go (module problem): with steps of film and velocity d_h
 !> and d_v, damping d and stiffness k, the mean force is off by d_v + d d_h, the film by that over k, and the film swings about
 !> its rest by d_h over the root of k.
 module period_repetition
    use kinds, only: dp
-   use settling_rate, only: settling_t
+   use problem, only: settling_t
    use taylor_step_control, only: film_weight
    implicit none(type, external)
    private

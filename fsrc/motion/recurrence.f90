@@ -1,6 +1,6 @@
 !> Return of a motion to a state that it has had before, to the last bit.
 !>
-!> Film and momentum at the start of a period decide all that follows (lane_scenes, start_period). Where both have the
+!> Film and momentum at the start of a period decide all that follows (lane_block, start_period). Where both have the
 !> very bits of an earlier period, the periods in between will return again and again: there is nothing left to compute.
 !> Floating-point numbers are finite in number, so a motion that settles gets there, most after ten to forty periods. No
 !> tolerance enters: the motion is the one that would have been computed.

@@ -5,7 +5,7 @@
 !> pieces of eight nodes each where oscillations shorter than it are to be integrated.
 module step_nodes
    use kinds, only: dp
-   use lane_scenes, only: lane_block_t
+   use lane_block, only: lane_block_t
    use taylor_step_control, only: order
    implicit none(type, external)
    private

@@ -18,9 +18,9 @@
 !> the film depends on V alone.
 module taylor_iso_viscous
    use kinds, only: dp
+   use lane_force, only: factor
    use lane_functions, only: lanes
-   use series_factors, only: inverse, wave
-   use taylor_step_control, only: order
+   use taylor_step_control, only: inverse, order
    implicit none(type, external)
    private
 
@@ -29,7 +29,7 @@ module taylor_iso_viscous
 contains
 
    !> Coefficients 1 to `order` of H and V, and the damping rate.
-   pure subroutine iso_viscous_series(rolling, squeeze, load, force_cosine, force_sine, film, momentum, &
+   pure subroutine iso_viscous_series(rolling, squeeze, load, force, film, momentum, &
       damping_rate)
       !> a [-]
       real(dp), intent(in) :: rolling(lanes)
@@ -37,23 +37,20 @@ contains
       real(dp), intent(in) :: squeeze(lanes)
       !> q [-]
       real(dp), intent(in) :: load(lanes)
-      !> f cos(2 pi x) and f sin(2 pi x) at the point of expansion [-]
-      real(dp), intent(in) :: force_cosine(lanes)
-      real(dp), intent(in) :: force_sine(lanes)
+      !> Derivatives of the force that oscillates, by module lane_force [-]
+      real(dp), intent(in) :: force(lanes, order)
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
       real(dp), intent(inout) :: momentum(lanes, 0:order)
       !> -dV'/dV at constant H: b H^(-3/2) [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
-      real(dp) :: p(lanes, 0:order), r(lanes, 0:order), force(lanes, 0:1)
+      real(dp) :: p(lanes, 0:order), r(lanes, 0:order)
       real(dp) :: minus_p(lanes), half_root(lanes), both(lanes), product, square
       integer :: k, j, l
 
       !$omp simd
       do l = 1, lanes
-         force(l, 0) = force_cosine(l)
-         force(l, 1) = force_sine(l)
          p(l, 0) = 1.0_dp/film(l, 0)
          r(l, 0) = sqrt(p(l, 0))
          minus_p(l) = -p(l, 0)
@@ -61,7 +58,7 @@ contains
          both(l) = minus_p(l)*half_root(l)
          damping_rate(l) = 0.5_dp*squeeze(l)*p(l, 0)*r(l, 0)
          film(l, 1) = momentum(l, 0) + squeeze(l)*r(l, 0)
-         momentum(l, 1) = rolling(l)*p(l, 0) - load(l) - force(l, 0)
+         momentum(l, 1) = rolling(l)*p(l, 0) - load(l) - force(l, 1)
          p(l, 1) = minus_p(l)*(film(l, 1)*p(l, 0))
          r(l, 1) = both(l)*(film(l, 1)*p(l, 0))
       end do
@@ -72,7 +69,7 @@ contains
          !$omp simd private(product, square)
          do l = 1, lanes
             film(l, k) = inverse(k)*momentum(l, k - 1) + (inverse(k)*squeeze(l))*r(l, k - 1)
-            momentum(l, k) = (inverse(k)*rolling(l))*p(l, k - 1) - wave(k)*force(l, mod(k - 1, 2))
+            momentum(l, k) = (inverse(k)*rolling(l))*p(l, k - 1) - factor(k)*force(l, k)
             square = 0.0_dp
             do j = 1, (k - 1)/2
                square = square + r(l, j)*r(l, k - j)
@@ -92,8 +89,7 @@ contains
       !$omp simd
       do l = 1, lanes
          film(l, order) = inverse(order)*(momentum(l, order - 1) + squeeze(l)*r(l, order - 1))
-         momentum(l, order) = (inverse(order)*rolling(l))*p(l, order - 1) - wave(order)*force(l, mod(order &
-            - 1, 2))
+         momentum(l, order) = (inverse(order)*rolling(l))*p(l, order - 1) - factor(order)*force(l, order)
       end do
    end subroutine iso_viscous_series
 

@@ -16,9 +16,9 @@
 !>                                             (k+1) S_(k+1) = sum of g_j S_(k-j), j = 0..k
 module taylor_piezo_viscous
    use kinds, only: dp
+   use lane_force, only: factor
    use lane_functions, only: coarse_log, lane_exponential, lanes, log_of_one, octave
-   use series_factors, only: inverse, wave
-   use taylor_step_control, only: order
+   use taylor_step_control, only: inverse, order
    implicit none(type, external)
    private
 
@@ -35,7 +35,7 @@ module taylor_piezo_viscous
 contains
 
    !> Coefficients 1 to `order` of H and V, and the damping rate.
-   pure subroutine piezo_viscous_series(strength, rate, load, force_cosine, force_sine, film, momentum, &
+   pure subroutine piezo_viscous_series(strength, rate, load, force, film, momentum, &
       damping_rate)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
@@ -43,16 +43,15 @@ contains
       real(dp), intent(in) :: rate(lanes)
       !> q [-]
       real(dp), intent(in) :: load(lanes)
-      !> f cos(2 pi x) and f sin(2 pi x) at the point of expansion [-]
-      real(dp), intent(in) :: force_cosine(lanes)
-      real(dp), intent(in) :: force_sine(lanes)
+      !> Derivatives of the force that oscillates, by module lane_force [-]
+      real(dp), intent(in) :: force(lanes, order)
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
       real(dp), intent(inout) :: momentum(lanes, 0:order)
       !> -dV'/dV = c S [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
-      real(dp) :: y(lanes, 0:order), g(lanes, 0:order), s(lanes, 0:order), force(lanes, 0:1)
+      real(dp) :: y(lanes, 0:order), g(lanes, 0:order), s(lanes, 0:order)
       real(dp) :: exponent(lanes), growth(lanes), inverse_film(lanes), product
       integer :: k, j, l
 
@@ -63,14 +62,12 @@ contains
       call lane_exponential(exponent, growth)
       !$omp simd
       do l = 1, lanes
-         force(l, 0) = force_cosine(l)
-         force(l, 1) = force_sine(l)
          inverse_film(l) = 1.0_dp/film(l, 0)
          s(l, 0) = strength(l)*growth(l)*inverse_film(l)*inverse_film(l)*inverse_film(l)*sqrt(inverse_film(l))
          damping_rate(l) = rate(l)*s(l, 0)
          s(l, 0) = merge(s(l, 0), 1.0_dp, damping_rate(l) < largest_rate)
          film(l, 1) = momentum(l, 0)
-         momentum(l, 1) = s(l, 0) - load(l) - force(l, 0)
+         momentum(l, 1) = s(l, 0) - load(l) - force(l, 1)
          y(l, 0) = inverse_film(l)*momentum(l, 0)
          g(l, 0) = -3.5_dp*y(l, 0) - rate(l)*momentum(l, 1)
          s(l, 1) = s(l, 0)*g(l, 0)
@@ -82,7 +79,7 @@ contains
          !$omp simd private(product)
          do l = 1, lanes
             film(l, k) = inverse(k)*momentum(l, k - 1)
-            momentum(l, k) = inverse(k)*s(l, k - 1) - wave(k)*force(l, mod(k - 1, 2))
+            momentum(l, k) = inverse(k)*s(l, k - 1) - factor(k)*force(l, k)
             product = momentum(l, k - 1)
             do j = 1, k - 1
                product = product - film(l, k - j)*y(l, j - 1)
@@ -101,7 +98,7 @@ contains
       !$omp simd
       do l = 1, lanes
          film(l, order) = inverse(order)*momentum(l, order - 1)
-         momentum(l, order) = inverse(order)*s(l, order - 1) - wave(order)*force(l, mod(order - 1, 2))
+         momentum(l, order) = inverse(order)*s(l, order - 1) - factor(order)*force(l, order)
       end do
    end subroutine piezo_viscous_series
 

@@ -14,12 +14,12 @@
 !> first power of x, F_j is needed up to order n - 1 - j only.
 module taylor_reynolds_piezo
    use kinds, only: dp
+   use lane_force, only: factor
    use lane_functions, only: half_block, lanes
    use reynolds_piezo_expansion, only: expand_reynolds_piezo, first_term, highest_peak_power, highest_group_power, &
       highest_sigma_power, reynolds_piezo_expansion_t
-   use series_factors, only: inverse, wave
    use taylor_rupture, only: rupture_order
-   use taylor_step_control, only: order
+   use taylor_step_control, only: inverse, order
    implicit none(type, external)
    private
 
@@ -36,7 +36,7 @@ module taylor_reynolds_piezo
 contains
 
    !> Coefficients 1 to `rupture_order` of H and V, and the damping rate.
-   pure subroutine reynolds_piezo_series(strength, rate, pressing, load, force_cosine, force_sine, film, momentum, &
+   pure subroutine reynolds_piezo_series(strength, rate, pressing, load, force, film, momentum, &
                                          damping_rate, expansion)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
@@ -46,9 +46,8 @@ contains
       real(dp), intent(in) :: pressing(lanes)
       !> q [-]
       real(dp), intent(in) :: load(lanes)
-      !> f cos(2 pi x) and f sin(2 pi x) at the point of expansion [-]
-      real(dp), intent(in) :: force_cosine(lanes)
-      real(dp), intent(in) :: force_sine(lanes)
+      !> Derivatives of the force that oscillates, by module lane_force [-]
+      real(dp), intent(in) :: force(lanes, order)
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
@@ -61,7 +60,7 @@ contains
       real(dp), dimension(half_block) :: half_root, unit_rate, sigma_slope
       !> What z, s and V' take from V, max p* and Psi of the same order
       real(dp), dimension(half_block) :: z_by_momentum, sigma_by_peak, force_by_load
-      real(dp) :: of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force, force
+      real(dp) :: of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force, oscillation
       integer :: before, low, high, k, i, j, m, l
 
       call expand_reynolds_piezo(film(:, 0), momentum(:, 0), rate, pressing, expansion)
@@ -80,7 +79,7 @@ contains
             z_by_momentum(l) = unit_rate(l)*c(l, r, 0)
             sigma_by_peak(l) = sigma_slope(l)*c(l, group, 0)
             force_by_load(l) = strength(before + l)*c(l, p, 0)
-            c(l, v, 1) = force_by_load(l)*expansion%terms(before + l, 0) - load(before + l) - force_cosine(before + l)
+            c(l, v, 1) = force_by_load(l)*expansion%terms(before + l, 0) - load(before + l) - force(before + l, 1)
             damping_rate(before + l) = merge( &
                -force_by_load(l)*rate(before + l)*c(l, r, 0)*expansion%load_slope(before + l), no_expansion, &
                expansion%inside(before + l) > 0.0_dp)
@@ -94,7 +93,7 @@ contains
             ! start, s**2 = 1 - B max p*; then what their new coefficients add to each other: a chain of six operations, during
             ! which the sums of the next order are under way. One loop over lanes an order: where a register holds fewer than
             ! half a block, its rounds share the instructions, which would not fit into the cache of a processor otherwise.
-            !$omp simd private(low, high, of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force, force)
+            !$omp simd private(low, high, of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force, oscillation)
             do l = 1, half_block
                c(l, h, k) = inverse(k)*c(l, v, k - 1)
                of_p = 0.0_dp
@@ -159,7 +158,7 @@ contains
                do j = 1, k - 1
                   of_force = of_force + c(l, p, k - j)*c(l, tail, j)
                end do
-               force = wave(k + 1)*merge(force_cosine(before + l), force_sine(before + l), mod(k, 2) == 0)
+               oscillation = factor(k + 1)*force(before + l, k + 1)
                ! The chain
                c(l, z, k) = c(l, z, k) + z_by_momentum(l)*c(l, v, k)
                c(l, peak, k) = of_peak + expansion%peak(before + l, 1)*c(l, z, k)
@@ -169,7 +168,7 @@ contains
                   c(l, tail + j, k) = (c(l, tail + j, k) + expansion%terms(before + l, first_term(j) + 1)*c(l, z, k)) &
                      + c(l, s, k)*c(l, tail + j + 1, 0)
                end do
-               c(l, v, k + 1) = ((inverse(k + 1)*strength(before + l))*of_force - force) &
+               c(l, v, k + 1) = ((inverse(k + 1)*strength(before + l))*of_force - oscillation) &
                   + (inverse(k + 1)*force_by_load(l))*c(l, tail, k)
             end do
          end do

@@ -14,10 +14,10 @@
 !> as many products of coefficients as two products of whole series.
 module taylor_rupture
    use kinds, only: dp
+   use lane_force, only: factor
    use lane_functions, only: lanes
    use load_expansion, only: expand_load, highest_power, load_expansion_t
-   use series_factors, only: inverse, wave
-   use taylor_step_control, only: free_rate, load_error, order, rounding
+   use taylor_step_control, only: free_rate, inverse, load_error, order, rounding
    implicit none(type, external)
    private
 
@@ -37,7 +37,7 @@ module taylor_rupture
 contains
 
    !> Coefficients 1 to `rupture_order` of H and V, and the damping rate.
-   pure subroutine rupture_series(law, strength, rate, load, force_cosine, force_sine, film, momentum, damping_rate, expansion)
+   pure subroutine rupture_series(law, strength, rate, load, force, film, momentum, damping_rate, expansion)
       !> Load, as module load_pieces numbers it
       integer, intent(in) :: law
       !> a [-]
@@ -46,9 +46,8 @@ contains
       real(dp), intent(in) :: rate(lanes)
       !> q [-]
       real(dp), intent(in) :: load(lanes)
-      !> f cos(2 pi x) and f sin(2 pi x) at the point of expansion [-]
-      real(dp), intent(in) :: force_cosine(lanes)
-      real(dp), intent(in) :: force_sine(lanes)
+      !> Derivatives of the force that oscillates, by module lane_force [-]
+      real(dp), intent(in) :: force(lanes, order)
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
@@ -59,7 +58,7 @@ contains
       type(load_expansion_t), intent(inout) :: expansion
       real(dp) :: c(lanes, series, 0:rupture_order)
       real(dp), dimension(lanes) :: half_root, unit_rate
-      real(dp) :: of_p, of_r, of_z, of_square, of_nest, of_force, force
+      real(dp) :: of_p, of_r, of_z, of_square, of_nest, of_force, oscillation
       integer :: once, k, j, i, l
 
       call expand_load(law, film(:, 0), momentum(:, 0), rate, expansion)
@@ -72,7 +71,7 @@ contains
          half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
          unit_rate(l) = rate(l)*expansion%inverse_unit(l)
          c(l, h, 1) = c(l, v, 0)
-         c(l, v, 1) = strength(l)*c(l, p, 0)*expansion%terms(l, 0) - load(l) - force_cosine(l)
+         c(l, v, 1) = strength(l)*c(l, p, 0)*expansion%terms(l, 0) - load(l) - force(l, 1)
          damping_rate(l) = -strength(l)*c(l, p, 0)*rate(l)*c(l, r, 0)*expansion%load_slope(l)
       end do
       do i = 0, last_pair
@@ -84,7 +83,7 @@ contains
       do once = 1, 1
          !GCC$ unroll 24
          do k = 1, rupture_order - 1
-            !$omp simd private(of_p, of_r, of_z, of_square, of_nest, of_force, force)
+            !$omp simd private(of_p, of_r, of_z, of_square, of_nest, of_force, oscillation)
             do l = 1, lanes
                of_p = 0.0_dp
                of_z = 0.0_dp
@@ -126,9 +125,9 @@ contains
                   of_force = of_force + c(l, p, k - j)*c(l, nest, j)
                end do
                of_force = of_force + c(l, p, k)*c(l, nest, 0) + c(l, p, 0)*c(l, nest, k)
-               force = wave(k + 1)*merge(force_cosine(l), force_sine(l), mod(k, 2) == 0)
+               oscillation = factor(k + 1)*force(l, k + 1)
                c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
-               c(l, v, k + 1) = (inverse(k + 1)*strength(l))*of_force - force
+               c(l, v, k + 1) = (inverse(k + 1)*strength(l))*of_force - oscillation
             end do
          end do
       end do
@@ -187,18 +186,16 @@ contains
    !> first terms left out, so D x/(n + 1) stands for the local error of V; it is held against what the step control
    !> grants the last term. The measure is that of module taylor_step_control at the end of the
    !> step, without its quotients; rounding is not held against a step.
-   pure subroutine distrust_load_unforeseen(error_share, strength, rate, load, amplitude, cosine, force, accuracy, inverse_film, &
-                                            root, carried_load, load_slope, film, momentum, rise, trust)
+   pure subroutine distrust_load_unforeseen(error_share, strength, rate, load, force, accuracy, inverse_film, root, carried_load, &
+                                            load_slope, film, momentum, rise, trust)
       !> Share of the accuracy that a step may use up, over its length [1/periods]
       real(dp), intent(in) :: error_share
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
       !> c [periods]
       real(dp), intent(in) :: rate(lanes)
-      !> q, f, cos(2 pi x) at the end of the step, and P = q + f [-]
+      !> q + f cos(2 pi x) at the end of the step, and P = q + f [-]
       real(dp), intent(in) :: load(lanes)
-      real(dp), intent(in) :: amplitude(lanes)
-      real(dp), intent(in) :: cosine(lanes)
       real(dp), intent(in) :: force(lanes)
       !> Relative accuracy of the film [-]
       real(dp), intent(in) :: accuracy(lanes)
@@ -220,7 +217,7 @@ contains
       do l = 1, lanes
          rate_of_damping = -strength(l)*inverse_film(l)*rate(l)*root(l)*load_slope(l)
          carried = strength(l)*inverse_film(l)*carried_load(l)
-         defect = abs(carried - load(l) - amplitude(l)*cosine(l) - rise(l)) &
+         defect = abs(carried - load(l) - rise(l)) &
             - equation_rounding*(abs(carried) + force(l) + abs(rate_of_damping*momentum(l)))
          ! 1 + H**2, and w (1 + H**2) times the accuracy.
          square_film = 1.0_dp + film(l)*film(l)

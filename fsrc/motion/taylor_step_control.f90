@@ -28,6 +28,10 @@ module taylor_step_control
    !> 1e-11, at most a tenth dearer than the best order.
    integer, parameter, public :: order = 14
 
+   integer :: i
+   !> 1/k
+   real(dp), parameter, public :: inverse(order) = [(1.0_dp/real(i, dp), i=1, order)]
+
    !> Error that is rounding alone.
    real(dp), parameter, public :: rounding = 2.0_dp*epsilon(1.0_dp)
    !> Longest step [periods]

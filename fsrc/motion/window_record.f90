@@ -15,13 +15,15 @@
 !> is 2 |mean of c_n over the periods|, and what the c_n vary by from period to period is power off the harmonics.
 module window_record
    use constants, only: two_pi
+   use engine, only: motion_state_t
    use film_law, only: film_loads
    use film_pressure, only: exact_pressures
+   use force, only: force_on_circle
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
-   use lane_scenes, only: lane_scene_t
    use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
                             seen_velocity
+   use problem, only: problem_t
    use step_nodes, only: node_place, node_weight, nodes_per_piece, step_nodes_t
    implicit none(type, external)
    private
@@ -44,11 +46,8 @@ module window_record
       real(dp) :: shortest_piece = 1.0_dp
       !> Periods recorded: those of the window, but for what only repeats them to the last bit
       integer :: periods = 0
-      !> State where the window begins: h [m], z' [m/s], scaled momentum, and whether the motion went on by the implicit method
-      real(dp) :: start_film = 0.0_dp
-      real(dp) :: start_velocity = 0.0_dp
-      real(dp) :: start_momentum = 0.0_dp
-      logical :: start_implicit = .false.
+      !> State where the window begins
+      type(motion_state_t) :: start = motion_state_t()
       !> z' where the recorded periods end [m/s]
       real(dp) :: end_velocity = 0.0_dp
       !> Smallest and largest values
@@ -76,18 +75,13 @@ module window_record
 contains
 
    !> Start a record where its window begins. What is asked for stays.
-   pure subroutine start_record(film, velocity, momentum, implicit, record)
-      !> State: h [m], z' [m/s], scaled momentum [-]
-      real(dp), intent(in) :: film
-      real(dp), intent(in) :: velocity
-      real(dp), intent(in) :: momentum
-      !> Whether the motion goes on by the implicit method
-      logical, intent(in) :: implicit
+   pure subroutine start_record(start, record)
+      !> State there
+      type(motion_state_t), intent(in) :: start
       !> The record
       type(window_record_t), intent(inout) :: record
 
-      record = window_record_t(wants=record%wants, multiples=record%multiples, start_film=film, start_velocity=velocity, &
-                               start_momentum=momentum, start_implicit=implicit, end_velocity=velocity)
+      record = window_record_t(wants=record%wants, multiples=record%multiples, start=start, end_velocity=start%velocity)
       if (record%multiples == 0) return
       record%longest_piece = oscillations_per_piece/real(record%multiples, dp)
       allocate (record%line_sums(0:record%multiples), record%integrals(record%multiples), source=(0.0_dp, 0.0_dp))
@@ -95,9 +89,8 @@ contains
    end subroutine start_record
 
    !> Add a period, and forget its nodes.
-   pure subroutine record_period(scene, end_velocity, nodes, record)
-      !> The scene
-      type(lane_scene_t), intent(in) :: scene
+   pure subroutine record_period(problem, end_velocity, nodes, record)
+      type(problem_t), intent(in) :: problem
       !> z' at the end of the period [m/s]
       real(dp), intent(in) :: end_velocity
       !> Nodes of the period; none are left
@@ -107,7 +100,7 @@ contains
 
       do first = 1, nodes%pieces, block_pieces
          last = min(first + block_pieces - 1, nodes%pieces)
-         call record_pieces(scene, nodes%start(first:last), nodes%length(first:last), &
+         call record_pieces(problem, nodes%start(first:last), nodes%length(first:last), &
                             nodes%films(nodes_per_piece*(first - 1) + 1:nodes_per_piece*last), &
                             nodes%velocities(nodes_per_piece*(first - 1) + 1:nodes_per_piece*last), record)
       end do
@@ -136,8 +129,8 @@ contains
    end subroutine add_coefficients
 
    !> Add some pieces of steps.
-   pure subroutine record_pieces(scene, start, length, films, velocities, record)
-      type(lane_scene_t), intent(in) :: scene
+   pure subroutine record_pieces(problem, start, length, films, velocities, record)
+      type(problem_t), intent(in) :: problem
       !> Phase where each begins, and its length [periods]
       real(dp), intent(in) :: start(:)
       real(dp), intent(in) :: length(:)
@@ -161,11 +154,11 @@ contains
       do i = 1, n, lanes
          call lane_cosine_sine(phases(i:i + lanes - 1), cosine(i:i + lanes - 1), sine(i:i + lanes - 1))
       end do
-      call film_loads(scene%film, films, velocities, loads(:n))
+      call film_loads(problem%film, films, velocities, loads(:n))
       !$omp simd
       do i = 1, n
-         forces(i) = scene%steady_force + scene%force_amplitude*cosine(i) + scene%weight
-         values(i) = (loads(i) - forces(i))/scene%mass
+         forces(i) = force_on_circle(problem%force, cmplx(cosine(i), sine(i), dp)) + problem%weight
+         values(i) = (loads(i) - forces(i))/problem%mass
       end do
       sum_of = 0.0_dp; size_of = 0.0_dp; square_of = 0.0_dp
       film_work = 0.0_dp; force_work = 0.0_dp; work_size = 0.0_dp
@@ -178,7 +171,7 @@ contains
          force_work = force_work + weights(i)*forces(i)*velocities(i)
          work_size = work_size + weights(i)*(abs(loads(i)*velocities(i)) + abs(forces(i)*velocities(i)))
       end do
-      period = 1.0_dp/scene%frequency
+      period = 1.0_dp/problem%frequency
       record%shortest_piece = min(record%shortest_piece, minval(length))
       record%acceleration_sum = record%acceleration_sum + sum_of
       record%acceleration_size = record%acceleration_size + size_of
@@ -196,7 +189,7 @@ contains
       call search(seen_acceleration, values(:n), record)
       call search(seen_load, loads(:n), record)
       if (record%wants(seen_pressure)) then
-         call exact_pressures(scene%film%radius, scene%film%speed, scene%film%viscosity, films, velocities, values(:n))
+         call exact_pressures(problem%film%radius, problem%film%speed, problem%film%viscosity, films, velocities, values(:n))
          call search(seen_pressure, values(:n), record)
       end if
 
@@ -208,7 +201,7 @@ contains
          real(dp), contiguous, intent(in) :: numbers(:)
          type(window_record_t), intent(inout) :: record
 
-         if (record%wants(quantity)) call find_extremes(scene, quantity, record%periods, start, length, films, velocities, &
+         if (record%wants(quantity)) call find_extremes(problem, quantity, record%periods, start, length, films, velocities, &
                                                         numbers, record%lowest(quantity), record%highest(quantity))
       end subroutine search
 
@@ -304,7 +297,7 @@ contains
 
       gap = 0.0_dp
       if (record%acceleration_size > 0.0_dp) &
-         gap = abs(record%acceleration_sum - (record%end_velocity - record%start_velocity)*frequency)/record%acceleration_size
+         gap = abs(record%acceleration_sum - (record%end_velocity - record%start%velocity)*frequency)/record%acceleration_size
    end function momentum_gap
 
    !> By how much the works of film and force miss the change of kinetic energy, as a share of what went to and fro [-].
@@ -316,7 +309,7 @@ contains
       real(dp) :: kinetic
 
       gap = 0.0_dp
-      kinetic = 0.5_dp*mass*(record%end_velocity - record%start_velocity)*(record%end_velocity + record%start_velocity)
+      kinetic = 0.5_dp*mass*(record%end_velocity - record%start%velocity)*(record%end_velocity + record%start%velocity)
       if (record%work_size > 0.0_dp) gap = abs(record%film_work - record%force_work - kinetic)/record%work_size
    end function energy_gap
 

@@ -1,9 +1,10 @@
 !> The period map: film and velocity at the end of some periods of the force from those at their start.
 !> A motion that repeats is a fixed point of it.
 module period_map
+   use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
+   use problem, only: problem_t
    use scene_status, only: status_complete
    implicit none(type, external)
    private
@@ -13,9 +14,9 @@ module period_map
 contains
 
    !> Images of states under the period map; neighbours are solved together, eight at a time.
-   subroutine map_states(lane, periods, accuracy, films, velocities, mapped)
-      !> The scene; its initial state does not matter
-      type(lane_scene_t), intent(in) :: lane
+   subroutine map_states(problem, periods, accuracy, films, velocities, mapped)
+      !> What moves
+      type(problem_t), intent(in) :: problem
       !> Periods of the force
       integer, intent(in) :: periods
       !> Relative accuracy of the film [-]
@@ -26,19 +27,17 @@ contains
       real(dp), intent(inout) :: velocities(:)
       !> Whether every state could be followed to the end
       logical, intent(out) :: mapped
-      type(lane_scene_t) :: scenes(size(films))
-      type(lane_ending_t) :: endings(size(films))
-      type(lane_request_t) :: request
+      type(problem_t) :: problems(size(films))
+      type(motion_state_t) :: starts(size(films))
+      type(ending_t) :: endings(size(films))
       real(dp) :: no_films(0, size(films)), no_velocities(0, size(films))
 
-      scenes = lane
-      scenes%initial_film = films
-      scenes%initial_velocity = velocities
-      request%accuracy = accuracy
-      request%periods = periods
+      problems = problem
+      starts%film = films
+      starts%velocity = velocities
       no_films = 0.0_dp
       no_velocities = 0.0_dp
-      call solve_motions(scenes, request, no_films, no_velocities, endings)
+      call solve_motions(problems, starts, request_t(accuracy=accuracy, periods=periods), no_films, no_velocities, endings)
       mapped = all(endings%status == status_complete)
       films = endings%film
       velocities = endings%velocity

@@ -3,8 +3,8 @@ module periodic_orbit
    use constants, only: two_pi
    use floquet, only: floquet_multipliers, orbit_stability, orbit_unstable
    use kinds, only: dp
-   use lane_scenes, only: lane_scene_t
    use period_map, only: map_states
+   use problem, only: problem_t
    implicit none(type, external)
    private
 
@@ -33,9 +33,9 @@ module periodic_orbit
 contains
 
    !> Look for a periodic motion near a state; the shortest period that is near enough is taken.
-   function find_periodic_orbit(lane, film, velocity, nearness) result(orbit)
-      !> The scene
-      type(lane_scene_t), intent(in) :: lane
+   function find_periodic_orbit(problem, film, velocity, nearness) result(orbit)
+      !> What moves
+      type(problem_t), intent(in) :: problem
       !> State at the start of a period of the force [m], [m/s]
       real(dp), intent(in) :: film
       real(dp), intent(in) :: velocity
@@ -46,14 +46,14 @@ contains
       integer :: period
       logical :: mapped
 
-      scale = 1.0_dp/(two_pi*lane%frequency)
+      scale = 1.0_dp/(two_pi*problem%frequency)
       films = film
       velocities = velocity
       do period = 1, longest_period
-         call map_states(lane, 1, map_accuracy, films, velocities, mapped)
+         call map_states(problem, 1, map_accuracy, films, velocities, mapped)
          if (.not. mapped) return
          if (max(abs(films(1) - film), abs(velocities(1) - velocity)*scale) > nearness*film) cycle
-         orbit = newton(lane, period, film, velocity, scale)
+         orbit = newton(problem, period, film, velocity, scale)
          if (orbit%period > 0 .and. orbit%distance <= nearness) return
       end do
       orbit = periodic_orbit_t()
@@ -70,8 +70,8 @@ contains
    end function attracting_period
 
    !> Fixed point of the map of some periods, and the multipliers there.
-   function newton(lane, period, film, velocity, scale) result(orbit)
-      type(lane_scene_t), intent(in) :: lane
+   function newton(problem, period, film, velocity, scale) result(orbit)
+      type(problem_t), intent(in) :: problem
       integer, intent(in) :: period
       real(dp), intent(in) :: film
       real(dp), intent(in) :: velocity
@@ -88,7 +88,7 @@ contains
          w = difference_step*state(1)/scale
          films = state(1) + [0.0_dp, h, -h, 0.0_dp, 0.0_dp]
          velocities = state(2) + [0.0_dp, 0.0_dp, 0.0_dp, w, -w]
-         call map_states(lane, period, map_accuracy, films, velocities, mapped)
+         call map_states(problem, period, map_accuracy, films, velocities, mapped)
          if (.not. mapped) return
          jacobian(:, 1) = [films(2) - films(3), velocities(2) - velocities(3)]/(2.0_dp*h)
          jacobian(:, 2) = [films(4) - films(5), velocities(4) - velocities(5)]/(2.0_dp*w)

@@ -1,8 +1,8 @@
 !> All scenes of a call: everything is checked before anything runs.
 module batch
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use checkpoint, only: checkpoint_t
    use command_line, only: command_t
+   use engine, only: checkpoint_t
    use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t
    use memory_need, only: expect_scene_memory
    use output_lock, only: output_lock_t

@@ -3,12 +3,13 @@
 !> multipliers.
 module certify_scene
    use certificate, only: certificate_t, closing_sentence, compare_windows, no_certificate
+   use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
-   use lane_scenes, only: carried_on_from, lane_ending_t, lane_scene_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use quantities, only: quantity_rattle_class, quantity_word
+   use problem, only: problem_t
    use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
@@ -33,13 +34,11 @@ module certify_scene
 contains
 
    !> Certificate and periodic motion of a judged scene.
-   subroutine certify(scene, resolved, lane, periods, window, extremes, verdict, certificate, error, orbit)
+   subroutine certify(scene, resolved, periods, window, extremes, verdict, certificate, error, orbit)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
       type(resolved_scene_t), intent(in) :: resolved
-      !> Its lane
-      type(lane_scene_t), intent(in) :: lane
       !> Periods solved
       integer, intent(in) :: periods
       !> Window at their end
@@ -54,46 +53,48 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> Periodic motion at the end of the run
       type(periodic_orbit_t), intent(out), optional :: orbit
-      type(lane_ending_t) :: ending
+      type(ending_t) :: ending
       type(periodic_orbit_t) :: found
-      type(lane_scene_t) :: tight_lane
+      type(motion_state_t) :: start
       type(rattle_verdict_t) :: tight_verdict
       type(window_t) :: tight
       character(:), allocatable :: unclosed
       real(dp) :: accuracy
 
       accuracy = tight_accuracy
-      tight_lane = lane
+      start = start_of(resolved%problem)
       if (scene%solver%method == method_taylor) then
          accuracy = min(accuracy, max(tightest_accuracy, 0.01_dp*scene%solver%accuracy))
          ! Where there is no room for a tighter solution, another method tells the errors.
-         if (accuracy > 0.05_dp*scene%solver%accuracy) tight_lane%implicit = .true.
+         if (accuracy > 0.05_dp*scene%solver%accuracy) start%implicit = .true.
       end if
       tight%periods = window%periods
       tight%samples_per_period = window%samples_per_period
-      call solve_whole_window(scene, tight_lane, accuracy, periods, resolved%noise_floor_at(accuracy), tight, tight_verdict, &
-                              ending, error)
+      call solve_whole_window(scene, resolved%problem, start, accuracy, periods, resolved%noise_floor_at(accuracy), tight, &
+                              tight_verdict, ending, error)
       if (allocated(error)) return
       if (.not. is_success(ending%status)) then
          certificate = no_certificate('The tighter solution ended as '//status_name(ending%status)//'.')
          return
       end if
       if (present(orbit) .or. tight_verdict%class == class_irregular) then
-         found = find_periodic_orbit(lane, ending%film, ending%velocity, orbit_nearness)
+         found = find_periodic_orbit(resolved%problem, ending%film, ending%velocity, orbit_nearness)
          call note_orbit(verdict, attracting_period(found))
          call note_orbit(tight_verdict, attracting_period(found))
       end if
       if (present(orbit)) orbit = found
-      unclosed = closing_sentence(window%record, lane%frequency, lane%mass, resolved%noise_floor)
+      unclosed = closing_sentence(window%record, resolved%problem%frequency, resolved%problem%mass, resolved%noise_floor)
       if (len(unclosed) == 0) unclosed = &
-         closing_sentence(tight%record, lane%frequency, lane%mass, resolved%noise_floor_at(accuracy))
+         closing_sentence(tight%record, resolved%problem%frequency, resolved%problem%mass, &
+                                                            resolved%noise_floor_at(accuracy))
       if (len(unclosed) == 0 .and. .not. (verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient)) &
          unclosed = too_few_samples(scene, tight)
       if (len(unclosed) == 0 .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
          if (min(verdict%reversals_per_period, tight_verdict%reversals_per_period)*real(window%periods, dp) < least_reversals) &
             unclosed = 'The window holds too few strikes to tell an irregular motion; more of spectrum.periods would.'
          if (len(unclosed) == 0) &
-            call look_behind(scene, tight_lane, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
+            call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, &
+                             error)
          if (allocated(error)) return
       end if
       associate (stride => tight%samples_per_period/window%samples_per_period)
@@ -105,11 +106,11 @@ contains
 
    !> Whether a motion stays irregular behind its window. One that strikes now and then may be quiet for a window and irregular
    !> in the next: then the class is that of the window, not of the motion.
-   subroutine look_behind(scene, lane, accuracy, noise_floor, judged, ending, reason, error)
+   subroutine look_behind(scene, problem, accuracy, noise_floor, judged, ending, reason, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
-      !> Its lane
-      type(lane_scene_t), intent(in) :: lane
+      !> What moves
+      type(problem_t), intent(in) :: problem
       !> Relative accuracy of the solution [-]
       real(dp), intent(in) :: accuracy
       !> Amplitude that its errors explain [m/s2]
@@ -117,13 +118,13 @@ contains
       !> The window that was judged
       type(window_t), intent(in) :: judged
       !> Where it ends
-      type(lane_ending_t), intent(in) :: ending
+      type(ending_t), intent(in) :: ending
       !> Empty if the motion stays irregular
       character(:), allocatable, intent(inout) :: reason
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
-      type(lane_scene_t) :: behind
-      type(lane_ending_t) :: last
+      type(motion_state_t) :: start
+      type(ending_t) :: last
       type(window_t) :: window
       type(rattle_verdict_t) :: verdict
       integer :: windows, i
@@ -132,8 +133,9 @@ contains
       windows = max(least_windows_behind, (least_periods_behind - 1)/judged%periods + 1)
       do i = 1, windows
          window = window_t(periods=judged%periods, samples_per_period=judged%samples_per_period)
-         behind = carried_on_from(lane, last%film, last%velocity, last%momentum, last%implicit, 0)
-         call solve_whole_window(scene, behind, accuracy, judged%periods, noise_floor, window, verdict, last, error)
+         start = last%motion_state_t
+         start%periods = 0
+         call solve_whole_window(scene, problem, start, accuracy, judged%periods, noise_floor, window, verdict, last, error)
          if (allocated(error)) return
          if (.not. is_success(last%status)) then
             reason = 'Behind the window the motion ends as '//status_name(last%status)//'.'

@@ -1,14 +1,14 @@
 !> Last periods of a scene by the error-controlled engine, and the verdict on them by as many samples as their lines need, or
 !> by integrals over the steps where no number of samples would do.
 module fine_window
+   use controlled_engine, only: solve_window
+   use engine, only: ending_t, motion_state_t, request_t
    use errors, only: error_t
-   use integrate_controlled, only: solve_window
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: carried_on_from, lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
+   use problem, only: acceleration_at, problem_t
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
-   use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: is_success
    use scene_types, only: scene_t, spectrum_choice_t
    use window_record, only: window_record_t
@@ -38,16 +38,17 @@ module fine_window
       logical :: by_integrals = .false.
    end type window_t
 
-   public :: solve_whole_window, judge_window, integral_record, classify_window, window_again
+   public :: solve_whole_window, judge_window, integral_record, classify_window
 
 contains
 
    !> Solve a scene and judge its last periods.
-   subroutine solve_whole_window(scene, lane, accuracy, periods, noise_floor, window, verdict, ending, error)
+   subroutine solve_whole_window(scene, problem, start, accuracy, periods, noise_floor, window, verdict, ending, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
-      !> Its lane
-      type(lane_scene_t), intent(in) :: lane
+      !> What moves, and where the motion starts
+      type(problem_t), intent(in) :: problem
+      type(motion_state_t), intent(in) :: start
       !> Relative accuracy [-]
       real(dp), intent(in) :: accuracy
       !> Periods to solve
@@ -59,22 +60,22 @@ contains
       !> Verdict on it
       type(rattle_verdict_t), intent(out) :: verdict
       !> How the run ended; without success there is no window
-      type(lane_ending_t), intent(out) :: ending
+      type(ending_t), intent(out) :: ending
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
 
-      call solve_window(lane, accuracy, window%samples_per_period, periods, window%periods, window%films, window%velocities, &
-                        window%accelerations, ending, window%record)
-      if (is_success(ending%status)) call judge_window(scene, lane, accuracy, noise_floor, window, verdict, error)
+      call solve_window(problem, start, accuracy, window%samples_per_period, periods, window%periods, window%films, &
+                        window%velocities, window%accelerations, ending, window%record)
+      if (is_success(ending%status)) call judge_window(scene, problem, accuracy, noise_floor, window, verdict, error)
    end subroutine solve_whole_window
 
    !> Judge a window of the error-controlled engine: by its samples, by twice as many until they are enough, or by integrals over
    !> the steps. The window is solved again from where it begins, which gives the same motion.
-   subroutine judge_window(scene, lane, accuracy, noise_floor, window, verdict, error)
+   subroutine judge_window(scene, problem, accuracy, noise_floor, window, verdict, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
-      !> Its lane
-      type(lane_scene_t), intent(in) :: lane
+      !> What moves
+      type(problem_t), intent(in) :: problem
       !> Relative accuracy of its solution [-]
       real(dp), intent(in) :: accuracy
       !> Amplitude that the errors of the solution explain [m/s2]
@@ -86,31 +87,31 @@ contains
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
       type(window_t) :: finer
-      type(lane_ending_t) :: ending
+      type(ending_t) :: ending
 
-      call classify_window(scene, lane, window%periods, window%accelerations, window%record, noise_floor, verdict)
+      call classify_window(scene, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
       do while (.not. verdict%lines%sampling_sufficient .and. window%record%shortest_piece > least_piece)
          if (2*window%samples_per_period > most_samples_per_period .or. 2*size(window%films) > most_samples) exit
          call expect_window_memory(2*size(window%films), error)
          if (allocated(error)) return
          finer%periods = window%periods
          finer%samples_per_period = 2*window%samples_per_period
-         call solve_window(window_again(lane, window%record), accuracy, finer%samples_per_period, finer%periods, finer%periods, &
+         call solve_window(problem, window%record%start, accuracy, finer%samples_per_period, finer%periods, finer%periods, &
                            finer%films, finer%velocities, finer%accelerations, ending, finer%record)
          if (.not. is_success(ending%status)) exit
          window = finer
-         call classify_window(scene, lane, window%periods, window%accelerations, window%record, noise_floor, verdict)
+         call classify_window(scene, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
       end do
       window%by_integrals = .not. verdict%lines%sampling_sufficient
-      if (window%by_integrals) call judge_by_integrals(scene, lane, accuracy, noise_floor, window, verdict)
+      if (window%by_integrals) call judge_by_integrals(scene, problem, accuracy, noise_floor, window, verdict)
    end subroutine judge_window
 
    !> Judge a window by integrals over the steps of its motion.
-   subroutine judge_by_integrals(scene, lane, accuracy, noise_floor, window, verdict)
+   subroutine judge_by_integrals(scene, problem, accuracy, noise_floor, window, verdict)
       !> Checked scene
       type(scene_t), intent(in) :: scene
-      !> Its lane
-      type(lane_scene_t), intent(in) :: lane
+      !> What moves
+      type(problem_t), intent(in) :: problem
       !> Relative accuracy of its solution [-]
       real(dp), intent(in) :: accuracy
       !> Amplitude that the errors of the solution explain [m/s2]
@@ -119,20 +120,17 @@ contains
       type(window_t), intent(in) :: window
       !> Verdict by its samples, replaced if the integrals can be had
       type(rattle_verdict_t), intent(inout) :: verdict
-      type(lane_request_t) :: request
-      type(lane_ending_t) :: endings(1)
+      type(request_t) :: request
+      type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
       real(dp) :: films(window%periods, 1), velocities(window%periods, 1)
 
       records(1) = integral_record(scene%spectrum)
-      request%accuracy = accuracy
-      request%periods = window%periods
-      request%sampled_periods = window%periods
-      request%samples_per_period = 1
-      request%every_period = .true.
-      call solve_motions([window_again(lane, window%record)], request, films, velocities, endings, records=records)
+      request = request_t(accuracy=accuracy, periods=window%periods, sampled_periods=window%periods, samples_per_period=1, &
+                          every_period=.true.)
+      call solve_motions([problem], [window%record%start], request, films, velocities, endings, records=records)
       if (.not. is_success(endings(1)%status)) return
-      call classify_steps(records(1), scene%load%frequency, scene%spectrum, noise_floor, verdict)
+      call classify_steps(records(1), problem%frequency, scene%spectrum, noise_floor, verdict)
    end subroutine judge_by_integrals
 
    !> An empty record that asks for Fourier integrals.
@@ -145,23 +143,12 @@ contains
       record%multiples = max(usual_multiples, 2*spectrum%idle_lines)
    end function integral_record
 
-   !> The motion from where a window begins.
-   pure function window_again(lane, record) result(again)
-      !> The scene
-      type(lane_scene_t), intent(in) :: lane
-      !> Record of its window
-      type(window_record_t), intent(in) :: record
-      type(lane_scene_t) :: again
-
-      again = carried_on_from(lane, record%start_film, record%start_velocity, record%start_momentum, record%start_implicit, 0)
-   end function window_again
-
    !> Class of a window by its samples, and whether they are enough: their mean and their power must be those of the steps.
-   subroutine classify_window(scene, lane, periods, accelerations, record, noise_floor, verdict)
+   subroutine classify_window(scene, problem, periods, accelerations, record, noise_floor, verdict)
       !> Checked scene
       type(scene_t), intent(in) :: scene
-      !> Its lane
-      type(lane_scene_t), intent(in) :: lane
+      !> What moves
+      type(problem_t), intent(in) :: problem
       !> Periods of the window
       integer, intent(in) :: periods
       !> z'' of its samples, the same count in each period [m/s2]
@@ -179,45 +166,45 @@ contains
       call classify(accelerations, choice, noise_floor, verdict)
       associate (lines => verdict%lines)
          if (record%periods > 0 .and. lines%sampling_sufficient) lines%sampling_sufficient = &
-            samples_agree(lane, accelerations(:record%periods*(size(accelerations)/periods)), record, noise_floor, &
+            samples_agree(problem, accelerations(:record%periods*(size(accelerations)/periods)), record, noise_floor, &
                           lines%harmonics(1))
-         if (record%periods > 0) lines%resolution_error = lines%resolution_error + error_of_ends(lane, accelerations, record)
+         if (record%periods > 0) lines%resolution_error = lines%resolution_error + error_of_ends(problem, accelerations, record)
          lines%count_is_bound = .not. lines%sampling_sufficient
          lines%distortion_is_bound = .not. lines%sampling_sufficient
       end associate
    end subroutine classify_window
 
    !> Error of the lines of samples of a window that does not return to where it began, by Euler and Maclaurin [m/s2].
-   pure real(dp) function error_of_ends(lane, z, record)
-      type(lane_scene_t), intent(in) :: lane
+   pure real(dp) function error_of_ends(problem, z, record)
+      type(problem_t), intent(in) :: problem
       !> z'' of the window [m/s2]
       real(dp), intent(in) :: z(:)
       type(window_record_t), intent(in) :: record
-      real(dp) :: start(1)
+      real(dp) :: start
       integer :: n
 
       n = size(z)
-      call accelerations_of_samples(lane, 1, [record%start_film], [record%start_velocity], start)
-      error_of_ends = (abs(z(n) - start(1)) + abs((z(n) - z(n - 1)) - (z(1) - start(1))))/real(n, dp)
+      start = acceleration_at(problem, record%start%film, record%start%velocity, 0.0_dp)
+      error_of_ends = (abs(z(n) - start) + abs((z(n) - z(n - 1)) - (z(1) - start)))/real(n, dp)
    end function error_of_ends
 
    !> Whether samples have the mean and the power that the steps have, over the periods that were recorded.
-   pure logical function samples_agree(lane, z, record, noise_floor, first_harmonic)
-      type(lane_scene_t), intent(in) :: lane
+   pure logical function samples_agree(problem, z, record, noise_floor, first_harmonic)
+      type(problem_t), intent(in) :: problem
       !> z'' of the periods recorded [m/s2]
       real(dp), intent(in) :: z(:)
       type(window_record_t), intent(in) :: record
       real(dp), intent(in) :: noise_floor
       !> a_1 [m/s2]
       real(dp), intent(in) :: first_harmonic
-      real(dp) :: start(1), count, mean, power, true_mean, true_power
+      real(dp) :: start, count, mean, power, true_mean, true_power
       integer :: i
 
       count = real(size(z), dp)
-      call accelerations_of_samples(lane, 1, [record%start_film], [record%start_velocity], start)
+      start = acceleration_at(problem, record%start%film, record%start%velocity, 0.0_dp)
       ! By the trapezium, which leaves no error where the motion is smooth and repeats.
-      mean = -0.5_dp*(z(size(z)) - start(1))
-      power = -0.5_dp*(z(size(z))**2 - start(1)**2)
+      mean = -0.5_dp*(z(size(z)) - start)
+      power = -0.5_dp*(z(size(z))**2 - start**2)
       !$omp simd reduction(+: mean, power)
       do i = 1, size(z)
          mean = mean + z(i)
@@ -225,7 +212,7 @@ contains
       end do
       mean = mean/count
       power = power/count
-      true_mean = (record%end_velocity - record%start_velocity)*lane%frequency/real(record%periods, dp)
+      true_mean = (record%end_velocity - record%start%velocity)*problem%frequency/real(record%periods, dp)
       true_power = record%acceleration_square/real(record%periods, dp)
       samples_agree = abs(mean - true_mean) <= mean_share*first_harmonic + noise_floor .and. &
                       abs(power - true_power) <= power_share*true_power + 4.0_dp*noise_floor*sqrt(true_power)

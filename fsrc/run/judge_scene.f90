@@ -1,16 +1,14 @@
 !> Judges a solved scene: its window, class and regime, and how far they can be trusted.
 module judge_scene
    use certify_scene, only: certify
+   use engine, only: ending_t
    use errors, only: error_t
    use fine_window, only: classify_window, judge_window, window_t
-   use integrate_motion, only: motion_end_t
    use judged_scene, only: judged_scene_t
-   use lane_scenes, only: lane_scene_t
    use node_extremes, only: seen_pressure
    use rattle_class, only: note_orbit
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
-   use scene_lane, only: lane_of_scene
    use scene_status, only: is_success
    use scene_types, only: scene_t
    use signals, only: must_stop
@@ -25,7 +23,7 @@ contains
 
    !> Note how a motion ended.
    pure subroutine note_ending(ending, judged)
-      type(motion_end_t), intent(in) :: ending
+      type(ending_t), intent(in) :: ending
       type(judged_scene_t), intent(inout) :: judged
 
       judged%status = ending%status
@@ -48,7 +46,6 @@ contains
       type(judged_scene_t), intent(inout) :: judged
       !> Set if there is not enough memory; nothing is judged then
       type(error_t), allocatable, intent(out) :: error
-      type(lane_scene_t) :: lane
       type(window_t) :: window
 
       judged%judged = is_success(judged%status)
@@ -58,9 +55,8 @@ contains
       allocate (window%films, source=recorder%films)
       allocate (window%velocities, source=recorder%velocities)
       allocate (window%accelerations, source=recorder%accelerations)
-      lane = lane_of_scene(scene, judged%resolved%film, judged%resolved%initial_film, scene%film%initial_velocity)
       window%record = record
-      call classify_window(scene, lane, window%periods, window%accelerations, window%record, &
+      call classify_window(scene, judged%resolved%problem, window%periods, window%accelerations, window%record, &
                            judged%resolved%noise_floor, judged%rattle)
       ! A signal ends the verdict on a long window here, between two stretches of some seconds.
       judged%judged = .not. must_stop()
@@ -68,7 +64,8 @@ contains
       judged%series_coarse = .not. judged%rattle%lines%sampling_sufficient
       ! What the error-controlled engine has solved can be solved again, sampled finer, from where the window begins.
       if (judged%series_coarse .and. window%record%periods > 0) &
-         call judge_window(scene, lane, scene%solver%accuracy, judged%resolved%noise_floor, window, judged%rattle, error)
+         call judge_window(scene, judged%resolved%problem, scene%solver%accuracy, judged%resolved%noise_floor, window, &
+                           judged%rattle, error)
       judged%judged = .not. allocated(error)
       if (.not. judged%judged) return
       call note_orbit(judged%rattle, judged%repeats_after)
@@ -78,12 +75,13 @@ contains
       if (window%record%periods > 0) then
          judged%extremes = extremes_of_record(record)
       else
-         judged%extremes = extremes_of_samples(judged%resolved%film, window%films, window%velocities, window%accelerations)
+         judged%extremes = extremes_of_samples(judged%resolved%problem%film, window%films, window%velocities, &
+                                               window%accelerations)
       end if
       associate (pressure => judged%extremes%highest(seen_pressure))
-         judged%regime = check_regime(judged%resolved%film, pressure%value, pressure%film)
+         judged%regime = check_regime(judged%resolved%problem%film, pressure%value, pressure%film)
       end associate
-      if (scene%spectrum%certify) call certify(scene, judged%resolved, lane, judged%periods, window, judged%extremes, &
+      if (scene%spectrum%certify) call certify(scene, judged%resolved, judged%periods, window, judged%extremes, &
                                                judged%rattle, judged%certificate, error, judged%orbit)
       judged%judged = .not. allocated(error)
    end subroutine judge

@@ -2,9 +2,9 @@
 module judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use certificate, only: certificate_t
+   use engine, only: motion_count_t
    use floquet, only: orbit_stability
    use kinds, only: dp
-   use newmark, only: motion_count_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_load, seen_velocity
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_maximum, quantity_acceleration_maximum_error, &
@@ -122,7 +122,7 @@ contains
          case (quantity_load_maximum)
             value = highest(seen_load)%value
          case (quantity_model_limit)
-            value = real(model_limit(lowest(seen_film)%value, highest(seen_film)%value, judged%resolved%film%radius), dp)
+            value = real(model_limit(lowest(seen_film)%value, highest(seen_film)%value, judged%resolved%problem%film%radius), dp)
          case (quantity_reversals_per_period)
             value = judged%rattle%reversals_per_period
          case (quantity_first_harmonic)

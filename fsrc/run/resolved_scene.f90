@@ -1,23 +1,24 @@
 !> A scene with all that follows from it before anything is solved.
 module resolved_scene
    use constants, only: two_pi
-   use film_law, only: film_load, film_t, new_film, steady_film
+   use engine, only: request_t
+   use film_law, only: steady_film
    use film_pressure, only: pressure_scale
+   use force, only: largest_oscillation
    use kinds, only: dp
+   use problem, only: linearise, problem_of, problem_t
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
-   use scene_types, only: method_newmark, scene_t
+   use scene_types, only: iteration_newton, method_newmark, predictor_extrapolated, scene_t, until_steady
    use taylor_step_control, only: film_weight, momentum_weight
    implicit none(type, external)
    private
 
    !> What follows from a scene.
    type, public :: resolved_scene_t
-      type(film_t) :: film
+      type(problem_t) :: problem = problem_t()
       !> Film that carries Q + m g [m]; 0 where no rigid film does: then nothing that rests on it is known
       real(dp) :: steady_film = 0.0_dp
-      !> Film at t = 0 [m]
-      real(dp) :: initial_film = 0.0_dp
       !> sqrt(k/m)/(2 pi) and c/(2 sqrt(k m)) with the total derivatives of the scene's own film
       real(dp) :: natural_frequency = 0.0_dp
       real(dp) :: damping_ratio = 0.0_dp
@@ -35,7 +36,7 @@ module resolved_scene
       procedure :: noise_floor_at
    end type resolved_scene_t
 
-   public :: resolve
+   public :: resolve, request_of
 
 contains
 
@@ -44,24 +45,22 @@ contains
       !> Checked scene
       type(scene_t), intent(in) :: scene
       type(resolved_scene_t) :: resolved
-      real(dp) :: static_load, load, load_by_film, load_by_velocity
+      real(dp) :: static_load, stiffness, damping
 
-      associate (film => resolved%film, mass => scene%load%mass)
-         film = new_film(scene)
-         static_load = scene%load%static_load()
-         resolved%steady_film = steady_film(film, static_load)
-         resolved%initial_film = resolved%steady_film
-         if (scene%film%initial_film > 0.0_dp) resolved%initial_film = scene%film%initial_film
-         if (resolved%initial_film > 0.0_dp) resolved%initial_squeeze_group = &
-            squeeze_group(film%radius, film%speed, resolved%initial_film, scene%film%initial_velocity)
-         resolved%rounding_noise = 1.0e-12_dp*(static_load + scene%load%force_amplitude)/mass
+      resolved%problem = problem_of(scene)
+      static_load = scene%load%static_load()
+      resolved%steady_film = steady_film(resolved%problem%film, static_load)
+      associate (problem => resolved%problem, film => resolved%problem%film, mass => resolved%problem%mass)
+         if (problem%initial_film > 0.0_dp) resolved%initial_squeeze_group = &
+            squeeze_group(film%radius, film%speed, problem%initial_film, problem%initial_velocity)
+         resolved%rounding_noise = 1.0e-12_dp*(static_load + largest_oscillation(problem%force))/mass
          resolved%noise_floor = resolved%rounding_noise
          if (.not. resolved%steady_film > 0.0_dp) return
-         call film_load(film, resolved%steady_film, 0.0_dp, load, load_by_film, load_by_velocity)
-         resolved%natural_frequency = sqrt(-load_by_film/mass)/two_pi
-         resolved%damping_ratio = -load_by_velocity/(2.0_dp*sqrt(-load_by_film*mass))
-         resolved%noise_by_accuracy = noise_of_steps(resolved%steady_film, -load_by_film/mass, -load_by_velocity/mass, &
-                                                     static_load/mass, scene%load%frequency)
+         call linearise(problem, resolved%steady_film, stiffness, damping)
+         resolved%natural_frequency = sqrt(stiffness/mass)/two_pi
+         resolved%damping_ratio = damping/(2.0_dp*sqrt(stiffness*mass))
+         resolved%noise_by_accuracy = noise_of_steps(resolved%steady_film, stiffness/mass, damping/mass, &
+                                                     static_load/mass, problem%frequency)
          ! Newmark's steps are not chosen by an accuracy, and at rest they stand still. What a loose tolerance makes of them
          ! is a motion that the certificate doubts.
          if (scene%solver%method /= method_newmark) resolved%noise_floor = resolved%noise_floor_at(scene%solver%accuracy)
@@ -70,6 +69,24 @@ contains
          resolved%alpha_p = steady_alpha_p(film, resolved%steady_film)
       end associate
    end function resolve
+
+   !> What a scene asks of its engine.
+   pure type(request_t) function request_of(scene) result(request)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+
+      request%accuracy = scene%solver%accuracy
+      request%periods = scene%solver%periods
+      request%samples_per_period = scene%solver%samples_per_period()
+      request%sampled_periods = scene%spectrum%periods
+      request%until_steady = scene%solver%until == until_steady
+      request%all_samples = scene%output%series
+      request%time_limit = scene%solver%time_limit
+      request%tolerance = scene%solver%tolerance
+      request%iteration_limit = scene%solver%iteration_limit
+      request%by_newton = scene%solver%iteration == iteration_newton
+      request%extrapolate = scene%solver%predictor == predictor_extrapolated
+   end function request_of
 
    !> Amplitude of acceleration that rounding and the accuracy of a solution of the error-controlled engine explain [m/s2].
    elemental real(dp) function noise_floor_at(self, accuracy)

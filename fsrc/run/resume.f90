@@ -5,11 +5,11 @@
 !> which the longer run would still look for repetition, with all that the search looks back on; once the motion is
 !> known to repeat, the state at the start of the one orbit that it is judged by.
 module resume
-   use checkpoint, only: checkpoint_t
+   use controlled_engine, only: last_search_period
+   use engine, only: checkpoint_t
    use errors, only: error_t, exit_bad_input, raise
    use file_system, only: file_state_t, state_of_path
    use input_difference, only: first_difference
-   use integrate_controlled, only: last_search_period
    use kinds, only: dp, int64
    use output_place, only: result_path, state_path
    use period_repetition, only: orbit_watch_t
@@ -183,8 +183,8 @@ contains
 
       associate (watch => state%watch)
          row = [real(state%periods, dp), state%film, state%velocity, state%acceleration, state%momentum, &
-                merge(1.0_dp, 0.0_dp, state%implicit), real(state%steps, dp), real(state%evaluations, dp), &
-                real(state%cuts, dp), real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), watch%film, &
+                merge(1.0_dp, 0.0_dp, state%implicit), real(state%count%steps, dp), real(state%count%evaluations, dp), &
+                real(state%count%cuts, dp), real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), watch%film, &
                 watch%momentum]
       end associate
    end function row_of
@@ -201,9 +201,10 @@ contains
       state%acceleration = row(4)
       state%momentum = row(5)
       state%implicit = row(6) > 0.5_dp
-      state%steps = nint(row(7), int64)
-      state%evaluations = nint(row(8), int64)
-      state%cuts = nint(row(9), int64)
+      state%carried_on = state%periods > 0
+      state%count%steps = nint(row(7), int64)
+      state%count%evaluations = nint(row(8), int64)
+      state%count%cuts = nint(row(9), int64)
       state%orbit = nint(row(10))
       state%watch%count = nint(row(11))
       state%watch%newest = nint(row(12))

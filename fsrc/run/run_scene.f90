@@ -1,27 +1,27 @@
 !> One scene from input to files: resolve, solve, judge, record.
 module run_scene
-   use checkpoint, only: checkpoint_t
    use clock, only: wall_seconds
+   use controlled_engine, only: solve_controlled
+   use engine, only: checkpoint_t, ending_t
    use errors, only: error_t
    use finished_files, only: place_files
-   use integrate_controlled, only: solve_controlled
-   use integrate_motion, only: motion_end_t, solve_motion
    use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
    use log_file, only: log_t
+   use newmark_engine, only: solve_newmark
    use output_place, only: log_path, result_path, state_path, summary_path
    use progress, only: progress_t
-   use resolved_scene, only: resolve
+   use resolved_scene, only: request_of, resolve
    use resume, only: load_state, save_state
    use sample_recorder, only: sample_recorder_t
-   use scene_lane, only: lane_of_scene
    use scene_report, only: report_ending, report_start
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written
    use scene_summary, only: write_scene_summary
    use scene_types, only: method_taylor, scene_t
    use signals, only: caught_signal
    use text, only: integer_text
+   use window_record, only: window_record_t
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -43,10 +43,11 @@ contains
       integer, intent(out) :: status
       !> Set if a file could not be written
       type(error_t), allocatable, intent(out) :: error
-      type(motion_end_t) :: ending
+      type(ending_t) :: ending
+      type(window_record_t) :: record
       type(judged_scene_t) :: judged
       type(sample_recorder_t) :: recorder
-      type(checkpoint_t) :: start
+      type(checkpoint_t) :: state
       type(progress_t) :: watcher
       type(log_t), target :: log
       type(error_t), allocatable :: write_error
@@ -56,7 +57,7 @@ contains
       started = wall_seconds()
       solve_seconds = 0.0_dp
       judged%resolved = resolve(scene)
-      if (carry_on) call load_state(scene, start, error)
+      if (carry_on) call load_state(scene, state, error)
       if (carry_on .and. caught_signal() /= 0) then
          ! The files of the earlier run were not verified to their end; they stay as they are.
          status = status_interrupted
@@ -65,32 +66,30 @@ contains
       if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
       call report_start(log, scene, judged)
-      if (start%orbit > 0) then
-         call log%line('  found steady by the earlier run; its orbit is solved again from period '//integer_text(start%periods))
-      else if (start%periods > 0) then
-         call log%line('  carried on from period '//integer_text(start%periods))
+      if (state%orbit > 0) then
+         call log%line('  found steady by the earlier run; its orbit is solved again from period '//integer_text(state%periods))
+      else if (state%periods > 0) then
+         call log%line('  carried on from period '//integer_text(state%periods))
       end if
-      call recorder%open(scene, result_path(scene), start%periods, error)
+      call recorder%open(scene, result_path(scene), state%periods, error)
       if (.not. allocated(error)) then
          call watcher%start(log, quiet)
          if (scene%solver%method /= method_taylor) then
-            call solve_motion(scene, judged%resolved%film, judged%resolved%initial_film, start, recorder, watcher, ending, error)
+            call solve_newmark(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
          else
-            call solve_controlled(scene, judged%resolved%film, judged%resolved%initial_film, start, scene%output%series, &
-                                  recorder, watcher, ending, error)
+            call solve_controlled(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
          end if
          call watcher%clear()
          solve_seconds = wall_seconds() - started
          call note_ending(ending, judged)
-         if (.not. allocated(error)) call judge(scene, recorder, ending%record, judged, error)
+         if (.not. allocated(error)) call judge(scene, recorder, record, judged, error)
          ! A signal that came meanwhile has cut the certificate short.
          if (is_success(judged%status) .and. caught_signal() /= 0) judged%status = status_interrupted
-         if (judged%judged) call recorder%add_extremes( &
-            lane_of_scene(scene, judged%resolved%film, judged%resolved%initial_film, scene%film%initial_velocity), ending%record, &
-            judged%periods - judged%window_periods, judged%series_coarse)
+         if (judged%judged) call recorder%add_extremes(judged%resolved%problem, record, &
+                                                         judged%periods - judged%window_periods, judged%series_coarse)
          call recorder%close(write_error)
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
-         if (.not. allocated(error)) call save_state(scene, ending%checkpoint, error)
+         if (.not. allocated(error)) call save_state(scene, state, error)
       end if
       if (allocated(error)) judged%status = status_not_written
       call write_scene_summary(summary_path(scene), scene, judged, wall_seconds() - started, write_error)

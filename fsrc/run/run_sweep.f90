@@ -3,14 +3,14 @@
 module run_sweep
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use clock, only: wall_seconds
+   use controlled_engine, only: find_steady_motion
+   use engine, only: ending_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use finished_files, only: place_files
-   use integrate_controlled, only: find_steady_motion
    use judged_scene, only: judged_scene_t, quantity_value
    use key_table, only: choice_word, find_swept_key, keys
    use kinds, only: dp, int64
-   use lane_scenes, only: lane_ending_t, lane_scene_t
    use log_file, only: log_t
    use output_place, only: log_path, result_path, summary_path
    use periodic_orbit, only: attracting_period, find_periodic_orbit
@@ -20,7 +20,6 @@ module run_sweep
    use resolved_scene, only: resolve
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_writer, only: result_writer_t
-   use scene_lane, only: lane_of_scene
    use scene_report, only: law_sentence, report_head
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written, status_sentence
    use scene_summary, only: add_head
@@ -167,33 +166,34 @@ contains
       type(judged_scene_t), intent(out) :: judged
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
-      type(lane_ending_t) :: ending, window_ending
-      type(lane_scene_t) :: lane
+      type(ending_t) :: ending, window_ending
       type(window_t) :: window
 
       judged%resolved = resolve(scene)
-      if (.not. film > 0.0_dp) then
-         film = judged%resolved%initial_film
-         velocity = scene%film%initial_velocity
-      end if
-      judged%status = judged%resolved%film%status_without_load
-      if (.not. film > 0.0_dp) return
-      lane = lane_of_scene(scene, judged%resolved%film, film, velocity)
-      call find_steady_motion(lane, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
-      judged%status = ending%status
-      judged%periods = ending%periods
-      if (.not. is_success(ending%status)) then
-         film = 0.0_dp
-         return
-      end if
-      film = ending%film
-      velocity = ending%velocity
-      lane = lane_of_scene(scene, judged%resolved%film, film, velocity)
-      window%periods = scene%spectrum%periods
-      if (ending%orbit > 0) window%periods = ending%orbit
-      window%samples_per_period = scene%solver%samples_per_period()
-      call solve_whole_window(scene, lane, scene%solver%accuracy, window%periods, judged%resolved%noise_floor, window, &
-                              judged%rattle, window_ending, error)
+      associate (problem => judged%resolved%problem)
+         if (film > 0.0_dp) then
+            problem%initial_film = film
+            problem%initial_velocity = velocity
+         end if
+         judged%status = problem%film%status_without_load
+         if (.not. problem%initial_film > 0.0_dp) return
+         call find_steady_motion(problem, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
+         judged%status = ending%status
+         judged%periods = ending%periods
+         if (.not. is_success(ending%status)) then
+            film = 0.0_dp
+            return
+         end if
+         film = ending%film
+         velocity = ending%velocity
+         problem%initial_film = film
+         problem%initial_velocity = velocity
+         window%periods = scene%spectrum%periods
+         if (ending%orbit > 0) window%periods = ending%orbit
+         window%samples_per_period = scene%solver%samples_per_period()
+         call solve_whole_window(scene, problem, start_of(problem), scene%solver%accuracy, window%periods, &
+                                 judged%resolved%noise_floor, window, judged%rattle, window_ending, error)
+      end associate
       if (allocated(error)) return
       judged%judged = is_success(window_ending%status)
       if (.not. judged%judged) then
@@ -201,7 +201,7 @@ contains
          return
       end if
       judged%repeats_after = ending%orbit
-      judged%orbit = find_periodic_orbit(lane, film, velocity, orbit_nearness)
+      judged%orbit = find_periodic_orbit(judged%resolved%problem, film, velocity, orbit_nearness)
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
       judged%extremes = extremes_of_record(window%record)
    end subroutine solve_value

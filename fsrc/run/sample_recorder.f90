@@ -1,15 +1,14 @@
 !> Keeps of the samples of a motion what the scene asks for: the window at the end, and the time series
 !> in its file. A scene without a series keeps nothing beyond the window, however long it runs.
 module sample_recorder
+   use engine, only: sample_sink_t
    use errors, only: error_t, exit_bad_input, raise
-   use film_law, only: film_load
-   use forcing, only: applied_force
+   use force, only: force_at
    use kinds, only: dp, int64
-   use lane_scenes, only: lane_scene_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_velocity
+   use problem, only: acceleration_at, problem_t
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
-   use sample_sink, only: sample_sink_t
    use scene_types, only: column_acceleration, column_applied_force, column_film_thickness, &
                           column_names, column_squeeze_velocity, column_time, column_units, scene_t
    use signals, only: caught_signal
@@ -198,10 +197,10 @@ contains
 
    !> Put the extremes of the window, which fall between samples, behind the rows of the series, and say there whether the series
    !> is coarser than the motion.
-   subroutine add_extremes(self, lane, record, first_period, coarse)
+   subroutine add_extremes(self, problem, record, first_period, coarse)
       class(sample_recorder_t), intent(inout) :: self
-      !> The scene
-      type(lane_scene_t), intent(in) :: lane
+      !> What moves
+      type(problem_t), intent(in) :: problem
       !> What the steps of the window tell; nothing where each sample is a step of its own
       type(window_record_t), intent(in) :: record
       !> Periods before the window
@@ -209,8 +208,8 @@ contains
       !> Whether the samples are too few for the motion
       logical, intent(in) :: coarse
       type(extreme_t) :: found(6), kept(6)
-      real(dp) :: rows(size(self%columns), 6), force(6), load(6), by_film, by_velocity
-      integer :: i, n, next
+      real(dp) :: rows(size(self%columns), 6), phases(6)
+      integer :: n, next
 
       if (.not. self%series) return
       if (coarse) call self%writer%mark_coarse()
@@ -226,12 +225,10 @@ contains
          found%exists = found%exists .and. .not. (found%period == kept(n)%period .and. abs(found%phase - kept(n)%phase) <= 0.0_dp)
       end do
       if (n == 0) return
-      do i = 1, n
-         force(i) = applied_force(lane%steady_force, lane%force_amplitude, min(1.0_dp, kept(i)%phase))
-         call film_load(lane%film, kept(i)%film, kept(i)%velocity, load(i), by_film, by_velocity)
-      end do
-      call fill_rows(self, (real(first_period + kept(:n)%period, dp) + kept(:n)%phase)/lane%frequency, force(:n), kept(:n)%film, &
-                     kept(:n)%velocity, (load(:n) - lane%weight - force(:n))/lane%mass, rows)
+      phases(:n) = min(1.0_dp, kept(:n)%phase)
+      call fill_rows(self, (real(first_period + kept(:n)%period, dp) + kept(:n)%phase)/problem%frequency, &
+                     force_at(problem%force, phases(:n)), kept(:n)%film, kept(:n)%velocity, &
+                     acceleration_at(problem, kept(:n)%film, kept(:n)%velocity, phases(:n)), rows)
       call self%writer%write_extremes(rows(:, :n))
    end subroutine add_extremes
 

@@ -149,15 +149,16 @@ contains
       else
          lines = '! no rigid piezo-viscous film carries the static load'//end_of_line
       end if
-      if (resolved%initial_film > 0.0_dp) lines = lines// &
-                 '! film at t = 0                        '//short_text(resolved%initial_film, 10)//' m'//end_of_line// &
+      if (resolved%problem%initial_film > 0.0_dp) lines = lines// &
+                 '! film at t = 0                        '//short_text(resolved%problem%initial_film, 10)//' m'//end_of_line// &
                  '! squeeze group A at t = 0             '//short_text(resolved%initial_squeeze_group, 5)//end_of_line
-      limit = model_limit(min(resolved%steady_film, resolved%initial_film), max(resolved%steady_film, resolved%initial_film), &
-                          resolved%film%radius)
-      if (resolved%initial_film > 0.0_dp .and. limit /= within_model) &
+      limit = model_limit(min(resolved%steady_film, resolved%problem%initial_film), &
+                          max(resolved%steady_film, resolved%problem%initial_film), &
+                          resolved%problem%film%radius)
+      if (resolved%problem%initial_film > 0.0_dp .and. limit /= within_model) &
          lines = lines//'! warning: at rest '//model_limit_sentence(limit)//' (model_limit)'//end_of_line
-      lines = lines//'! A, B and alpha p are those of the exact film with u = '//short_text(resolved%film%speed, 6)//' m/s, '// &
-              speed_meaning(scene)
+      lines = lines//'! A, B and alpha p are those of the exact film with u = '//short_text(resolved%problem%film%speed, 6)// &
+              ' m/s, '//speed_meaning(scene)
    end function resolved_lines
 
    !> How the scene ended and what it amounts to.

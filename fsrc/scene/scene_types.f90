@@ -1,5 +1,6 @@
 !> What is to be computed: one type per namelist group, all resolved, SI units.
 module scene_types
+   use, intrinsic :: iso_c_binding, only: c_double
    use input_key, only: name_limit, path_limit
    use kinds, only: dp
    use word_list, only: word_t
@@ -237,6 +238,16 @@ module scene_types
       character(:), allocatable :: resolved_input
    end type scene_t
 
+   interface
+      !> x y + z of the C library, rounded once on every machine.
+      pure real(c_double) function fma(x, y, z) bind(c)
+         import :: c_double
+         real(c_double), value :: x
+         real(c_double), value :: y
+         real(c_double), value :: z
+      end function fma
+   end interface
+
 contains
 
    !> Weight m g of the tooth pair [N].
@@ -250,7 +261,7 @@ contains
    elemental real(dp) function static_load(self)
       class(load_t), intent(in) :: self
 
-      static_load = self%steady_force + weight(self)
+      static_load = fma(self%mass, self%gravity, self%steady_force)
    end function static_load
 
    !> Samples of a period, whichever way the method makes them.

@@ -158,7 +158,7 @@ contains
           closing_share*record%acceleration_size + noise_floor*real(record%periods, dp)) then
          reason = 'The window does not close: the mean of z" is '// &
                   short_text(record%acceleration_sum/real(record%periods, dp), 3)//' m/s2, while the change of velocity gives '// &
-                  short_text((record%end_velocity - record%start_velocity)*frequency/real(record%periods, dp), 3)//' m/s2.'
+                  short_text((record%end_velocity - record%start%velocity)*frequency/real(record%periods, dp), 3)//' m/s2.'
       else if (.not. energy_gap(record, mass) <= closing_share) then
          reason = 'The window does not close: the film takes '//short_text(-record%film_work, 3)//' J, the forces give '// &
                   short_text(-record%force_work, 3)//' J.'

@@ -6,11 +6,10 @@
 !> (until the motion repeats). Prints the CPU seconds of one scene, then h/h0 at 64 points of each of the last ten periods.
 program bench_engine
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use film_law, only: film_t, new_film
+   use engine, only: ending_t, request_t, start_of
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use scene_lane, only: lane_of_scene
+   use many_motions, only: solve_motions
+   use problem, only: problem_of, problem_t
    use scene_status, only: is_success, status_name
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
    use version, only: program_version
@@ -19,9 +18,9 @@ program bench_engine
    integer, parameter :: copies = 64, periods = 200, sampled = 10, points = 64
    real(dp), parameter :: least_seconds = 0.05_dp
    type(scene_t) :: scene
-   type(lane_scene_t) :: lanes(copies)
-   type(lane_ending_t) :: endings(copies)
-   type(lane_request_t) :: request
+   type(problem_t) :: lanes(copies)
+   type(ending_t) :: endings(copies)
+   type(request_t) :: request
    real(dp), allocatable :: films(:, :), velocities(:, :)
    character(512) :: engine, path, word
    real(dp) :: accuracy, started, finished, best
@@ -36,7 +35,7 @@ program bench_engine
    call get_command_argument(3, word)
    read (word, *) accuracy
    call read_scene_file(trim(path), scene)
-   lanes = lane_of_scene(scene, new_film(scene), scene%film%initial_film, 0.0_dp)
+   lanes = problem_of(scene)
    request%accuracy = accuracy
    request%periods = periods
    request%samples_per_period = points
@@ -74,7 +73,7 @@ program bench_engine
 contains
 
    subroutine solve()
-      call solve_motions(lanes, request, films, velocities, endings)
+      call solve_motions(lanes, start_of(lanes), request, films, velocities, endings)
    end subroutine solve
 
    !> Scene in SI units from lines of `key value`.

@@ -1,9 +1,8 @@
 !> Takers that forget every sample: the motion alone is timed.
 module silent_motion
+   use engine, only: checkpoint_t, ending_t, motion_watcher_t, sample_sink_t
    use errors, only: error_t
-   use integrate_motion, only: motion_watcher_t
    use kinds, only: dp, int64
-   use sample_sink, only: sample_sink_t
    implicit none(type, external)
    private
 
@@ -52,14 +51,15 @@ end module silent_motion
 
 !> Cost of a Newmark step on the scenes whose inputs are given: median over rounds, one line a scene.
 program bench_motion
-   use checkpoint, only: checkpoint_t
+   use engine, only: checkpoint_t, ending_t
    use errors, only: error_t, fault_list_t
-   use integrate_motion, only: motion_end_t, solve_motion
    use kinds, only: dp, int64
-   use resolved_scene, only: resolve, resolved_scene_t
+   use newmark_engine, only: solve_newmark
+   use resolved_scene, only: request_of, resolve, resolved_scene_t
    use scene_reader, only: override_t, read_scene
    use scene_types, only: scene_t
    use silent_motion, only: no_sink_t, no_watcher_t
+   use window_record, only: window_record_t
    implicit none(type, external)
 
    integer, parameter :: rounds = 41
@@ -68,7 +68,9 @@ program bench_motion
    type(fault_list_t) :: faults
    type(no_sink_t) :: sink
    type(no_watcher_t) :: watcher
-   type(motion_end_t) :: ending
+   type(checkpoint_t) :: checkpoint
+   type(ending_t) :: ending
+   type(window_record_t) :: record
    type(error_t), allocatable :: error
    character(512) :: path
    real(dp) :: nanoseconds(rounds)
@@ -82,7 +84,8 @@ program bench_motion
       resolved = resolve(scene)
       do round = 1, rounds
          call system_clock(start, rate)
-         call solve_motion(scene, resolved%film, resolved%initial_film, checkpoint_t(), sink, watcher, ending, error)
+         checkpoint = checkpoint_t()
+         call solve_newmark(resolved%problem, request_of(scene), sink, watcher, checkpoint, ending, record, error)
          call system_clock(finish)
          nanoseconds(round) = 1.0e9_dp*real(finish - start, dp)/real(rate, dp)/real(ending%count%steps, dp)
       end do

@@ -7,8 +7,8 @@
 module impact_steps
    use film_law, only: film_load, film_t, overflow_load
    use kinds, only: dp
-   use lane_scenes, only: lane_scene_t
    use lobatto_rule, only: lobatto_rule_t, nodes, solve_linear
+   use problem, only: problem_t
    implicit none(type, external)
    private
 
@@ -46,13 +46,13 @@ contains
    !> What moves, of a lane of the engine.
    pure function tooth_of_lane(lane) result(tooth)
       !> A scene
-      type(lane_scene_t), intent(in) :: lane
+      type(problem_t), intent(in) :: lane
       type(tooth_t) :: tooth
 
       tooth%film = lane%film
       tooth%mass = lane%mass
-      tooth%static_load = lane%steady_force + lane%weight
-      tooth%amplitude = lane%force_amplitude
+      tooth%static_load = lane%force%steady + lane%weight
+      tooth%amplitude = lane%force%amplitude
       tooth%frequency = lane%frequency
    end function tooth_of_lane
 

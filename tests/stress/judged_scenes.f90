@@ -8,7 +8,6 @@ module judged_scenes
    use random_walk, only: next_uniform, random_state_t
    use random_scenes, only: choose_law, draw, draw_scene, drawn_scene_t, laws
    use resolved_scene, only: resolve
-   use scene_lane, only: lane_of_scene
    use scene_types, only: iteration_newton, iteration_successive, law_piezo_viscous, method_newmark, method_taylor, &
                           model_reynolds, &
                           predictor_extrapolated, predictor_previous, scene_t, until_periods, until_steady
@@ -67,8 +66,6 @@ contains
       drawn%number = number
       call draw_solver(state, drawn%scene)
       drawn%resolved = resolve(drawn%scene)
-      drawn%lane = lane_of_scene(drawn%scene, drawn%resolved%film, drawn%resolved%initial_film, &
-                                 drawn%scene%film%initial_velocity)
    end subroutine draw_judged_scene
 
    !> A campaign: a loose gear, values of the varied keys, and the scenes that they make.
@@ -110,8 +107,6 @@ contains
          end associate
          drawn(i)%number = number*int(campaign_rows, int64) + int(i - 1, int64)
          drawn(i)%resolved = resolve(drawn(i)%scene)
-         drawn(i)%lane = lane_of_scene(drawn(i)%scene, drawn(i)%resolved%film, drawn(i)%resolved%initial_film, &
-                                       drawn(i)%scene%film%initial_velocity)
       end do
    end subroutine draw_campaign
 

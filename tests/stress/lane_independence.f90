@@ -7,9 +7,10 @@
 !> Samples, states and endings must agree to the last bit. The exit code is 1 if any does not.
 program lane_independence
    use, intrinsic :: iso_fortran_env, only: error_unit
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use kinds, only: dp, int64
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
+   use problem, only: problem_t
    use random_walk, only: next_uniform, random_permutation, random_state_t
    use random_scenes, only: draw_scene, drawn_scene_t, group_size
    use stress_engines, only: engine_names, engines
@@ -97,29 +98,31 @@ contains
       !> Which scenes, in their order
       integer, intent(in) :: members(:)
       integer(int64) :: bits(values, size(members))
-      type(lane_scene_t), allocatable :: lane_scenes_here(:)
-      type(lane_ending_t), allocatable :: endings(:)
-      type(lane_request_t) :: request
+      type(problem_t), allocatable :: problems(:)
+      type(motion_state_t), allocatable :: starts(:)
+      type(ending_t), allocatable :: endings(:)
+      type(request_t) :: request
       real(dp), allocatable :: films(:, :), velocities(:, :)
       integer :: place
 
       allocate (films(sampled*samples, size(members)), velocities(sampled*samples, size(members)), &
                 source=0.0_dp)
       allocate (endings(size(members)))
-      lane_scenes_here = drawn(members)%lane
-      lane_scenes_here%implicit = engine == 2
+      problems = drawn(members)%resolved%problem
+      starts = start_of(problems)
+      starts%implicit = engine == 2
       request%accuracy = 1.0e-6_dp
       request%periods = periods
       request%sampled_periods = sampled
       request%samples_per_period = samples
       request%until_steady = engine == 3
-      call solve_motions(lane_scenes_here, request, films, velocities, endings)
+      call solve_motions(problems, starts, request, films, velocities, endings)
       do place = 1, size(members)
          associate (ending => endings(place))
             bits(:, place) = [transfer(films(:, place), [1_int64]), transfer(velocities(:, place), &
                [1_int64]), &
                               transfer([ending%film, ending%velocity, ending%momentum], [1_int64]), &
-                              int([ending%status, ending%periods], int64), ending%steps]
+                              int([ending%status, ending%periods], int64), ending%count%steps]
          end associate
       end do
    end function bits_of

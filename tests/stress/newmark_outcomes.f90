@@ -6,17 +6,16 @@
 !> Outcomes: diverged (a status other than complete), wrong number of reversals, false lines (another class,
 !> or another number of lines), wrong amplitudes (a line off by more than 5 % of the largest), right.
 program newmark_outcomes
+   use engine, only: ending_t, motion_count_t, request_t, start_of
    use errors, only: error_t, fault_list_t
    use film_law, only: film_load
    use fine_window, only: solve_whole_window, window_t
-   use forcing, only: force_of_period
+   use force, only: force_of_period
    use kinds, only: dp
-   use lane_scenes, only: lane_ending_t
-   use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
+   use newmark, only: advance_period, newmark_state_t, start_motion
    use random_scenes, only: drawn_scene_t
    use rattle_class, only: classify, rattle_verdict_t
    use resolved_scene, only: resolve
-   use scene_lane, only: lane_of_scene
    use scene_reader, only: override_t, read_scene
    use scene_status, only: is_success, status_complete
    use text, only: real_text
@@ -51,8 +50,6 @@ program newmark_outcomes
       if (faults%count() > 0) error stop 'newmark_outcomes: an input has faults'
       drawn%scene%spectrum%periods = window
       drawn%resolved = resolve(drawn%scene)
-      drawn%lane = lane_of_scene(drawn%scene, drawn%resolved%film, drawn%resolved%initial_film, &
-                                 drawn%scene%film%initial_velocity)
       call solve_reference(drawn, reference)
       do iteration = 1, size(iterations)
          do predictor = 1, size(predictors)
@@ -83,11 +80,12 @@ contains
       type(rattle_verdict_t), intent(out) :: verdict
       type(error_t), allocatable :: error
       type(window_t) :: fine
-      type(lane_ending_t) :: ending
+      type(ending_t) :: ending
 
       fine%periods = window
       fine%samples_per_period = 512
-      call solve_whole_window(drawn%scene, drawn%lane, 1.0e-11_dp, periods, drawn%resolved%noise_floor, fine, &
+      call solve_whole_window(drawn%scene, drawn%resolved%problem, start_of(drawn%resolved%problem), 1.0e-11_dp, periods, &
+                             drawn%resolved%noise_floor, fine, &
                              verdict, ending, error)
       if (allocated(error) .or. .not. is_success(ending%status)) error stop 'newmark_outcomes: a scene cannot be solved'
    end subroutine solve_reference
@@ -103,30 +101,27 @@ contains
       !> First iterate extrapolated, else the previous state
       logical, intent(in) :: extrapolate
       character(19) :: word
-      type(newmark_t) :: method
-      type(motion_state_t) :: state
+      type(request_t) :: method
+      type(newmark_state_t) :: state
       type(motion_count_t) :: count
       type(rattle_verdict_t) :: verdict
       real(dp) :: force(steps), films(steps), velocities(steps), accelerations(window*steps), unused(steps), &
          worst
       integer :: period, first, done, status, compared
 
-      associate (lane => drawn%lane)
-         method = newmark_t(mass=lane%mass, weight=lane%weight, steady_force=lane%steady_force, &
-                            force_amplitude=lane%force_amplitude, frequency=lane%frequency, tolerance=eps, &
-                            iteration_limit=drawn%scene%solver%iteration_limit, by_newton=by_newton, &
+      associate (problem => drawn%resolved%problem)
+         method = request_t(tolerance=eps, iteration_limit=drawn%scene%solver%iteration_limit, by_newton=by_newton, &
                             extrapolate=extrapolate)
-         call force_of_period(method%steady_force, method%force_amplitude, force)
-         call start_motion(film_load, lane%film, method, lane%initial_film, lane%initial_velocity, state, &
-                           count, status)
+         call force_of_period(problem%force, force)
+         call start_motion(film_load, problem, state, count, status)
          do period = 1, periods
             if (status /= status_complete) exit
             first = (period - 1 - periods + window)*steps
             if (first < 0) then
-               call advance_period(film_load, lane%film, method, force, state, count, films, velocities, &
+               call advance_period(film_load, problem, method, force, state, count, films, velocities, &
                                    unused, done, status)
             else
-               call advance_period(film_load, lane%film, method, force, state, count, films, velocities, &
+               call advance_period(film_load, problem, method, force, state, count, films, velocities, &
                                    accelerations(first + 1:first + steps), done, status)
             end if
          end do

@@ -5,10 +5,8 @@ module random_scenes
    use constants, only: standard_gravity
    use film_law, only: film_load, film_t, new_film, overflow_load
    use kinds, only: dp, int64
-   use lane_scenes, only: lane_scene_t
    use random_walk, only: next_uniform, random_state_t
    use resolved_scene, only: resolve, resolved_scene_t
-   use scene_lane, only: lane_of_scene
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, &
       rupture_half_pi, &
                           rupture_solved, rupture_solver_fast, rupture_solver_successive, scene_t
@@ -56,7 +54,6 @@ module random_scenes
       integer(int64) :: number = 0
       type(scene_t) :: scene
       type(resolved_scene_t) :: resolved
-      type(lane_scene_t) :: lane
    end type drawn_scene_t
 
    public :: choose_law, draw, draw_group, draw_scene, group_of
@@ -143,8 +140,6 @@ contains
          scene%solver%steps_per_period = 512
          scene%spectrum%periods = 4
          drawn%resolved = resolve(scene)
-         drawn%lane = lane_of_scene(scene, drawn%resolved%film, drawn%resolved%initial_film, &
-                                    scene%film%initial_velocity)
       end associate
    end function draw_scene
 

@@ -7,7 +7,6 @@ module reference_check
    use lobatto_rule, only: lobatto_rule_t
    use random_scenes, only: choose_law
    use resolved_scene, only: resolve, resolved_scene_t
-   use scene_lane, only: lane_of_scene
    use scene_types, only: scene_t
    implicit none(type, external)
    private
@@ -69,8 +68,8 @@ contains
          scene%load%frequency = 600.0_dp
          scene%load%gravity = 9.80665_dp
          resolved = resolve(scene)
-         tooth = tooth_of_lane(lane_of_scene(scene, resolved%film, resolved%initial_film, 0.0_dp))
-         state = tooth_state_t(film=resolved%initial_film)
+         tooth = tooth_of_lane(resolved%problem)
+         state = tooth_state_t(film=resolved%problem%initial_film)
          call solve_periods(tooth, rule, tolerance, 119, state, solved)
          if (solved) call solve_reference(tooth, rule, tolerance, 1, scene%spectrum, resolved%noise_floor, 0.0_dp, state, &
                                           reference)

@@ -1,8 +1,8 @@
 !> Every engine on a group of scenes, with the outcomes.
 module stress_engines
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
    use random_scenes, only: drawn_scene_t, group_t
    use scene_types, only: method_taylor, scene_t, until_periods, until_steady
    use stress_outcomes, only: judge_controlled, outcome_t
@@ -29,14 +29,14 @@ contains
       type(reference_t), intent(in) :: references(:)
       !> How they came out
       type(outcome_t), intent(out) :: results(:)
-      type(lane_request_t) :: request
-      type(lane_ending_t) :: endings(size(drawn))
-      type(lane_scene_t) :: scenes(size(drawn))
+      type(request_t) :: request
+      type(ending_t) :: endings(size(drawn))
+      type(motion_state_t) :: starts(size(drawn))
       real(dp), dimension(comparisons, size(drawn)) :: films, velocities
       integer :: i
 
-      scenes = drawn%lane
-      scenes%implicit = engine == 2
+      starts = start_of(drawn%resolved%problem)
+      starts%implicit = engine == 2
       request%accuracy = group%accuracy
       request%periods = group%periods
       request%sampled_periods = compared_periods
@@ -44,7 +44,7 @@ contains
       request%until_steady = engine == 3
       films = -1.0_dp
       velocities = 0.0_dp
-      call solve_motions(scenes, request, films, velocities, endings)
+      call solve_motions(drawn%resolved%problem, starts, request, films, velocities, endings)
       do i = 1, size(drawn)
          results(i) = judge_controlled(references(i), group%periods, group%accuracy, films(:, i), endings(i))
       end do

@@ -10,8 +10,8 @@
 !> `unjudged`: solved, but the tight solution failed.
 module stress_outcomes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use engine, only: ending_t
    use kinds, only: dp, int64
-   use lane_scenes, only: lane_ending_t
    use scene_status, only: is_success, status_film_lost, status_no_rigid_film, status_not_converged, &
                            status_overflow, status_steady
    use stress_references, only: compared_samples, comparisons, reference_t
@@ -59,13 +59,13 @@ contains
       !> Films of the last periods, or of one orbit of a steady motion [m]
       real(dp), intent(in) :: films(:)
       !> How it ended
-      type(lane_ending_t), intent(in) :: ending
+      type(ending_t), intent(in) :: ending
       type(outcome_t) :: outcome
       real(dp) :: allowed
       integer :: i
 
       outcome = outcome_of_status(ending%status, reference)
-      if (ending%steps > most_steps) outcome = silent('too many steps')
+      if (ending%count%steps > most_steps) outcome = silent('too many steps')
       if (outcome%code /= 0) return
       if (.not. is_motion(films(:ending%samples)) .or. .not. is_motion([ending%film]) .or. &
           ending%samples == 0 .or. &
@@ -99,7 +99,7 @@ contains
       !> Periods of the reference
       integer, intent(in) :: periods
       !> How it ended
-      type(lane_ending_t), intent(in) :: ending
+      type(ending_t), intent(in) :: ending
       integer :: back
 
       match = sample

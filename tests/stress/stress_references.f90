@@ -6,9 +6,10 @@
 !> force all along off by 1e-9, which stands for errors made at any time, and one with the film off by as much
 !> at the start of the last periods. The larger growth is taken, and never less than one.
 module stress_references
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
+   use problem, only: problem_t, static_load
    use random_scenes, only: drawn_scene_t, group_t
    use scene_status, only: is_success
    implicit none(type, external)
@@ -63,19 +64,21 @@ contains
       !> Of the solution [-]
       real(dp), intent(in) :: accuracy
       type(reference_t), intent(inout) :: references(:)
-      type(lane_scene_t), allocatable :: start(:), rest(:)
-      type(lane_ending_t), allocatable :: middle(:), unused(:), endings(:)
+      type(problem_t), allocatable :: problems(:), off_problems(:)
+      type(motion_state_t), allocatable :: starts(:), rest(:)
+      type(ending_t), allocatable :: middle(:), unused(:), endings(:)
       integer, allocatable :: number(:), solved(:)
       real(dp), allocatable :: films(:, :), off(:, :)
       integer :: i
 
       number = pack([(i, i=1, size(drawn))],.not. references%exists)
-      start = drawn(number)%lane
-      start%implicit = .true.
+      problems = drawn(number)%resolved%problem
+      starts = start_of(problems)
+      starts%implicit = .true.
       allocate (films(comparisons, size(number)), off(comparisons, size(number)), source=0.0_dp)
 
       allocate (middle(size(number)), endings(size(number)))
-      call last_periods(start, films, group%periods, accuracy, middle, endings)
+      call last_periods(problems, starts, films, group%periods, accuracy, middle, endings)
       do i = 1, size(number)
          associate (reference => references(number(i)))
             reference%status = endings(i)%status
@@ -88,25 +91,23 @@ contains
       ! What has no tight solution needs no sensitivity.
       solved = [(i, i=1, size(number))]
       solved = pack(solved, references(number)%exists)
-      start = start(solved)
+      problems = problems(solved)
+      starts = starts(solved)
       middle = middle(solved)
       endings = endings(solved)
       number = number(solved)
       films = films(:, solved)
       off = off(:, solved)
       unused = middle
-      rest = start
-      rest%initial_film = start%initial_film*(1.0_dp + offset)
-      rest%steady_force = start%steady_force + offset*(start%steady_force + start%weight + &
-                                                       start%force_amplitude)
-      call last_periods(rest, off, group%periods, accuracy, unused, endings)
+      rest = starts
+      rest%film = starts%film*(1.0_dp + offset)
+      off_problems = problems
+      off_problems%force%steady = problems%force%steady + offset*(static_load(problems) + problems%force%amplitude)
+      call last_periods(off_problems, rest, off, group%periods, accuracy, unused, endings)
       call note_growth()
-      rest = start
-      rest%initial_film = middle%film*(1.0_dp + offset)
-      rest%initial_momentum = middle%momentum
-      rest%periods_done = middle%periods
-      rest%carried_on = .true.
-      call last_periods(rest, off, group%periods, accuracy, unused, endings)
+      rest = middle%motion_state_t
+      rest%film = middle%film*(1.0_dp + offset)
+      call last_periods(problems, rest, off, group%periods, accuracy, unused, endings)
       call note_growth()
 
    contains
@@ -131,9 +132,11 @@ contains
    end subroutine solve_tight
 
    !> Solve up to the compared periods, and then these.
-   subroutine last_periods(start, films, periods, accuracy, middle, endings)
-      !> Scenes at their start
-      type(lane_scene_t), intent(in) :: start(:)
+   subroutine last_periods(problems, starts, films, periods, accuracy, middle, endings)
+      !> What moves
+      type(problem_t), intent(in) :: problems(:)
+      !> From where
+      type(motion_state_t), intent(in) :: starts(:)
       !> Films of the last periods: sample, scene [m]
       real(dp), contiguous, intent(inout) :: films(:, :)
       !> Periods to solve
@@ -141,30 +144,27 @@ contains
       !> Relative accuracy [-]
       real(dp), intent(in) :: accuracy
       !> States before the last periods
-      type(lane_ending_t), intent(inout) :: middle(:)
+      type(ending_t), intent(inout) :: middle(:)
       !> How the scenes ended
-      type(lane_ending_t), intent(inout) :: endings(:)
-      type(lane_request_t) :: request
-      type(lane_scene_t) :: rest(size(start))
+      type(ending_t), intent(inout) :: endings(:)
+      type(request_t) :: request
+      type(motion_state_t) :: rest(size(starts))
       real(dp), allocatable :: velocities(:, :)
       integer :: i
 
       allocate (velocities, mold=films)
-      rest = start
+      rest = starts
       request%accuracy = accuracy
       request%samples_per_period = compared_samples
-      if (.not. all(start%carried_on)) then
+      if (.not. all(starts%carried_on)) then
          request%periods = periods - compared_periods
-         call solve_motions(start, request, films, velocities, middle)
-         rest%initial_film = middle%film
-         rest%initial_momentum = middle%momentum
-         rest%periods_done = middle%periods
-         rest%carried_on = .true.
+         call solve_motions(problems, starts, request, films, velocities, middle)
+         rest = middle%motion_state_t
       end if
       request%periods = periods
       request%sampled_periods = compared_periods
-      call solve_motions(rest, request, films, velocities, endings)
-      do i = 1, size(start)
+      call solve_motions(problems, rest, request, films, velocities, endings)
+      do i = 1, size(starts)
          if (.not. is_success(middle(i)%status)) endings(i)%status = middle(i)%status
       end do
    end subroutine last_periods

@@ -18,7 +18,6 @@ program stress_summaries
    use scene_types, only: scene_t
    use summary_outcomes, only: outcome_of_row, outcome_of_summary, told_names, told_outcome_t, told_outcomes, told_silent
    use text, only: integer_text
-   use scene_lane, only: lane_of_scene
    use told_summary, only: rows_told, summary_told, told_t, value_told
    implicit none(type, external)
 
@@ -140,10 +139,9 @@ contains
             if (film > 0.0_dp) then
                value%scene%film%initial_film = film
                value%scene%film%initial_velocity = velocity
-               value%resolved%initial_film = film
+               value%resolved%problem%initial_film = film
+               value%resolved%problem%initial_velocity = velocity
             end if
-            value%lane = lane_of_scene(value%scene, value%resolved%film, value%resolved%initial_film, &
-                                       value%scene%film%initial_velocity)
          end associate
          times(1) = wall_seconds()
          call value_told(drawn(i)%scene, film, velocity, told)

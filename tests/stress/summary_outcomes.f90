@@ -200,7 +200,7 @@ contains
       margin = merge(certified_margin, row_margin, told%certified)
       call reference_of(drawn, rule, told, tolerance, offset, margin, reference)
       if (told%orbit == 0 .or. .not. reference%solved) return
-      tooth = tooth_of_lane(drawn%lane)
+      tooth = tooth_of_lane(drawn%resolved%problem)
       tooth%static_load = tooth%static_load + offset*(tooth%static_load + tooth%amplitude)
       state = reference%start
       call find_orbit(tooth, rule, tolerance, told%orbit, state, found)
@@ -224,10 +224,10 @@ contains
       type(tooth_state_t) :: state
       logical :: solved
 
-      tooth = tooth_of_lane(drawn%lane)
+      tooth = tooth_of_lane(drawn%resolved%problem)
       tooth%static_load = tooth%static_load + offset*(tooth%static_load + tooth%amplitude)
-      state%film = drawn%lane%initial_film*(1.0_dp + offset)
-      state%velocity = drawn%lane%initial_velocity
+      state%film = drawn%resolved%problem%initial_film*(1.0_dp + offset)
+      state%velocity = drawn%resolved%problem%initial_velocity
       call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)
       if (solved) call solve_reference(tooth, rule, tolerance, told%window, drawn%scene%spectrum, drawn%resolved%noise_floor, &
                                        margin, state, reference)
@@ -329,7 +329,7 @@ contains
       logical :: found
 
       fault = '?'
-      tooth = tooth_of_lane(drawn%lane)
+      tooth = tooth_of_lane(drawn%resolved%problem)
       state = reference%start
       call find_orbit(tooth, rule, usual, told%orbit, state, found)
       if (.not. found) return

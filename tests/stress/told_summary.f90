@@ -2,19 +2,20 @@
 !> value of a sweep, without their files. The only file of this study that knows how the program does that.
 module told_summary
    use certificate, only: certificate_word
+   use controlled_engine, only: reserved_periods, solve_controlled
+   use engine, only: checkpoint_t, ending_t, motion_watcher_t
    use errors, only: error_t
-   use checkpoint, only: checkpoint_t
    use impact_reference, only: compared_harmonics
-   use integrate_controlled, only: reserved_periods, solve_controlled
-   use integrate_motion, only: motion_end_t, motion_watcher_t, solve_motion
    use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t
    use kinds, only: dp, int64
+   use newmark_engine, only: solve_newmark
    use node_extremes, only: seen_acceleration, seen_film
    use quantities, only: quantity_acceleration_maximum, quantity_acceleration_minimum, quantity_certified, &
                          quantity_film_maximum, quantity_film_minimum, quantity_harmonics, quantity_orbit_period, &
                          quantity_periods_solved, quantity_rattle_class, quantity_sampling_sufficient, quantity_word
    use random_scenes, only: drawn_scene_t
+   use resolved_scene, only: request_of
    use run_sweep, only: solve_value
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t
@@ -22,6 +23,7 @@ module told_summary
    use scene_types, only: method_taylor, scene_t, task_campaign, until_steady
    use solve_chunk, only: chunk_space_t, solve_scenes
    use varied_keys, only: find_varied_key
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -60,7 +62,8 @@ contains
       type(drawn_scene_t), intent(in) :: drawn
       type(told_t), intent(out) :: told
       type(judged_scene_t) :: result
-      type(motion_end_t) :: ending
+      type(ending_t) :: ending
+      type(window_record_t) :: record
       type(sample_recorder_t) :: recorder
       type(checkpoint_t) :: start
       type(nobody_t) :: nobody
@@ -69,15 +72,13 @@ contains
 
       call recorder%open(drawn%scene, '', 0, error)
       if (drawn%scene%solver%method == method_taylor) then
-         call solve_controlled(drawn%scene, drawn%resolved%film, drawn%resolved%initial_film, start, .false., recorder, &
-                               nobody, ending, error)
+         call solve_controlled(drawn%resolved%problem, request_of(drawn%scene), recorder, nobody, start, ending, record, error)
       else
-         call solve_motion(drawn%scene, drawn%resolved%film, drawn%resolved%initial_film, start, recorder, nobody, &
-                           ending, error)
+         call solve_newmark(drawn%resolved%problem, request_of(drawn%scene), recorder, nobody, start, ending, record, error)
       end if
       result%resolved = drawn%resolved
       call note_ending(ending, result)
-      if (.not. allocated(error)) call judge(drawn%scene, recorder, ending%record, result, error)
+      if (.not. allocated(error)) call judge(drawn%scene, recorder, record, result, error)
       told%status = status_name(result%status)
       if (allocated(error)) told%status = 'not_written'
       told%judged = is_success(result%status) .and. result%judged .and. .not. allocated(error)

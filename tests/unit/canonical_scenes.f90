@@ -1,14 +1,15 @@
 !> The canonical scenes, and a run of any scene that leaves its window.
 module canonical_scenes
-   use checkpoint, only: checkpoint_t
    use constants, only: standard_gravity
+   use engine, only: checkpoint_t, ending_t, motion_watcher_t, request_t
    use errors, only: error_t
-   use film_law, only: film_t, new_film, steady_film
-   use integrate_motion, only: motion_end_t, motion_watcher_t, solve_motion
    use kinds, only: dp
-   use newmark, only: newmark_t
+   use newmark_engine, only: solve_newmark
+   use problem, only: problem_of
+   use resolved_scene, only: request_of
    use sample_recorder, only: sample_recorder_t
    use scene_types, only: scene_t
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -57,15 +58,10 @@ contains
       scene%output%series = .false.
    end function canonical_scene
 
-   !> Newmark's method for the canonical scenes.
+   !> Newmark's iteration for the canonical scenes.
    function canonical_method() result(method)
-      type(newmark_t) :: method
+      type(request_t) :: method
 
-      method%mass = 3.0_dp
-      method%weight = 3.0_dp*9.80665_dp
-      method%steady_force = 199.2_dp
-      method%force_amplitude = 205.7_dp
-      method%frequency = 600.0_dp
       method%tolerance = 1.0e-14_dp
       method%iteration_limit = 100
    end function canonical_method
@@ -77,24 +73,20 @@ contains
       !> Holds the window
       type(sample_recorder_t), intent(out) :: recorder
       !> How it ended
-      type(motion_end_t), intent(out) :: ending
+      type(ending_t), intent(out) :: ending
       !> Told of progress
       type(counting_watcher_t), intent(inout), optional :: watcher
 
       type(counting_watcher_t) :: unwatched
-      type(film_t) :: film
+      type(checkpoint_t) :: checkpoint
+      type(window_record_t) :: record
       type(error_t), allocatable :: error
-      real(dp) :: initial_film
 
-      film = new_film(scene)
-      initial_film = scene%film%initial_film
-      if (.not. initial_film > 0.0_dp) initial_film = &
-         steady_film(film, scene%load%static_load())
       call recorder%open(scene, '', 0, error)
       if (present(watcher)) then
-         call solve_motion(scene, film, initial_film, checkpoint_t(), recorder, watcher, ending, error)
+         call solve_newmark(problem_of(scene), request_of(scene), recorder, watcher, checkpoint, ending, record, error)
       else
-         call solve_motion(scene, film, initial_film, checkpoint_t(), recorder, unwatched, ending, error)
+         call solve_newmark(problem_of(scene), request_of(scene), recorder, unwatched, checkpoint, ending, record, error)
       end if
    end subroutine run_window
 

@@ -1,9 +1,11 @@
 !> A linear film for the tests of Newmark's method, and its motions with and without steps.
 module linear_newmark
+   use engine, only: motion_count_t, request_t
    use film_law, only: film_t
-   use forcing, only: force_of_period
+   use force, only: force_of_period, force_t
    use kinds, only: dp
-   use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
+   use newmark, only: advance_period, newmark_state_t, start_motion
+   use problem, only: problem_t
    use scene_status, only: status_complete
    implicit none(type, external)
    private
@@ -16,7 +18,7 @@ module linear_newmark
    integer, parameter, public :: periods = 3
    real(dp), parameter, public :: two_pi = 8.0_dp*atan(1.0_dp)
 
-   public :: linear_film, linear_method, linear_oil, linear_motion, run_linear
+   public :: linear_film, linear_method, linear_problem, linear_motion, run_linear
 
 contains
 
@@ -35,27 +37,28 @@ contains
       load_by_velocity = -film%squeeze
    end subroutine linear_film
 
-   !> Constants for the linear film; the caller sets the iteration.
+   !> Iteration for the linear film.
    function linear_method() result(method)
-      type(newmark_t) :: method
+      type(request_t) :: method
 
-      method%mass = 3.0_dp
-      method%weight = 29.4_dp
-      method%steady_force = 199.2_dp
-      method%force_amplitude = 20.0_dp
-      method%frequency = 600.0_dp
       method%tolerance = 1.0e-20_dp
       method%iteration_limit = 200
    end function linear_method
 
-   !> The linear film itself.
-   function linear_oil() result(film)
-      type(film_t) :: film
+   !> The linear film with its load.
+   function linear_problem() result(problem)
+      type(problem_t) :: problem
 
-      film%rolling = load_at_zero
-      film%piezo = stiffness
-      film%squeeze = damping
-   end function linear_oil
+      problem%film%rolling = load_at_zero
+      problem%film%piezo = stiffness
+      problem%film%squeeze = damping
+      problem%mass = 3.0_dp
+      problem%weight = 29.4_dp
+      problem%force = force_t(steady=199.2_dp, amplitude=20.0_dp)
+      problem%frequency = 600.0_dp
+      problem%initial_film = first_film
+      problem%initial_velocity = first_velocity
+   end function linear_problem
 
    !> State after a number of steps. On a linear film average acceleration is the trapezoidal rule: eigenvalue
    !> lambda becomes (1 + lambda dt/2)/(1 - lambda dt/2) a step, and the forced motion is that of the
@@ -64,7 +67,7 @@ contains
       real(dp), intent(in) :: time_step  !> dt [s]
       integer, intent(in) :: step        !> Number of steps
       logical, intent(in) :: discrete    !> With steps, else the exact motion at that time
-      type(motion_state_t) :: state
+      type(newmark_state_t) :: state
 
       real(dp), parameter :: mass = 3.0_dp, omega = two_pi*600.0_dp, amplitude = 20.0_dp
       real(dp) :: rest, decay, frequency, real_part
@@ -94,7 +97,7 @@ contains
 
    !> Motion of the linear film through some periods.
    subroutine run_linear(method, steps, films, velocities, accelerations, count, status)
-      type(newmark_t), intent(in) :: method             !> Constants
+      type(request_t), intent(in) :: method             !> Iteration
       integer, intent(in) :: steps                      !> Steps a period
       real(dp), intent(out) :: films(periods*steps)          !> h at the end of every step [m]
       real(dp), intent(out) :: velocities(periods*steps)     !> z' [m/s]
@@ -102,16 +105,18 @@ contains
       type(motion_count_t), intent(out) :: count        !> Cost
       integer, intent(out) :: status                    !> How it ended
 
-      type(motion_state_t) :: state
+      type(newmark_state_t) :: state
+      type(problem_t) :: problem
       real(dp) :: force(steps)
       integer :: period, first, last, done
 
-      call force_of_period(method%steady_force, method%force_amplitude, force)
-      call start_motion(linear_film, linear_oil(), method, first_film, first_velocity, state, count, status)
+      problem = linear_problem()
+      call force_of_period(problem%force, force)
+      call start_motion(linear_film, problem, state, count, status)
       do period = 1, periods
          first = (period - 1)*steps + 1
          last = period*steps
-         call advance_period(linear_film, linear_oil(), method, force, state, count, films(first:last), &
+         call advance_period(linear_film, problem, method, force, state, count, films(first:last), &
             velocities(first:last), accelerations(first:last), done, status)
          if (status /= status_complete) return
       end do

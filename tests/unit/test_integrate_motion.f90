@@ -2,12 +2,13 @@
 module test_integrate_motion
    use canonical_scenes, only: canonical_scene, counting_watcher_t, run_window
    use checks, only: check_list_t
+   use engine, only: ending_t, motion_count_t, request_t
    use film_law, only: film_t, load_half_pi, new_film, steady_film
    use film_pressure, only: exact_pressure
-   use forcing, only: force_of_period
-   use integrate_motion, only: motion_end_t
+   use force, only: force_of_period, force_t
    use kinds, only: dp
-   use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
+   use newmark, only: advance_period, newmark_state_t, start_motion
+   use problem, only: problem_of, problem_t
    use sample_recorder, only: sample_recorder_t
    use scene_status, only: status_complete, status_no_rigid_film, status_not_converged, status_overflow
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t
@@ -50,7 +51,7 @@ contains
       type(response_t), intent(out) :: response  !> What is in the window
 
       type(sample_recorder_t) :: recorder
-      type(motion_end_t) :: ending
+      type(ending_t) :: ending
 
       call run_window(scene, recorder, ending)
       response%status = ending%status
@@ -179,7 +180,7 @@ contains
 
       type(scene_t) :: scene
       type(sample_recorder_t) :: recorder
-      type(motion_end_t) :: ending
+      type(ending_t) :: ending
       type(film_t) :: film
 
       scene = canonical_scene(law_piezo_viscous, 4096)
@@ -217,24 +218,21 @@ contains
       integer, intent(in) :: steps  !> Steps a period
       real(dp) :: early(3)
 
-      type(newmark_t) :: method
-      type(film_t) :: film
-      type(motion_state_t) :: state
+      type(request_t) :: method
+      type(problem_t) :: problem
+      type(newmark_state_t) :: state
       type(motion_count_t) :: count
       real(dp), dimension(steps) :: force, films, velocities, accelerations
       integer :: done, status
 
-      method = newmark_t(mass=3.0_dp, weight=3.0_dp*9.80665_dp, steady_force=199.2_dp, &
-         force_amplitude=205.7_dp, &
-         frequency=600.0_dp, tolerance=1.0e-16_dp, iteration_limit=100)
-      film = new_film(canonical_scene(law_iso_viscous, steps))
-      call force_of_period(method%steady_force, method%force_amplitude, force)
-      call start_motion(load_half_pi, film, method, film%rolling/(199.2_dp + 3.0_dp*9.80665_dp), 0.0_dp, &
-         state, count, status)
-      call advance_period(load_half_pi, film, method, force, state, count, films, velocities, &
+      method = request_t(tolerance=1.0e-16_dp, iteration_limit=100)
+      problem = problem_of(canonical_scene(law_iso_viscous, steps))
+      call force_of_period(problem%force, force)
+      call start_motion(load_half_pi, problem, state, count, status)
+      call advance_period(load_half_pi, problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
       early(1:2) = films([steps/2, steps])
-      call advance_period(load_half_pi, film, method, force, state, count, films, velocities, &
+      call advance_period(load_half_pi, problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
       early(3) = films(steps)
    end function early_films
@@ -245,7 +243,7 @@ contains
 
       type(scene_t) :: scene
       type(sample_recorder_t) :: recorder
-      type(motion_end_t) :: ending
+      type(ending_t) :: ending
       type(counting_watcher_t) :: watcher
       type(film_t) :: film
       real(dp) :: force(256), load, slope_h, slope_w, residual
@@ -264,7 +262,7 @@ contains
       call checks%check_close(recorder%films(512), ending%film, 0.0_dp, &
          'bookkeeping: the window ends with the run')
       film = new_film(scene)
-      call force_of_period(199.2_dp, 205.7_dp, force)
+      call force_of_period(force_t(steady=199.2_dp, amplitude=205.7_dp), force)
       residual = 0.0_dp
       do i = 1, 512
          call load_half_pi(film, recorder%films(i), recorder%velocities(i), load, slope_h, slope_w)
@@ -282,7 +280,7 @@ contains
 
       type(scene_t) :: scene
       type(sample_recorder_t) :: recorder
-      type(motion_end_t) :: ending
+      type(ending_t) :: ending
 
       scene = canonical_scene(law_piezo_viscous, 64)
       scene%film%initial_velocity = -2.0_dp

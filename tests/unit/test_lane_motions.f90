@@ -4,17 +4,16 @@ module test_lane_motions
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t, same_bits
    use collocation_newton, only: correct, newton_pass_t
-   use constants, only: standard_gravity
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
                        kernel_solved_fast, kernel_solved_successive, new_film, steady_film
    use kinds, only: dp
+   use lane_block, only: lane_block_t
    use lane_functions, only: lane_count => lanes
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
    use period_repetition, only: orbit_watch_t
+   use problem, only: accelerations_of_samples, problem_of, problem_t
    use radau_nodes, only: stages
-   use sample_accelerations, only: accelerations_of_samples
-   use scene_lane, only: lane_of_scene
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, &
       rupture_solver_fast, &
@@ -31,7 +30,7 @@ module test_lane_motions
 
    !> Some motions.
    type :: motions_t
-      type(lane_ending_t), allocatable :: endings(:)
+      type(ending_t), allocatable :: endings(:)
       real(dp), allocatable :: films(:, :), velocities(:, :)
    end type motions_t
 
@@ -59,7 +58,7 @@ contains
    !> it.
    function lane_of(kernel) result(lane)
       integer, intent(in) :: kernel  !> Film kernel
-      type(lane_scene_t) :: lane
+      type(problem_t) :: lane
       type(scene_t) :: scene
       type(film_t) :: film
 
@@ -75,13 +74,12 @@ contains
          scene%lubricant%pressure_viscosity = 1.0e-15_dp
       end if
       film = new_film(scene)
-      lane = lane_of_scene(scene, film, steady_film(film, scene%load%steady_force + &
-                                                    3.0_dp*standard_gravity), 0.0_dp)
+      lane = problem_of(scene)
    end function lane_of
 
    !> The six scenes.
    function all_lanes() result(lanes)
-      type(lane_scene_t) :: lanes(size(kernels))
+      type(problem_t) :: lanes(size(kernels))
       integer :: i
 
       do i = 1, size(kernels)
@@ -90,15 +88,16 @@ contains
    end function all_lanes
 
    !> Solve scenes.
-   function motions_of(lanes, request) result(motions)
-      type(lane_scene_t), intent(in) :: lanes(:)   !> The scenes
-      type(lane_request_t), intent(in) :: request  !> What is asked for
+   function motions_of(lanes, starts, request) result(motions)
+      type(problem_t), intent(in) :: lanes(:)   !> What moves
+      type(motion_state_t), intent(in) :: starts(:)  !> From where
+      type(request_t), intent(in) :: request  !> What is asked for
       type(motions_t) :: motions
 
       allocate (motions%films(request%sampled_periods*request%samples_per_period, size(lanes)), source=0.0_dp)
       allocate (motions%velocities, source=motions%films)
       allocate (motions%endings(size(lanes)))
-      call solve_motions(lanes, request, motions%films, motions%velocities, motions%endings)
+      call solve_motions(lanes, starts, request, motions%films, motions%velocities, motions%endings)
    end function motions_of
 
    !> Lines and extreme films of the last of 60 periods, by Taylor series where there are some, and by
@@ -125,7 +124,8 @@ contains
                               0.837089_dp, 1.827841_dp, 0.400824_dp, 3.478332_dp, 0.400824_dp, 3.478332_dp], &
                               [2, 6])
       integer, parameter :: line_counts(6) = [30, 47, 47, 12, 21, 21]
-      type(lane_scene_t) :: lanes(2*size(kernels))
+      type(problem_t) :: lanes(2*size(kernels))
+      type(motion_state_t) :: starts(2*size(kernels))
       type(motions_t) :: motions
       type(spectral_lines_t) :: lines
       real(dp) :: values(samples)
@@ -133,8 +133,9 @@ contains
 
       lanes(:size(kernels)) = all_lanes()
       lanes(size(kernels) + 1:) = lanes(:size(kernels))
-      lanes(size(kernels) + 1:)%implicit = .true.
-      motions = motions_of(lanes, lane_request_t(accuracy=1.0e-8_dp, periods=60, samples_per_period=samples, &
+      starts = start_of(lanes)
+      starts(size(kernels) + 1:)%implicit = .true.
+      motions = motions_of(lanes, starts, request_t(accuracy=1.0e-8_dp, periods=60, samples_per_period=samples, &
                                                  sampled_periods=1))
       do i = 1, size(lanes)
          law = 1 + modulo(i - 1, size(kernels))
@@ -170,24 +171,25 @@ contains
    subroutine test_carrying_on(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(lane_scene_t) :: lanes(2*size(kernels)), rest(2*size(kernels))
-      type(lane_request_t) :: request
+      type(problem_t) :: lanes(2*size(kernels))
+      type(motion_state_t) :: starts(2*size(kernels))
+      type(request_t) :: request
       type(motions_t) :: whole, part
       integer :: i
 
       lanes(:size(kernels)) = all_lanes()
       lanes(size(kernels) + 1:) = lanes(:size(kernels))
-      lanes(size(kernels) + 1:)%implicit = .true.
-      request = lane_request_t(accuracy=1.0e-7_dp, periods=12, samples_per_period=8, sampled_periods=7)
-      whole = motions_of(lanes, request)
+      starts = start_of(lanes)
+      starts(size(kernels) + 1:)%implicit = .true.
+      request = request_t(accuracy=1.0e-7_dp, periods=12, samples_per_period=8, sampled_periods=7)
+      whole = motions_of(lanes, starts, request)
       request%periods = 5
       request%sampled_periods = 0
-      part = motions_of(lanes, request)
-      rest = lanes
-      call carry_on(part%endings, rest)
+      part = motions_of(lanes, starts, request)
+      starts = part%endings%motion_state_t
       request%periods = 12
       request%sampled_periods = 7
-      part = motions_of(rest, request)
+      part = motions_of(lanes, starts, request)
       do i = 1, size(lanes)
          call checks%check(same(whole, i, part, i), trim(names(1 + modulo(i - 1, size(kernels))))// &
                            ': carried on')
@@ -195,39 +197,28 @@ contains
       end do
    end subroutine test_carrying_on
 
-   !> Make a scene start where its motion ended.
-   elemental subroutine carry_on(ending, lane)
-      type(lane_ending_t), intent(in) :: ending  !> Its ending
-      type(lane_scene_t), intent(inout) :: lane  !> The scene
-
-      lane%carried_on = .true.
-      lane%periods_done = ending%periods
-      lane%implicit = ending%implicit
-      lane%initial_film = ending%film
-      lane%initial_velocity = ending%velocity
-      lane%initial_momentum = ending%momentum
-   end subroutine carry_on
-
    !> A search for repetition, period by period, finds what one call finds.
    subroutine test_search_in_pieces(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       integer, parameter :: most_periods = 60
-      type(lane_scene_t) :: lanes(2*size(kernels))
-      type(lane_ending_t) :: whole(2*size(kernels)), piece(1)
+      type(problem_t) :: lanes(2*size(kernels))
+      type(motion_state_t) :: starts(2*size(kernels))
+      type(ending_t) :: whole(2*size(kernels)), piece(1)
       type(orbit_watch_t) :: watches(1)
       real(dp) :: films(0, 2*size(kernels)), velocities(0, 2*size(kernels))
       integer :: i
 
       lanes(:size(kernels)) = all_lanes()
       lanes(size(kernels) + 1:) = lanes(:size(kernels))
-      lanes(size(kernels) + 1:)%implicit = .true.
-      call solve_motions(lanes, lane_request_t(periods=most_periods, until_steady=.true.), films, velocities, whole)
+      starts = start_of(lanes)
+      starts(size(kernels) + 1:)%implicit = .true.
+      call solve_motions(lanes, starts, request_t(periods=most_periods, until_steady=.true.), films, velocities, whole)
       do i = 1, size(lanes)
-         do while (lanes(i)%periods_done < most_periods)
-            call solve_motions(lanes(i:i), lane_request_t(periods=lanes(i)%periods_done + 1, until_steady=.true.), &
+         do while (starts(i)%periods < most_periods)
+            call solve_motions(lanes(i:i), starts(i:i), request_t(periods=starts(i)%periods + 1, until_steady=.true.), &
                                films(:, i:i), velocities(:, i:i), piece, watches)
-            call carry_on(piece(1), lanes(i))
+            starts(i) = piece(1)%motion_state_t
             if (piece(1)%orbit > 0) exit
          end do
          call checks%check(whole(i)%orbit > 0 .and. piece(1)%orbit == whole(i)%orbit .and. &
@@ -242,15 +233,17 @@ contains
    subroutine test_steady(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(lane_request_t) :: request
+      type(problem_t) :: lanes(size(kernels))
+      type(request_t) :: request
       type(motions_t) :: whole, steady
       real(dp) :: error
       integer :: i
 
-      request = lane_request_t(accuracy=1.0e-8_dp, periods=100, samples_per_period=64, sampled_periods=1)
-      whole = motions_of(all_lanes(), request)
+      lanes = all_lanes()
+      request = request_t(accuracy=1.0e-8_dp, periods=100, samples_per_period=64, sampled_periods=1)
+      whole = motions_of(lanes, start_of(lanes), request)
       request%until_steady = .true.
-      steady = motions_of(all_lanes(), request)
+      steady = motions_of(lanes, start_of(lanes), request)
       do i = 1, size(kernels)
          associate (ending => steady%endings(i))
             call checks%check(ending%status == status_steady .and. ending%orbit == 1 .and. &
@@ -269,31 +262,34 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       integer, parameter :: sampled(4) = [0, 1, 9, 80], most_periods = 1000000007
-      type(lane_scene_t) :: lanes(2*size(kernels))
-      type(lane_request_t) :: request
+      type(problem_t) :: lanes(2*size(kernels))
+      type(motion_state_t) :: starts(2*size(kernels))
+      type(request_t) :: request
       type(motions_t) :: whole, skipped
       integer :: i, j
 
       lanes(:size(kernels)) = all_lanes()
       lanes(size(kernels) + 1:) = lanes(:size(kernels))
-      lanes(size(kernels) + 1:)%implicit = .true.
+      starts = start_of(lanes)
+      starts(size(kernels) + 1:)%implicit = .true.
       do j = 1, size(sampled)
-         request = lane_request_t(accuracy=1.0e-6_dp, periods=80, samples_per_period=16, sampled_periods=sampled(j))
-         skipped = motions_of(lanes, request)
+         request = request_t(accuracy=1.0e-6_dp, periods=80, samples_per_period=16, sampled_periods=sampled(j))
+         skipped = motions_of(lanes, starts, request)
          request%every_period = .true.
-         whole = motions_of(lanes, request)
+         whole = motions_of(lanes, starts, request)
          do i = 1, size(lanes)
-            call checks%check(same(whole, i, skipped, i) .and. skipped%endings(i)%steps == whole%endings(i)%steps .and. &
+            call checks%check(same(whole, i, skipped, i) .and. &
+                              skipped%endings(i)%count%steps == whole%endings(i)%count%steps .and. &
                               skipped%endings(i)%samples == 16*sampled(j), &
                               trim(names(1 + modulo(i - 1, size(kernels))))//': periods that return')
          end do
       end do
       ! Computed one by one, these would take days.
-      skipped = motions_of(lanes, lane_request_t(accuracy=1.0e-6_dp, periods=most_periods, samples_per_period=16, &
+      skipped = motions_of(lanes, starts, request_t(accuracy=1.0e-6_dp, periods=most_periods, samples_per_period=16, &
                                                  sampled_periods=2))
       do i = 1, size(lanes)
          call checks%check(skipped%endings(i)%periods == most_periods .and. &
-                           skipped%endings(i)%steps > most_periods .and. skipped%endings(i)%samples == 32, &
+                           skipped%endings(i)%count%steps > most_periods .and. skipped%endings(i)%samples == 32, &
                            trim(names(1 + modulo(i - 1, size(kernels))))//': a thousand million periods')
       end do
    end subroutine test_returning_periods
@@ -302,24 +298,26 @@ contains
    subroutine test_company(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(lane_scene_t) :: lanes(2*size(kernels))
-      type(lane_request_t) :: request
+      type(problem_t) :: lanes(2*size(kernels))
+      type(motion_state_t) :: starts(2*size(kernels))
+      type(request_t) :: request
       type(motions_t) :: together, reversed, alone
       integer :: i, differing
 
       lanes(:size(kernels)) = all_lanes()
       lanes(size(kernels) + 1:) = lanes(:size(kernels))
-      lanes%force_amplitude = [(20.0_dp*real(modulo(5*i, 12), dp), i=1, size(lanes))]
+      lanes%force%amplitude = [(20.0_dp*real(modulo(5*i, 12), dp), i=1, size(lanes))]
       lanes(9)%initial_velocity = -0.02_dp
       lanes(3)%initial_film = -1.0_dp
-      lanes(8)%implicit = .true.
-      request = lane_request_t(accuracy=1.0e-6_dp, periods=30, samples_per_period=8, sampled_periods=2, &
+      starts = start_of(lanes)
+      starts(8)%implicit = .true.
+      request = request_t(accuracy=1.0e-6_dp, periods=30, samples_per_period=8, sampled_periods=2, &
                                until_steady=.true.)
-      together = motions_of(lanes, request)
-      reversed = motions_of(lanes(size(lanes):1:-1), request)
+      together = motions_of(lanes, starts, request)
+      reversed = motions_of(lanes(size(lanes):1:-1), starts(size(lanes):1:-1), request)
       differing = 0
       do i = 1, size(lanes)
-         alone = motions_of(lanes(i:i), request)
+         alone = motions_of(lanes(i:i), starts(i:i), request)
          if (.not. same(together, i, alone, 1)) differing = differing + 1
          if (.not. same(together, i, reversed, size(lanes) + 1 - i)) differing = differing + 1
       end do
@@ -343,8 +341,9 @@ contains
                               3516.0_dp], [9, 2])
       type(scene_t) :: scene
       type(film_t) :: film
-      type(lane_scene_t) :: lanes(2)
-      type(lane_request_t) :: request
+      type(problem_t) :: lanes(2)
+      type(motion_state_t) :: starts(2)
+      type(request_t) :: request
       type(motions_t) :: collocation, taylor
       real(dp) :: error
       integer :: i
@@ -363,12 +362,14 @@ contains
             scene%load%frequency = input(9)
          end associate
          film = new_film(scene)
-         lanes = lane_of_scene(scene, film, steady_film(film, scene%load%steady_force), 0.0_dp)
-         lanes%implicit = [.true., .false.]
-         request = lane_request_t(accuracy=accuracy, periods=periods(i), samples_per_period=64, sampled_periods=1)
-         collocation = motions_of(lanes(:1), request)
+         scene%load%gravity = 0.0_dp
+         lanes = problem_of(scene)
+         starts = start_of(lanes)
+         starts%implicit = [.true., .false.]
+         request = request_t(accuracy=accuracy, periods=periods(i), samples_per_period=64, sampled_periods=1)
+         collocation = motions_of(lanes(:1), starts(:1), request)
          request%accuracy = 1.0e-4_dp*accuracy
-         taylor = motions_of(lanes(2:), request)
+         taylor = motions_of(lanes(2:), starts(2:), request)
          error = maxval(abs(collocation%films/taylor%films - 1.0_dp))
          call checks%check(all([collocation%endings%status, taylor%endings%status] == status_complete), 'overshooting: solved')
          call checks%check(error < accuracy, 'overshooting: the film')

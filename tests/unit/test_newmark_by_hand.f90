@@ -2,12 +2,14 @@
 module test_newmark_by_hand
    use canonical_scenes, only: canonical_method, canonical_scene, idle_steady_film
    use checks, only: check_list_t
-   use film_law, only: film_t, load_half_pi, new_film
-   use forcing, only: force_of_period
+   use engine, only: motion_count_t, request_t
+   use film_law, only: load_half_pi
+   use force, only: force_of_period
    use kinds, only: dp
    use linear_newmark, only: damping, first_film, first_velocity, linear_method, load_at_zero, periods, run_linear, stiffness, &
       two_pi
-   use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
+   use newmark, only: advance_period, newmark_state_t, start_motion
+   use problem, only: problem_of, problem_t
    use scene_types, only: law_iso_viscous
    implicit none(type, external)
    private
@@ -32,7 +34,7 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       integer, parameter :: steps = 64
-      type(newmark_t) :: method
+      type(request_t) :: method
       type(motion_count_t) :: count
       real(dp), dimension(periods*steps) :: films, velocities, accelerations
       real(dp) :: dt, h, v, a, next_h, next_v, next_a, last_h, force, error
@@ -83,26 +85,27 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       integer, parameter :: steps = 64
-      type(newmark_t) :: method
-      type(film_t) :: film
+      type(request_t) :: method
+      type(problem_t) :: problem
       type(motion_count_t) :: count
-      type(motion_state_t) :: state
+      type(newmark_state_t) :: state
       real(dp), dimension(steps) :: force, films, velocities, accelerations
       real(dp) :: dt, h, v, a, next_h, next_v, next_a, last_h, load, slope_h, slope_w, error
       integer :: choice, status, i, passes, done
 
-      film = new_film(canonical_scene(law_iso_viscous, steps))
+      problem = problem_of(canonical_scene(law_iso_viscous, steps))
+      problem%initial_film = idle_steady_film
+      call force_of_period(problem%force, force)
       dt = 1.0_dp/(600.0_dp*real(steps, dp))
       do choice = 7, 14
          method = canonical_method()
          method%tolerance = 10.0_dp**(-choice)
-         call force_of_period(method%steady_force, method%force_amplitude, force)
          count = motion_count_t()
-         call start_motion(load_half_pi, film, method, idle_steady_film, 0.0_dp, state, count, status)
+         call start_motion(load_half_pi, problem, state, count, status)
          h = state%film
          v = state%velocity
          a = state%acceleration
-         call advance_period(load_half_pi, film, method, force, state, count, films, velocities, &
+         call advance_period(load_half_pi, problem, method, force, state, count, films, velocities, &
             accelerations, done, &
             status)
          passes = 1
@@ -114,8 +117,8 @@ contains
             do
                passes = passes + 1
                last_h = next_h
-               call load_half_pi(film, next_h, next_v, load, slope_h, slope_w)
-               next_a = next_a + (load - force(i) - method%weight - 3.0_dp*next_a) &
+               call load_half_pi(problem%film, next_h, next_v, load, slope_h, slope_w)
+               next_a = next_a + (load - force(i) - problem%weight - 3.0_dp*next_a) &
                   /(3.0_dp - 0.25_dp*dt*dt*slope_h - 0.5_dp*dt*slope_w)
                call newmark_formulas(dt, h, v, a, next_a, next_h, next_v)
                if (abs(next_h - last_h) < method%tolerance) exit

@@ -2,11 +2,13 @@
 module test_newmark_cuts
    use canonical_scenes, only: canonical_method, canonical_scene, idle_steady_film
    use checks, only: check_list_t
-   use film_law, only: film_t, load_half_pi, load_piezo, new_film
-   use forcing, only: force_of_period
+   use engine, only: motion_count_t, request_t
+   use film_law, only: film_t, load_half_pi, load_piezo
+   use force, only: force_of_period
    use kinds, only: dp, int64
-   use linear_newmark, only: linear_film, linear_method, two_pi
-   use newmark, only: advance_period, motion_count_t, motion_state_t, newmark_t, start_motion
+   use linear_newmark, only: linear_film, linear_method, two_pi, linear_problem
+   use newmark, only: advance_period, newmark_state_t, start_motion
+   use problem, only: problem_of, problem_t, static_load
    use scene_status, only: status_complete, status_film_lost, status_not_converged, status_overflow
    use scene_types, only: law_iso_viscous, law_piezo_viscous
    implicit none(type, external)
@@ -61,23 +63,23 @@ contains
 
       integer, parameter :: steps = 8
       real(dp), parameter :: angular = 3.0_dp*600.0_dp*real(steps, dp), rest = 1.0e-5_dp, amplitude = 124.0_dp
-      type(newmark_t) :: method
-      type(film_t) :: film
-      type(motion_state_t) :: start, state
+      type(request_t) :: method
+      type(problem_t) :: problem
+      type(newmark_state_t) :: start, state
       type(motion_count_t) :: count, cut_count
       real(dp), dimension(4*steps) :: force, films, velocities, accelerations
       real(dp) :: cut_film, cut_velocity, cut_acceleration
       integer :: done, status
 
       method = linear_method()
-      method%force_amplitude = amplitude
-      film%piezo = method%mass*angular**2
-      film%rolling = film%piezo*rest + method%steady_force + method%weight
-      call start_motion(linear_film, film, method, rest, -0.9_dp*rest*angular, start, count, status)
+      problem = falling_film(angular, rest, amplitude)
+      problem%initial_film = rest
+      problem%initial_velocity = -0.9_dp*rest*angular
+      call start_motion(linear_film, problem, start, count, status)
 
       state = start
-      call force_of_period(method%steady_force, amplitude, force(:steps))
-      call advance_period(linear_film, film, method, force(:steps), state, cut_count, films(:steps), &
+      call force_of_period(problem%force, force(:steps))
+      call advance_period(linear_film, problem, method, force(:steps), state, cut_count, films(:steps), &
          velocities(:steps), &
          accelerations(:steps), done, status)
       call checks%check(done >= 1 .and. cut_count%cuts >= 2, 'nested cut: the first step was cut')
@@ -86,14 +88,14 @@ contains
       cut_acceleration = accelerations(1)
 
       state = start
-      call force_of_period(method%steady_force, amplitude, force)
+      call force_of_period(problem%force, force)
       count = motion_count_t()
-      call advance_period(linear_film, film, method, force, state, count, films, velocities, accelerations, &
+      call advance_period(linear_film, problem, method, force, state, count, films, velocities, accelerations, &
          done, status)
       call checks%check(done >= 2 .and. count%cuts == 0, 'nested cut: quarters need no cut')
-      state = motion_state_t(films(2), velocities(2), accelerations(2))
-      force(1) = method%steady_force + amplitude*cos(two_pi/real(steps, dp))
-      call advance_period(linear_film, film, method, force(:2*steps), state, count, films(:2*steps), &
+      state = newmark_state_t(films(2), velocities(2), accelerations(2))
+      force(1) = problem%force%steady + amplitude*cos(two_pi/real(steps, dp))
+      call advance_period(linear_film, problem, method, force(:2*steps), state, count, films(:2*steps), &
          velocities(:2*steps), accelerations(:2*steps), done, status)
       call checks%check_close(cut_film/films(1), 1.0_dp, 1.0e-12_dp, 'nested cut: film')
       call checks%check_close(cut_velocity/velocities(1), 1.0_dp, 1.0e-12_dp, 'nested cut: velocity')
@@ -108,17 +110,16 @@ contains
 
       integer, parameter :: steps = 8
       real(dp), parameter :: angular = 3.0_dp*600.0_dp*real(steps, dp), rest = 1.0e-5_dp, amplitude = 124.0_dp
-      type(newmark_t) :: method
-      type(film_t) :: film
-      type(motion_state_t) :: cut, whole
+      type(request_t) :: method
+      type(problem_t) :: problem
+      type(newmark_state_t) :: cut, whole
       type(motion_count_t) :: count
       integer :: status
 
       method = linear_method()
-      method%force_amplitude = amplitude
-      film%piezo = method%mass*angular**2
-      film%rolling = film%piezo*rest + method%steady_force + method%weight
-      call start_motion(linear_film, film, method, 1.8_dp*rest, 0.0_dp, whole, count, status)
+      problem = falling_film(angular, rest, amplitude)
+      problem%initial_film = 1.8_dp*rest
+      call start_motion(linear_film, problem, whole, count, status)
       cut = whole
       call take_step(1, 1.0_dp, cut)
       call take_step(2, 0.5_dp, whole)
@@ -134,19 +135,32 @@ contains
       subroutine take_step(parts, share, state)
          integer, intent(in) :: parts                  !> Of 1/8 period
          real(dp), intent(in) :: share                 !> Of 1/8 period at its end
-         type(motion_state_t), intent(inout) :: state
+         type(newmark_state_t), intent(inout) :: state
 
          real(dp), dimension(parts*steps) :: force, films, velocities, accelerations
          integer :: done
 
-         force = method%steady_force + amplitude*cos(two_pi*share/real(steps, dp))
+         force = problem%force%steady + amplitude*cos(two_pi*share/real(steps, dp))
          ! Later steps of the period do not matter.
-         call advance_period(linear_film, film, method, force, state, count, films, velocities, accelerations, done, status)
+         call advance_period(linear_film, problem, method, force, state, count, films, velocities, accelerations, done, status)
          call checks%check(done >= 1, 'second half cut: the step was taken')
-         state = motion_state_t(films(1), velocities(1), accelerations(1))
+         state = newmark_state_t(films(1), velocities(1), accelerations(1))
       end subroutine take_step
 
    end subroutine test_second_half_cut
+
+   !> The load of the linear film on a stiff one without damping.
+   function falling_film(angular, rest, amplitude) result(problem)
+      real(dp), intent(in) :: angular    !> Natural angular frequency [1/s]
+      real(dp), intent(in) :: rest       !> Film at rest [m]
+      real(dp), intent(in) :: amplitude  !> F0 [N]
+      type(problem_t) :: problem
+
+      problem = linear_problem()
+      problem%force%amplitude = amplitude
+      problem%film = film_t(piezo=problem%mass*angular**2)
+      problem%film%rolling = problem%film%piezo*rest + static_load(problem)
+   end function falling_film
 
    !> One period of the canonical idle scene from its steady film with a given velocity.
    subroutine fall_through_a_period(fall, by_newton, films, count)
@@ -155,19 +169,21 @@ contains
       real(dp), contiguous, intent(out) :: films(:)  !> h at the end of every step [m]
       type(motion_count_t), intent(out) :: count  !> Cost
 
-      type(newmark_t) :: method
-      type(film_t) :: film
-      type(motion_state_t) :: state
+      type(request_t) :: method
+      type(problem_t) :: problem
+      type(newmark_state_t) :: state
       real(dp), dimension(size(films)) :: force, velocities, accelerations
       integer :: done, status
 
-      film = new_film(canonical_scene(law_iso_viscous, size(films)))
+      problem = problem_of(canonical_scene(law_iso_viscous, size(films)))
+      problem%initial_film = idle_steady_film
+      problem%initial_velocity = fall
       method = canonical_method()
       method%by_newton = by_newton
-      call force_of_period(method%steady_force, method%force_amplitude, force)
-      call start_motion(load_half_pi, film, method, idle_steady_film, fall, state, count, status)
+      call force_of_period(problem%force, force)
+      call start_motion(load_half_pi, problem, state, count, status)
       films = -1.0_dp
-      call advance_period(load_half_pi, film, method, force, state, count, films, velocities, &
+      call advance_period(load_half_pi, problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
    end subroutine fall_through_a_period
 
@@ -176,9 +192,9 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       integer, parameter :: steps = 64
-      type(newmark_t) :: method
-      type(film_t) :: film
-      type(motion_state_t) :: state, before
+      type(request_t) :: method
+      type(problem_t) :: problem
+      type(newmark_state_t) :: state, before
       type(motion_count_t) :: count
       real(dp), dimension(steps) :: force, films, velocities, accelerations
       integer :: done, status
@@ -186,11 +202,12 @@ contains
       ! One pass cannot see that it has converged.
       method = canonical_method()
       method%iteration_limit = 1
-      call force_of_period(method%steady_force, method%force_amplitude, force)
-      film = new_film(canonical_scene(law_iso_viscous, steps))
-      call start_motion(load_half_pi, film, method, idle_steady_film, 0.0_dp, state, count, status)
+      problem = problem_of(canonical_scene(law_iso_viscous, steps))
+      problem%initial_film = idle_steady_film
+      call force_of_period(problem%force, force)
+      call start_motion(load_half_pi, problem, state, count, status)
       before = state
-      call advance_period(load_half_pi, film, method, force, state, count, films, velocities, &
+      call advance_period(load_half_pi, problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
       call checks%check(status == status_not_converged, 'iteration limit: status')
       call checks%check(done == 0 .and. count%steps == 0 .and. count%cuts == 0, &
@@ -203,24 +220,29 @@ contains
       method = canonical_method()
       method%by_newton = .false.
       method%iteration_limit = 50
-      film = new_film(canonical_scene(law_piezo_viscous, 8))
-      call start_motion(load_piezo, film, method, 1.0e-6_dp, 0.0_dp, state, count, status)
-      call force_of_period(method%steady_force, method%force_amplitude, force(:8))
-      call advance_period(load_piezo, film, method, force(:8), state, count, films(:8), velocities(:8), &
+      problem = problem_of(canonical_scene(law_piezo_viscous, 8))
+      problem%initial_film = 1.0e-6_dp
+      call start_motion(load_piezo, problem, state, count, status)
+      call force_of_period(problem%force, force(:8))
+      call advance_period(load_piezo, problem, method, force(:8), state, count, films(:8), velocities(:8), &
          accelerations(:8), &
          done, status)
       call checks%check(status /= status_complete .or. count%cuts > 0, 'a diverging step is not passed over')
 
       ! exp(703*2/1.905) is no load.
-      call start_motion(load_piezo, film, method, 1.0e-6_dp, -2.0_dp, state, count, status)
+      problem%initial_velocity = -2.0_dp
+      call start_motion(load_piezo, problem, state, count, status)
       call checks%check(status == status_overflow, 'overflow at the start: status')
 
       ! Nothing stops a fall in a film that carries nothing.
       method = linear_method()
-      film = film_t()
-      call force_of_period(method%steady_force, method%force_amplitude, force)
-      call start_motion(linear_film, film, method, 1.0e-6_dp, -1.0e-3_dp, state, count, status)
-      call advance_period(linear_film, film, method, force, state, count, films, velocities, accelerations, &
+      problem = linear_problem()
+      problem%film = film_t()
+      problem%initial_film = 1.0e-6_dp
+      problem%initial_velocity = -1.0e-3_dp
+      call force_of_period(problem%force, force)
+      call start_motion(linear_film, problem, state, count, status)
+      call advance_period(linear_film, problem, method, force, state, count, films, velocities, accelerations, &
          done, status)
       call checks%check(status == status_film_lost, 'no load: film lost')
       call checks%check(done < steps .and. int(count%steps) == done, 'no load: steps before the loss')

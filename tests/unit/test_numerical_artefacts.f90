@@ -3,8 +3,8 @@
 module test_numerical_artefacts
    use canonical_scenes, only: canonical_scene, run_window
    use checks, only: check_list_t
+   use engine, only: ending_t
    use fourier, only: amplitude_spectrum
-   use integrate_motion, only: motion_end_t
    use kinds, only: dp
    use rattle_class, only: class_irregular, classify, rattle_verdict_t
    use sample_recorder, only: sample_recorder_t
@@ -39,7 +39,7 @@ contains
       type(rattle_verdict_t), intent(out) :: verdict         !> Its class
 
       type(sample_recorder_t) :: recorder
-      type(motion_end_t) :: ending
+      type(ending_t) :: ending
 
       scene%spectrum%periods = 16
       call run_window(scene, recorder, ending)

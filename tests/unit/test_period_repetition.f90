@@ -2,10 +2,9 @@
 !> The film stays near one, where its weight is a half.
 module test_period_repetition
    use checks, only: check_list_t
-   use film_law, only: film_t, kernel_half_pi
    use kinds, only: dp
    use period_repetition, only: note_state, orbit_watch_t, watch_from
-   use settling_rate, only: settling_of, settling_t
+   use problem, only: settling_t
    implicit none(type, external)
    private
 

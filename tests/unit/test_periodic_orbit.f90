@@ -2,13 +2,12 @@
 module test_periodic_orbit
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t
-   use film_law, only: film_t, new_film, steady_film
+   use engine, only: ending_t, request_t, start_of
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
    use period_map, only: map_states
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
-   use scene_lane, only: lane_of_scene
+   use problem, only: problem_of, problem_t
    use scene_types, only: law_iso_viscous, scene_t
    implicit none(type, external)
    private
@@ -33,27 +32,25 @@ contains
    function lane_of(amplitude, speed) result(lane)
       real(dp), intent(in) :: amplitude   !> F0 [N]
       real(dp), intent(in) :: speed       !> Entrainment speed [m/s]
-      type(lane_scene_t) :: lane
+      type(problem_t) :: lane
       type(scene_t) :: scene
-      type(film_t) :: film
 
       scene = canonical_scene(law_iso_viscous, 512)
       scene%load%force_amplitude = amplitude
       scene%kinematics%entrainment_speed = speed
-      film = new_film(scene)
-      lane = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), 0.0_dp)
+      lane = problem_of(scene)
    end function lane_of
 
    !> State after many periods.
    function settled(lane, periods) result(ending)
-      type(lane_scene_t), intent(in) :: lane   !> The scene
+      type(problem_t), intent(in) :: lane   !> The scene
       integer, intent(in) :: periods           !> Periods
-      type(lane_ending_t) :: ending
-      type(lane_ending_t) :: endings(1)
+      type(ending_t) :: ending
+      type(ending_t) :: endings(1)
       real(dp) :: none(0, 1)
 
       none = 0.0_dp
-      call solve_motions([lane], lane_request_t(accuracy=1.0e-12_dp, periods=periods), none, none, endings)
+      call solve_motions([lane], [start_of(lane)], request_t(accuracy=1.0e-12_dp, periods=periods), none, none, endings)
       ending = endings(1)
    end function settled
 
@@ -61,8 +58,8 @@ contains
    !> one beyond the nearness.
    subroutine test_off_the_orbit(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
-      type(lane_scene_t) :: lane
-      type(lane_ending_t) :: true
+      type(problem_t) :: lane
+      type(ending_t) :: true
       type(periodic_orbit_t) :: orbit
       real(dp), parameter :: shares(2, 4) = reshape([0.005_dp, 0.0_dp, -0.005_dp, 0.0_dp, 0.0_dp, 0.005_dp, 0.001_dp, -0.005_dp], &
                                                     [2, 4])
@@ -89,8 +86,8 @@ contains
    !> repeats: how far that is tells whether it is meant.
    subroutine test_slow_return(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
-      type(lane_scene_t) :: lane
-      type(lane_ending_t) :: true
+      type(problem_t) :: lane
+      type(ending_t) :: true
       type(periodic_orbit_t) :: orbit
 
       lane = lane_of(100.0_dp, 1.905_dp)
@@ -106,8 +103,8 @@ contains
    !> Multipliers against differences of another step, extrapolated.
    subroutine test_multipliers(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
-      type(lane_scene_t) :: lane
-      type(lane_ending_t) :: true
+      type(problem_t) :: lane
+      type(ending_t) :: true
       type(periodic_orbit_t) :: orbit
       real(dp) :: trace(2), step, film_step, velocity_step, films(4), velocities(4)
       integer :: i
@@ -136,8 +133,8 @@ contains
       integer, parameter :: periods(3) = [2, 4, 8]
       real(dp), parameter :: amplitudes(3) = [452.75_dp, 455.0_dp, 362.75_dp]
       real(dp), parameter :: speeds(3) = [8.405158309469508_dp, 15.736063383946137_dp, 13.830057843624784_dp]
-      type(lane_scene_t) :: lane
-      type(lane_ending_t) :: true
+      type(problem_t) :: lane
+      type(ending_t) :: true
       type(periodic_orbit_t) :: orbit
       integer :: i
 

@@ -3,23 +3,23 @@
 module test_quantities
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use canonical_scenes, only: canonical_scene, counting_watcher_t
-   use checkpoint, only: checkpoint_t
    use checks, only: check_list_t
+   use controlled_engine, only: solve_controlled
+   use engine, only: checkpoint_t, ending_t
    use errors, only: error_t
-   use integrate_controlled, only: solve_controlled
-   use integrate_motion, only: motion_end_t
    use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: find_key
    use kinds, only: dp, int64
    use quantities, only: a_list, a_number, quantities_told_in, quantity_certified, quantity_periods_solved, quantity_status, &
                          quantity_table, quantity_word
-   use resolved_scene, only: resolve
+   use resolved_scene, only: request_of, resolve
    use run_sweep, only: solve_value
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t
    use scene_types, only: law_iso_viscous, method_taylor, scene_t, until_steady
    use solve_chunk, only: chunk_space_t, solve_scenes
+   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -140,15 +140,15 @@ contains
       type(sample_recorder_t) :: recorder
       type(counting_watcher_t) :: watcher
       type(checkpoint_t) :: start
-      type(motion_end_t) :: ending
+      type(ending_t) :: ending
+      type(window_record_t) :: record
       type(error_t), allocatable :: error
 
       judged%resolved = resolve(scene)
       call recorder%open(scene, '', 0, error)
-      call solve_controlled(scene, judged%resolved%film, judged%resolved%initial_film, start, .false., recorder, watcher, &
-                            ending, error)
+      call solve_controlled(judged%resolved%problem, request_of(scene), recorder, watcher, start, ending, record, error)
       call note_ending(ending, judged)
-      call judge(scene, recorder, ending%record, judged, error)
+      call judge(scene, recorder, record, judged, error)
    end subroutine solve_single
 
    !> Solve and judge it as the first value of a sweep.

@@ -2,16 +2,14 @@
 module test_settling_forecast
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t
-   use film_law, only: film_t, new_film, steady_film
+   use engine, only: ending_t, request_t, start_of
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
    use period_repetition, only: note_state, orbit_watch_t, watch_from
-   use scene_lane, only: lane_of_scene
+   use problem, only: problem_of, problem_t, settling_t
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, scene_t
    use settling_forecast, only: forecast_rest
-   use settling_rate, only: settling_t
    implicit none(type, external)
    private
 
@@ -112,9 +110,9 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       real(dp), parameter :: accuracy = 1.0e-8_dp, speeds(4) = [12.0_dp, 16.0_dp, 20.0_dp, 30.0_dp]
       integer, parameter :: samples = 64
-      type(lane_scene_t) :: lanes(4)
-      type(lane_request_t) :: request
-      type(lane_ending_t) :: plain(4), ahead(4)
+      type(problem_t) :: lanes(4)
+      type(request_t) :: request
+      type(ending_t) :: plain(4), ahead(4)
       real(dp) :: films(8*samples, 4), others(8*samples, 4), velocities(8*samples, 4)
       integer :: i
 
@@ -126,9 +124,9 @@ contains
       request%samples_per_period = samples
       request%sampled_periods = 8
       request%until_steady = .true.
-      call solve_motions(lanes, request, films, velocities, plain)
+      call solve_motions(lanes, start_of(lanes), request, films, velocities, plain)
       request%forecast = .true.
-      call solve_motions(lanes, request, others, velocities, ahead)
+      call solve_motions(lanes, start_of(lanes), request, others, velocities, ahead)
       call checks%check(all(plain%status == status_steady .and. ahead%status == status_steady), 'both are steady')
       call checks%check(all(plain%orbit == 1 .and. ahead%orbit == 1), 'both have the period of the force')
       ! Each is within 0.3 accuracies of the orbit, where its steps are accurate; two steps differ by their errors.
@@ -142,9 +140,9 @@ contains
    subroutine test_failed_excursions(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       integer, parameter :: samples = 16, scenes = 120
-      type(lane_scene_t) :: lanes(scenes)
-      type(lane_request_t) :: request
-      type(lane_ending_t) :: plain(scenes), ahead(scenes)
+      type(problem_t) :: lanes(scenes)
+      type(request_t) :: request
+      type(ending_t) :: plain(scenes), ahead(scenes)
       real(dp) :: films(8*samples, scenes), others(8*samples, scenes), velocities(8*samples, scenes)
       logical :: unsettled(scenes)
       integer :: i
@@ -158,12 +156,12 @@ contains
       request%until_steady = .true.
       films = 0.0_dp
       others = 0.0_dp
-      call solve_motions(lanes, request, films, velocities, plain)
+      call solve_motions(lanes, start_of(lanes), request, films, velocities, plain)
       request%forecast = .true.
-      call solve_motions(lanes, request, others, velocities, ahead)
+      call solve_motions(lanes, start_of(lanes), request, others, velocities, ahead)
       unsettled = ahead%status == status_complete
       ! Which of them these are is left to rounding, for the motions are irregular.
-      call checks%check(count(unsettled .and. ahead%steps > plain%steps) > 0, 'failed forecasts: there are some')
+      call checks%check(count(unsettled .and. ahead%count%steps > plain%count%steps) > 0, 'failed forecasts: there are some')
       call checks%check(all(plain%status == status_complete .or. .not. unsettled), 'failed forecasts: none would have settled')
       call checks%check(all(plain%periods == ahead%periods .or. .not. unsettled), 'failed forecasts: the periods of the motion')
       call checks%check(all(maxval(abs(films - others), dim=1) <= 0.0_dp .or. .not. unsettled), &
@@ -174,15 +172,13 @@ contains
    function canonical_lane(speed, force) result(lane)
       real(dp), intent(in) :: speed  !> Entrainment speed [m/s]
       real(dp), intent(in) :: force  !> Force amplitude [N]
-      type(lane_scene_t) :: lane
+      type(problem_t) :: lane
       type(scene_t) :: scene
-      type(film_t) :: film
 
       scene = canonical_scene(law_iso_viscous, 64)
       scene%kinematics%entrainment_speed = speed
       scene%load%force_amplitude = force
-      film = new_film(scene)
-      lane = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), 0.0_dp)
+      lane = problem_of(scene)
    end function canonical_lane
 
 end module test_settling_forecast

@@ -3,11 +3,12 @@
 module test_slow_motions
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t
+   use engine, only: ending_t, request_t, start_of
    use film_law, only: film_load, film_t, new_film, steady_film
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_accuracy, lane_ending_t, lane_request_t, lane_scene_t
-   use scene_lane, only: lane_of_scene
+   use lane_block, only: lane_accuracy
+   use many_motions, only: solve_motions
+   use problem, only: problem_of, problem_t
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
                           scene_t
@@ -119,11 +120,10 @@ contains
    function lane_of(scene, velocity) result(lane)
       type(scene_t), intent(in) :: scene        !> The scene
       real(dp), intent(in) :: velocity          !> z' at t = 0 [m/s]
-      type(lane_scene_t) :: lane
-      type(film_t) :: film
+      type(problem_t) :: lane
 
-      film = new_film(scene)
-      lane = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), velocity)
+      lane = problem_of(scene)
+      lane%initial_velocity = velocity
    end function lane_of
 
    !> A scene is found steady, within the accuracy of where a long run ends.
@@ -135,13 +135,15 @@ contains
       logical, intent(in) :: creeps                !> Whether it creeps in one direction alone
       character(*), intent(in) :: name             !> Of the scene
       type(check_list_t), intent(inout) :: checks  !> Collects the results
-      type(lane_ending_t) :: steady(1), long(1)
+      type(problem_t) :: lane
+      type(ending_t) :: steady(1), long(1)
       real(dp) :: none(0, 1), film, away
 
       none = 0.0_dp
-      call solve_motions([lane_of(scene, velocity)], lane_request_t(accuracy=accuracy, periods=periods, until_steady=.true.), &
-                         none, none, steady)
-      call solve_motions([lane_of(scene, velocity)], lane_request_t(accuracy=0.01_dp*accuracy, periods=periods), none, none, long)
+      lane = lane_of(scene, velocity)
+      call solve_motions([lane], [start_of(lane)], request_t(accuracy=accuracy, periods=periods, until_steady=.true.), none, &
+                         none, steady)
+      call solve_motions([lane], [start_of(lane)], request_t(accuracy=0.01_dp*accuracy, periods=periods), none, none, long)
       call checks%check(steady(1)%status == status_steady .and. long(1)%status == status_complete, name//': found steady')
       call checks%check(steady(1)%orbit == 1 .and. steady(1)%distance <= accuracy, name//': its bound')
       call checks%check_close(steady(1)%film/long(1)%film, 1.0_dp, accuracy, name//': where a long run ends')

@@ -4,12 +4,11 @@ module test_stopping
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t, same_bits
    use csv_samples, only: csv_samples_t, read_csv_samples
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use errors, only: fault_list_t
-   use film_law, only: film_t, new_film, steady_film
    use kinds, only: dp, int64
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use scene_lane, only: lane_of_scene
+   use many_motions, only: solve_motions
+   use problem, only: problem_of, problem_t
    use scene_status, only: status_complete, status_interrupted
    use scene_types, only: law_iso_viscous, scene_t
    use signals, only: lift_time_limit, limit_time, must_stop
@@ -68,26 +67,26 @@ contains
       type(check_list_t), intent(inout) :: checks
       integer, parameter :: scenes = 20
       type(scene_t) :: scene
-      type(film_t) :: film
-      type(lane_scene_t) :: lanes(scenes)
-      type(lane_request_t) :: request
-      type(lane_ending_t) :: endings(scenes)
+      type(problem_t) :: lanes(scenes)
+      type(motion_state_t) :: starts(scenes)
+      type(request_t) :: request
+      type(ending_t) :: endings(scenes)
       real(dp) :: films(64, scenes), velocities(64, scenes)
 
       scene = canonical_scene(law_iso_viscous, 64)
-      film = new_film(scene)
-      lanes = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), 0.0_dp)
-      lanes(15:)%implicit = .true.
-      request = lane_request_t(accuracy=1.0e-6_dp, periods=3, samples_per_period=64, sampled_periods=1)
+      lanes = problem_of(scene)
+      starts = start_of(lanes)
+      starts(15:)%implicit = .true.
+      request = request_t(accuracy=1.0e-6_dp, periods=3, samples_per_period=64, sampled_periods=1)
       films = 0.0_dp
       velocities = 0.0_dp
       call end_time()
-      call solve_motions(lanes, request, films, velocities, endings)
+      call solve_motions(lanes, starts, request, films, velocities, endings)
       call lift_time_limit()
       call checks%check(all(endings%status == status_interrupted), 'motions: interrupted')
       call checks%check(all(endings%periods == 0 .and. endings%samples == 0), 'motions: nothing solved')
       call checks%check(all(same_bits(endings%film, lanes%initial_film)), 'motions: where they began')
-      call solve_motions(lanes, request, films, velocities, endings)
+      call solve_motions(lanes, starts, request, films, velocities, endings)
       call checks%check(all(endings%status == status_complete .and. endings%periods == 3), 'motions: solved in the end')
    end subroutine test_motions
 

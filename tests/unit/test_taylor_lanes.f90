@@ -5,18 +5,19 @@ module test_taylor_lanes
    use, intrinsic :: iso_c_binding, only: c_intptr_t, c_loc
    use checks, only: check_list_t, same_bits
    use constants, only: standard_gravity, two_pi
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
       kernel_solved_fast
    use kinds, only: dp
+   use lane_block, only: lane_block_t, place_block
    use lane_functions, only: coarse_log, coarse_power, half_block, lane_cosine_sine, lane_exponential, lanes, log_of_one, &
       whole_below
-   use lane_motions, only: solve_motions
    use lane_rows, only: interleave_rows
-   use lane_scenes, only: lane_block_t, lane_ending_t, lane_request_t, lane_scene_t, place_block
+   use many_motions, only: solve_motions
+   use problem, only: accelerations_of_samples, problem_t
    use published_iso_viscous, only: rolling_coefficient, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, squeeze_exponent_rate
    use reynolds_load, only: pressure_rate, squeeze_rate
-   use sample_accelerations, only: accelerations_of_samples
    use scene_status, only: status_complete, status_film_lost, status_overflow, status_steady
    implicit none(type, external)
    private
@@ -55,16 +56,16 @@ contains
       real(dp), intent(in) :: speed
       !> F0/Q [-]
       real(dp), intent(in) :: force_ratio
-      type(lane_scene_t) :: scene
+      type(problem_t) :: scene
       real(dp) :: load, length
 
       scene%mass = mass
       scene%weight = mass*standard_gravity
-      scene%steady_force = 40.0_dp
-      scene%force_amplitude = force_ratio*scene%steady_force
+      scene%force%steady = 40.0_dp
+      scene%force%amplitude = force_ratio*scene%force%steady
       scene%frequency = frequency
       scene%initial_film = first_film
-      load = scene%steady_force + scene%weight
+      load = scene%force%steady + scene%weight
       scene%film%kernel = kernel
       scene%film%radius = radius
       scene%film%speed = speed
@@ -93,19 +94,24 @@ contains
    end function scene_of
 
    !> Films of the last periods of one scene.
-   subroutine films_of(scene, accuracy, periods, sampled, per_period, films, ending)
-      type(lane_scene_t), intent(in) :: scene
+   subroutine films_of(scene, accuracy, periods, sampled, per_period, films, ending, implicit)
+      type(problem_t), intent(in) :: scene
       real(dp), intent(in) :: accuracy
       integer, intent(in) :: periods
       integer, intent(in) :: sampled
       integer, intent(in) :: per_period
       real(dp), allocatable, intent(out) :: films(:)
-      type(lane_ending_t), intent(out) :: ending
-      type(lane_ending_t) :: endings(1)
+      type(ending_t), intent(out) :: ending
+      !> By collocation from the start
+      logical, optional, intent(in) :: implicit
+      type(motion_state_t) :: start
+      type(ending_t) :: endings(1)
       real(dp) :: film_table(sampled*per_period, 1), velocity_table(sampled*per_period, 1)
 
       film_table = 0.0_dp
-      call solve_motions([scene], lane_request_t(accuracy=accuracy, periods=periods, &
+      start = start_of(scene)
+      if (present(implicit)) start%implicit = implicit
+      call solve_motions([scene], [start], request_t(accuracy=accuracy, periods=periods, &
          samples_per_period=per_period, &
                                                  sampled_periods=sampled), film_table, velocity_table, &
                                                     endings)
@@ -162,19 +168,19 @@ contains
    !> Start-up of the canonical idle scene, films known to 13 digits.
    subroutine test_reference(checks)
       type(check_list_t), intent(inout) :: checks
-      type(lane_scene_t) :: scene
-      type(lane_ending_t) :: ending
+      type(problem_t) :: scene
+      type(ending_t) :: ending
       real(dp), allocatable :: films(:)
 
       scene%mass = 3.0_dp
       scene%weight = 3.0_dp*standard_gravity
-      scene%steady_force = 199.2_dp
-      scene%force_amplitude = 205.7_dp
+      scene%force%steady = 199.2_dp
+      scene%force%amplitude = 205.7_dp
       scene%frequency = 600.0_dp
       scene%film%kernel = kernel_half_pi
       scene%film%rolling = rolling_coefficient(0.010_dp, 1.905_dp, 0.3_dp, radius)
       scene%film%squeeze = squeeze_coefficient(0.010_dp, 0.3_dp, radius)
-      scene%initial_film = scene%film%rolling/(scene%steady_force + scene%weight)
+      scene%initial_film = scene%film%rolling/(scene%force%steady + scene%weight)
       call films_of(scene, 1.0e-12_dp, 2, 2, 2, films, ending)
       call checks%check(ending%status == status_complete, 'canonical scene completes')
       call checks%check_close(films(1)/1.916633193569e-06_dp, 1.0_dp, 1.0e-12_dp, 'film after half a period')
@@ -187,8 +193,8 @@ contains
       type(check_list_t), intent(inout) :: checks
       integer, parameter :: kernels(5) = [kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_solved_fast, &
                                           kernel_reynolds_piezo]
-      type(lane_scene_t) :: scene
-      type(lane_ending_t) :: ending
+      type(problem_t) :: scene
+      type(ending_t) :: ending
       real(dp), allocatable :: films(:), exact(:)
       character(8) :: text
       integer :: k, digits
@@ -203,8 +209,7 @@ contains
                'accuracy of kernel, digits '//text)
             call checks%check(.not. ending%implicit, 'by series, kernel '//text)
          end do
-         scene%implicit = .true.
-         call films_of(scene, 1.0e-9_dp, 20, 20, 16, films, ending)
+         call films_of(scene, 1.0e-9_dp, 20, 20, 16, films, ending, .true.)
          call checks%check(maxval(abs(films/exact - 1.0_dp)) < 1.0e-9_dp, 'collocation agrees '//text)
       end do
    end subroutine test_accuracy
@@ -213,8 +218,8 @@ contains
    !> accuracy of the cells it solves all of it.
    subroutine test_leaving_cells(checks)
       type(check_list_t), intent(inout) :: checks
-      type(lane_scene_t) :: scene
-      type(lane_ending_t) :: ending
+      type(problem_t) :: scene
+      type(ending_t) :: ending
       real(dp), allocatable :: films(:), exact(:)
 
       scene = scene_of(kernel_reynolds_piezo, 1.9_dp, 3.0_dp)
@@ -236,8 +241,8 @@ contains
    !> Newmark's average acceleration with Richardson extrapolation comes to the same film.
    subroutine test_against_newmark(checks)
       type(check_list_t), intent(inout) :: checks
-      type(lane_scene_t) :: scene
-      type(lane_ending_t) :: ending
+      type(problem_t) :: scene
+      type(ending_t) :: ending
       real(dp), allocatable :: films(:)
       real(dp) :: rough, fine, finest
 
@@ -254,7 +259,7 @@ contains
 
    !> Film after some periods by Newmark's method, every step solved by Newton's.
    real(dp) function newmark_film(scene, periods, steps)
-      type(lane_scene_t), intent(in) :: scene
+      type(problem_t), intent(in) :: scene
       integer, intent(in) :: periods
       integer, intent(in) :: steps
       real(dp) :: h, v, a, next, dt, force, load, by_film, by_velocity, residual
@@ -264,9 +269,9 @@ contains
       h = scene%initial_film
       v = scene%initial_velocity
       call film_load(scene%film, h, v, load, by_film, by_velocity)
-      a = (load - scene%weight - scene%steady_force - scene%force_amplitude)/scene%mass
+      a = (load - scene%weight - scene%force%steady - scene%force%amplitude)/scene%mass
       do i = 1, periods*steps
-         force = scene%steady_force + scene%force_amplitude*cos(two_pi*real(modulo(i, steps), &
+         force = scene%force%steady + scene%force%amplitude*cos(two_pi*real(modulo(i, steps), &
             dp)/real(steps, dp))
          next = a
          do pass = 1, 20
@@ -287,38 +292,42 @@ contains
    subroutine test_equal_bits(checks)
       type(check_list_t), intent(inout) :: checks
       integer, parameter :: count = 2*lanes + 3, per_period = 8, periods = 6
-      type(lane_scene_t) :: scenes(count), mixed(count)
-      type(lane_ending_t) :: endings(count), alone(1)
-      type(lane_request_t) :: request
+      type(problem_t) :: scenes(count), mixed(count)
+      type(motion_state_t) :: starts(count)
+      logical :: implicit(count)
+      type(ending_t) :: endings(count), alone(1)
+      type(request_t) :: request
       real(dp) :: films(periods*per_period, count), velocities(periods*per_period, count)
       real(dp) :: film(periods*per_period, 1), velocity(periods*per_period, 1)
       integer :: i, shift
       logical :: equal
 
-      request = lane_request_t(accuracy=1.0e-7_dp, periods=periods, samples_per_period=per_period, &
+      request = request_t(accuracy=1.0e-7_dp, periods=periods, samples_per_period=per_period, &
          sampled_periods=periods)
       do i = 1, count
          scenes(i) = scene_of(merge(kernel_half_pi, kernel_piezo, modulo(i, 3) < 2), 0.5_dp &
             + 0.1_dp*real(i, dp), &
                               0.1_dp*real(i, dp))
-         scenes(i)%implicit = modulo(i, 7) == 0
+         implicit(i) = modulo(i, 7) == 0
          if (modulo(i, 5) == 0) scenes(i) = scene_of(kernel_reynolds_iso, 1.0_dp, 0.1_dp*real(i, dp))
          if (modulo(i, 7) == 0) scenes(i) = scene_of(kernel_solved_fast, 1.5_dp, 0.1_dp*real(i, dp))
          if (modulo(i, 4) == 0) scenes(i) = scene_of(kernel_reynolds_piezo, 1.9_dp, 0.08_dp*real(i, dp))
       end do
       do shift = 0, lanes, 5
          mixed = cshift(scenes, shift)
+         starts = start_of(mixed)
+         starts%implicit = cshift(implicit, shift)
          films = 0.0_dp
          velocities = 0.0_dp
-         call solve_motions(mixed, request, films, velocities, endings)
+         call solve_motions(mixed, starts, request, films, velocities, endings)
          equal = .true.
          do i = 1, count, 4
             film = 0.0_dp
             velocity = 0.0_dp
-            call solve_motions(mixed(i:i), request, film, velocity, alone)
+            call solve_motions(mixed(i:i), starts(i:i), request, film, velocity, alone)
             equal = equal .and. all(same_bits(film(:, 1), films(:, i))) .and. all(same_bits(velocity(:, 1), &
                velocities(:, i))) &
-               .and. same_bits(alone(1)%momentum, endings(i)%momentum) .and. alone(1)%steps == endings(i)%steps
+               .and. same_bits(alone(1)%momentum, endings(i)%momentum) .and. alone(1)%count%steps == endings(i)%count%steps
          end do
          call checks%check(equal, 'equal bits alone and in company')
       end do
@@ -327,11 +336,11 @@ contains
    !> Motions that repeat, after one period and after two, and one that never does.
    subroutine test_repetition(checks)
       type(check_list_t), intent(inout) :: checks
-      type(lane_scene_t) :: scenes(4)
-      type(lane_ending_t) :: endings(4)
-      type(lane_request_t) :: request
+      type(problem_t) :: scenes(4)
+      type(ending_t) :: endings(4)
+      type(request_t) :: request
       real(dp), allocatable :: exact(:)
-      type(lane_ending_t) :: ending
+      type(ending_t) :: ending
       real(dp) :: films(8*16, 4), velocities(8*16, 4)
 
       scenes(1) = scene_of(kernel_half_pi, 1.9_dp, 1.0_dp)
@@ -341,16 +350,16 @@ contains
       scenes(3)%film%kernel = kernel_piezo
       scenes(3)%film%piezo = piezo_coefficient(1.958e-3_dp, 1.905_dp, viscosity, radius, pressure_viscosity)
       scenes(3)%film%rate = squeeze_exponent_rate(1.905_dp)
-      scenes(3)%steady_force = 38.27_dp
-      scenes(3)%force_amplitude = 203.1_dp
+      scenes(3)%force%steady = 38.27_dp
+      scenes(3)%force%amplitude = 203.1_dp
       scenes(3)%initial_film = 0.889e-6_dp
       ! Slow surfaces: the film rises for hundreds of periods.
       scenes(4) = scene_of(kernel_piezo, 0.05_dp, 3.0_dp)
-      request = lane_request_t(accuracy=1.0e-8_dp, periods=300, samples_per_period=16, sampled_periods=8, &
+      request = request_t(accuracy=1.0e-8_dp, periods=300, samples_per_period=16, sampled_periods=8, &
          until_steady=.true.)
       films = 0.0_dp
       velocities = 0.0_dp
-      call solve_motions(scenes, request, films, velocities, endings)
+      call solve_motions(scenes, start_of(scenes), request, films, velocities, endings)
       call checks%check(all(endings(1:3)%status == status_steady), 'motions that repeat are found')
       call checks%check(all(endings(1:3)%orbit == [1, 1, 2]), 'they repeat after 1, 1, 2 periods')
       call checks%check(all(endings(1:3)%distance < 1.0e-8_dp), 'their distance is below the accuracy')
@@ -368,34 +377,29 @@ contains
    !> One long run is two chained ones, bit for bit, by series and by collocation.
    subroutine test_carrying_on(checks)
       type(check_list_t), intent(inout) :: checks
-      type(lane_scene_t) :: scene, rest
-      type(lane_ending_t) :: long(1), first(1), second(1)
-      type(lane_request_t) :: request
+      type(problem_t) :: scene
+      type(motion_state_t) :: start
+      type(ending_t) :: long(1), first(1), second(1)
+      type(request_t) :: request
       real(dp) :: films(12*8, 1), velocities(12*8, 1), whole(12*8, 1)
       integer :: method
 
       do method = 1, 2
          scene = scene_of(kernel_half_pi, 1.9_dp, 2.0_dp)
-         scene%implicit = method == 2
+         start = start_of(scene)
+         start%implicit = method == 2
          films = 0.0_dp
          velocities = 0.0_dp
-         request = lane_request_t(accuracy=1.0e-6_dp, periods=30, samples_per_period=8, sampled_periods=12)
-         call solve_motions([scene], request, films, velocities, long)
+         request = request_t(accuracy=1.0e-6_dp, periods=30, samples_per_period=8, sampled_periods=12)
+         call solve_motions([scene], [start], request, films, velocities, long)
          whole = films
          request%periods = 13
          request%sampled_periods = 0
-         call solve_motions([scene], request, films, velocities, first)
-         rest = scene
-         rest%initial_film = first(1)%film
-         rest%initial_velocity = first(1)%velocity
-         rest%initial_momentum = first(1)%momentum
-         rest%implicit = first(1)%implicit
-         rest%periods_done = first(1)%periods
-         rest%carried_on = .true.
+         call solve_motions([scene], [start], request, films, velocities, first)
          request%periods = 30
          request%sampled_periods = 12
          films = 0.0_dp
-         call solve_motions([rest], request, films, velocities, second)
+         call solve_motions([scene], [first(1)%motion_state_t], request, films, velocities, second)
          call checks%check(all(same_bits(films, whole)) .and. same_bits(long(1)%momentum, second(1)%momentum), &
             'carried on, bit for bit')
       end do
@@ -404,8 +408,8 @@ contains
    !> Scenes that cannot start say so; accelerations follow from the equation of motion.
    subroutine test_failures(checks)
       type(check_list_t), intent(inout) :: checks
-      type(lane_scene_t) :: scenes(4)
-      type(lane_ending_t) :: endings(4)
+      type(problem_t) :: scenes(4)
+      type(ending_t) :: endings(4)
       real(dp) :: films(4, 4), velocities(4, 4), values(4)
 
       films = 1.0_dp
@@ -414,7 +418,7 @@ contains
       scenes(1)%initial_film = -1.0e-9_dp
       scenes(2)%initial_film = ieee_value(1.0_dp, ieee_quiet_nan)
       scenes(3)%initial_velocity = -2.0_dp
-      call solve_motions(scenes, lane_request_t(accuracy=1.0e-6_dp, periods=2, samples_per_period=4, &
+      call solve_motions(scenes, start_of(scenes), request_t(accuracy=1.0e-6_dp, periods=2, samples_per_period=4, &
          sampled_periods=1), &
                          films, velocities, endings)
       call checks%check(all(endings%status == [status_film_lost, status_film_lost, status_overflow, &

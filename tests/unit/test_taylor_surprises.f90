@@ -3,11 +3,11 @@
 module test_taylor_surprises
    use checks, only: check_list_t
    use constants, only: standard_gravity
-   use film_law, only: film_t, kernel_half_pi, kernel_reynolds_iso, new_film, steady_film
+   use engine, only: ending_t, request_t, start_of
+   use film_law, only: kernel_half_pi, kernel_reynolds_iso
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
-   use scene_lane, only: lane_of_scene
+   use many_motions, only: solve_motions
+   use problem, only: problem_of, problem_t
    use scene_status, only: status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, rupture_solver_fast, scene_t
    implicit none(type, external)
@@ -32,7 +32,7 @@ contains
 
    !> Largest relative error of the film over the last periods, against a far tighter solution.
    subroutine largest_error(scene, accuracy, periods, until_steady, error, ending)
-      type(lane_scene_t), intent(in) :: scene
+      type(problem_t), intent(in) :: scene
       !> Accuracy asked for [-]
       real(dp), intent(in) :: accuracy
       !> Periods to solve
@@ -42,20 +42,20 @@ contains
       !> [-]
       real(dp), intent(out) :: error
       !> How it ended
-      type(lane_ending_t), intent(out) :: ending
+      type(ending_t), intent(out) :: ending
       integer, parameter :: per_period = 16, sampled = 8
       real(dp), dimension(sampled*per_period, 1) :: films, exact, velocities
-      type(lane_ending_t) :: endings(1)
-      type(lane_request_t) :: request
+      type(ending_t) :: endings(1)
+      type(request_t) :: request
 
       films = 0.0_dp
       velocities = 0.0_dp
-      request = lane_request_t(accuracy=1.0e-11_dp, periods=periods, samples_per_period=per_period, sampled_periods=sampled)
-      call solve_motions([scene], request, films, velocities, endings)
+      request = request_t(accuracy=1.0e-11_dp, periods=periods, samples_per_period=per_period, sampled_periods=sampled)
+      call solve_motions([scene], [start_of(scene)], request, films, velocities, endings)
       exact = films
       request%accuracy = accuracy
       request%until_steady = until_steady
-      call solve_motions([scene], request, films, velocities, endings)
+      call solve_motions([scene], [start_of(scene)], request, films, velocities, endings)
       ending = endings(1)
       error = maxval(abs(films/exact - 1.0_dp))
    end subroutine largest_error
@@ -64,8 +64,8 @@ contains
    !> is no measure of those left out.
    subroutine test_slow_terms(checks)
       type(check_list_t), intent(inout) :: checks
-      type(lane_scene_t) :: scene
-      type(lane_ending_t) :: ending
+      type(problem_t) :: scene
+      type(ending_t) :: ending
       real(dp) :: error
 
       scene%film%kernel = kernel_reynolds_iso
@@ -75,8 +75,8 @@ contains
       scene%film%squeeze_rate = 2.3867652204519580_dp
       scene%mass = 1.1847070022232703e-1_dp
       scene%weight = 1.1618006923352833_dp
-      scene%steady_force = 8.5248996137767730e-1_dp
-      scene%force_amplitude = 1.1335863523156863e1_dp
+      scene%force%steady = 8.5248996137767730e-1_dp
+      scene%force%amplitude = 1.1335863523156863e1_dp
       scene%frequency = 3.3377924443537181e3_dp
       scene%initial_film = 1.3945928475863152e-5_dp
       call largest_error(scene, 1.0e-4_dp, 14, .false., error, ending)
@@ -87,8 +87,8 @@ contains
    !> A tooth thrown up: its film carries nothing, until it comes down within one step of free flight.
    subroutine test_load_after_flight(checks)
       type(check_list_t), intent(inout) :: checks
-      type(lane_scene_t) :: scene
-      type(lane_ending_t) :: ending
+      type(problem_t) :: scene
+      type(ending_t) :: ending
       real(dp) :: error
       integer :: digits
 
@@ -99,8 +99,8 @@ contains
       scene%film%squeeze_rate = 1.6269628012664370e1_dp
       scene%mass = 2.0489868142673440_dp
       scene%weight = 2.0093696542134847e1_dp
-      scene%steady_force = 2.5718992217975565e3_dp
-      scene%force_amplitude = 8.5688727383669557e3_dp
+      scene%force%steady = 2.5718992217975565e3_dp
+      scene%force%amplitude = 8.5688727383669557e3_dp
       scene%frequency = 3.2351430272900971e3_dp
       scene%initial_film = 3.5893279803907646e-6_dp
       do digits = 3, 6
@@ -114,8 +114,8 @@ contains
    !> direction is all that is left.
    subroutine test_slow_direction(checks)
       type(check_list_t), intent(inout) :: checks
-      type(lane_scene_t) :: scene
-      type(lane_ending_t) :: ending
+      type(problem_t) :: scene
+      type(ending_t) :: ending
       real(dp) :: error
 
       scene%film%kernel = kernel_half_pi
@@ -126,8 +126,8 @@ contains
       scene%film%squeeze_rate = 8.5252648189720279_dp
       scene%mass = 2.0946522249044204_dp
       scene%weight = 2.0541521241358932e1_dp
-      scene%steady_force = 2.5606598107152614_dp
-      scene%force_amplitude = 2.2477053946577504e2_dp
+      scene%force%steady = 2.5606598107152614_dp
+      scene%force%amplitude = 2.2477053946577504e2_dp
       scene%frequency = 3.7803949891367083e3_dp
       scene%initial_film = 1.3569829599508520e-5_dp
       call largest_error(scene, 1.0e-8_dp, 14, .true., error, ending)
@@ -142,8 +142,7 @@ contains
       real(dp), parameter :: accuracy(2) = [1.0e-4_dp, 1.0e-6_dp]
       integer, parameter :: periods(2) = [21, 19]
       type(scene_t) :: scenes(2)
-      type(film_t) :: film
-      type(lane_ending_t) :: ending
+      type(ending_t) :: ending
       real(dp) :: error
       integer :: i
 
@@ -160,9 +159,7 @@ contains
       scenes%load%frequency = [3.3203726876730893e3_dp, 4.565151742131865e3_dp]
       scenes%load%gravity = standard_gravity
       do i = 1, 2
-         film = new_film(scenes(i))
-         call largest_error(lane_of_scene(scenes(i), film, steady_film(film, scenes(i)%load%static_load()), 0.0_dp), &
-                            accuracy(i), periods(i), .false., error, ending)
+         call largest_error(problem_of(scenes(i)), accuracy(i), periods(i), .false., error, ending)
          call checks%check(error < 50.0_dp*accuracy(i), 'solved rupture: error')
       end do
    end subroutine test_solved_rupture
@@ -174,8 +171,7 @@ contains
       real(dp), parameter :: accuracy = 1.0e-8_dp
       integer, parameter :: periods(2) = [20, 19]
       type(scene_t) :: scenes(2)
-      type(film_t) :: film
-      type(lane_ending_t) :: ending
+      type(ending_t) :: ending
       real(dp) :: error
       integer :: i
 
@@ -192,9 +188,7 @@ contains
       scenes%load%frequency = [2.3111980781663406e3_dp, 2.935898664916683e3_dp]
       scenes%load%gravity = standard_gravity
       do i = 1, 2
-         film = new_film(scenes(i))
-         call largest_error(lane_of_scene(scenes(i), film, steady_film(film, scenes(i)%load%static_load()), 0.0_dp), &
-                            accuracy, periods(i), .false., error, ending)
+         call largest_error(problem_of(scenes(i)), accuracy, periods(i), .false., error, ending)
          call checks%check(.not. ending%implicit, 'slow drift: by series')
          call checks%check(error < 30.0_dp*accuracy, 'slow drift: error')
       end do

@@ -3,18 +3,16 @@ module test_window_record
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t, same_bits
    use constants, only: two_pi
-   use film_law, only: film_t, new_film, steady_film
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use fine_window, only: integral_record
    use kinds, only: dp
-   use lane_motions, only: solve_motions
-   use lane_scenes, only: lane_ending_t, lane_request_t, lane_scene_t
+   use many_motions, only: solve_motions
    use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
                             seen_velocity
+   use problem, only: accelerations_of_samples, problem_of, problem_t
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
-   use scene_lane, only: lane_of_scene
    use scene_status, only: status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t, spectrum_choice_t
-   use sample_accelerations, only: accelerations_of_samples
    use step_nodes, only: interpolate, node_place, node_weight, nodes_per_piece, step_nodes_t
    use window_extremes, only: extremes_of_samples, window_extremes_t
    use window_record, only: energy_gap, momentum_gap, record_period, start_record, window_record_t
@@ -73,7 +71,7 @@ contains
 
       integer, parameter :: places = 40
       real(dp), parameter :: nearest = 1.0e-4_dp
-      type(lane_scene_t) :: scene
+      type(problem_t) :: scene
       type(extreme_t) :: lowest, highest
       real(dp) :: peak, velocities(nodes_per_piece), films(nodes_per_piece)
       integer :: i
@@ -93,17 +91,6 @@ contains
          call checks%check_close(lowest%value, -1.0_dp, 1.0e-11_dp, 'a trough between nodes')
       end do
    end subroutine test_peaks
-
-   !> Lane of a scene, from its steady film.
-   function lane_of(scene) result(lane)
-      type(scene_t), intent(in) :: scene  !> The scene
-      type(lane_scene_t) :: lane
-
-      type(film_t) :: film
-
-      film = new_film(scene)
-      lane = lane_of_scene(scene, film, steady_film(film, scene%load%static_load()), 0.0_dp)
-   end function lane_of
 
    !> All film laws: extremes as those of very many samples, closed windows, lines as those of the samples; Taylor series and
    !> collocation.
@@ -133,8 +120,9 @@ contains
       character(*), intent(in) :: name             !> Of its law
 
       integer, parameter :: window = 2
-      type(lane_scene_t) :: lane
-      type(lane_ending_t) :: endings(1)
+      type(problem_t) :: lane
+      type(motion_state_t) :: start
+      type(ending_t) :: endings(1)
       type(window_record_t) :: records(1), integrals(1)
       type(window_extremes_t) :: extremes
       type(rattle_verdict_t) :: by_samples, by_steps
@@ -143,11 +131,12 @@ contains
       real(dp) :: size_of
       integer :: quantity
 
-      lane = lane_of(scene)
-      lane%implicit = implicit
+      lane = problem_of(scene)
+      start = start_of(lane)
+      start%implicit = implicit
       allocate (films(window*fine, 1), velocities(window*fine, 1), accelerations(window*fine))
-      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=30, samples_per_period=fine, sampled_periods=window), &
-         films, velocities, endings, records=records)
+      call solve_motions([lane], [start], request_t(accuracy=accuracy, periods=30, samples_per_period=fine, &
+         sampled_periods=window), films, velocities, endings, records=records)
       call checks%check(endings(1)%status == status_complete .and. records(1)%periods == window, name//': recorded')
       call accelerations_of_samples(lane, fine, films(:, 1), velocities(:, 1), accelerations)
       extremes = extremes_of_samples(lane%film, films(:, 1), velocities(:, 1), accelerations)
@@ -168,8 +157,8 @@ contains
 
       choice%periods = window
       integrals(1) = integral_record(choice)
-      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=30, samples_per_period=1, sampled_periods=window, &
-         every_period=.true.), films, velocities, endings, records=integrals)
+      call solve_motions([lane], [start], request_t(accuracy=accuracy, periods=30, samples_per_period=1, &
+         sampled_periods=window, every_period=.true.), films, velocities, endings, records=integrals)
       call classify(accelerations, choice, 1.0e-9_dp, by_samples)
       call classify_steps(integrals(1), lane%frequency, choice, 1.0e-9_dp, by_steps)
       ! The accelerations of samples follow from the film law, which the steps obey to a hundred times their accuracy.
@@ -191,25 +180,20 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       type(scene_t) :: scene
-      type(lane_scene_t) :: lane
-      type(lane_ending_t) :: endings(1)
+      type(problem_t) :: lane
+      type(ending_t) :: endings(1)
       type(window_record_t) :: whole(1), parts(1)
       real(dp) :: films(4, 1), velocities(4, 1)
       integer :: quantity
 
       scene = canonical_scene(law_iso_viscous, 512)
-      lane = lane_of(scene)
-      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=4, samples_per_period=1, sampled_periods=4), films, &
-         velocities, endings, records=whole)
-      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=3, samples_per_period=1, sampled_periods=3), films, &
-         velocities, endings, records=parts)
-      lane%carried_on = .true.
-      lane%periods_done = 3
-      lane%initial_film = endings(1)%film
-      lane%initial_velocity = endings(1)%velocity
-      lane%initial_momentum = endings(1)%momentum
-      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=4, samples_per_period=1, sampled_periods=1), films, &
-         velocities, endings, records=parts)
+      lane = problem_of(scene)
+      call solve_motions([lane], [start_of(lane)], request_t(accuracy=accuracy, periods=4, samples_per_period=1, &
+         sampled_periods=4), films, velocities, endings, records=whole)
+      call solve_motions([lane], [start_of(lane)], request_t(accuracy=accuracy, periods=3, samples_per_period=1, &
+         sampled_periods=3), films, velocities, endings, records=parts)
+      call solve_motions([lane], [endings(1)%motion_state_t], request_t(accuracy=accuracy, periods=4, samples_per_period=1, &
+         sampled_periods=1), films, velocities, endings, records=parts)
       call checks%check(parts(1)%periods == 4, 'parts: all periods')
       do quantity = 1, seen_quantities
          call checks%check(same_bits(parts(1)%highest(quantity)%value, whole(1)%highest(quantity)%value) .and. &
@@ -217,7 +201,7 @@ contains
       end do
       call checks%check(same_bits(parts(1)%acceleration_sum, whole(1)%acceleration_sum) .and. &
          same_bits(parts(1)%film_work, whole(1)%film_work), 'parts: sums')
-      call checks%check(same_bits(parts(1)%start_film, whole(1)%start_film) .and. &
+      call checks%check(same_bits(parts(1)%start%film, whole(1)%start%film) .and. &
          same_bits(parts(1)%end_velocity, whole(1)%end_velocity), 'parts: ends')
    end subroutine test_pieces
 
@@ -227,8 +211,8 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       type(scene_t) :: scene
-      type(lane_scene_t) :: lane
-      type(lane_ending_t) :: endings(1)
+      type(problem_t) :: lane
+      type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
       type(rattle_verdict_t) :: verdict
       type(spectrum_choice_t) :: choice
@@ -237,11 +221,12 @@ contains
       scene = canonical_scene(law_iso_viscous, 512)
       scene%load%force_amplitude = 700.0_dp
       scene%load%frequency = 15.0_dp
-      lane = lane_of(scene)
+      lane = problem_of(scene)
       choice%periods = 8
       records(1) = integral_record(choice)
       records(1)%wants = .true.
-      call solve_motions([lane], lane_request_t(accuracy=1.0e-8_dp, periods=40, samples_per_period=1, sampled_periods=8, &
+      call solve_motions([lane], [start_of(lane)], request_t(accuracy=1.0e-8_dp, periods=40, samples_per_period=1, &
+         sampled_periods=8, &
          every_period=.true.), films, velocities, endings, records=records)
       call classify_steps(records(1), lane%frequency, choice, 1.0e-9_dp, verdict)
       call checks%check_close(verdict%lines%harmonics(1), 290.754_dp, 1.0e-3_dp, 'impact: first harmonic')
@@ -264,14 +249,15 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       type(scene_t) :: scene
-      type(lane_scene_t) :: lane
-      type(lane_ending_t) :: endings(1)
+      type(problem_t) :: lane
+      type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
       real(dp) :: films(100, 1), velocities(100, 1)
 
       scene = canonical_scene(law_iso_viscous, 512)
-      lane = lane_of(scene)
-      call solve_motions([lane], lane_request_t(accuracy=accuracy, periods=400, samples_per_period=1, sampled_periods=100), &
+      lane = problem_of(scene)
+      call solve_motions([lane], [start_of(lane)], request_t(accuracy=accuracy, periods=400, samples_per_period=1, &
+         sampled_periods=100), &
          films, velocities, endings, records=records)
       call checks%check(endings(1)%samples == 100 .and. records(1)%periods > 0 .and. records(1)%periods < 100, &
          'returning: fewer periods recorded than sampled')
@@ -286,14 +272,14 @@ contains
 
       integer, parameter :: pieces = 100
       real(dp), parameter :: rounding = 1.0e-12_dp
-      type(lane_scene_t) :: lane
+      type(problem_t) :: lane
       type(step_nodes_t) :: nodes
       type(window_record_t) :: record
       complex(dp) :: expected
       real(dp) :: phases(nodes_per_piece*pieces)
       integer :: multiples, n, k, i
 
-      lane = lane_of(canonical_scene(law_iso_viscous, 512))
+      lane = problem_of(canonical_scene(law_iso_viscous, 512))
       nodes%start = [(real(i, dp)/real(pieces, dp), i=0, pieces - 1)]
       nodes%length = [(1.0_dp/real(pieces, dp), i=1, pieces)]
       do i = 1, pieces
@@ -302,14 +288,14 @@ contains
       nodes%films = [(1.0e-6_dp, i=1, size(phases))]
       do multiples = 3, 8
          record = window_record_t(multiples=multiples)
-         call start_record(1.0e-6_dp, 0.0_dp, 0.0_dp, .false., record)
+         call start_record(motion_state_t(film=1.0e-6_dp), record)
          nodes%pieces = pieces
          nodes%velocities = phases
          call record_period(lane, 1.0_dp, nodes, record)
          call checks%check(abs(record%line_sums(0) - 1.0_dp) < rounding, 'coefficients: mean of a ramp')
          call checks%check(all(abs(record%line_sums(1:)) < rounding), 'coefficients: of a ramp')
          do k = 1, multiples
-            call start_record(1.0e-6_dp, 0.0_dp, 0.0_dp, .false., record)
+            call start_record(motion_state_t(film=1.0e-6_dp), record)
             nodes%pieces = pieces
             nodes%velocities = sin(two_pi*real(k, dp)*phases) + 2.0_dp*cos(two_pi*real(k, dp)*phases)
             call record_period(lane, 0.0_dp, nodes, record)

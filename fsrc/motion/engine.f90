@@ -1,0 +1,172 @@
+!> What an engine is asked, what it is told on the way, and what it hands out. There are two: Newmark's method of the paper
+!> (newmark_engine) and the controlled engine (controlled_engine), which also solves many motions side by side (many_motions).
+module engine
+   use clock, only: wall_seconds
+   use errors, only: error_t
+   use kinds, only: dp, int64
+   use period_repetition, only: orbit_watch_t
+   use problem, only: problem_t
+   use scene_status, only: status_complete, status_interrupted, status_time_limit
+   use signals, only: caught_signal
+   implicit none(type, external)
+   private
+
+   !> What is asked of an engine.
+   type, public :: request_t
+      !> Relative accuracy of the film, of the controlled engine [-]
+      real(dp) :: accuracy = 1.0e-8_dp
+      !> Periods to solve, those done before included; the most if `until_steady`
+      integer :: periods = 0
+      !> Samples of a period, at phases 1/n, 2/n, ... 1: Newmark's steps
+      integer :: samples_per_period = 0
+      !> Periods sampled, the last ones, or one orbit of a motion found steady; 0: no samples
+      integer :: sampled_periods = 0
+      !> Stop when the motion is known to repeat
+      logical :: until_steady = .false.
+      !> Compute every period, those too that return to the last bit
+      logical :: every_period = .false.
+      !> Set out to where a slowly settling motion is forecast to come to rest. If it then repeats, the periods before the
+      !> samples are fewer than those that follow from the start
+      logical :: forecast = .false.
+      !> Hand over the samples of all periods, of a single motion
+      logical :: all_samples = .false.
+      !> Wall time that a single motion may take [s]; 0: no limit
+      real(dp) :: time_limit = 0.0_dp
+      !> Of Newmark's method: eps of (36) [m], most passes in a step, Newton's iteration or else the successive one, first iterate
+      !> extrapolated or else the previous state
+      real(dp) :: tolerance = 0.0_dp
+      integer :: iteration_limit = 0
+      logical :: by_newton = .true.
+      logical :: extrapolate = .true.
+   end type request_t
+
+   !> State of a motion at the end of a period, or where it starts.
+   type, public :: motion_state_t
+      !> Whole periods done
+      integer :: periods = 0
+      !> h [m], z' [m/s]
+      real(dp) :: film = 0.0_dp
+      real(dp) :: velocity = 0.0_dp
+      !> Of the controlled engine: scaled momentum [-], whether it stands for the velocity, so that the motion goes on as if it had
+      !> never stopped, and whether the motion goes on by the implicit method
+      real(dp) :: momentum = 0.0_dp
+      logical :: carried_on = .false.
+      logical :: implicit = .false.
+   end type motion_state_t
+
+   !> What a motion cost.
+   type, public :: motion_count_t
+      !> Steps: of Newmark's grid, or of the controlled engine, those of returning periods too
+      integer(int64) :: steps = 0
+      !> Evaluations of the film by Newmark's method
+      integer(int64) :: evaluations = 0
+      !> Steps that were cut in two, cuts within cuts included
+      integer(int64) :: cuts = 0
+   end type motion_count_t
+
+   !> How a motion ended, with the state at the end of its last whole period.
+   type, extends(motion_state_t), public :: ending_t
+      !> Status of scene_status
+      integer :: status = status_complete
+      !> Time reached, within a period too where the motion failed [s]
+      real(dp) :: time = 0.0_dp
+      !> Periods after which a steady motion repeats, else 0
+      integer :: orbit = 0
+      !> Bound of the relative distance of the film from the motion that repeats [-]
+      real(dp) :: distance = 0.0_dp
+      !> Samples written
+      integer :: samples = 0
+      type(motion_count_t) :: count = motion_count_t()
+   end type ending_t
+
+   !> State from which a run can be extended: carried on from it, a motion is the same to the last bit as if it had never stopped.
+   !> 0 periods: the start of the motion, nothing else counts.
+   type, extends(motion_state_t), public :: checkpoint_t
+      !> z'' [m/s2]
+      real(dp) :: acceleration = 0.0_dp
+      !> Of a run until steady: the states that its search looks back on
+      type(orbit_watch_t) :: watch = orbit_watch_t()
+      !> and, once it is over, the periods after which the motion repeats; 0: it goes on
+      integer :: orbit = 0
+      !> Cost so far
+      type(motion_count_t) :: count = motion_count_t()
+   end type checkpoint_t
+
+   !> Where a motion hands its samples, whole periods at a time. The motion never knows what becomes of them.
+   type, abstract, public :: sample_sink_t
+   contains
+      procedure(take_samples), deferred :: take
+      procedure(open_window), deferred :: begin_window
+   end type sample_sink_t
+
+   !> Watcher of a motion, told after every period.
+   type, abstract, public :: motion_watcher_t
+   contains
+      procedure(watch_period), deferred :: period_done
+   end type motion_watcher_t
+
+   abstract interface
+      !> Take consecutive samples; the initial state comes alone as step 0.
+      subroutine take_samples(self, first_step, force, film, velocity, acceleration, error)
+         import :: dp, error_t, int64, sample_sink_t
+         class(sample_sink_t), intent(inout) :: self
+         !> Step of the first sample
+         integer(int64), intent(in) :: first_step
+         !> Applied force F, one per sample [N]
+         real(dp), intent(in) :: force(:)
+         !> Film thickness h [m]
+         real(dp), intent(in) :: film(:)
+         !> Film velocity z' [m/s]
+         real(dp), intent(in) :: velocity(:)
+         !> Acceleration z'' [m/s2]
+         real(dp), intent(in) :: acceleration(:)
+         !> Set if the samples could not be kept
+         type(error_t), allocatable, intent(out) :: error
+      end subroutine take_samples
+
+      !> Told before its first sample where the window begins that the motion is judged by.
+      subroutine open_window(self, first_step, samples)
+         import :: int64, sample_sink_t
+         class(sample_sink_t), intent(inout) :: self
+         !> Step of its first sample
+         integer(int64), intent(in) :: first_step
+         !> How many samples it has
+         integer, intent(in) :: samples
+      end subroutine open_window
+
+      !> Told how far the motion is.
+      subroutine watch_period(self, done, all)
+         import :: motion_watcher_t
+         class(motion_watcher_t), intent(inout) :: self
+         !> Periods solved
+         integer, intent(in) :: done
+         !> Periods asked for
+         integer, intent(in) :: all
+      end subroutine watch_period
+   end interface
+
+   public :: start_of, status_of_stop
+
+contains
+
+   !> Where the motion of a problem starts.
+   elemental type(motion_state_t) function start_of(problem)
+      type(problem_t), intent(in) :: problem
+
+      start_of = motion_state_t(film=problem%initial_film, velocity=problem%initial_velocity)
+   end function start_of
+
+   !> Whether a motion may go on, status_complete, or must stop between two periods and why.
+   integer function status_of_stop(request, started) result(status)
+      type(request_t), intent(in) :: request
+      !> When it began, on the clock of wall_seconds [s]
+      real(dp), intent(in) :: started
+
+      status = status_complete
+      if (caught_signal() /= 0) status = status_interrupted
+      if (request%time_limit > 0.0_dp) then
+         if (wall_seconds() - started > request%time_limit) status = status_time_limit
+      end if
+   end function status_of_stop
+
+end module engine

@@ -1,0 +1,226 @@
+!> A block of lanes, one motion a lane: their scaled coefficients and states.
+!>
+!> Time is counted in periods of the force, x = f_exc t, within a period from 0 to 1, so the phase is as exact
+!> after hundreds of periods as in the first. The film is scaled by the power of two next to the reference
+!> film: scaling costs no digit, and a motion carried on from `film` and `momentum` of its ending goes on as
+!> if never stopped.
+module lane_block
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
+   use constants, only: pi
+   use engine, only: motion_state_t
+   use film_law, only: film_load, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast, &
+      overflow_load
+   use force, only: force_t, largest_oscillation
+   use kinds, only: dp
+   use lane_force, only: lane_force_t, set_force, start_force
+   use lane_functions, only: lanes
+   use radau_nodes, only: stages
+   use load_expansion, only: load_expansion_t
+   use memory, only: allocate_lines
+   use problem, only: problem_t, reference_film, settling_of, settling_t, static_load
+   use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
+   use scene_status, only: status_complete, status_film_lost, status_overflow
+   use taylor_step_control, only: order
+   implicit none(type, external)
+   private
+
+   !> Scenes of a block, lane by lane.
+   type, public :: lane_block_t
+      !> Load coefficient and damping of the film law, static load, force that oscillates, all scaled
+      real(dp) :: strength(lanes), damping(lanes), load(lanes)
+      type(lane_force_t) :: oscillation
+      !> Force that errors of the load are held against, q + f
+      real(dp) :: force(lanes)
+      !> What counts as 1: film [m], velocity [m/s], force [N]
+      real(dp) :: film_scale(lanes), velocity_scale(lanes), force_scale(lanes)
+      !> Accuracy [-]
+      real(dp) :: accuracy(lanes)
+      !> Series of H and V; coefficients 0 are the state
+      real(dp) :: film(lanes, 0:order), momentum(lanes, 0:order)
+      !> Phase of the state, next step, what is left of the period, longest step allowed [periods]
+      real(dp) :: phase(lanes), step(lanes), remaining(lanes), limit(lanes)
+      !> State that the step leads to, and whether it is to be trusted (1) or not (0)
+      real(dp) :: next_film(lanes), next_momentum(lanes), trust(lanes)
+      !> H' = V + slip/sqrt(H): 2 b in Lienard's form, 0 where V is H' itself
+      real(dp) :: slip(lanes)
+      !> Damping rate at the state [1/periods]
+      real(dp) :: damping_rate(lanes)
+      !> Collocation: next step proposed, last step taken [periods], polynomial of the acceleration in that
+      !> step, and whether the last try met a film that has no load
+      real(dp) :: proposed(lanes), last_step(lanes), polynomial(lanes, stages)
+      !> H'' at the start of the step
+      real(dp) :: acceleration(lanes)
+      logical :: no_load(lanes)
+      !> Steps of this period
+      real(dp) :: period_steps(lanes)
+      !> Of films with rupture: the load expanded last
+      type(load_expansion_t) :: expansion
+      !> Of the exact piezo-viscous film: b, where the pressure group is b H^(-3/2), and its load expanded last
+      real(dp) :: pressing(lanes)
+      type(reynolds_piezo_expansion_t) :: piezo_expansion
+   end type lane_block_t
+
+   !> First step of a period by collocation [periods]
+   real(dp), parameter :: first_step = 1.0_dp/64.0_dp
+
+   public :: place_block, load_problem, rest_lane, start_period, state_of_lane, start_status, lane_accuracy
+
+contains
+
+   !> Accuracy to which the periods of a motion are solved [-]. Where the film settles slowly, the errors of many periods add up
+   !> before they are forgotten.
+   elemental real(dp) function lane_accuracy(problem, accuracy)
+      type(problem_t), intent(in) :: problem
+      !> Relative accuracy of the film asked for [-]
+      real(dp), intent(in) :: accuracy
+      !> No step is better than rounding
+      real(dp), parameter :: best_accuracy = 1.0e-13_dp
+      type(settling_t) :: settling
+      real(dp) :: film
+
+      lane_accuracy = accuracy
+      film = reference_film(problem)
+      if (.not. (film > 0.0_dp .and. ieee_is_finite(film))) return
+      settling = settling_of(problem, film, film)
+      lane_accuracy = min(accuracy, max(accuracy*settling%rate, best_accuracy))
+   end function lane_accuracy
+
+   !> Whether the motion can start: `status_complete`, or why not.
+   elemental integer function start_status(problem, start)
+      type(problem_t), intent(in) :: problem
+      !> Where it starts
+      type(motion_state_t), intent(in) :: start
+      real(dp) :: load, load_by_film, load_by_velocity
+
+      start_status = status_film_lost
+      if (.not. (ieee_is_finite(start%film) .and. ieee_is_finite(start%velocity))) return
+      if (start%film <= 0.0_dp) return
+      call film_load(problem%film, start%film, start%velocity, load, load_by_film, load_by_velocity)
+      start_status = merge(status_complete, status_overflow, abs(load) < overflow_load)
+   end function start_status
+
+   !> A block that starts with a cache line, its lanes undefined. All its arrays fill whole lines, so each starts with one.
+   subroutine place_block(room, block)
+      !> Memory of the block
+      real(dp), allocatable, target, intent(out) :: room(:)
+      !> The block in it; lives as long as `room`, which has to be a target
+      type(lane_block_t), pointer, intent(out) :: block
+      type(c_ptr) :: place
+
+      call allocate_lines(storage_size(block), room, place)
+      call c_f_pointer(place, block)
+      block%expansion = load_expansion_t()
+      block%piezo_expansion = reynolds_piezo_expansion_t()
+   end subroutine place_block
+
+   !> Put a motion into a lane, at the start of its first period.
+   pure subroutine load_problem(problem, start, by_series, accuracy, lane, block)
+      type(problem_t), intent(in) :: problem
+      !> Where it starts
+      type(motion_state_t), intent(in) :: start
+      !> Taylor series, else collocation
+      logical, intent(in) :: by_series
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy
+      !> Lane
+      integer, intent(in) :: lane
+      !> The block
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: force_scale, film_scale
+
+      call rest_lane(lane, block)
+      film_scale = 2.0_dp**nint(log(reference_film(problem))/log(2.0_dp))
+      force_scale = problem%mass*film_scale*problem%frequency**2
+      block%film_scale(lane) = film_scale
+      block%velocity_scale(lane) = film_scale*problem%frequency
+      block%force_scale(lane) = force_scale
+      block%load(lane) = static_load(problem)/force_scale
+      call set_force(problem%force, force_scale, lane, block%oscillation)
+      block%force(lane) = abs(block%load(lane)) + largest_oscillation(problem%force)/force_scale
+      block%accuracy(lane) = lane_accuracy(problem, accuracy)
+      block%film(lane, 0) = start%film/film_scale
+      block%momentum(lane, 0) = start%velocity/block%velocity_scale(lane)
+      if (by_series .and. problem%film%kernel == kernel_piezo) then
+         block%strength(lane) = problem%film%piezo/(film_scale**3*sqrt(film_scale))/force_scale
+         block%damping(lane) = problem%film%rate*block%velocity_scale(lane)
+      else if (by_series .and. problem%film%kernel == kernel_reynolds_iso) then
+         block%strength(lane) = problem%film%scale/film_scale/force_scale
+         block%damping(lane) = problem%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
+      else if (by_series .and. problem%film%kernel == kernel_reynolds_piezo) then
+         block%strength(lane) = problem%film%scale/film_scale/force_scale
+         block%damping(lane) = problem%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
+         block%pressing(lane) = problem%film%pressure_rate/(film_scale*sqrt(film_scale))
+      else if (by_series .and. problem%film%kernel == kernel_solved_fast) then
+         block%strength(lane) = problem%film%rolling/film_scale/force_scale
+         block%damping(lane) = problem%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
+      else if (by_series) then
+         block%strength(lane) = problem%film%rolling/film_scale/force_scale
+         block%damping(lane) = 2.0_dp*pi*problem%film%squeeze/sqrt(film_scale)*problem%frequency/force_scale
+         block%slip(lane) = block%damping(lane)
+         block%momentum(lane, 0) = block%momentum(lane, 0) - block%slip(lane)/sqrt(block%film(lane, 0))
+      end if
+      if (start%carried_on) block%momentum(lane, 0) = start%momentum
+      call start_period(lane, block)
+   end subroutine load_problem
+
+   !> Let a lane rest without a motion: a film at its steady thickness that nothing moves.
+   pure subroutine rest_lane(lane, block)
+      !> Lane
+      integer, intent(in) :: lane
+      !> The block
+      type(lane_block_t), intent(inout) :: block
+
+      block%film_scale(lane) = 1.0_dp
+      block%velocity_scale(lane) = 1.0_dp
+      block%force_scale(lane) = 1.0_dp
+      block%strength(lane) = 1.0_dp
+      block%damping(lane) = 1.0_dp
+      block%slip(lane) = 0.0_dp
+      block%pressing(lane) = 0.0_dp
+      block%load(lane) = 1.0_dp
+      call set_force(force_t(), 1.0_dp, lane, block%oscillation)
+      block%force(lane) = 1.0_dp
+      block%accuracy(lane) = 1.0_dp
+      block%film(lane, :) = 0.0_dp
+      block%momentum(lane, :) = 0.0_dp
+      block%film(lane, 0) = 1.0_dp
+      block%damping_rate(lane) = 0.0_dp
+      call start_period(lane, block)
+      ! Far from the end of a period, so that nobody has to look after it.
+      block%phase(lane) = -1.0e6_dp
+   end subroutine rest_lane
+
+   !> Start of a period: film and momentum alone decide all that follows, nothing else of the period before.
+   pure subroutine start_period(lane, block)
+      !> Lane
+      integer, intent(in) :: lane
+      !> The block
+      type(lane_block_t), intent(inout) :: block
+
+      block%phase(lane) = 0.0_dp
+      call start_force(lane, block%oscillation)
+      block%remaining(lane) = 1.0_dp
+      block%limit(lane) = 1.0_dp
+      block%period_steps(lane) = 0.0_dp
+      block%proposed(lane) = first_step
+      block%last_step(lane) = 0.0_dp
+      block%polynomial(lane, :) = 0.0_dp
+      block%acceleration(lane) = 0.0_dp
+      block%no_load(lane) = .false.
+   end subroutine start_period
+
+   !> State of a lane in units; the caller knows its period and method.
+   pure type(motion_state_t) function state_of_lane(lane, block) result(state)
+      !> Lane
+      integer, intent(in) :: lane
+      !> The block
+      type(lane_block_t), intent(in) :: block
+
+      state%film = block%film(lane, 0)*block%film_scale(lane)
+      state%momentum = block%momentum(lane, 0)
+      state%velocity = (state%momentum + block%slip(lane)/sqrt(block%film(lane, 0)))*block%velocity_scale(lane)
+      state%carried_on = .true.
+   end function state_of_lane
+
+end module lane_block

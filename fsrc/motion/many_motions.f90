@@ -1,0 +1,94 @@
+!> Motions of any number of problems by the controlled engine: Taylor series for the film laws that have one, collocation
+!> for all others and for motions too stiff for explicit steps.
+module many_motions
+   use engine, only: ending_t, motion_state_t, request_t
+   use film_law, only: film_load
+   use film_series, only: has_series
+   use force, only: largest_oscillation
+   use kinds, only: dp
+   use lane_block, only: lane_accuracy, start_status
+   use lane_integration, only: integrate_lanes
+   use period_repetition, only: orbit_watch_t
+   use problem, only: problem_t, static_load
+   use scene_status, only: status_complete, status_film_lost, status_not_converged
+   use window_record, only: window_record_t
+   implicit none(type, external)
+   private
+
+   public :: solve_motions
+
+contains
+
+   !> Solve all problems. Their order decides only which share a block: those of like cost should be neighbours, the longest first.
+   subroutine solve_motions(problems, starts, request, films, velocities, endings, watches, records)
+      !> What moves
+      type(problem_t), intent(in) :: problems(:)
+      !> Where each motion starts
+      type(motion_state_t), intent(in) :: starts(:)
+      !> What is asked for
+      type(request_t), intent(in) :: request
+      !> Samples of h [m] and z' [m/s]: sample, problem; at least sampled_periods*samples_per_period of a problem
+      real(dp), contiguous, intent(inout) :: films(:, :)
+      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> How the motions ended
+      type(ending_t), intent(out) :: endings(:)
+      !> What a search for repetition that is carried on looks back on, problem by problem; without it every search begins anew
+      type(orbit_watch_t), optional, intent(inout) :: watches(:)
+      !> What the steps of the sampled periods tell, problem by problem; a motion that is carried on within them adds to it
+      type(window_record_t), optional, intent(inout) :: records(:)
+      type(motion_state_t), allocatable :: rest(:)
+      logical, allocatable :: explicit(:), left(:)
+      integer, allocatable :: number(:)
+      integer :: i, first, kernel
+
+      allocate (rest, source=starts)
+      allocate (explicit(size(problems)), left(size(problems)), number(size(problems)))
+      number(:) = [(i, i=1, size(problems))]
+      explicit(:) = has_series(problems%film, lane_accuracy(problems, request%accuracy)) .and. .not. starts%implicit &
+                    .and. .not. outgrows_series(problems, starts)
+      left(:) = explicit
+      do while (any(left))
+         first = findloc(left, .true., dim=1)
+         kernel = problems(first)%film%kernel
+         call integrate_lanes(.true., problems, starts, pack(number, left .and. problems%film%kernel == kernel), request, &
+                              films, velocities, endings, watches, records)
+         left(:) = left .and. problems%film%kernel /= kernel
+      end do
+
+      do i = 1, size(problems)
+         left(i) = .not. explicit(i)
+         if (left(i)) cycle
+         left(i) = any(endings(i)%status == [status_not_converged, status_film_lost])
+         ! The rest of a motion that Taylor series could not finish.
+         if (left(i)) rest(i) = motion_state_t(periods=endings(i)%periods, film=endings(i)%film, velocity=endings(i)%velocity, &
+                                               implicit=.true.)
+      end do
+      if (any(left)) &
+         call integrate_lanes(.false., problems, rest, pack(number, left), request, films, velocities, endings, watches, records)
+   end subroutine solve_motions
+
+   !> Whether the coefficients of a series about the start of a motion, in powers of time in periods, would overflow.
+   elemental logical function outgrows_series(problem, start)
+      type(problem_t), intent(in) :: problem
+      !> Where it starts
+      type(motion_state_t), intent(in) :: start
+      !> Growth from one coefficient to the next [-]; a step would be some 1e-8 of a period
+      real(dp), parameter :: largest_growth = 1.0e8_dp
+      !> What is thinner is no film, which is found at the first step [m]
+      real(dp), parameter :: thinnest = 1.0e-30_dp
+      real(dp) :: load, load_by_film, load_by_velocity, rate
+
+      outgrows_series = .false.
+      ! A motion that is carried on goes on as it went; one that cannot start is not for this procedure to refuse.
+      if (start%carried_on) return
+      if (start_status(problem, start) /= status_complete) return
+      if (.not. start%film > thinnest) return
+      call film_load(problem%film, start%film, start%velocity, load, load_by_film, load_by_velocity)
+      load = load + abs(static_load(problem)) + largest_oscillation(problem%force)
+      rate = largest_growth*problem%frequency
+      outgrows_series = abs(start%velocity) > rate*start%film .or. &
+                        abs(load_by_velocity) > rate*problem%mass .or. abs(load_by_film) > rate**2*problem%mass .or. &
+                        load > rate**2*problem%mass*start%film
+   end function outgrows_series
+
+end module many_motions
