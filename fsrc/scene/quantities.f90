@@ -172,10 +172,12 @@ module quantities
       quantity_t(quantity_iterations_per_step, 'iterations_per_step', '-', a_number, part_cost, needs_nothing, 'summary', &
          'Evaluations of the film a step.')]
 
-   !> Names of those that a campaign can record, blanks between them.
-   logical, parameter, private :: in_campaigns(*) = index(quantity_table%told_in, 'campaign') > 0
-   character(*), parameter :: recordable = transfer(pack(quantity_table%name, in_campaigns), &
-                                                            repeat(' ', len(quantity_table%name)*count(in_campaigns)))
+   !> Names of those that a campaign can record, blanks between them. Element by element, as flang 19 folds no other way.
+   integer, private :: i
+   logical, parameter, private :: in_campaigns(*) = [(index(quantity_table(i)%told_in, 'campaign') > 0, &
+                                                      i=1, size(quantity_table))]
+   character(*), parameter, private :: names(*) = [(quantity_table(i)%name, i=1, size(quantity_table))]
+   character(*), parameter :: recordable = transfer(pack(names, in_campaigns), repeat(' ', len(names)*count(in_campaigns)))
 
 contains
 
