@@ -1,12 +1,23 @@
-!> Which film laws have a Taylor series of the motion, of what order, and how good it is.
+!> The list of film laws that have a Taylor series of the motion: of what order, how good it is, its coefficients in a lane, its
+!> expansion about the states of a block, and what its steps are checked for at their ends.
 !>
-!> The series themselves are in modules taylor_iso_viscous and taylor_piezo_viscous, for the published films, and
-!> taylor_rupture and taylor_reynolds_piezo, for those whose rupture follows from (18). A law without a series is solved by
-!> collocation.
+!> A law that is not in this list is solved by collocation. To add one: write its series in a file of its own, and add it to every
+!> choice here; a choice that has forgotten it rejects the steps.
 module film_series
+   use constants, only: pi
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast
    use kinds, only: dp
-   use taylor_rupture, only: rupture_order
+   use lane_block, only: lane_block_t
+   use lane_force, only: force_derivatives, force_values, lane_force_t, move_forces, turn_forces
+   use lane_functions, only: lanes
+   use load_expansion, only: expand_load
+   use load_pieces, only: exact_load, published_load
+   use problem, only: problem_t
+   use reynolds_piezo_expansion, only: expand_reynolds_piezo
+   use taylor_iso_viscous, only: iso_viscous_series
+   use taylor_piezo_viscous, only: piezo_viscous_series, reject_unresolved_growth
+   use taylor_reynolds_piezo, only: reynolds_piezo_series
+   use taylor_rupture, only: reject_large_defect, rupture_order, rupture_series
    use taylor_step_control, only: order
    implicit none(type, external)
    private
@@ -16,10 +27,13 @@ module film_series
 
    !> The series of a film law.
    type, public :: film_series_t
-      !> The law
-      integer :: kernel = kernel_half_pi
-      !> Whether there is one, and whether its rupture follows from (18)
-      logical :: exists = .false., solves_rupture = .false.
+      !> Code of the law
+      integer :: kernel = 0
+      logical :: exists = .false.
+      !> Whether its steps are checked against the equation of motion at their ends, where the next expansion begins
+      logical :: checked_at_end = .false.
+      !> Load that a series with rupture by (18) takes from module load_pieces
+      integer :: pieces = exact_load
       !> Order of its last coefficient
       integer :: last_order = order
       !> Share of the accuracy that a step of length x may use up is x times this; found by trial [1/periods]
@@ -28,39 +42,172 @@ module film_series
       real(dp) :: best_accuracy = 0.0_dp
    end type film_series_t
 
-   public :: series_of, has_series
+   public :: series_of, has_series, set_coefficients, expand_motion, check_ends
 
 contains
 
-   !> The series of a film law.
-   elemental type(film_series_t) function series_of(kernel)
-      !> Its kernel
-      integer, intent(in) :: kernel
+   !> The series of a film.
+   elemental type(film_series_t) function series_of(film) result(series)
+      type(film_t), intent(in) :: film
 
-      series_of%kernel = kernel
-      select case (kernel)
+      series%kernel = film%kernel
+      select case (film%kernel)
       case (kernel_half_pi, kernel_piezo)
-         series_of%exists = .true.
+         series%exists = .true.
       case (kernel_solved_fast, kernel_reynolds_iso)
-         series_of = film_series_t(kernel, .true., .true., rupture_order, share=8.0_dp)
+         series%exists = .true.
+         series%checked_at_end = .true.
+         series%last_order = rupture_order
+         series%share = 8.0_dp
+         if (film%kernel == kernel_solved_fast) series%pieces = published_load
       case (kernel_reynolds_piezo)
+         series%exists = .true.
+         series%checked_at_end = .true.
+         series%last_order = rupture_order
          ! Its long steps add up their errors where nothing damps.
-         series_of = film_series_t(kernel, .true., .true., rupture_order, share=2.0_dp, best_accuracy=best_cell_accuracy)
+         series%share = 2.0_dp
+         series%best_accuracy = best_cell_accuracy
       case default
-         series_of%exists = .false.
+         series%exists = .false.
       end select
    end function series_of
 
-   !> Whether the film law has a Taylor series that is good enough.
+   !> Whether a film has a Taylor series that is good enough.
    elemental logical function has_series(film, accuracy)
-      !> The film
       type(film_t), intent(in) :: film
       !> Relative accuracy of the film asked for [-]
       real(dp), intent(in) :: accuracy
       type(film_series_t) :: series
 
-      series = series_of(film%kernel)
+      series = series_of(film)
       has_series = series%exists .and. accuracy >= series%best_accuracy
    end function has_series
+
+   !> Scaled coefficients of the film in a lane that holds its motion, and the momentum by which the series goes on.
+   pure subroutine set_coefficients(problem, carried_on, lane, block)
+      type(problem_t), intent(in) :: problem
+      !> Whether the motion brings its momentum along
+      logical, intent(in) :: carried_on
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(inout) :: block
+
+      associate (film => problem%film, film_scale => block%film_scale(lane), velocity_scale => block%velocity_scale(lane), &
+                 force_scale => block%force_scale(lane))
+         select case (film%kernel)
+         case (kernel_half_pi)
+            block%strength(lane) = film%rolling/film_scale/force_scale
+            block%damping(lane) = 2.0_dp*pi*film%squeeze/sqrt(film_scale)*problem%frequency/force_scale
+            block%slip(lane) = block%damping(lane)
+            if (.not. carried_on) &
+               block%momentum(lane, 0) = block%momentum(lane, 0) - block%slip(lane)/sqrt(block%film(lane, 0))
+         case (kernel_solved_fast)
+            block%strength(lane) = film%rolling/film_scale/force_scale
+            block%damping(lane) = film%squeeze_rate*velocity_scale/sqrt(film_scale)
+         case (kernel_piezo)
+            block%strength(lane) = film%piezo/(film_scale**3*sqrt(film_scale))/force_scale
+            block%damping(lane) = film%rate*velocity_scale
+         case (kernel_reynolds_iso, kernel_reynolds_piezo)
+            block%strength(lane) = film%scale/film_scale/force_scale
+            block%damping(lane) = film%squeeze_rate*velocity_scale/sqrt(film_scale)
+            block%pressing(lane) = film%pressure_rate/(film_scale*sqrt(film_scale))
+         case default
+            block%strength(lane) = 0.0_dp
+         end select
+      end associate
+   end subroutine set_coefficients
+
+   !> Series of film and momentum about the states of a block. A law without one has a damping rate that no step follows.
+   pure subroutine expand_motion(series, block)
+      type(film_series_t), intent(in) :: series
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: force(lanes, order)
+
+      call force_derivatives(series%last_order, block%oscillation, force)
+      select case (series%kernel)
+      case (kernel_piezo)
+         call piezo_viscous_series(block%strength, block%damping, block%load, force, block%film, &
+                                   block%momentum, block%damping_rate)
+      case (kernel_half_pi)
+         call iso_viscous_series(block%strength, block%damping, block%load, force, block%film, &
+                                 block%momentum, block%damping_rate)
+      case (kernel_reynolds_piezo)
+         call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%load, force, block%film, &
+                                    block%momentum, block%damping_rate, block%piezo_expansion)
+      case (kernel_solved_fast, kernel_reynolds_iso)
+         call rupture_series(series%pieces, block%strength, block%damping, block%load, force, block%film, &
+                             block%momentum, block%damping_rate, block%expansion)
+      case default
+         block%film(:, 1:) = 0.0_dp
+         block%momentum(:, 1:) = 0.0_dp
+         block%damping_rate = huge(1.0_dp)
+      end select
+   end subroutine expand_motion
+
+   !> Reject the steps at whose end the series does not hold.
+   pure subroutine check_ends(series, rise, block)
+      type(film_series_t), intent(in) :: series
+      !> V' at the ends by the series, where they are held against the equation of motion [-]
+      real(dp), intent(in) :: rise(lanes)
+      type(lane_block_t), intent(inout) :: block
+
+      select case (series%kernel)
+      case (kernel_half_pi)
+         ! Its load is smooth: the last terms tell the error.
+      case (kernel_piezo)
+         call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, block%film, block%momentum, &
+                                       block%next_film, block%next_momentum, block%trust)
+      case (kernel_solved_fast, kernel_reynolds_iso, kernel_reynolds_piezo)
+         call check_forces(series, rise, block)
+      case default
+         block%trust = 0.0_dp
+      end select
+   end subroutine check_ends
+
+   !> Hold the ends of steps against the equation of motion. The load is expanded there, for the next step to begin with; where a
+   !> step is rejected, it is expanded at its start again.
+   pure subroutine check_forces(series, rise, block)
+      type(film_series_t), intent(in) :: series
+      !> V' at the ends by the series [-]
+      real(dp), intent(in) :: rise(lanes)
+      type(lane_block_t), intent(inout) :: block
+      real(dp), dimension(lanes) :: phase, film, momentum
+      type(lane_force_t) :: oscillation
+
+      phase = block%phase + block%step
+      oscillation%amplitude = block%oscillation%amplitude
+      call turn_forces(phase, oscillation)
+      film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
+      momentum = merge(block%next_momentum, block%momentum(:, 0), block%trust > 0.0_dp)
+      if (series%kernel == kernel_reynolds_piezo) then
+         associate (there => block%piezo_expansion)
+            call expand_reynolds_piezo(film, momentum, block%damping, block%pressing, there)
+            block%trust = block%trust*there%inside
+            call reject(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, block%trust)
+         end associate
+      else
+         associate (there => block%expansion)
+            call expand_load(series%pieces, film, momentum, block%damping, there)
+            call reject(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, block%trust)
+         end associate
+      end if
+      call move_forces(oscillation, block%trust, block%oscillation)
+
+   contains
+
+      !> Reject steps by the load of the film law at their ends.
+      pure subroutine reject(inverse_film, root, load, load_slope, trust)
+         !> p, r, Phi and dPhi/dA [-]
+         real(dp), intent(in) :: inverse_film(lanes)
+         real(dp), intent(in) :: root(lanes)
+         real(dp), intent(in) :: load(lanes)
+         real(dp), intent(in) :: load_slope(lanes)
+         !> 1 where the step is trusted, set to 0 where it is rejected
+         real(dp), intent(inout) :: trust(lanes)
+
+         call reject_large_defect(series%share, block%strength, block%damping, block%load + force_values(oscillation), &
+                                  block%force, block%accuracy, inverse_film, root, load, load_slope, film, momentum, rise, trust)
+      end subroutine reject
+
+   end subroutine check_forces
 
 end module film_series

@@ -7,10 +7,8 @@
 module lane_block
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
-   use constants, only: pi
    use engine, only: motion_state_t
-   use film_law, only: film_load, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast, &
-      overflow_load
+   use film_law, only: film_load, overflow_load
    use force, only: force_t, largest_oscillation
    use kinds, only: dp
    use lane_force, only: lane_force_t, set_force, start_force
@@ -115,12 +113,10 @@ contains
    end subroutine place_block
 
    !> Put a motion into a lane, at the start of its first period.
-   pure subroutine load_problem(problem, start, by_series, accuracy, lane, block)
+   pure subroutine load_problem(problem, start, accuracy, lane, block)
       type(problem_t), intent(in) :: problem
       !> Where it starts
       type(motion_state_t), intent(in) :: start
-      !> Taylor series, else collocation
-      logical, intent(in) :: by_series
       !> Relative accuracy of the film [-]
       real(dp), intent(in) :: accuracy
       !> Lane
@@ -141,25 +137,6 @@ contains
       block%accuracy(lane) = lane_accuracy(problem, accuracy)
       block%film(lane, 0) = start%film/film_scale
       block%momentum(lane, 0) = start%velocity/block%velocity_scale(lane)
-      if (by_series .and. problem%film%kernel == kernel_piezo) then
-         block%strength(lane) = problem%film%piezo/(film_scale**3*sqrt(film_scale))/force_scale
-         block%damping(lane) = problem%film%rate*block%velocity_scale(lane)
-      else if (by_series .and. problem%film%kernel == kernel_reynolds_iso) then
-         block%strength(lane) = problem%film%scale/film_scale/force_scale
-         block%damping(lane) = problem%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
-      else if (by_series .and. problem%film%kernel == kernel_reynolds_piezo) then
-         block%strength(lane) = problem%film%scale/film_scale/force_scale
-         block%damping(lane) = problem%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
-         block%pressing(lane) = problem%film%pressure_rate/(film_scale*sqrt(film_scale))
-      else if (by_series .and. problem%film%kernel == kernel_solved_fast) then
-         block%strength(lane) = problem%film%rolling/film_scale/force_scale
-         block%damping(lane) = problem%film%squeeze_rate*block%velocity_scale(lane)/sqrt(film_scale)
-      else if (by_series) then
-         block%strength(lane) = problem%film%rolling/film_scale/force_scale
-         block%damping(lane) = 2.0_dp*pi*problem%film%squeeze/sqrt(film_scale)*problem%frequency/force_scale
-         block%slip(lane) = block%damping(lane)
-         block%momentum(lane, 0) = block%momentum(lane, 0) - block%slip(lane)/sqrt(block%film(lane, 0))
-      end if
       if (start%carried_on) block%momentum(lane, 0) = start%momentum
       call start_period(lane, block)
    end subroutine load_problem

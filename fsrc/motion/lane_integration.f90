@@ -10,7 +10,7 @@
 module lane_integration
    use collocation_step, only: take_collocation_step
    use engine, only: ending_t, motion_count_t, motion_state_t, request_t
-   use film_series, only: series_of
+   use film_series, only: series_of, set_coefficients
    use kinds, only: dp, int64
    use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
    use lane_block, only: load_problem, place_block, rest_lane, start_period, start_status, state_of_lane
@@ -61,7 +61,7 @@ contains
 
       call place_block(room, run%block)
       run%by_series = by_series
-      if (size(queue) > 0) run%series = series_of(problems(queue(1))%film%kernel)
+      if (size(queue) > 0) run%series = series_of(problems(queue(1))%film)
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
@@ -124,7 +124,8 @@ contains
          status = start_status(problems(scene), starts(scene))
          endings(scene) = ending_at(starts(scene), status,.not. run%by_series, endings(scene)%count)
          if (status /= status_complete .or. request%periods <= starts(scene)%periods) cycle
-         call load_problem(problems(scene), starts(scene), run%by_series, request%accuracy, lane, run%block)
+         call load_problem(problems(scene), starts(scene), request%accuracy, lane, run%block)
+         if (run%by_series) call set_coefficients(problems(scene), starts(scene)%carried_on, lane, run%block)
          run%films(lane) = problems(scene)%film
          associate (watch => run%watches(lane))
             watch%scene = scene

@@ -30,7 +30,7 @@ module taylor_piezo_viscous
    !> its damping rate, which is told as it is, keeps the series from being used.
    real(dp), parameter :: largest_rate = 1.0e14_dp
 
-   public :: piezo_viscous_series, distrust_load_from_nothing
+   public :: piezo_viscous_series, reject_unresolved_growth
 
 contains
 
@@ -107,7 +107,7 @@ contains
    !> theirs. When the tooth comes back down, the load grows by the same factor, all of it within one step of
    !> free fall. Logarithms to the base 2 of the load over the force tell it: log2(S/P) = log2(a/P) - 7/2 log2
    !> H - c V/ln 2.
-   pure subroutine distrust_load_from_nothing(strength, rate, force, accuracy, film, momentum, next_film, &
+   pure subroutine reject_unresolved_growth(strength, rate, force, accuracy, film, momentum, next_film, &
                                               next_momentum, trust)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
@@ -138,6 +138,6 @@ contains
          trust(l) = trust(l)*(1.0_dp - merge(1.0_dp, 0.0_dp, growth > most_growth) &
                               *merge(1.0_dp, 0.0_dp, load > negligible))
       end do
-   end subroutine distrust_load_from_nothing
+   end subroutine reject_unresolved_growth
 
 end module taylor_piezo_viscous

@@ -32,7 +32,7 @@ module taylor_rupture
    integer, parameter :: last_pair = (rupture_order - 2)/2
    integer, parameter :: h = 1, v = 2, p = 3, r = 4, z = 5, square = 6, nest = 7, series = nest + last_pair
 
-   public :: rupture_series, evaluate_rupture_series, distrust_load_unforeseen
+   public :: rupture_series, evaluate_rupture_series, reject_large_defect
 
 contains
 
@@ -176,7 +176,7 @@ contains
       end do
    end subroutine evaluate_rupture_series
 
-   !> Take back the trust in steps at whose end the series of V misses the forces that the film and the gear have there.
+   !> Reject steps whose series violates the equation of motion at their end.
    !>
    !> The last terms of a series tell its error only where the terms before them have begun to fall. A tooth in free flight
    !> with A >> 1 has a load of next to nothing, and so are its coefficients: those of the force alone, which fall at once, are
@@ -186,7 +186,7 @@ contains
    !> first terms left out, so D x/(n + 1) stands for the local error of V; it is held against what the step control
    !> grants the last term. The measure is that of module taylor_step_control at the end of the
    !> step, without its quotients; rounding is not held against a step.
-   pure subroutine distrust_load_unforeseen(error_share, strength, rate, load, force, accuracy, inverse_film, root, carried_load, &
+   pure subroutine reject_large_defect(error_share, strength, rate, load, force, accuracy, inverse_film, root, carried_load, &
                                             load_slope, film, momentum, rise, trust)
       !> Share of the accuracy that a step may use up, over its length [1/periods]
       real(dp), intent(in) :: error_share
@@ -225,6 +225,6 @@ contains
          trust(l) = trust(l)*merge(1.0_dp, 0.0_dp, defect*square_film <= granted*(free_rate + rate_of_damping)) &
             *merge(1.0_dp, 0.0_dp, defect*rate_of_damping*film(l) <= granted*load_error*force(l))
       end do
-   end subroutine distrust_load_unforeseen
+   end subroutine reject_large_defect
 
 end module taylor_rupture

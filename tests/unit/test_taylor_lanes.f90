@@ -8,8 +8,10 @@ module test_taylor_lanes
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use film_law, only: film_load, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
       kernel_solved_fast
+   use film_series, only: check_ends, has_series, series_of, set_coefficients
    use kinds, only: dp
-   use lane_block, only: lane_block_t, place_block
+   use lane_advance, only: take_series_step
+   use lane_block, only: lane_block_t, load_problem, place_block
    use lane_functions, only: coarse_log, coarse_power, half_block, lane_cosine_sine, lane_exponential, lanes, log_of_one, &
       whole_below
    use lane_rows, only: interleave_rows
@@ -46,6 +48,7 @@ contains
       call test_repetition(checks)
       call test_carrying_on(checks)
       call test_failures(checks)
+      call test_unknown_law(checks)
    end subroutine run_taylor_lanes_tests
 
    !> Scene whose film carries Q + m g at h = 0.89 um at rest, Q = 40 N.
@@ -428,5 +431,33 @@ contains
       call accelerations_of_samples(scenes(4), 4, [first_film], [0.0_dp], values(:1))
       call checks%check_close(values(1), 0.0_dp, 1.0e-9_dp, 'balance at a quarter of a period')
    end subroutine test_failures
+
+   !> A law that no choice knows has no series, its steps are rejected, and its motion ends at once.
+   subroutine test_unknown_law(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(problem_t) :: scene
+      type(ending_t) :: endings(1)
+      type(lane_block_t), pointer :: block
+      real(dp), allocatable, target :: room(:)
+      real(dp) :: films(4, 1), velocities(4, 1)
+      integer :: l
+
+      scene = scene_of(kernel_half_pi, 1.9_dp, 1.0_dp)
+      scene%film%kernel = 99
+      call checks%check(.not. has_series(scene%film, 1.0e-3_dp), 'unknown law: no series')
+      call place_block(room, block)
+      do l = 1, lanes
+         call load_problem(scene, start_of(scene), 1.0e-6_dp, l, block)
+         call set_coefficients(scene, .false., l, block)
+      end do
+      call take_series_step(series_of(scene%film), block)
+      call checks%check(all(block%trust <= 0.0_dp), 'unknown law: steps rejected')
+      block%trust = 1.0_dp
+      call check_ends(series_of(scene%film), [(0.0_dp, l=1, lanes)], block)
+      call checks%check(all(block%trust <= 0.0_dp), 'unknown law: ends rejected')
+      call solve_motions([scene], start_of([scene]), request_t(accuracy=1.0e-6_dp, periods=2, samples_per_period=4, &
+                                                               sampled_periods=1), films, velocities, endings)
+      call checks%check(endings(1)%status == status_overflow .and. endings(1)%periods == 0, 'unknown law: no motion')
+   end subroutine test_unknown_law
 
 end module test_taylor_lanes
