@@ -83,7 +83,6 @@ module film_law
    end interface
 
    public :: new_film, contact_radius, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, law_words, film_kernel
-   public :: load_half_pi, load_solved_fast, load_solved_successive, load_piezo, load_reynolds_iso, load_reynolds_piezo
 
 contains
 

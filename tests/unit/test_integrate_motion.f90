@@ -3,7 +3,7 @@ module test_integrate_motion
    use canonical_scenes, only: canonical_scene, counting_watcher_t, run_window
    use checks, only: check_list_t
    use engine, only: ending_t, motion_count_t, request_t
-   use film_law, only: film_t, load_half_pi, new_film, steady_film
+   use film_law, only: film_load, film_t, kernel_of, new_film, steady_film
    use film_pressure, only: exact_pressure
    use force, only: force_of_period, force_t
    use kinds, only: dp
@@ -228,11 +228,11 @@ contains
       method = request_t(tolerance=1.0e-16_dp, iteration_limit=100)
       problem = problem_of(canonical_scene(law_iso_viscous, steps))
       call force_of_period(problem%force, force)
-      call start_motion(load_half_pi, problem, state, count, status)
-      call advance_period(load_half_pi, problem, method, force, state, count, films, velocities, &
+      call start_motion(kernel_of(problem%film), problem, state, count, status)
+      call advance_period(kernel_of(problem%film), problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
       early(1:2) = films([steps/2, steps])
-      call advance_period(load_half_pi, problem, method, force, state, count, films, velocities, &
+      call advance_period(kernel_of(problem%film), problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
       early(3) = films(steps)
    end function early_films
@@ -265,7 +265,7 @@ contains
       call force_of_period(force_t(steady=199.2_dp, amplitude=205.7_dp), force)
       residual = 0.0_dp
       do i = 1, 512
-         call load_half_pi(film, recorder%films(i), recorder%velocities(i), load, slope_h, slope_w)
+         call film_load(film, recorder%films(i), recorder%velocities(i), load, slope_h, slope_w)
          residual = max(residual, abs(load - force(1 + modulo(i - 1, 256)) - 3.0_dp*9.80665_dp - &
             3.0_dp*recorder%accelerations(i)))
       end do

@@ -3,7 +3,7 @@ module test_newmark_by_hand
    use canonical_scenes, only: canonical_method, canonical_scene, idle_steady_film
    use checks, only: check_list_t
    use engine, only: motion_count_t, request_t
-   use film_law, only: load_half_pi
+   use film_law, only: film_load, kernel_of
    use force, only: force_of_period
    use kinds, only: dp
    use linear_newmark, only: damping, first_film, first_velocity, linear_method, load_at_zero, periods, run_linear, stiffness, &
@@ -101,11 +101,11 @@ contains
          method = canonical_method()
          method%tolerance = 10.0_dp**(-choice)
          count = motion_count_t()
-         call start_motion(load_half_pi, problem, state, count, status)
+         call start_motion(kernel_of(problem%film), problem, state, count, status)
          h = state%film
          v = state%velocity
          a = state%acceleration
-         call advance_period(load_half_pi, problem, method, force, state, count, films, velocities, &
+         call advance_period(kernel_of(problem%film), problem, method, force, state, count, films, velocities, &
             accelerations, done, &
             status)
          passes = 1
@@ -117,7 +117,7 @@ contains
             do
                passes = passes + 1
                last_h = next_h
-               call load_half_pi(problem%film, next_h, next_v, load, slope_h, slope_w)
+               call film_load(problem%film, next_h, next_v, load, slope_h, slope_w)
                next_a = next_a + (load - force(i) - problem%weight - 3.0_dp*next_a) &
                   /(3.0_dp - 0.25_dp*dt*dt*slope_h - 0.5_dp*dt*slope_w)
                call newmark_formulas(dt, h, v, a, next_a, next_h, next_v)
