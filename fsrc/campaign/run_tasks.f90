@@ -1,11 +1,12 @@
 !> What a call asks for: a campaign, or scenes one after the other.
 module run_tasks
    use, intrinsic :: iso_fortran_env, only: error_unit
+   use check_campaign, only: check_one_campaign
    use batch, only: input_name, print_faults, run_batch
    use command_line, only: command_t, most_threads
    use errors, only: error_t, exit_bad_input, exit_complete, fault_list_t
    use ranks, only: end_ranks, is_foreign_job, rank_count, start_ranks, this_rank
-   use run_campaign, only: check_campaign, run_one_campaign
+   use run_campaign, only: run_one_campaign
    use scene_reader, only: read_scene
    use scene_types, only: scene_t, task_campaign
    use signals, only: caught_signal
@@ -87,7 +88,7 @@ contains
       exit_code = exit_complete
       call start_ranks()
       if (command%check) then
-         call check_campaign(scene, file, lines, faults)
+         call check_one_campaign(scene, file, lines, faults)
          if (caught_signal() /= 0) then
             exit_code = 128 + caught_signal()
          else if (faults%count() > 0) then

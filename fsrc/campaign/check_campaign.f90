@@ -1,0 +1,91 @@
+!> --check of a campaign: how many scenes, how large the result, how long it may take.
+module check_campaign
+   use clock, only: wall_seconds
+   use errors, only: error_t, fault_list_t
+   use kinds, only: dp, int64
+   use prepared_campaign, only: campaign_t, prepare_campaign
+   use scene_types, only: scene_t
+   use signals, only: lift_time_limit, limit_time, must_stop
+   use solve_chunk, only: chunk_space_t, solve_scenes
+   use text, only: integer_text, short_text
+   implicit none(type, external)
+   private
+
+   !> What --check may take to solve some scenes [s]
+   integer, parameter :: trial_limit = 1
+
+   public :: check_one_campaign
+
+contains
+
+   !> --check of a campaign: how many scenes, how large the result, how long it may take. However large the campaign is,
+   !> this takes a few seconds: what was not looked at by then is told.
+   subroutine check_one_campaign(scene, file, lines, faults)
+      !> Checked base scene
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> What to tell
+      character(:), allocatable, intent(out) :: lines
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(campaign_t) :: campaign
+      integer(int64) :: chunks
+      character(:), allocatable :: among
+      integer :: i
+
+      lines = ''
+      call prepare_campaign(scene, file, .true., campaign, faults)
+      if (faults%count() > 0) return
+      chunks = (campaign%layout%scene_count + campaign%layout%chunk_rows - 1_int64)/campaign%layout%chunk_rows
+      among = ''
+      if (campaign%seen < campaign%layout%scene_count) among = ' among the first '//integer_text(campaign%seen)// &
+                                                       '; there was no time to look at more'
+      do i = 1, size(campaign%warnings)
+         lines = lines//'! '//campaign%warnings(i)%text//new_line('a')
+      end do
+      ! Where a table is so long that its lines could not even be counted, none of its scenes was looked at.
+      lines = lines//'! scenes             '//trim(merge(' at least', '         ', &
+                                                           campaign%seen == 0_int64 .and. chunks > 0_int64))// &
+              ' '//integer_text(campaign%layout%scene_count)//' ('//integer_text(campaign%invalid)// &
+              ' invalid'//among//')'//new_line('a')//'! result size         '// &
+              short_text(8.0e-6_dp*real(size(campaign%layout%names), dp)* &
+                                                   real(campaign%layout%scene_count, dp), 3)//' MB'//new_line('a')// &
+              '! chunks              '//integer_text(chunks)//' of at most '// &
+              integer_text(campaign%layout%chunk_rows)//' scenes'//new_line('a')// &
+              '! core time, '//core_time_sentence(scene, campaign)
+   end subroutine check_one_campaign
+
+   !> How long the scenes may take, from trials of 8, 64 and 512 of them, as far as there is time.
+   function core_time_sentence(scene, campaign) result(sentence)
+      type(scene_t), intent(in) :: scene
+      type(campaign_t), intent(in) :: campaign
+      character(:), allocatable :: sentence
+      type(chunk_space_t) :: space
+      type(error_t), allocatable :: error
+      real(dp), allocatable :: rows(:, :)
+      real(dp) :: started, seconds
+      integer(int64) :: trial
+
+      sentence = 'not estimated: no scene could be looked at'
+      if (campaign%seen == 0_int64) return
+      call limit_time(trial_limit)
+      trial = min(8_int64, campaign%seen)
+      do
+         allocate (rows(size(campaign%layout%names), trial))
+         started = wall_seconds()
+         call solve_scenes(scene, campaign%plan, campaign%first + (campaign%seen - trial)/2_int64, space, rows, error)
+         seconds = (wall_seconds() - started)/real(trial, dp)*real(campaign%layout%scene_count, dp)
+         deallocate (rows)
+         if (must_stop() .or. allocated(error)) exit
+         sentence = 'estimated '//short_text(seconds, 2)//' s, from '//integer_text(trial)//' scenes'
+         if (trial == min(512_int64, campaign%seen)) exit
+         trial = min(8_int64*trial, campaign%seen)
+      end do
+      if (must_stop() .and. trial == min(8_int64, campaign%seen)) &
+         sentence = 'more than '//short_text(seconds, 2)//' s: '//integer_text(trial)//' scenes were not solved within '// &
+                    integer_text(trial_limit)//' s'
+      call lift_time_limit()
+   end function core_time_sentence
+
+end module check_campaign
