@@ -20,6 +20,8 @@ module result_reader
       !> Resolved input as namelist text
       character(:), allocatable :: input_text
       integer :: columns = 0
+      !> Rows of a closed file
+      integer(int64) :: row_count = 0_int64
       !> Names of the columns
       character(column_name_bytes), allocatable :: names(:)
       !> Whether another version of the program wrote it, and which
@@ -57,6 +59,7 @@ contains
          return
       end if
       self%columns = size(self%header%names)
+      self%row_count = self%header%row_count
       self%names = self%header%names
       self%input_text = self%header%input_text
       self%version = trim(self%header%version)

@@ -106,7 +106,7 @@ contains
       case (task_film)
          call run_film_task(scene, command%quiet, status, error)
       case (task_sweep)
-         call run_sweep_task(scene, command%quiet, status, error)
+         call run_sweep_task(scene, command%quiet, command%resume, status, error)
       case default
          call run_one_scene(scene, command%quiet, command%resume, status, error)
       end select

@@ -19,6 +19,7 @@ module run_sweep
    use rattle_class, only: note_orbit
    use resolved_scene, only: resolve
    use result_format, only: column_name_bytes, column_unit_bytes
+   use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use scene_report, only: law_sentence, report_head
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written, status_sentence
@@ -26,7 +27,7 @@ module run_sweep
    use scene_types, only: scene_t, sweep_force_amplitude, sweep_frequency, sweep_steady_force
    use signals, only: caught_signal
    use summary_file, only: summary_t
-   use text, only: integer_text, short_text
+   use text, only: counted, integer_text, short_text
    use window_extremes, only: extremes_of_record
    use word_list, only: word_t
    implicit none(type, external)
@@ -40,11 +41,13 @@ module run_sweep
 contains
 
    !> Run a sweep and write its files.
-   subroutine run_sweep_task(scene, quiet, status, error)
+   subroutine run_sweep_task(scene, quiet, carry_on, status, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Nothing to the terminal
       logical, intent(in) :: quiet
+      !> Whether an earlier run is to be carried on: it is solved anew, and the log says where it was cut
+      logical, intent(in) :: carry_on
       !> Status of scene_status
       integer, intent(out) :: status
       !> Set if a file could not be written
@@ -64,6 +67,7 @@ contains
       call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
       call report_head(log, scene, 'sweep of '//integer_text(size(scene%sweep%values))//' motions, '//law_sentence(scene))
+      if (carry_on) call report_cut(log, scene)
       call sweep_columns(scene, names, units)
       call writer%open(result_path(scene), scene%resolved_input, names, units, size(scene%sweep%values, kind=int64), .true., error)
       call watcher%start(log, quiet)
@@ -77,6 +81,7 @@ contains
          ! A motion under way when the signal came may be half judged.
          if (caught_signal() /= 0) then
             status = status_interrupted
+            call log%line('  cut after '//integer_text(i - 1)//' of '//counted(size(scene%sweep%values), 'motion'))
             exit
          end if
          if (allocated(error)) exit
@@ -124,6 +129,21 @@ contains
          swept%kinematics%entrainment_speed = value
       end select
    end function swept_scene
+
+   !> Tell where an earlier run of this sweep was cut, if it was.
+   subroutine report_cut(log, scene)
+      type(log_t), intent(in) :: log
+      type(scene_t), intent(in) :: scene
+      type(result_reader_t) :: earlier
+      type(error_t), allocatable :: error
+
+      call earlier%open(result_path(scene), error)
+      if (allocated(error)) return
+      if (earlier%row_count < size(scene%sweep%values)) call log%line( &
+         '  the earlier run was cut after '//integer_text(earlier%row_count)//' of '// &
+         counted(size(scene%sweep%values), 'motion')//'; every motion begins with the one before, so all are solved again')
+      call earlier%close()
+   end subroutine report_cut
 
    !> Names and units of the columns: the swept key, the way, then the quantities that sweeps tell.
    pure subroutine sweep_columns(scene, names, units)

@@ -111,7 +111,8 @@ contains
             return
          end if
       else if (assignment%first_element > length + 1) then
-         call refuse('elements must be given one after the other; element '//integer_text(length + 1)//' comes next')
+         call refuse('element '//integer_text(assignment%first_element)//' is given, but element '//integer_text(length + 1)// &
+                     ' is not; a list is given from its first element on')
          return
       else if (key%kind == list_kind .and. assignment%first_element > most_words) then
          call refuse('at most '//integer_text(most_words)//' elements are allowed')

@@ -117,7 +117,7 @@ contains
       call expect("&output directory='' /", 'f:1: &output directory:', 'empty text')
       call expect("&output directory='"//repeat('x', 513)//"' /", 'f:1: &output directory:', 'text too long')
       call expect("&output columns='time','times' /", 'f:1: &output columns: ''times''', 'unknown column')
-      call expect("&output columns(2)='time' /", 'f:1: &output columns: elements must be given', &
+      call expect("&output columns(2)='time' /", 'f:1: &output columns: element 2 is given, but element 1 is not;', &
          'index beyond 1')
       call expect('&load mass(1)=3.0 /', 'f:1: &load mass: takes no index', 'index of a number')
       call expect('&load mass=3.0 4.0 /', 'f:1: &load mass: takes one value, 2', 'two values')

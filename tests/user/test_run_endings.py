@@ -235,3 +235,18 @@ def test_a_signal_ends_a_long_period(rattle: Path, scene_text, tmp_path: Path) -
     summary = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert summary["status"] == "interrupted"
     assert "rattle_class" not in summary
+
+
+def test_a_sweep_tells_where_it_was_cut(rattle: Path, repository: Path, tmp_path: Path) -> None:
+    """Every motion begins with the one before: carried on, a sweep is solved again, and the log says so."""
+    arguments = [rattle, "--quiet", "--set", "sweep.count=20001", "--output", "."]
+    for resume in ([], ["--resume"]):
+        process = subprocess.Popen([*arguments, *resume, repository / "input" / "sweep.nml"], cwd=tmp_path)
+        try:
+            process.wait(0.5)
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGTERM)
+        assert process.wait(60) == 128 + signal.SIGTERM
+        log = (tmp_path / "sweep.log").read_text()
+        assert re.search(r"^  cut after \d+ of 40001 motions$", log, flags=re.MULTILINE)
+        assert ("the earlier run was cut after" in log) == bool(resume)
