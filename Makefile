@@ -70,7 +70,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test unit user lint debug python bench stress stress-sample faults faults-sample mutants test-cluster clean install help format pages pictures FORCE
+.PHONY: all run test unit user lint debug python bench stress stress-sample faults faults-sample mutants test-cluster compilers clean install help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -86,6 +86,7 @@ help:
 	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
 	@echo 'make faults       runs that meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
+	@echo 'make compilers    gfortran 14 and flang 19 in a Debian 13 of their own, against the program of this machine'
 	@echo 'make pages        write input/README.md and scripts/rattle/quantities.csv anew from the tables'
 	@echo 'make pictures     draw the pictures of the README anew'
 	@echo 'make format       bring Fortran and Python into the one format'
@@ -237,6 +238,10 @@ faults-sample: $(BUILD)/rattle $(PYTHON_ENV)/installed
 # Open MPI and Slurm on this machine: array jobs, MPI jobs, time limits, resume. Some minutes; installs with apt.
 test-cluster: $(PYTHON_ENV)/installed
 	@PYTHON=$(abspath $(PYTHON)) tests/cluster/run_cluster_tests.sh $(BUILD)/mpi
+
+# Other compilers, in a bare Debian 13 made for it; as root. A quarter of an hour.
+compilers: $(BUILD)/rattle $(PYTHON_ENV)/installed
+	@PYTHON=$(abspath $(PYTHON)) tests/compilers/run_compilers.sh $(BUILD)
 
 # --- pages and pictures that are kept in the repository ------------------------------------------------
 
