@@ -10,8 +10,8 @@ module controlled_engine
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
-   use period_repetition, only: longest_orbit, orbit_watch_t
    use problem, only: acceleration_at, accelerations_of_samples, problem_t
+   use repetition, only: longest_orbit, orbit_watch_t
    use scene_status, only: is_success, status_complete, status_interrupted, status_steady
    use window_record, only: window_record_t
    implicit none(type, external)

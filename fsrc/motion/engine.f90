@@ -4,8 +4,8 @@ module engine
    use clock, only: wall_seconds
    use errors, only: error_t
    use kinds, only: dp, int64
-   use period_repetition, only: orbit_watch_t
    use problem, only: problem_t
+   use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_interrupted, status_time_limit
    use signals, only: caught_signal
    implicit none(type, external)

@@ -13,10 +13,10 @@ module lane_block
    use kinds, only: dp
    use lane_force, only: lane_force_t, set_force, start_force
    use lane_functions, only: lanes
-   use radau_nodes, only: stages
    use load_expansion, only: load_expansion_t
    use memory, only: allocate_lines
    use problem, only: problem_t, reference_film, settling_of, settling_t, static_load
+   use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
    use taylor_step_control, only: order

@@ -18,8 +18,8 @@ module lane_integration
    use lane_repetition, only: find_repetition, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
-   use period_repetition, only: orbit_watch_t, watch_from
    use problem, only: problem_t
+   use repetition, only: orbit_watch_t, watch_from
    use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
    use step_nodes, only: take_nodes

@@ -7,8 +7,7 @@ module lane_run
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
    use lane_sampling, only: lane_samples_t
-   use period_repetition, only: orbit_watch_t
-   use recurrence, only: recurrence_t
+   use repetition, only: orbit_watch_t, recurrence_t
    use step_nodes, only: step_nodes_t
    implicit none(type, external)
    private

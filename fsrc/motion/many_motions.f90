@@ -8,8 +8,8 @@ module many_motions
    use kinds, only: dp
    use lane_block, only: lane_accuracy, start_status
    use lane_integration, only: integrate_lanes
-   use period_repetition, only: orbit_watch_t
    use problem, only: problem_t, static_load
+   use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_film_lost, status_not_converged
    use window_record, only: window_record_t
    implicit none(type, external)

@@ -8,8 +8,8 @@ module newmark_engine
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use newmark, only: advance_period, newmark_state_t, start_motion
-   use period_repetition, only: note_state, orbit_watch_t
    use problem, only: problem_t, rest_film, settling_of
+   use repetition, only: note_state, orbit_watch_t
    use scene_status, only: status_complete, status_steady
    use window_record, only: window_record_t
    implicit none(type, external)

@@ -12,7 +12,7 @@ module resume
    use input_difference, only: first_difference
    use kinds, only: dp, int64
    use output_place, only: result_path, state_path
-   use period_repetition, only: orbit_watch_t
+   use repetition, only: orbit_watch_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t

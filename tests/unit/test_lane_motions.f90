@@ -11,9 +11,9 @@ module test_lane_motions
    use lane_block, only: lane_block_t
    use lane_functions, only: lane_count => lanes
    use many_motions, only: solve_motions
-   use period_repetition, only: orbit_watch_t
    use problem, only: accelerations_of_samples, problem_of, problem_t
    use radau_nodes, only: stages
+   use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, &
       rupture_solver_fast, &

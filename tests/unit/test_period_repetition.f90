@@ -3,8 +3,8 @@
 module test_period_repetition
    use checks, only: check_list_t
    use kinds, only: dp
-   use period_repetition, only: note_state, orbit_watch_t, watch_from
    use problem, only: settling_t
+   use repetition, only: note_state, orbit_watch_t, watch_from
    implicit none(type, external)
    private
 

@@ -3,7 +3,7 @@ module test_recurrence
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use checks, only: check_list_t
    use kinds, only: dp, int64
-   use recurrence, only: look_back, recurrence_t
+   use repetition, only: look_back, recurrence_t
    implicit none(type, external)
    private
 

@@ -4,12 +4,12 @@ module test_settling_forecast
    use checks, only: check_list_t
    use engine, only: ending_t, request_t, start_of
    use kinds, only: dp
+   use lane_repetition, only: forecast_rest
    use many_motions, only: solve_motions
-   use period_repetition, only: note_state, orbit_watch_t, watch_from
    use problem, only: problem_of, problem_t, settling_t
+   use repetition, only: note_state, orbit_watch_t, watch_from
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, scene_t
-   use settling_forecast, only: forecast_rest
    implicit none(type, external)
    private
 

@@ -1,6 +1,20 @@
-!> Tells when a motion repeats, from its states at the ends of the periods of the force.
+!> Does a motion repeat? It is asked in four ways, each for a purpose of its own:
 !>
-!> The states x_n follow from one another by one map, the same for every period. With d_n the distance of x_n
+!>    to the last bit        this module, `look_back`: the periods in between come again for ever and need not be computed;
+!>    within the accuracy    this module, `note_state`: a run until steady ends, with a bound of what the motion is still away;
+!>    in some periods        module lane_repetition, `forecast_rest`: a campaign jumps to where a slow motion will come to rest,
+!>                           and the motion has to repeat there by itself;
+!>    if it were followed    module periodic_orbit: Newton's method on the period map, for multipliers and for the certificate,
+!>                           stable or not.
+!>
+!> To the last bit. Film and momentum at the start of a period decide all that follows (lane_block, start_period). Where both have
+!> the very bits of an earlier period, the periods in between will return again and again: there is nothing left to compute.
+!> Floating-point numbers are finite in number, so a motion that settles gets there, most after ten to forty periods. No
+!> tolerance enters: the motion is the one that would have been computed. A state is compared with the one a period before, and
+!> with marks that are set anew after so many periods, the last of them after more and more: a cycle of any length is found once a
+!> mark that stays for so long lies on it (Brent 1980).
+!>
+!> Within the accuracy. The states x_n follow from one another by one map, the same for every period. With d_n the distance of x_n
 !> from x_(n-p), and q a bound of the ratios of successive d, the motion is still
 !>
 !>     d_(n+p) + d_(n+2p) + ... <= d_n q/(1 - q)
@@ -21,8 +35,8 @@
 !> film little in a period, and its law tells how far it has to go (module problem): with steps of film and velocity d_h
 !> and d_v, damping d and stiffness k, the mean force is off by d_v + d d_h, the film by that over k, and the film swings about
 !> its rest by d_h over the root of k.
-module period_repetition
-   use kinds, only: dp
+module repetition
+   use kinds, only: dp, int64
    use problem, only: settling_t
    use taylor_step_control, only: film_weight
    implicit none(type, external)
@@ -53,7 +67,25 @@ module period_repetition
    !> A film that settles at a lower rate does so slowly [1/periods].
    real(dp), parameter :: slow_rate = 0.7_dp
 
-   public :: watch_from, note_state, state_of_age
+   !> Periods after which the marks are set anew; the last one stays as long as all that came before it.
+   integer, parameter :: mark_periods(4) = [1, 4, 16, 64]
+
+   !> A state at the start of a period.
+   type :: mark_t
+      integer :: period = -1
+      !> Bits of H and V
+      integer(int64) :: film = 0_int64, momentum = 0_int64
+      !> Steps up to there
+      integer(int64) :: steps = 0_int64
+   end type mark_t
+
+   !> What a motion looks back on.
+   type, public :: recurrence_t
+      private
+      type(mark_t) :: marks(size(mark_periods)) = mark_t()
+   end type recurrence_t
+
+   public :: watch_from, note_state, state_of_age, look_back
 
 contains
 
@@ -264,4 +296,46 @@ contains
          /film_weight(watch%film(i))
    end function apart
 
-end module period_repetition
+   !> Compare the state at the start of a period with earlier ones, and keep it.
+   pure subroutine look_back(past, period, film, momentum, steps, cycle_periods, cycle_steps)
+      !> What the motion looks back on
+      type(recurrence_t), intent(inout) :: past
+      !> Periods done
+      integer, intent(in) :: period
+      !> Scaled film H and momentum V [-]
+      real(dp), intent(in) :: film
+      real(dp), intent(in) :: momentum
+      !> Steps up to here
+      integer(int64), intent(in) :: steps
+      !> Periods since the motion was in this very state, 0: it is new
+      integer, intent(out) :: cycle_periods
+      !> Steps since then
+      integer(int64), intent(out) :: cycle_steps
+      type(mark_t) :: here
+      integer :: i, stays
+
+      here = mark_t(period, transfer(film, 0_int64), transfer(momentum, 0_int64), steps)
+      cycle_periods = 0
+      cycle_steps = 0_int64
+      do i = size(mark_periods), 1, -1
+         associate (mark => past%marks(i))
+            if (same_state(here, mark)) then
+               cycle_periods = period - mark%period
+               cycle_steps = steps - mark%steps
+            end if
+            stays = mark_periods(i)
+            if (i == size(mark_periods)) stays = max(stays, mark%period)
+            if (mark%period < 0 .or. period - mark%period >= stays) mark = here
+         end associate
+      end do
+   end subroutine look_back
+
+   !> Whether a state is that of a mark that has been set.
+   pure logical function same_state(here, mark)
+      type(mark_t), intent(in) :: here
+      type(mark_t), intent(in) :: mark
+
+      same_state = mark%period >= 0 .and. here%film == mark%film .and. here%momentum == mark%momentum
+   end function same_state
+
+end module repetition
