@@ -104,7 +104,7 @@ contains
 
       do i = 1, stages
          phase = min(1.0_dp, block%phase + node(i)*block%step)
-         call total_forces(phase, block%load, block%oscillation, force(:, i))
+         call total_forces(phase, block%static_load, block%oscillation, force(:, i))
       end do
    end subroutine forces_of_stages
 
@@ -125,7 +125,7 @@ contains
          if (.not. occupied(l)) cycle
          if (.not. block%last_step(l) > 0.0_dp) then
             call scaled_load(films(l), block, l, block%film(l, 0), block%momentum(l, 0), load, by_film, by_momentum)
-            block%acceleration(l) = load - block%load(l) - oscillation(l)
+            block%acceleration(l) = load - block%static_load(l) - oscillation(l)
          end if
          if (block%last_step(l) > 0.0_dp .and. block%step(l) < most_extrapolation*block%last_step(l)) then
             ratio = block%step(l)/block%last_step(l)
@@ -205,7 +205,7 @@ contains
       top = abs(polynomial(7))/lead_6
       fifth = max(abs(polynomial(6))/lead_5, top)
       fourth = max(abs(polynomial(5) - tail_6*polynomial(7)/lead_6)/lead_4, fifth, tiny(1.0_dp))
-      ! A coefficient may vanish by chance: it counts as no less than the two before it let expect.
+      ! A coefficient may vanish by chance: it counts as no less than what the two before it predict.
       top = max(top, fifth*(fifth/fourth))
       next = top*sqrt(top/fourth)
    end subroutine highest_terms

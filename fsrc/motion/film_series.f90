@@ -125,16 +125,16 @@ contains
       call force_derivatives(series%last_order, block%oscillation, force)
       select case (series%kernel)
       case (kernel_piezo)
-         call piezo_viscous_series(block%strength, block%damping, block%load, force, block%film, &
+         call piezo_viscous_series(block%strength, block%damping, block%static_load, force, block%film, &
                                    block%momentum, block%damping_rate)
       case (kernel_half_pi)
-         call iso_viscous_series(block%strength, block%damping, block%load, force, block%film, &
+         call iso_viscous_series(block%strength, block%damping, block%static_load, force, block%film, &
                                  block%momentum, block%damping_rate)
       case (kernel_reynolds_piezo)
-         call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%load, force, block%film, &
+         call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%static_load, force, block%film, &
                                     block%momentum, block%damping_rate, block%piezo_expansion)
       case (kernel_solved_fast, kernel_reynolds_iso)
-         call rupture_series(series%pieces, block%strength, block%damping, block%load, force, block%film, &
+         call rupture_series(series%pieces, block%strength, block%damping, block%static_load, force, block%film, &
                              block%momentum, block%damping_rate, block%expansion)
       case default
          block%film(:, 1:) = 0.0_dp
@@ -204,7 +204,7 @@ contains
          !> 1 where the step is trusted, set to 0 where it is rejected
          real(dp), intent(inout) :: trust(lanes)
 
-         call reject_large_defect(series%share, block%strength, block%damping, block%load + force_values(oscillation), &
+         call reject_large_defect(series%share, block%strength, block%damping, block%static_load + force_values(oscillation), &
                                   block%force, block%accuracy, inverse_film, root, load, load_slope, film, momentum, rise, trust)
       end subroutine reject
 

@@ -10,19 +10,19 @@ module lane_advance
    implicit none(type, external)
    private
 
-   !> A step in which the film changes by more than these factors is not trusted.
+   !> A step in which the film changes by more than these factors is rejected.
    real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp, largest_film_ratio = 1.0e3_dp
    !> Damping rate that no Taylor step follows [1/periods].
    real(dp), parameter, public :: largest_series_rate = 1.0e7_dp
-   !> Scaled film that is none any more, and step too short to go on with [periods].
+   !> Scaled film that counts as lost [-], and step that is too short to continue [periods].
    real(dp), parameter, public :: lost_film = 1.0e-9_dp, shortest_step = 1.0e-14_dp
 
    public :: take_series_step, advance
 
 contains
 
-   !> Series and steps of all lanes, and the states they lead to. A film that changes by some powers of ten in
-   !> one step is not trusted, nor is a series about a point of extreme damping. Conditions are numbers, 0 or
+   !> Series and steps of all lanes, and the states they lead to. Steps in which the film changes
+   !> by some powers of ten are rejected, and so are series about a point of extreme damping. Conditions are numbers, 0 or
    !> 1, and their products: without branch and integer the loop runs in full registers.
    pure subroutine take_series_step(series, block)
       type(film_series_t), intent(in) :: series
@@ -50,7 +50,7 @@ contains
       call check_ends(series, next_rise, block)
    end subroutine take_series_step
 
-   !> Advance all lanes whose step is to be trusted; the others try again with a shorter one.
+   !> Advance all lanes whose step is accepted; the others try again with a shorter one.
    pure subroutine advance(most_steps, largest_rate, block, events)
       !> Most steps in a period
       real(dp), intent(in) :: most_steps

@@ -26,7 +26,7 @@ module lane_block
    !> Scenes of a block, lane by lane.
    type, public :: lane_block_t
       !> Load coefficient and damping of the film law, static load, force that oscillates, all scaled
-      real(dp) :: strength(lanes), damping(lanes), load(lanes)
+      real(dp) :: strength(lanes), damping(lanes), static_load(lanes)
       type(lane_force_t) :: oscillation
       !> Force that errors of the load are held against, q + f
       real(dp) :: force(lanes)
@@ -119,9 +119,7 @@ contains
       type(motion_state_t), intent(in) :: start
       !> Relative accuracy of the film [-]
       real(dp), intent(in) :: accuracy
-      !> Lane
       integer, intent(in) :: lane
-      !> The block
       type(lane_block_t), intent(inout) :: block
       real(dp) :: force_scale, film_scale
 
@@ -131,9 +129,9 @@ contains
       block%film_scale(lane) = film_scale
       block%velocity_scale(lane) = film_scale*problem%frequency
       block%force_scale(lane) = force_scale
-      block%load(lane) = static_load(problem)/force_scale
+      block%static_load(lane) = static_load(problem)/force_scale
       call set_force(problem%force, force_scale, lane, block%oscillation)
-      block%force(lane) = abs(block%load(lane)) + largest_oscillation(problem%force)/force_scale
+      block%force(lane) = abs(block%static_load(lane)) + largest_oscillation(problem%force)/force_scale
       block%accuracy(lane) = lane_accuracy(problem, accuracy)
       block%film(lane, 0) = start%film/film_scale
       block%momentum(lane, 0) = start%velocity/block%velocity_scale(lane)
@@ -143,9 +141,7 @@ contains
 
    !> Let a lane rest without a motion: a film at its steady thickness that nothing moves.
    pure subroutine rest_lane(lane, block)
-      !> Lane
       integer, intent(in) :: lane
-      !> The block
       type(lane_block_t), intent(inout) :: block
 
       block%film_scale(lane) = 1.0_dp
@@ -155,7 +151,7 @@ contains
       block%damping(lane) = 1.0_dp
       block%slip(lane) = 0.0_dp
       block%pressing(lane) = 0.0_dp
-      block%load(lane) = 1.0_dp
+      block%static_load(lane) = 1.0_dp
       call set_force(force_t(), 1.0_dp, lane, block%oscillation)
       block%force(lane) = 1.0_dp
       block%accuracy(lane) = 1.0_dp
@@ -164,15 +160,13 @@ contains
       block%film(lane, 0) = 1.0_dp
       block%damping_rate(lane) = 0.0_dp
       call start_period(lane, block)
-      ! Far from the end of a period, so that nobody has to look after it.
+      ! Far from the end of a period, so that it never ends one.
       block%phase(lane) = -1.0e6_dp
    end subroutine rest_lane
 
    !> Start of a period: film and momentum alone decide all that follows, nothing else of the period before.
    pure subroutine start_period(lane, block)
-      !> Lane
       integer, intent(in) :: lane
-      !> The block
       type(lane_block_t), intent(inout) :: block
 
       block%phase(lane) = 0.0_dp
@@ -189,9 +183,7 @@ contains
 
    !> State of a lane in units; the caller knows its period and method.
    pure type(motion_state_t) function state_of_lane(lane, block) result(state)
-      !> Lane
       integer, intent(in) :: lane
-      !> The block
       type(lane_block_t), intent(in) :: block
 
       state%film = block%film(lane, 0)*block%film_scale(lane)

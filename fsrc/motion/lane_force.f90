@@ -31,7 +31,6 @@ contains
       type(force_t), intent(in) :: force
       !> What counts as 1 [N]
       real(dp), intent(in) :: unit
-      !> Lane
       integer, intent(in) :: lane
       type(lane_force_t), intent(inout) :: forces
 
@@ -40,7 +39,6 @@ contains
 
    !> Bring the force of a lane to the start of a period.
    pure subroutine start_force(lane, forces)
-      !> Lane
       integer, intent(in) :: lane
       type(lane_force_t), intent(inout) :: forces
 

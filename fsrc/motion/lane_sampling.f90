@@ -34,7 +34,6 @@ contains
    !> Sample a lane from now, the start of a period, on.
    pure subroutine begin_samples(samples, lane)
       type(lane_samples_t), intent(inout) :: samples
-      !> Lane
       integer, intent(in) :: lane
 
       if (.not. samples%sampled(lane)) samples%sampled_lanes = samples%sampled_lanes + 1
@@ -45,7 +44,6 @@ contains
    !> Sample a lane no more.
    pure subroutine end_samples(samples, lane)
       type(lane_samples_t), intent(inout) :: samples
-      !> Lane
       integer, intent(in) :: lane
 
       if (samples%sampled(lane)) samples%sampled_lanes = samples%sampled_lanes - 1
@@ -96,7 +94,6 @@ contains
       integer, intent(in) :: cycle_periods
       !> How often
       integer, intent(in) :: cycles
-      !> Lane
       integer, intent(in) :: lane
       type(lane_samples_t), intent(inout) :: samples
       !> h [m] and z' [m/s] of all scenes: sample, scene

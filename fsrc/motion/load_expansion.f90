@@ -49,7 +49,7 @@ contains
       real(dp) :: changed, piece
       integer :: row(lanes), l
 
-      ! A film that is no number has changed: with max it would count as the same, and a lane would hang on its neighbours.
+      ! NaN must count as changed, or a lane's result would depend on its neighbours: a sum keeps it, max would not.
       changed = 0.0_dp
       !$omp simd reduction(+: changed)
       do l = 1, lanes
@@ -65,7 +65,7 @@ contains
          expansion%inverse_film(l) = 1.0_dp/film(l)
          expansion%root(l) = sqrt(expansion%inverse_film(l))
          expansion%group(l) = rate(l)*momentum(l)*expansion%root(l)
-         ! The coarse log of what is no number is one, a large one.
+         ! The coarse log of NaN is a large number.
          piece = min((coarse_log(2.0_dp + abs(expansion%group(l))) - first_log)*pieces_per_log, real(last_piece, dp))
          row(l) = int(piece + merge(real(last_piece + 1, dp), 0.0_dp, expansion%group(l) < 0.0_dp))
       end do

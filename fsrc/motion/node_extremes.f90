@@ -46,7 +46,6 @@ contains
    !> Smallest and largest value of a quantity over some pieces, kept where they are beyond those found before.
    pure subroutine find_extremes(problem, quantity, period, start, length, films, velocities, values, lowest, highest)
       type(problem_t), intent(in) :: problem
-      !> Code of the quantity
       integer, intent(in) :: quantity
       !> Periods since the window began
       integer, intent(in) :: period

@@ -63,7 +63,7 @@ contains
       real(dp) :: changed
       integer :: l
 
-      ! A film that is no number has changed: with max it would count as the same, and a lane would hang on its neighbours.
+      ! NaN must count as changed, or a lane's result would depend on its neighbours: a sum keeps it, max would not.
       changed = 0.0_dp
       !$omp simd reduction(+: changed)
       do l = 1, lanes
@@ -107,7 +107,7 @@ contains
       pressure_group = expansion%pressure_group(first:last)
       !$omp simd private(place)
       do l = 1, half_block
-         ! The coarse log of what is no number is one, a large one.
+         ! The coarse log of NaN is a large number.
          place = (coarse_log(2.0_dp + abs(group(l))) - first_log)*pieces_per_log
          inside(l) = merge(1.0_dp, 0.0_dp, place < real(side_pieces, dp))
          row(l) = int(min(place, last_piece) + merge(real(side_pieces, dp), 0.0_dp, group(l) < 0.0_dp))

@@ -41,7 +41,6 @@ contains
    pure subroutine take_nodes(block, lane, longest_piece, nodes)
       !> The block, with series and steps
       type(lane_block_t), intent(in) :: block
-      !> Lane
       integer, intent(in) :: lane
       !> Longest piece [periods]
       real(dp), intent(in) :: longest_piece

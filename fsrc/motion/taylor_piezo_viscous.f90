@@ -23,7 +23,7 @@ module taylor_piezo_viscous
    private
 
    !> Growth of the load in one step that the series resolves, and share of the accuracy below which a load is
-   !> nothing [octaves]
+   !> negligible [octaves]
    real(dp), parameter :: most_growth = 20.0_dp, negligible = -8.0_dp
 
    !> Damping beyond this would overflow the coefficients [1/periods]. The load of such a lane is held there;
@@ -102,11 +102,10 @@ contains
       end do
    end subroutine piezo_viscous_series
 
-   !> Take back the trust in steps at whose end the film carries a load that the series could not foresee. A
-   !> tooth on its way up meets a load smaller than exp(-100) times the forces; its coefficients vanish beside
-   !> theirs. When the tooth comes back down, the load grows by the same factor, all of it within one step of
-   !> free fall. Logarithms to the base 2 of the load over the force tell it: log2(S/P) = log2(a/P) - 7/2 log2
-   !> H - c V/ln 2.
+   !> Reject steps in which the load grows by more than the series resolves. While the tooth moves away, the load falls below
+   !> exp(-100) times the forces, and its coefficients vanish beside theirs. When the tooth comes back, the load grows by the same
+   !> factor within one step of free fall, which the coefficients do not show. Logarithms to the base 2 of the load over the force
+   !> show it: log2(S/P) = log2(a/P) - 7/2 log2 H - c V/ln 2.
    pure subroutine reject_unresolved_growth(strength, rate, force, accuracy, film, momentum, next_film, &
                                               next_momentum, trust)
       !> a [-]
@@ -123,7 +122,7 @@ contains
       !> H and V at its end [-]
       real(dp), intent(in) :: next_film(lanes)
       real(dp), intent(in) :: next_momentum(lanes)
-      !> 1 where the step is trusted, set to 0 where it is not
+      !> 1 where the step is trusted, set to 0 where it is rejected
       real(dp), intent(inout) :: trust(lanes)
       real(dp), parameter :: octaves_per_unit = 1.4426950408889634_dp
       real(dp) :: growth, load

@@ -24,7 +24,7 @@ module taylor_rupture
    !> Order n of this series: its coefficients are dearer than those of the published films, so a lower one is best.
    integer, parameter, public :: rupture_order = highest_power + 1
 
-   !> Local error over that of the step control above which a step is not trusted, and rounding of the equation of motion.
+   !> Local error over that of the step control above which a step is rejected, and rounding of the equation of motion.
    real(dp), parameter :: most_defect = 1.0_dp, equation_rounding = 64.0_dp*epsilon(1.0_dp)
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
@@ -178,14 +178,14 @@ contains
 
    !> Reject steps whose series violates the equation of motion at their end.
    !>
-   !> The last terms of a series tell its error only where the terms before them have begun to fall. A tooth in free flight
-   !> with A >> 1 has a load of next to nothing, and so are its coefficients: those of the force alone, which fall at once, are
-   !> seen. Where V goes through zero the load is back, up to a million times the one at the start. Or the load is some, but
-   !> its series is near the border of its convergence: term after term is as large as the last. Neither of them can
-   !> hide from the equation of motion at the end of the step. What the sum of the forces is off there, D, is that of the
-   !> first terms left out, so D x/(n + 1) stands for the local error of V; it is held against what the step control
-   !> grants the last term. The measure is that of module taylor_step_control at the end of the
-   !> step, without its quotients; rounding is not held against a step.
+   !> The last terms of a series tell its error only where the terms before them have begun to fall. There are two cases in which
+   !> they have not. A tooth in free flight with A >> 1 has a load that is far below the force, and so are its coefficients: the
+   !> last terms are those of the force alone, which fall at once; where V goes through zero, the load is up to a million times
+   !> the one at the start. Or the load matters, but its series is close to its radius of convergence, and term after term is as
+   !> large as the last. In both cases the series violates the equation of motion at the end of the step. The defect D, by which
+   !> the sum of the forces is off there, is that of the first terms left out, so D x/(n + 1) estimates the local error of V; it
+   !> must not exceed what the step control grants the last term, in the measure of module taylor_step_control at the end of the
+   !> step, less the rounding of the forces.
    pure subroutine reject_large_defect(error_share, strength, rate, load, force, accuracy, inverse_film, root, carried_load, &
                                             load_slope, film, momentum, rise, trust)
       !> Share of the accuracy that a step may use up, over its length [1/periods]
@@ -208,7 +208,7 @@ contains
       real(dp), intent(in) :: film(lanes)
       real(dp), intent(in) :: momentum(lanes)
       real(dp), intent(in) :: rise(lanes)
-      !> 1 where the step is trusted, set to 0 where it is not
+      !> 1 where the step is trusted, set to 0 where it is rejected
       real(dp), intent(inout) :: trust(lanes)
       real(dp) :: carried, rate_of_damping, defect, square_film, granted
       integer :: l

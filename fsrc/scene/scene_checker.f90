@@ -275,7 +275,7 @@ contains
          call input%add_fault('lubricant', 'viscosity_law', "'roelands' needs task = 'film' and model = 'numerical'", faults)
    end subroutine check_film_model
 
-   !> A sweep goes somewhere, through values that its key allows, with the engine that can follow it.
+   !> The ends of a sweep differ, its key allows the values between them, and its engine can follow it.
    subroutine check_sweep(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
