@@ -224,10 +224,10 @@ def test_csv_reads_back_exactly(made, whole):
     with whole.with_suffix(".csv").open(newline="") as stream:
         head, *rows = csv.reader(stream)
     assert head[:3] == ["scene[-]", f"{FORCE}[N]", f"{SPEED}[m/s]"]
-    assert head[-3:] == ["rattle_class_word", "film_regime_word", "status_word"]
+    assert head[-3:] == ["status_word", "rattle_class_word", "film_regime_word"]
     numbers = np.array([[float(cell) for cell in row[:-3]] for row in rows])
     np.testing.assert_array_equal(numbers, made.rows)
-    assert {row[-1] for row in rows} == {"steady", "film_lost", "no_rigid_film"}
+    assert {row[-3] for row in rows} == {"steady", "film_lost", "no_rigid_film"}
 
 
 def test_parquet_holds_columns_units_and_input(made, whole):
