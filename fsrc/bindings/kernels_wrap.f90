@@ -17,11 +17,11 @@ subroutine wrap_amplitude_spectrum(n, samples, m, amplitudes)
 end subroutine wrap_amplitude_spectrum
 
 ! Class of n samples of `periods` whole periods; m = (n/periods - 1)/2 harmonics. ratios: distortion,
-! irregular fraction, reversals a period; orbit: periods after which the motion is known to repeat, or 0; counts: class, lines, 1 if there is motion, 1 if the samples suffice.
-subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, m, harmonics, ratios, counts)
+! irregular fraction, reversals a period; orders and amplitudes: those of the force; orbit: periods after which the motion is known to repeat, or 0; counts: class, lines, 1 if there is motion, 1 if the samples suffice.
+subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, k, orders, amplitudes, m, harmonics, ratios, counts)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use rattle_class, only: classify, note_orbit, rattle_verdict_t
-   use scene_types, only: spectrum_choice_t
+   use scene_types, only: forced_orders, spectrum_choice_t
    implicit none
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: acceleration(n)
@@ -29,6 +29,9 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, m,
    real(c_double), intent(in) :: limits(4)
    integer(c_int), intent(in) :: idle_lines
    integer(c_int), intent(in) :: orbit
+   integer(c_int), intent(in) :: k
+   integer(c_int), intent(in) :: orders(k)
+   real(c_double), intent(in) :: amplitudes(k)
    integer(c_int), intent(in) :: m
    real(c_double), intent(out) :: harmonics(m)
    real(c_double), intent(out) :: ratios(3)
@@ -41,6 +44,7 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, m,
    choice%quiet_limit = limits(2)
    choice%irregular_limit = limits(3)
    choice%idle_lines = idle_lines
+   choice%forced = forced_orders(orders, amplitudes)
    call classify(acceleration, choice, limits(4), verdict)
    call note_orbit(verdict, orbit)
    harmonics = verdict%lines%harmonics

@@ -8,6 +8,7 @@ module solve_chunk
    use fine_window, only: classify_window, integral_record
    use judged_scene, only: judged_scene_t
    use key_table, only: find_key
+   use force, only: force_of, largest_oscillation
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
    use memory_need, only: window_bytes
@@ -329,7 +330,7 @@ contains
       if (.not. resolved%steady_film > 0.0_dp) return
       oscillations = resolved%natural_frequency/scene%load%frequency
       settling = 1.0_dp/max(resolved%damping_ratio*oscillations, 1.0e-3_dp)
-      ratio = min(abs(scene%load%force_amplitude)/scene%load%static_load(), largest_ratio)
+      ratio = min(largest_oscillation(force_of(scene%load))/scene%load%static_load(), largest_ratio)
       likely_cost = (1.0_dp + oscillations*(1.0_dp + resolved%damping_ratio))* &
                     (4.0_dp + settling + irregular_share*ratio**5*settling**2)
    end function likely_cost

@@ -13,7 +13,7 @@ module varied_keys
       vary_surface_speed_1 = 11, vary_surface_speed_2 = 12, vary_mass = 13, vary_steady_force = 14, &
       vary_force_amplitude = 15, vary_frequency = 16, vary_gravity = 17, vary_initial_film = 18, vary_initial_velocity = 19, &
       vary_accuracy = 20, vary_solver_periods = 21, vary_spectrum_periods = 22, vary_line_threshold = 23, &
-      vary_idle_lines = 24, vary_quiet_limit = 25, vary_irregular_limit = 26
+      vary_idle_lines = 24, vary_quiet_limit = 25, vary_irregular_limit = 26, vary_force_scale = 27
 
    !> A key that may be varied.
    type, public :: varied_key_t
@@ -49,7 +49,8 @@ module varied_keys
       varied_key_t(vary_line_threshold, 'spectrum', 'line_threshold'), &
       varied_key_t(vary_idle_lines, 'spectrum', 'idle_lines'), &
       varied_key_t(vary_quiet_limit, 'spectrum', 'quiet_limit'), &
-      varied_key_t(vary_irregular_limit, 'spectrum', 'irregular_limit')]
+      varied_key_t(vary_irregular_limit, 'spectrum', 'irregular_limit'), &
+      varied_key_t(vary_force_scale, 'load', 'force_scale')]
 
    public :: find_varied_key, varied_code, varied_key_name, is_whole
 

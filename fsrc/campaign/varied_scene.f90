@@ -6,7 +6,8 @@ module varied_scene
    use scene_types, only: least_entrainment_speed, least_static_load, scene_t
    use text, only: integer_text, real_text
    use varied_keys, only: varied_key_name
-   use varied_keys, only: vary_accuracy, vary_entrainment_speed, vary_force_amplitude, vary_frequency, vary_gravity, &
+   use varied_keys, only: vary_accuracy, vary_entrainment_speed, vary_force_amplitude, vary_force_scale, vary_frequency, &
+                          vary_gravity, &
                           vary_idle_lines, vary_initial_film, vary_initial_velocity, vary_irregular_limit, vary_length, &
                           vary_line_threshold, vary_mass, vary_poisson_ratio, vary_pressure_viscosity, vary_quiet_limit, &
                           vary_radius, vary_radius_1, vary_radius_2, vary_rolling_speed, vary_solver_periods, &
@@ -73,6 +74,8 @@ contains
          scene%load%steady_force = value
       case (vary_force_amplitude)
          scene%load%force_amplitude = value
+      case (vary_force_scale)
+         scene%load%force_scale = value
       case (vary_frequency)
          scene%load%frequency = value
       case (vary_gravity)

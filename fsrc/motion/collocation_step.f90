@@ -120,7 +120,7 @@ contains
       integer :: l, i, j
 
       k = 0.0_dp
-      oscillation = force_values(block%oscillation)
+      oscillation = force_values(block%oscillation, block%oscillation%phase)
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          if (.not. block%last_step(l) > 0.0_dp) then

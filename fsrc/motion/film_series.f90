@@ -8,7 +8,7 @@ module film_series
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_force, only: force_derivatives, force_values, lane_force_t, move_forces, turn_forces
+   use lane_force, only: force_derivatives, force_values, lane_phase_t, move_forces, turn_to
    use lane_functions, only: lanes
    use load_expansion, only: expand_load
    use load_pieces, only: exact_load, published_load
@@ -171,11 +171,10 @@ contains
       real(dp), intent(in) :: rise(lanes)
       type(lane_block_t), intent(inout) :: block
       real(dp), dimension(lanes) :: phase, film, momentum
-      type(lane_force_t) :: oscillation
+      type(lane_phase_t) :: circle
 
       phase = block%phase + block%step
-      oscillation%amplitude = block%oscillation%amplitude
-      call turn_forces(phase, oscillation)
+      call turn_to(phase, circle)
       film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
       momentum = merge(block%next_momentum, block%momentum(:, 0), block%trust > 0.0_dp)
       if (series%kernel == kernel_reynolds_piezo) then
@@ -190,7 +189,7 @@ contains
             call reject(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, block%trust)
          end associate
       end if
-      call move_forces(oscillation, block%trust, block%oscillation)
+      call move_forces(circle, block%trust, block%oscillation)
 
    contains
 
@@ -204,7 +203,8 @@ contains
          !> 1 where the step is trusted, set to 0 where it is rejected
          real(dp), intent(inout) :: trust(lanes)
 
-         call reject_large_defect(series%share, block%strength, block%damping, block%static_load + force_values(oscillation), &
+         call reject_large_defect(series%share, block%strength, block%damping, &
+                                  block%static_load + force_values(block%oscillation, circle), &
                                   block%force, block%accuracy, inverse_film, root, load, load_slope, film, momentum, rise, trust)
       end subroutine reject
 

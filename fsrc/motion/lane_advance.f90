@@ -3,7 +3,7 @@ module lane_advance
    use film_series, only: check_ends, expand_motion, film_series_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
-   use lane_force, only: turn_forces
+   use lane_force, only: turn_to
    use lane_functions, only: lanes
    use taylor_rupture, only: evaluate_rupture_series
    use taylor_step_control, only: evaluate_series, lane_steps
@@ -30,7 +30,7 @@ contains
       real(dp) :: next_rise(lanes)
       integer :: l
 
-      if (.not. series%checked_at_end) call turn_forces(block%phase, block%oscillation)
+      if (.not. series%checked_at_end) call turn_to(block%phase, block%oscillation%phase)
       block%remaining = 1.0_dp - block%phase
       call expand_motion(series, block)
       call lane_steps(series%last_order, series%share, block%accuracy, block%force, block%film, block%momentum, &

@@ -11,7 +11,7 @@ module lane_block
    use film_law, only: film_load, overflow_load
    use force, only: force_t, largest_oscillation
    use kinds, only: dp
-   use lane_force, only: lane_force_t, set_force, start_force
+   use lane_force, only: lane_force_t, no_forces, set_force, start_force
    use lane_functions, only: lanes
    use load_expansion, only: load_expansion_t
    use memory, only: allocate_lines
@@ -25,9 +25,8 @@ module lane_block
 
    !> Scenes of a block, lane by lane.
    type, public :: lane_block_t
-      !> Load coefficient and damping of the film law, static load, force that oscillates, all scaled
+      !> Load coefficient and damping of the film law, and static load, all scaled
       real(dp) :: strength(lanes), damping(lanes), static_load(lanes)
-      type(lane_force_t) :: oscillation
       !> Force that errors of the load are held against, q + f
       real(dp) :: force(lanes)
       !> What counts as 1: film [m], velocity [m/s], force [N]
@@ -57,7 +56,12 @@ module lane_block
       !> Of the exact piezo-viscous film: b, where the pressure group is b H^(-3/2), and its load expanded last
       real(dp) :: pressing(lanes)
       type(reynolds_piezo_expansion_t) :: piezo_expansion
+      !> Force that oscillates, scaled
+      type(lane_force_t) :: oscillation
    end type lane_block_t
+
+   !> Force of a lane without a scene
+   type(force_t), parameter :: no_force = force_t()
 
    !> First step of a period by collocation [periods]
    real(dp), parameter :: first_step = 1.0_dp/64.0_dp
@@ -110,6 +114,7 @@ contains
       call c_f_pointer(place, block)
       block%expansion = load_expansion_t()
       block%piezo_expansion = reynolds_piezo_expansion_t()
+      call no_forces(block%oscillation)
    end subroutine place_block
 
    !> Put a motion into a lane, at the start of its first period.
@@ -152,7 +157,7 @@ contains
       block%slip(lane) = 0.0_dp
       block%pressing(lane) = 0.0_dp
       block%static_load(lane) = 1.0_dp
-      call set_force(force_t(), 1.0_dp, lane, block%oscillation)
+      call set_force(no_force, 1.0_dp, lane, block%oscillation)
       block%force(lane) = 1.0_dp
       block%accuracy(lane) = 1.0_dp
       block%film(lane, :) = 0.0_dp

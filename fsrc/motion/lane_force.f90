@@ -4,16 +4,25 @@ module lane_force
    use force, only: force_t
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
+   use scene_types, only: highest_order
    use taylor_step_control, only: order
    implicit none(type, external)
    private
 
-   !> Forces of the lanes, at a phase each.
-   type, public :: lane_force_t
-      !> Amplitude [-]
-      real(dp) :: amplitude(lanes)
+   !> Phases of the lanes on the unit circle.
+   type, public :: lane_phase_t
       !> Of 2 pi times the phase
       real(dp) :: cosine(lanes), sine(lanes)
+   end type lane_phase_t
+
+   !> Forces of the lanes.
+   type, public :: lane_force_t
+      !> Where the lanes stand
+      type(lane_phase_t) :: phase
+      !> Factors of the cosine and sine of each order, lane by lane [-]
+      real(dp) :: cosine(lanes, highest_order), sine(lanes, highest_order)
+      !> Highest order of all of them; factors beyond it are not defined
+      integer :: highest
    end type lane_force_t
 
    integer :: i
@@ -21,11 +30,22 @@ module lane_force
    real(dp), parameter, public :: factor(order) = &
       [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
 
-   public :: set_force, start_force, turn_forces, move_forces, force_values, force_derivatives, total_forces
+   public :: no_forces, set_force, start_force, turn_to, move_forces, force_values, force_derivatives, total_forces
 
 contains
 
-   !> Give a lane its force.
+   !> Forces of lanes before any is set.
+   pure subroutine no_forces(forces)
+      type(lane_force_t), intent(inout) :: forces
+
+      forces%highest = 1
+      forces%cosine(:, 1) = 0.0_dp
+      forces%sine(:, 1) = 0.0_dp
+      forces%phase%cosine = 1.0_dp
+      forces%phase%sine = 0.0_dp
+   end subroutine no_forces
+
+   !> Give a lane its force. Orders that its neighbours alone have it takes nothing of: the same bits as alone.
    pure subroutine set_force(force, unit, lane, forces)
       !> The force
       type(force_t), intent(in) :: force
@@ -33,8 +53,17 @@ contains
       real(dp), intent(in) :: unit
       integer, intent(in) :: lane
       type(lane_force_t), intent(inout) :: forces
+      integer :: n
 
-      forces%amplitude(lane) = force%amplitude/unit
+      do n = forces%highest + 1, force%highest
+         forces%cosine(:, n) = 0.0_dp
+         forces%sine(:, n) = 0.0_dp
+      end do
+      forces%highest = max(forces%highest, force%highest)
+      do n = 1, forces%highest
+         forces%cosine(lane, n) = force%cosine(n)/unit
+         forces%sine(lane, n) = force%sine(n)/unit
+      end do
    end subroutine set_force
 
    !> Bring the force of a lane to the start of a period.
@@ -42,54 +71,83 @@ contains
       integer, intent(in) :: lane
       type(lane_force_t), intent(inout) :: forces
 
-      forces%cosine(lane) = 1.0_dp
-      forces%sine(lane) = 0.0_dp
+      forces%phase%cosine(lane) = 1.0_dp
+      forces%phase%sine(lane) = 0.0_dp
    end subroutine start_force
 
-   !> Bring the forces of all lanes to other phases.
-   pure subroutine turn_forces(phase, forces)
+   !> Phases on the unit circle.
+   pure subroutine turn_to(phase, circle)
       !> From 0 to 1 [periods]
       real(dp), intent(in) :: phase(lanes)
-      type(lane_force_t), intent(inout) :: forces
+      type(lane_phase_t), intent(inout) :: circle
 
-      call lane_cosine_sine(phase, forces%cosine, forces%sine)
-   end subroutine turn_forces
+      call lane_cosine_sine(phase, circle%cosine, circle%sine)
+   end subroutine turn_to
 
-   !> Take over the phases of other forces of the same lanes, in the lanes whose step is trusted.
+   !> Take over other phases in the lanes whose step is trusted.
    pure subroutine move_forces(there, trust, forces)
-      !> Forces at the ends of the steps
-      type(lane_force_t), intent(in) :: there
+      !> Phases at the ends of the steps
+      type(lane_phase_t), intent(in) :: there
       !> 1 where the step is trusted, else 0
       real(dp), intent(in) :: trust(lanes)
       type(lane_force_t), intent(inout) :: forces
 
-      forces%cosine = merge(there%cosine, forces%cosine, trust > 0.0_dp)
-      forces%sine = merge(there%sine, forces%sine, trust > 0.0_dp)
+      forces%phase%cosine = merge(there%cosine, forces%phase%cosine, trust > 0.0_dp)
+      forces%phase%sine = merge(there%sine, forces%phase%sine, trust > 0.0_dp)
    end subroutine move_forces
 
-   !> Values of the part that oscillates [-].
-   pure function force_values(forces) result(values)
+   !> Values of the part that oscillates at some phases [-].
+   pure function force_values(forces, phase) result(values)
       type(lane_force_t), intent(in) :: forces
+      type(lane_phase_t), intent(in) :: phase
       real(dp) :: values(lanes)
+      type(lane_phase_t) :: power
+      integer :: n
 
-      values = forces%amplitude*forces%cosine
+      values = forces%cosine(:, 1)*phase%cosine + forces%sine(:, 1)*phase%sine
+      if (forces%highest < 2) return
+      power = phase
+      do n = 2, forces%highest
+         call raise(phase, power)
+         values = values + forces%cosine(:, n)*power%cosine + forces%sine(:, n)*power%sine
+      end do
    end function force_values
 
-   !> Derivatives of the part that oscillates: coefficient k of the momentum takes factor(k) times derivative k from it.
+   !> Derivatives of the part that oscillates where the lanes stand: coefficient k of the momentum takes factor(k) times derivative
+   !> k from it. That of a cos(n t + phi) is n**(k-1) a times the cosine (k odd) or sine (k even) of n t + phi.
    pure subroutine force_derivatives(last, forces, derivatives)
       !> Last one that is wanted
       integer, intent(in) :: last
       type(lane_force_t), intent(in) :: forces
       !> Lane, k
       real(dp), intent(out) :: derivatives(lanes, order)
-      integer :: k
+      type(lane_phase_t) :: power
+      real(dp), dimension(lanes) :: cosine, sine
+      integer :: n, k
 
-      do k = 1, last, 2
-         derivatives(:, k) = forces%amplitude*forces%cosine
-      end do
-      do k = 2, last, 2
-         derivatives(:, k) = forces%amplitude*forces%sine
-      end do
+      associate (phase => forces%phase)
+         cosine = forces%cosine(:, 1)*phase%cosine + forces%sine(:, 1)*phase%sine
+         sine = forces%cosine(:, 1)*phase%sine - forces%sine(:, 1)*phase%cosine
+         do k = 1, last, 2
+            derivatives(:, k) = cosine
+         end do
+         do k = 2, last, 2
+            derivatives(:, k) = sine
+         end do
+         if (forces%highest < 2) return
+         power = phase
+         do n = 2, forces%highest
+            call raise(phase, power)
+            cosine = forces%cosine(:, n)*power%cosine + forces%sine(:, n)*power%sine
+            sine = forces%cosine(:, n)*power%sine - forces%sine(:, n)*power%cosine
+            do k = 1, last, 2
+               derivatives(:, k) = derivatives(:, k) + real(n, dp)**(k - 1)*cosine
+            end do
+            do k = 2, last, 2
+               derivatives(:, k) = derivatives(:, k) + real(n, dp)**(k - 1)*sine
+            end do
+         end do
+      end associate
    end subroutine force_derivatives
 
    !> Steady and oscillating part together, at other phases.
@@ -101,14 +159,35 @@ contains
       type(lane_force_t), intent(in) :: forces
       !> Force [-]
       real(dp), intent(out) :: total(lanes)
-      real(dp), dimension(lanes) :: cosine, sine
-      integer :: l
+      type(lane_phase_t) :: circle, power
+      integer :: n, l
 
-      call lane_cosine_sine(phase, cosine, sine)
+      call turn_to(phase, circle)
       !$omp simd
       do l = 1, lanes
-         total(l) = steady(l) + forces%amplitude(l)*cosine(l)
+         total(l) = steady(l) + forces%cosine(l, 1)*circle%cosine(l) + forces%sine(l, 1)*circle%sine(l)
+      end do
+      if (forces%highest < 2) return
+      power = circle
+      do n = 2, forces%highest
+         call raise(circle, power)
+         total = total + forces%cosine(:, n)*power%cosine + forces%sine(:, n)*power%sine
       end do
    end subroutine total_forces
+
+   !> From a power of a point on the unit circle to the next one.
+   pure subroutine raise(point, power)
+      type(lane_phase_t), intent(in) :: point
+      type(lane_phase_t), intent(inout) :: power
+      real(dp) :: next
+      integer :: l
+
+      !$omp simd private(next)
+      do l = 1, lanes
+         next = power%cosine(l)*point%cosine(l) - power%sine(l)*point%sine(l)
+         power%sine(l) = power%sine(l)*point%cosine(l) + power%cosine(l)*point%sine(l)
+         power%cosine(l) = next
+      end do
+   end subroutine raise
 
 end module lane_force

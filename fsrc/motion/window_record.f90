@@ -18,7 +18,7 @@ module window_record
    use engine, only: motion_state_t
    use film_law, only: film_loads
    use film_pressure, only: exact_pressures
-   use force, only: force_on_circle
+   use force, only: forces_on_circle
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
    use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
@@ -155,9 +155,10 @@ contains
          call lane_cosine_sine(phases(i:i + lanes - 1), cosine(i:i + lanes - 1), sine(i:i + lanes - 1))
       end do
       call film_loads(problem%film, films, velocities, loads(:n))
+      call forces_on_circle(problem%force, cosine(:n), sine(:n), forces(:n))
       !$omp simd
       do i = 1, n
-         forces(i) = force_on_circle(problem%force, cmplx(cosine(i), sine(i), dp)) + problem%weight
+         forces(i) = forces(i) + problem%weight
          values(i) = (loads(i) - forces(i))/problem%mass
       end do
       sum_of = 0.0_dp; size_of = 0.0_dp; square_of = 0.0_dp

@@ -1,11 +1,12 @@
-!> The force on the loose gear, (34): F = Q + F0 cos(2 pi x), where x = f_exc t counts time in periods.
+!> The force on the loose gear, F = Q + sum of a_n cos(2 pi n x + phi_n), where x = f_exc t counts time in periods; (34) is the
+!> case of one order without phase.
 !>
 !> All that a force is stands here and, scaled for the lanes of a block, in module lane_force. A phase stands on
 !> the unit circle at exp(2 pi i x), from whose powers every harmonic of a force follows.
 module force
    use elementary_functions, only: cosine_sine
    use kinds, only: dp
-   use scene_types, only: load_t
+   use scene_types, only: highest_order, load_t
    implicit none(type, external)
    private
 
@@ -13,20 +14,44 @@ module force
    type, public :: force_t
       !> Steady part Q [N]
       real(dp) :: steady = 0.0_dp
-      !> Amplitude F0 of the part that oscillates [N]
-      real(dp) :: amplitude = 0.0_dp
+      !> Order n of the last harmonic
+      integer :: highest = 1
+      !> a_n cos(phi_n) and -a_n sin(phi_n): factors of cos(2 pi n x) and sin(2 pi n x), up to the highest [N]
+      real(dp) :: cosine(highest_order) = 0.0_dp, sine(highest_order) = 0.0_dp
    end type force_t
 
-   public :: force_of, force_at, force_on_circle, force_of_period, largest_oscillation
+   public :: cosine_force, force_of, force_at, forces_on_circle, force_of_period, largest_oscillation
 
 contains
 
+   !> The force (34).
+   pure type(force_t) function cosine_force(steady, amplitude) result(force)
+      !> Q and F0 [N]
+      real(dp), intent(in) :: steady
+      real(dp), intent(in) :: amplitude
+
+      force%steady = steady
+      force%cosine(1) = amplitude
+   end function cosine_force
+
    !> The force of a scene.
-   elemental type(force_t) function force_of(load)
+   pure type(force_t) function force_of(load) result(force)
       !> Group &load of the scene
       type(load_t), intent(in) :: load
+      integer :: k
 
-      force_of = force_t(steady=load%steady_force, amplitude=load%force_amplitude)
+      force%steady = load%steady_force
+      if (.not. allocated(load%force_orders)) then
+         force = cosine_force(load%steady_force, load%force_scale*load%force_amplitude)
+         return
+      end if
+      force%highest = maxval(load%force_orders)
+      do k = 1, size(load%force_orders)
+         associate (n => load%force_orders(k), a => load%force_scale*load%force_amplitudes(k), phi => load%force_phases(k))
+            force%cosine(n) = a*cos(phi)
+            force%sine(n) = -a*sin(phi)
+         end associate
+      end do
    end function force_of
 
    !> Force at a phase [N].
@@ -35,21 +60,42 @@ contains
       type(force_t), intent(in) :: force
       !> From 0 to 1 [periods]
       real(dp), intent(in) :: phase
-      real(dp) :: cosine, sine
+      real(dp) :: cosine(1), sine(1), values(1)
 
-      call cosine_sine(phase, cosine, sine)
-      force_at = force_on_circle(force, cmplx(cosine, sine, dp))
+      call cosine_sine(phase, cosine(1), sine(1))
+      call forces_on_circle(force, cosine, sine, values)
+      force_at = values(1)
    end function force_at
 
-   !> Force where a phase stands on the unit circle [N].
-   elemental real(dp) function force_on_circle(force, point)
+   !> Force where phases stand on the unit circle [N].
+   pure subroutine forces_on_circle(force, cosine, sine, values)
       !> The force
       type(force_t), intent(in) :: force
-      !> exp(2 pi i x)
-      complex(dp), intent(in) :: point
+      !> Of 2 pi x
+      real(dp), intent(in) :: cosine(:)
+      real(dp), intent(in) :: sine(:)
+      !> Of the size of the phases
+      real(dp), intent(out) :: values(:)
+      real(dp) :: c(size(cosine)), s(size(cosine)), next
+      integer :: n, i
 
-      force_on_circle = force%steady + force%amplitude*point%re
-   end function force_on_circle
+      !$omp simd
+      do i = 1, size(cosine)
+         values(i) = force%steady + force%cosine(1)*cosine(i) + force%sine(1)*sine(i)
+      end do
+      if (force%highest < 2) return
+      c = cosine
+      s = sine
+      do n = 2, force%highest
+         !$omp simd private(next)
+         do i = 1, size(cosine)
+            next = c(i)*cosine(i) - s(i)*sine(i)
+            s(i) = s(i)*cosine(i) + c(i)*sine(i)
+            c(i) = next
+            values(i) = values(i) + force%cosine(n)*c(i) + force%sine(n)*s(i)
+         end do
+      end do
+   end subroutine forces_on_circle
 
    !> Force at the end of every step of a period; it repeats from period to period to the last bit.
    pure subroutine force_of_period(force, values)
@@ -57,10 +103,16 @@ contains
       type(force_t), intent(in) :: force
       !> At phases 1/n, 2/n, ... 1 [N]
       real(dp), intent(out) :: values(:)
-      integer :: i
+      integer, parameter :: together = 256
+      real(dp) :: cosine(together), sine(together)
+      integer :: before, n, i
 
-      do i = 1, size(values)
-         values(i) = force_at(force, real(i, dp)/real(size(values), dp))
+      do before = 0, size(values) - 1, together
+         n = min(together, size(values) - before)
+         do i = 1, n
+            call cosine_sine(real(before + i, dp)/real(size(values), dp), cosine(i), sine(i))
+         end do
+         call forces_on_circle(force, cosine(:n), sine(:n), values(before + 1:before + n))
       end do
    end subroutine force_of_period
 
@@ -69,7 +121,7 @@ contains
       !> The force
       type(force_t), intent(in) :: force
 
-      largest_oscillation = abs(force%amplitude)
+      largest_oscillation = sum(hypot(force%cosine(:force%highest), force%sine(:force%highest)))
    end function largest_oscillation
 
 end module force

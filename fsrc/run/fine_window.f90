@@ -140,7 +140,7 @@ contains
       type(window_record_t) :: record
 
       record%wants = .false.
-      record%multiples = max(usual_multiples, 2*spectrum%idle_lines)
+      record%multiples = max(usual_multiples, 2*spectrum%idle_lines, 2*findloc(spectrum%forced, .true., dim=1, back=.true.))
    end function integral_record
 
    !> Class of a window by its samples, and whether they are enough: their mean and their power must be those of the steps.
@@ -167,7 +167,7 @@ contains
       associate (lines => verdict%lines)
          if (record%periods > 0 .and. lines%sampling_sufficient) lines%sampling_sufficient = &
             samples_agree(problem, accelerations(:record%periods*(size(accelerations)/periods)), record, noise_floor, &
-                          lines%harmonics(1))
+                          lines%harmonics(lines%largest_forced))
          if (record%periods > 0) lines%resolution_error = lines%resolution_error + error_of_ends(problem, accelerations, record)
          lines%count_is_bound = .not. lines%sampling_sufficient
          lines%distortion_is_bound = .not. lines%sampling_sufficient
@@ -189,14 +189,14 @@ contains
    end function error_of_ends
 
    !> Whether samples have the mean and the power that the steps have, over the periods that were recorded.
-   pure logical function samples_agree(problem, z, record, noise_floor, first_harmonic)
+   pure logical function samples_agree(problem, z, record, noise_floor, forced_line)
       type(problem_t), intent(in) :: problem
       !> z'' of the periods recorded [m/s2]
       real(dp), intent(in) :: z(:)
       type(window_record_t), intent(in) :: record
       real(dp), intent(in) :: noise_floor
-      !> a_1 [m/s2]
-      real(dp), intent(in) :: first_harmonic
+      !> Largest line at an order of the force [m/s2]
+      real(dp), intent(in) :: forced_line
       real(dp) :: start, count, mean, power, true_mean, true_power
       integer :: i
 
@@ -214,7 +214,7 @@ contains
       power = power/count
       true_mean = (record%end_velocity - record%start%velocity)*problem%frequency/real(record%periods, dp)
       true_power = record%acceleration_square/real(record%periods, dp)
-      samples_agree = abs(mean - true_mean) <= mean_share*first_harmonic + noise_floor .and. &
+      samples_agree = abs(mean - true_mean) <= mean_share*forced_line + noise_floor .and. &
                       abs(power - true_power) <= power_share*true_power + 4.0_dp*noise_floor*sqrt(true_power)
    end function samples_agree
 

@@ -24,7 +24,7 @@ module run_sweep
    use scene_report, only: law_sentence, report_head
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written, status_sentence
    use scene_summary, only: add_head
-   use scene_types, only: scene_t, sweep_force_amplitude, sweep_frequency, sweep_steady_force
+   use scene_types, only: scene_t, sweep_force_amplitude, sweep_force_scale, sweep_frequency, sweep_steady_force
    use signals, only: caught_signal
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
@@ -123,6 +123,8 @@ contains
          swept%load%frequency = value
       case (sweep_force_amplitude)
          swept%load%force_amplitude = value
+      case (sweep_force_scale)
+         swept%load%force_scale = value
       case (sweep_steady_force)
          swept%load%steady_force = value
       case default

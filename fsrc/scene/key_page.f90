@@ -172,8 +172,10 @@ contains
          end_of_line//'   the windows behind the one that is judged are irregular, too.'//end_of_line// &
          '2. quiet, if the harmonic distortion sqrt(a_2^2 + a_3^2 + ...)/a_1 is below `quiet_limit`. With a tenth of'// &
          end_of_line//'   the static load as amplitude the canonical scenes have 0.25 (idle) and 0.12 (creep), with nine'// &
-         end_of_line//'   tenths of it 2.8 and 1.9; 0.35 lies between.'//end_of_line// &
-         '3. idle, if at least `idle_lines` lines exceed `line_threshold` times the first. The canonical idle scene'// &
+         end_of_line//'   tenths of it 2.8 and 1.9; 0.35 lies between. Under a force of several orders all lines at orders'// &
+         end_of_line//'   of at least a hundredth of its largest are forced, the others held against them.'//end_of_line// &
+         '3. idle, if at least `idle_lines` lines exceed `line_threshold` times the first (of several forced ones the'// &
+         end_of_line//'   largest, which alone of them is counted). The canonical idle scene'// &
          end_of_line//'   has 30 such lines, 21 even with the exact film; the canonical creep scene has 12; 20 lies between.'// &
          end_of_line//'4. creep otherwise.'//end_of_line//end_of_line// &
          'A class counts only if it does not change when the time step and the tolerance shrink: see the figure on'// &

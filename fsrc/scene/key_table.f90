@@ -6,6 +6,7 @@ module key_table
    use input_key, only: integer_kind, key_t, list_kind, logical_kind, range_t, real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
    use quantities, only: recordable
+   use scene_types, only: highest_order
    use text, only: edit_distance
    use word_list, only: split_words, word_t
    implicit none(type, external)
@@ -28,6 +29,8 @@ module key_table
    type(range_t), parameter :: a_mass = range_t(1.0e-10_dp, .false., 1.0e9_dp, .false.)
    type(range_t), parameter :: a_signed_force = range_t(-1.0e12_dp, .false., 1.0e12_dp, .false.)
    type(range_t), parameter :: an_amplitude = range_t(0.0_dp, .false., 1.0e12_dp, .false.)
+   type(range_t), parameter :: an_order = range_t(1.0_dp, .false., real(highest_order, dp), .false.)
+   type(range_t), parameter :: a_scale = range_t(0.0_dp, .false., 1.0e6_dp, .false.)
    type(range_t), parameter :: a_frequency = range_t(1.0e-7_dp, .false., 1.0e11_dp, .false.)
    type(range_t), parameter :: a_fall = range_t(0.0_dp, .false., 1.0e8_dp, .false.)
    type(range_t), parameter :: a_film = range_t(1.0e-16_dp, .false., 1.0e4_dp, .false.)
@@ -36,7 +39,8 @@ module key_table
    type(range_t), parameter :: a_speed_group = range_t(1.0e-30_dp, .false., 1.0e10_dp, .false.)
    type(range_t), parameter :: fraction = range_t(0.0_dp, .true., 1.0_dp, .false.)
 
-   type(key_t), parameter, public :: keys(*) = [ &
+   ! Two halves: a statement has 255 continuation lines at most.
+   type(key_t), parameter :: keys_of_gears(*) = [ &
       key_t('scene', 'name', text_kind, '', '', any_number, '', '', &
             'Name of the scene and stem of its output files: letters, digits, . _ - only; absent: the stem of the input file.'), &
       key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion film sweep campaign', '', &
@@ -106,11 +110,24 @@ module key_table
             example='199.2', &
             sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
             computable=a_signed_force), &
-      key_t('load', 'force_amplitude', real_kind, 'N', 'required', not_negative, '', 'scene.task=motion|sweep|campaign', &
-            'Amplitude F0 of the oscillating force of (34).', &
+      key_t('load', 'force_amplitude', real_kind, 'N', '', not_negative, '', 'scene.task=motion|sweep|campaign', &
+            'Amplitude F0 of the oscillating force of (34); give this, or force_orders with force_amplitudes.', &
             example='205.7', &
             sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
             computable=an_amplitude), &
+      key_t('load', 'force_orders', reals_kind, '-', '', an_order, '', 'scene.task=motion|sweep|campaign', &
+            'Orders of a force of any shape, whole multiples of the frequency, instead of force_amplitude.'), &
+      key_t('load', 'force_amplitudes', reals_kind, 'N', '', not_negative, '', 'scene.task=motion|sweep|campaign', &
+            'Amplitude of each order.', &
+            sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
+            computable=an_amplitude), &
+      key_t('load', 'force_phases', reals_kind, 'rad', '', any_number, '', 'scene.task=motion|sweep|campaign', &
+            'Phase of each order: a cos(2 pi n f t + phase); absent: all 0.', &
+            sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp)), &
+      key_t('load', 'force_scale', real_kind, '-', '1.0', not_negative, '', 'scene.task=motion|sweep|campaign', &
+            'Multiplies all that oscillates of the force.', &
+            sensible=range_t(lower=0.0_dp, upper=1.0e4_dp), &
+            computable=a_scale), &
       key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
             'Frequency f_exc of the oscillating force.', &
             example='600.0', &
@@ -138,7 +155,10 @@ module key_table
       key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Film velocity dh/dt at t = 0, negative on approach.', &
             sensible=range_t(lower=-100.0_dp, upper=100.0_dp), &
-            computable=a_signed_speed), &
+            computable=a_signed_speed) &
+      ]
+
+   type(key_t), parameter :: keys_of_tasks(*) = [ &
       key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark taylor', &
             'scene.task=motion|sweep|campaign', &
             'Time integration: taylor (error-controlled series, implicit where the film is stiff) or the paper''s newmark.'), &
@@ -169,7 +189,7 @@ module key_table
       key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', 'scene.task=motion|sweep|campaign', &
             'Whole periods at the end of the run that spectrum, extremes and regime are taken from.'), &
       key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep|campaign', &
-            'A harmonic counts as a line if it exceeds this share of the first.'), &
+            'A harmonic counts as a line if it exceeds this share of the first (of several orders: of the largest forced one).'), &
       key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', 'scene.task=motion|sweep|campaign', &
             'From this many lines on the motion is idle rattle.'), &
       key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', 'scene.task=motion|sweep|campaign', &
@@ -210,7 +230,8 @@ module key_table
       key_t('points', 'cells', integer_kind, '-', '4096', range_t(32.0_dp, .false., 1.0e6_dp, .false.), '', &
             'film.model=numerical', &
             'Cells of the finite-volume solution, an even number; its load is extrapolated from these and half of these.'), &
-      key_t('sweep', 'key', text_kind, '', 'required', any_number, 'frequency force_amplitude steady_force entrainment_speed', &
+      key_t('sweep', 'key', text_kind, '', 'required', any_number, &
+            'frequency force_amplitude steady_force entrainment_speed force_scale', &
             'scene.task=sweep', &
             'What is swept: a key of &load, or the entrainment speed.', &
             example='frequency'), &
@@ -275,6 +296,8 @@ module key_table
       key_t('output', 'overwrite', logical_kind, '', '.false.', any_number, '', '', &
             'Whether output files of an earlier run may be replaced; files of any other kind never are.') &
       ]
+
+   type(key_t), parameter, public :: keys(*) = [keys_of_gears, keys_of_tasks]
 
    public :: choice_word, find_key, find_swept_key, known_group, starts_group, nearest_key, nearest_group
 

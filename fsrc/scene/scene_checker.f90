@@ -1,6 +1,7 @@
 !> What must hold between the keys of a scene. What a single key must be stands in the key table.
 module scene_checker
    use errors, only: error_t, fault_list_t
+   use force_checker, only: check_force
    use input_key, only: allowed_text, in_range, is_computable, not_computable_text, real_kind, reals_kind
    use key_table, only: find_key, find_swept_key, keys
    use keys_in_use, only: in_use
@@ -37,6 +38,7 @@ contains
          call check_points(input, faults)
       else
          call check_static_load(input, faults)
+         call check_force(input, faults)
          call check_window(input, faults)
          if (input%word('scene', 'task') == 'sweep') call check_sweep(input, faults)
          if (input%word('scene', 'task') == 'campaign') call check_campaign(input, faults)

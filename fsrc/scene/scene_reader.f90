@@ -12,8 +12,8 @@ module scene_reader
    use odd_numbers, only: odd_numbers_of_input
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
-   use scene_types, only: contact_t, film_choice_t, kinematics_t, load_t, lubricant_t, output_t, scene_t, solver_t, &
-                          spectrum_choice_t, task_campaign, task_sweep
+   use scene_types, only: contact_t, film_choice_t, forced_orders, kinematics_t, load_t, lubricant_t, output_t, scene_t, &
+                          solver_t, spectrum_choice_t, task_campaign, task_sweep
    use task_reader, only: read_campaign, read_points, read_sweep
    use text, only: integer_text, quoted
    implicit none(type, external)
@@ -91,6 +91,8 @@ contains
       scene%film = read_film(input)
       scene%solver = read_solver(input)
       scene%spectrum = read_spectrum(input)
+      if (allocated(scene%load%force_orders)) scene%spectrum%forced = &
+         forced_orders(scene%load%force_orders, scene%load%force_amplitudes)
       scene%points = read_points(input, scene%film%model)
       if (scene%task == task_sweep) scene%sweep = read_sweep(input)
       if (scene%task == task_campaign) scene%campaign = read_campaign(input)
@@ -185,6 +187,13 @@ contains
       load%mass = input%number('load', 'mass')
       load%steady_force = input%number('load', 'steady_force')
       load%force_amplitude = input%number('load', 'force_amplitude')
+      load%force_scale = input%number('load', 'force_scale')
+      if (input%is_given('load', 'force_orders')) then
+         load%force_orders = nint(input%numbers('load', 'force_orders'))
+         load%force_amplitudes = input%numbers('load', 'force_amplitudes')
+         load%force_phases = 0.0_dp*load%force_amplitudes
+         if (input%is_given('load', 'force_phases')) load%force_phases = input%numbers('load', 'force_phases')
+      end if
       load%frequency = input%number('load', 'frequency')
       load%gravity = input%number('load', 'gravity')
    end function read_load

@@ -13,7 +13,7 @@ module scene_types
    integer, parameter, public :: task_motion = 1, task_film = 2, task_sweep = 3, task_campaign = 4
    !> What a sweep varies.
    integer, parameter, public :: sweep_frequency = 1, sweep_force_amplitude = 2, sweep_steady_force = 3, &
-                                 sweep_entrainment_speed = 4
+                                 sweep_entrainment_speed = 4, sweep_force_scale = 5
    !> What a film task computes of every point.
    integer, parameter, public :: compute_rupture = 1, compute_load = 2, compute_stiffness = 3, compute_damping = 4, &
                                  compute_pressure = 5, compute_limits = 6, compute_profile = 7
@@ -80,14 +80,22 @@ module scene_types
       real(dp) :: surface_speed_2 = 0.0_dp
    end type kinematics_t
 
+   !> Highest order of a force that a scene may have
+   integer, parameter, public :: highest_order = 32
+
    !> &load
    type, public :: load_t
       !> Equivalent mass m [kg]
       real(dp) :: mass = 0.0_dp
       !> Steady force Q [N]
       real(dp) :: steady_force = 0.0_dp
-      !> Amplitude F0 of the oscillating force [N]
+      !> Amplitude F0 of the force that oscillates, a cosine [N]
       real(dp) :: force_amplitude = 0.0_dp
+      !> Or its orders (multiples of the frequency), their amplitudes [N] and phases [rad]
+      integer, allocatable :: force_orders(:)
+      real(dp), allocatable :: force_amplitudes(:), force_phases(:)
+      !> By what all of it is multiplied [-]
+      real(dp) :: force_scale = 1.0_dp
       !> Frequency f_exc of the oscillating force [Hz]
       real(dp) :: frequency = 0.0_dp
       !> Acceleration of free fall g [m/s2]
@@ -137,7 +145,9 @@ module scene_types
    type, public :: spectrum_choice_t
       !> Whole periods in the window at the end of the run
       integer :: periods = 16
-      !> A harmonic above this share of the first is a line
+      !> Orders at which the force makes lines
+      logical :: forced(highest_order) = [.true., spread(.false., 1, highest_order - 1)]
+      !> A harmonic above this share of the largest forced one is a line
       real(dp) :: line_threshold = 0.01_dp
       !> From this many lines on: idle
       integer :: idle_lines = 20
@@ -248,7 +258,21 @@ module scene_types
       end function fma
    end interface
 
+   public :: forced_orders
+
 contains
+
+   !> At which orders lines are forced: those of at least a hundredth of the largest amplitude of the force.
+   pure function forced_orders(orders, amplitudes) result(forced)
+      integer, intent(in) :: orders(:)
+      !> Of each order [N]
+      real(dp), intent(in) :: amplitudes(:)
+      logical :: forced(highest_order)
+      real(dp), parameter :: least_share = 0.01_dp
+
+      forced = .false.
+      forced(pack(orders, orders <= highest_order .and. amplitudes >= least_share*maxval(amplitudes))) = .true.
+   end function forced_orders
 
    !> Weight m g of the tooth pair [N].
    elemental real(dp) function weight(self)

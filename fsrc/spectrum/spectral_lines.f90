@@ -17,10 +17,14 @@ module spectral_lines
    type, public :: spectral_lines_t
       !> a_n: single-sided amplitude at n times the forcing frequency, every n below half the samples a period
       real(dp), allocatable :: harmonics(:)
-      !> How many a_n exceed the line threshold times a_1, and whether there may be more beyond the highest of them
+      !> Order of the largest forced line, which others are held against, and root of the sum of squares of all forced lines [m/s2]
+      integer :: largest_forced = 1
+      real(dp) :: forced_amplitude = 0.0_dp
+      !> How many a_n exceed the line threshold times the largest forced one, of the forced ones that alone, and whether there
+      !> may be more beyond the highest of them
       integer :: line_count = 0
       logical :: count_is_bound = .false.
-      !> sqrt(sum of a_n^2 from n = 2)/a_1, and whether it may be larger
+      !> Root of the sum of squares of all lines that are not forced, over that of the forced ones, and whether it may be larger
       real(dp) :: harmonic_distortion = 0.0_dp
       logical :: distortion_is_bound = .false.
       !> Share of the power off the harmonics: 1 - sum a_n^2/(sum over all bins but the mean)
@@ -38,12 +42,14 @@ module spectral_lines
 contains
 
    !> Lines of a window of acceleration samples.
-   subroutine find_lines(acceleration, periods, line_threshold, noise_floor, lines)
+   subroutine find_lines(acceleration, periods, forced, line_threshold, noise_floor, lines)
       !> Samples of whole periods, the same count in each [m/s2]
       real(dp), intent(in) :: acceleration(:)
       !> Periods in the window, a divisor of the count of samples
       integer, intent(in) :: periods
-      !> A harmonic above this share of the first is a line [-]
+      !> Orders of the force
+      logical, intent(in) :: forced(:)
+      !> A harmonic above this share of the largest forced one is a line [-]
       real(dp), intent(in) :: line_threshold
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
@@ -54,44 +60,49 @@ contains
       call amplitude_spectrum(acceleration, amplitudes)
       ! A line stands for two bins of the transform; that at half the samples is one bin, whose square counts twice.
       call lines_of_bins(amplitudes, periods, (size(acceleration)/periods - 1)/2, mod(size(acceleration), 2) == 0, &
-                         line_threshold, noise_floor, lines)
+                         forced, line_threshold, noise_floor, lines)
       lines%count_is_bound = .not. lines%sampling_sufficient
       lines%distortion_is_bound = .not. lines%sampling_sufficient
    end subroutine find_lines
 
    !> Lines of a window from harmonics found by integrals over its steps, and its power: what lies beyond the highest harmonic is
    !> power too.
-   pure subroutine find_lines_by_integrals(harmonics, irregular_fraction, power, line_threshold, noise_floor, lines)
+   pure subroutine find_lines_by_integrals(harmonics, irregular_fraction, power, forced, line_threshold, noise_floor, lines)
       !> a_1, a_2, ... [m/s2]
       real(dp), intent(in) :: harmonics(:)
       !> Share of the power off the harmonics
       real(dp), intent(in) :: irregular_fraction
       !> Twice the mean square of z'' about its mean: the sum of the squares of all lines [m2/s4]
       real(dp), intent(in) :: power
-      !> A harmonic above this share of the first is a line [-]
+      !> Orders of the force
+      logical, intent(in) :: forced(:)
+      !> A harmonic above this share of the largest forced one is a line [-]
       real(dp), intent(in) :: line_threshold
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
       !> The lines
       type(spectral_lines_t), intent(out) :: lines
-      real(dp) :: tail
+      real(dp) :: unforced(size(harmonics)), tail
 
       allocate (lines%harmonics, source=harmonics)
+      call hold_against_force(harmonics, forced, lines%largest_forced, lines%forced_amplitude, unforced)
       lines%resolution_error = integral_error*maxval(harmonics)
       lines%moving = sqrt(max(0.0_dp, power)) > noise_floor
       if (.not. lines%moving) return
       lines%irregular_fraction = irregular_fraction
-      lines%line_count = count(harmonics > line_threshold*harmonics(1))
+      lines%line_count = lines_above(line_threshold, harmonics(lines%largest_forced), unforced)
       tail = maxval(harmonics((3*size(harmonics))/4 + 1:))
-      lines%count_is_bound = tail > max(noise_floor, sampling_tolerance*line_threshold*harmonics(1))
+      lines%count_is_bound = tail > max(noise_floor, sampling_tolerance*line_threshold*harmonics(lines%largest_forced))
       lines%harmonic_distortion = huge(1.0_dp)
-      if (harmonics(1) > noise_floor) lines%harmonic_distortion = &
-         max(norm2(harmonics(2:)/harmonics(1)), &
-             sqrt(max(0.0_dp, (1.0_dp - irregular_fraction)*(power/harmonics(1))/harmonics(1) - 1.0_dp)))
+      associate (forced_amplitude => lines%forced_amplitude)
+         if (forced_amplitude > noise_floor) lines%harmonic_distortion = &
+            max(norm2(unforced/forced_amplitude), &
+                sqrt(max(0.0_dp, (1.0_dp - irregular_fraction)*(power/forced_amplitude)/forced_amplitude - 1.0_dp)))
+      end associate
    end subroutine find_lines_by_integrals
 
    !> Lines of a window from the amplitudes of its bins.
-   subroutine lines_of_bins(amplitudes, periods, resolved, last_is_half, line_threshold, noise_floor, lines)
+   subroutine lines_of_bins(amplitudes, periods, resolved, last_is_half, forced, line_threshold, noise_floor, lines)
       !> Amplitudes from 0 on; on return in another unit
       real(dp), allocatable, intent(inout) :: amplitudes(:)
       !> Periods in the window
@@ -100,10 +111,11 @@ contains
       integer, intent(in) :: resolved
       !> Whether the last bin stands for one bin of the transform alone
       logical, intent(in) :: last_is_half
+      logical, intent(in) :: forced(:)
       real(dp), intent(in) :: line_threshold
       real(dp), intent(in) :: noise_floor
       type(spectral_lines_t), intent(out) :: lines
-      real(dp) :: unit, power, harmonic_power, least
+      real(dp) :: unforced(resolved), unit, power, harmonic_power, least
       integer :: highest
 
       highest = ubound(amplitudes, 1)
@@ -117,19 +129,54 @@ contains
       if (last_is_half) power = power + amplitudes(highest)**2
       harmonic_power = sum(lines%harmonics**2)
       lines%moving = sqrt(power) > least
+      call hold_against_force(lines%harmonics, forced, lines%largest_forced, lines%forced_amplitude, unforced)
       if (lines%moving) then
          lines%irregular_fraction = max(0.0_dp, 1.0_dp - harmonic_power/power)
-         lines%line_count = count(lines%harmonics > line_threshold*lines%harmonics(1))
+         lines%line_count = lines_above(line_threshold, lines%harmonics(lines%largest_forced), unforced)
          lines%harmonic_distortion = huge(1.0_dp)
-         if (lines%harmonics(1) > least) &
-            lines%harmonic_distortion = sqrt(sum(lines%harmonics(2:)**2))/lines%harmonics(1)
+         if (lines%forced_amplitude > least) &
+            lines%harmonic_distortion = sqrt(unforced(1)**2 + sum(unforced(2:)**2))/lines%forced_amplitude
          ! Samples fold what lies beyond the highest resolved frequencies back upon the lines.
          lines%resolution_error = maxval(amplitudes((3*highest)/4 + 1:))
          lines%sampling_sufficient = lines%resolution_error <= &
-                                     max(least, sampling_tolerance*line_threshold*lines%harmonics(1))
+                                     max(least, sampling_tolerance*line_threshold*lines%harmonics(lines%largest_forced))
          lines%resolution_error = lines%resolution_error*unit
       end if
       lines%harmonics(:) = lines%harmonics*unit
+      lines%forced_amplitude = lines%forced_amplitude*unit
    end subroutine lines_of_bins
+
+   !> Which line the others are held against: the largest at an order of the force.
+   pure subroutine hold_against_force(harmonics, forced, largest, amplitude, unforced)
+      real(dp), intent(in) :: harmonics(:)
+      !> Orders of the force; of those beyond the harmonics nothing is known
+      logical, intent(in) :: forced(:)
+      !> Order of the largest forced line
+      integer, intent(out) :: largest
+      !> Root of the sum of squares of the forced lines
+      real(dp), intent(out) :: amplitude
+      !> The harmonics, 0 where they are forced
+      real(dp), intent(out) :: unforced(:)
+      logical :: mask(size(harmonics))
+      integer :: known
+
+      known = min(size(harmonics), size(forced))
+      mask = .false.
+      mask(:known) = forced(:known)
+      largest = max(1, maxloc(harmonics, dim=1, mask=mask))
+      unforced = merge(0.0_dp, harmonics, mask)
+      amplitude = harmonics(largest)
+      if (amplitude > 0.0_dp) amplitude = amplitude*sqrt(sum((merge(harmonics, 0.0_dp, mask)/amplitude)**2))
+   end subroutine hold_against_force
+
+   !> Lines above a share of the largest forced one: that one, and those that are not forced.
+   pure integer function lines_above(share, largest_forced, unforced)
+      real(dp), intent(in) :: share
+      !> [m/s2]
+      real(dp), intent(in) :: largest_forced
+      real(dp), intent(in) :: unforced(:)
+
+      lines_above = merge(1, 0, largest_forced > share*largest_forced) + count(unforced > share*largest_forced)
+   end function lines_above
 
 end module spectral_lines

@@ -172,16 +172,25 @@ contains
       real(dp), intent(in) :: errors(:)
       type(spectrum_choice_t), intent(in) :: choice
       character(:), allocatable :: reason
-      real(dp) :: distortion_error, threshold
-      integer :: fewest, most
+      real(dp) :: unforced(size(errors))
+      integer, allocatable :: others(:)
+      real(dp) :: forced_error, distortion_error, threshold
+      integer :: first, known, fewest, most, i
 
       reason = ''
       associate (lines => verdict%lines, a => verdict%lines%harmonics)
-         if (.not. a(1) > errors(1)) then
-            reason = 'The first harmonic is as small as its error.'
+         first = lines%largest_forced
+         if (.not. a(first) > errors(first)) then
+            reason = 'The largest line at an order of the force is as small as its error.'
+            if (first == 1) reason = 'The first harmonic is as small as its error.'
             return
          end if
-         distortion_error = max((sqrt(sum(errors(2:)**2)) + lines%harmonic_distortion*errors(1))/(a(1) - errors(1)), &
+         known = min(size(errors), size(choice%forced))
+         unforced = errors
+         where (choice%forced(:known)) unforced(:known) = 0.0_dp
+         forced_error = sqrt(max(0.0_dp, sum((errors - unforced)**2)))
+         distortion_error = max((sqrt(unforced(1)**2 + sum(unforced(2:)**2)) + lines%harmonic_distortion*forced_error)/ &
+                                (lines%forced_amplitude - forced_error), &
                                 abs(lines%harmonic_distortion - tight_verdict%lines%harmonic_distortion))
          if (abs(lines%harmonic_distortion - choice%quiet_limit) <= distortion_error) then
             reason = 'The harmonic distortion is within its error of the quiet limit.'
@@ -193,8 +202,10 @@ contains
             return
          end if
          threshold = choice%line_threshold
-         fewest = count(a(:size(errors)) - errors > threshold*(a(1) + errors(1)))
-         most = count(a(:size(errors)) + errors > threshold*(a(1) - errors(1)))
+         others = [(i, i=1, size(errors))]
+         others = pack(others, others == first .or. [.not. choice%forced(:known), spread(.true., 1, size(errors) - known)])
+         fewest = count(a(others) - errors(others) > threshold*(a(first) + errors(first)))
+         most = count(a(others) + errors(others) > threshold*(a(first) - errors(first)))
          if (fewest < choice%idle_lines .and. (lines%count_is_bound .or. tight_verdict%lines%count_is_bound)) then
             reason = 'There are at least '//integer_text(fewest)//' lines, and beyond the highest resolved one there may be more.'
          else if (fewest < choice%idle_lines .and. most >= choice%idle_lines) then

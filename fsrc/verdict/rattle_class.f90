@@ -31,7 +31,7 @@ contains
       real(dp), intent(in) :: noise_floor
       type(rattle_verdict_t), intent(out) :: verdict
 
-      call find_lines(acceleration, choice%periods, choice%line_threshold, noise_floor, verdict%lines)
+      call find_lines(acceleration, choice%periods, choice%forced, choice%line_threshold, noise_floor, verdict%lines)
       verdict%class = class_of(verdict%lines, choice)
       if (verdict%lines%moving) verdict%reversals_per_period = &
          real(count_reversals(acceleration, reversal_prominence), dp)/real(choice%periods, dp)
@@ -76,7 +76,7 @@ contains
          irregular_beyond = beyond*share(sum(varying(highest_quarter:)), sum(repeating(highest_quarter:)))
          call find_lines_by_integrals(2.0_dp*frequency/periods*abs(sums(1:n)), &
                                       share(off_harmonics + irregular_beyond, sum(repeating) + beyond - irregular_beyond), &
-                                      power, choice%line_threshold, noise_floor, verdict%lines)
+                                      power, choice%forced, choice%line_threshold, noise_floor, verdict%lines)
       end associate
       verdict%class = class_of(verdict%lines, choice)
       if (verdict%lines%moving) verdict%reversals_per_period = &

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from rattle.result import Result, ResultError
 
 LIMITS = ("line_threshold", "quiet_limit", "irregular_limit")
@@ -50,7 +52,20 @@ def judge_samples(
     limits = thresholds(result, overrides)
     try:
         return kernels.classify(
-            samples, result.samples_per_period, orbit_period=result.orbit_period, **limits
+            samples,
+            result.samples_per_period,
+            orbit_period=result.orbit_period,
+            **forced(result),
+            **limits,
         )
     except ValueError as fault:
         raise ResultError(f"{result.path} cannot be classified: {fault}.") from None
+
+
+def forced(result: Result) -> dict[str, Any]:
+    """Orders and amplitudes of the force, where it has several."""
+    load = result.input.get("load", {})
+    if not load.get("force_orders"):
+        return {}
+    orders = [int(order) for order in np.atleast_1d(load["force_orders"])]
+    return {"force_orders": orders, "force_amplitudes": np.atleast_1d(load["force_amplitudes"])}

@@ -2,7 +2,7 @@
 module linear_newmark
    use engine, only: motion_count_t, request_t
    use film_law, only: film_t
-   use force, only: force_of_period, force_t
+   use force, only: cosine_force, force_of_period
    use kinds, only: dp
    use newmark, only: advance_period, newmark_state_t, start_motion
    use problem, only: problem_t
@@ -54,7 +54,7 @@ contains
       problem%film%squeeze = damping
       problem%mass = 3.0_dp
       problem%weight = 29.4_dp
-      problem%force = force_t(steady=199.2_dp, amplitude=20.0_dp)
+      problem%force = cosine_force(199.2_dp, 20.0_dp)
       problem%frequency = 600.0_dp
       problem%initial_film = first_film
       problem%initial_velocity = first_velocity

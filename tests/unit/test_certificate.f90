@@ -48,6 +48,7 @@ contains
       verdict%class = class
       allocate (verdict%lines%harmonics, source=harmonics)
       verdict%lines%line_count = count(harmonics > choice%line_threshold*harmonics(1))
+      verdict%lines%forced_amplitude = harmonics(1)
       verdict%lines%harmonic_distortion = norm2(harmonics(2:))/harmonics(1)
    end function verdict_of
 

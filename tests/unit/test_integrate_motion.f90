@@ -5,7 +5,7 @@ module test_integrate_motion
    use engine, only: ending_t, motion_count_t, request_t
    use film_law, only: film_load, film_t, kernel_of, new_film, steady_film
    use film_pressure, only: exact_pressure
-   use force, only: force_of_period, force_t
+   use force, only: cosine_force, force_of_period
    use kinds, only: dp
    use newmark, only: advance_period, newmark_state_t, start_motion
    use problem, only: problem_of, problem_t
@@ -58,7 +58,7 @@ contains
       if (ending%status /= status_complete) return
       response%extremes = [minval(recorder%films), maxval(recorder%films), minval(recorder%accelerations), &
          maxval(recorder%accelerations)]
-      call find_lines(recorder%accelerations, 1, 0.01_dp, 1.0e-10_dp, response%lines)
+      call find_lines(recorder%accelerations, 1, [.true.], 0.01_dp, 1.0e-10_dp, response%lines)
       response%harmonics = response%lines%harmonics(:6)
    end subroutine respond
 
@@ -262,7 +262,7 @@ contains
       call checks%check_close(recorder%films(512), ending%film, 0.0_dp, &
          'bookkeeping: the window ends with the run')
       film = new_film(scene)
-      call force_of_period(force_t(steady=199.2_dp, amplitude=205.7_dp), force)
+      call force_of_period(cosine_force(199.2_dp, 205.7_dp), force)
       residual = 0.0_dp
       do i = 1, 512
          call film_load(film, recorder%films(i), recorder%velocities(i), load, slope_h, slope_w)

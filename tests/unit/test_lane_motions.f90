@@ -142,7 +142,7 @@ contains
          call checks%check(motions%endings(i)%status == status_complete .and. &
                            motions%endings(i)%samples == samples, trim(names(law))//': ended well')
          call accelerations_of_samples(lanes(i), samples, motions%films(:, i), motions%velocities(:, i), values)
-         call find_lines(values, 1, 0.01_dp, 1.0e-10_dp, lines)
+         call find_lines(values, 1, [.true.], 0.01_dp, 1.0e-10_dp, lines)
          call checks%check_close(maxval(abs(lines%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, &
                                  1.0e-6_dp, &
                                  trim(names(law))//': harmonics')
@@ -306,7 +306,7 @@ contains
 
       lanes(:size(kernels)) = all_lanes()
       lanes(size(kernels) + 1:) = lanes(:size(kernels))
-      lanes%force%amplitude = [(20.0_dp*real(modulo(5*i, 12), dp), i=1, size(lanes))]
+      lanes%force%cosine(1) = [(20.0_dp*real(modulo(5*i, 12), dp), i=1, size(lanes))]
       lanes(9)%initial_velocity = -0.02_dp
       lanes(3)%initial_film = -1.0_dp
       starts = start_of(lanes)

@@ -53,7 +53,7 @@ contains
       type(spectral_lines_t) :: lines
 
       call find_lines(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp, 0.0_dp, 0.04_dp, 0.0_dp, 0.06_dp], &
-         0), 16, 0.01_dp, &
+         0), 16, [.true.], 0.01_dp, &
          1.0e-9_dp, lines)
       call checks%check(size(lines%harmonics) == 15, 'harmonics below half the samples a period')
       call checks%check_close(lines%harmonics(1), 5.0_dp, rounding, 'first harmonic')
@@ -74,10 +74,10 @@ contains
 
       type(spectral_lines_t) :: lines
 
-      call find_lines(signal(16, 32, [1.0_dp, 2.0_dp, 2.0_dp, 4.0_dp], 0), 16, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(signal(16, 32, [1.0_dp, 2.0_dp, 2.0_dp, 4.0_dp], 0), 16, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       call checks%check_close(lines%irregular_fraction, 5.0_dp/25.0_dp, rounding, 'half-integer lines')
       call checks%check_close(lines%harmonics(2), 4.0_dp, rounding, 'the harmonics beside them')
-      call find_lines(signal(16, 32, [1.0_dp], 0), 16, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(signal(16, 32, [1.0_dp], 0), 16, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       call checks%check_close(lines%irregular_fraction, 1.0_dp, rounding, 'nothing but a half-integer line')
       call checks%check(lines%harmonic_distortion >= huge(1.0_dp), &
          'no first harmonic: distortion without bound')
@@ -93,7 +93,7 @@ contains
 
       do i = 1, 4
          call find_lines(signal(periods(i), steps(i), [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), periods(i), &
-            0.01_dp, 1.0e-9_dp, &
+            [.true.], 0.01_dp, 1.0e-9_dp, &
             lines)
          call checks%check(size(lines%harmonics) == (steps(i) - 1)/2, 'odd counts: number of harmonics')
          call checks%check_close(lines%harmonics(1), 5.0_dp, rounding, 'odd counts: first harmonic')
@@ -102,7 +102,7 @@ contains
       end do
       ! A line at half the samples counts once, not twice, in the power.
       call find_lines([(3.0_dp*cos(two_pi*real(i, dp)/8.0_dp) + 4.0_dp*real(1 - 2*modulo(i, 2), dp), i=1, &
-         8)], 1, 0.01_dp, &
+         8)], 1, [.true.], 0.01_dp, &
          1.0e-9_dp, lines)
       call checks%check_close(lines%irregular_fraction, 1.0_dp - 9.0_dp/(9.0_dp + 2.0_dp*16.0_dp), rounding, &
          'power of the highest bin')
@@ -115,9 +115,9 @@ contains
       real(dp), parameter :: halves(6) = [0.5_dp, 5.0_dp, 0.25_dp, 2.0_dp, 0.0_dp, 1.0_dp]
       type(spectral_lines_t) :: lines, shifted, doubled
 
-      call find_lines(signal(16, 32, halves, 0), 16, 0.01_dp, 1.0e-9_dp, lines)
-      call find_lines(signal(16, 32, halves, 13), 16, 0.01_dp, 1.0e-9_dp, shifted)
-      call find_lines(signal(16, 64, halves, 0), 16, 0.01_dp, 1.0e-9_dp, doubled)
+      call find_lines(signal(16, 32, halves, 0), 16, [.true.], 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(signal(16, 32, halves, 13), 16, [.true.], 0.01_dp, 1.0e-9_dp, shifted)
+      call find_lines(signal(16, 64, halves, 0), 16, [.true.], 0.01_dp, 1.0e-9_dp, doubled)
       call checks%check_close(maxval(abs(lines%harmonics - shifted%harmonics)), 0.0_dp, rounding, &
          'shifted: harmonics')
       call checks%check_close(shifted%irregular_fraction, lines%irregular_fraction, rounding, &
@@ -137,13 +137,13 @@ contains
       real(dp), parameter :: at_rest(64) = 0.0_dp
       type(spectral_lines_t) :: lines
 
-      call find_lines(at_rest, 4, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(at_rest, 4, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       call checks%check(.not. lines%moving .and. lines%line_count == 0, 'zero signal')
-      call find_lines(at_rest + 7.0_dp, 4, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(at_rest + 7.0_dp, 4, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       call checks%check(.not. lines%moving, 'constant signal')
-      call find_lines(signal(4, 16, [0.0_dp, 0.9e-9_dp], 0), 4, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(signal(4, 16, [0.0_dp, 0.9e-9_dp], 0), 4, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       call checks%check(.not. lines%moving, 'below the noise')
-      call find_lines(signal(4, 16, [0.0_dp, 1.1e-9_dp], 0), 4, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(signal(4, 16, [0.0_dp, 1.1e-9_dp], 0), 4, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       call checks%check(lines%moving, 'above the noise')
    end subroutine test_rest
 
@@ -155,9 +155,9 @@ contains
       type(spectral_lines_t) :: lines, scaled
       integer :: i
 
-      call find_lines(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), 16, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), 16, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       do i = 1, size(exponents)
-         call find_lines(scale(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), exponents(i)), 16, 0.01_dp, &
+         call find_lines(scale(signal(16, 32, [0.0_dp, 5.0_dp, 0.0_dp, 2.0_dp], 0), exponents(i)), 16, [.true.], 0.01_dp, &
             scale(1.0e-9_dp, exponents(i)), scaled)
          call checks%check(scaled%moving .and. scaled%line_count == lines%line_count, 'size: lines')
          call checks%check_close(scaled%irregular_fraction, lines%irregular_fraction, 0.0_dp, 'size: irregular share')
@@ -176,13 +176,13 @@ contains
       halves = 0.0_dp
       halves(2) = 10.0_dp
       halves(26) = 2.0e-4_dp
-      call find_lines(signal(2, 32, halves, 0), 2, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(signal(2, 32, halves, 0), 2, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       call checks%check(.not. lines%sampling_sufficient, 'thirteenth harmonic of 32 samples')
       halves(26) = 0.5e-4_dp
-      call find_lines(signal(2, 32, halves, 0), 2, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(signal(2, 32, halves, 0), 2, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       call checks%check(lines%sampling_sufficient, 'thirteenth harmonic, small enough')
       halves(22) = 2.0e-4_dp
-      call find_lines(signal(2, 32, halves, 0), 2, 0.01_dp, 1.0e-9_dp, lines)
+      call find_lines(signal(2, 32, halves, 0), 2, [.true.], 0.01_dp, 1.0e-9_dp, lines)
       call checks%check(lines%sampling_sufficient, 'eleventh harmonic of 32 samples')
    end subroutine test_sampling
 

@@ -36,6 +36,8 @@ def classify(
     irregular_limit: float = 0.01,
     noise_floor: float = 0.0,
     orbit_period: int | None = None,
+    force_orders: Any = (1,),
+    force_amplitudes: Any = (1.0,),
 ) -> dict[str, Any]:
     """Class of a window of whole periods of z'' [m/s2], with the measures it rests on.
 
@@ -43,6 +45,7 @@ def classify(
     noise_floor [m/s2]: a motion whose rms times sqrt(2) does not exceed it is at rest. A motion at rest is
     quiet and has no ratios: these are nan then. orbit_period: periods of the force after which the motion is
     known to repeat, if that is known; with several, a motion that were irregular is subharmonic.
+    force_orders, force_amplitudes: of a force of several orders; lines there are no sign of rattle.
     """
     samples = finite_samples(acceleration, "acceleration")
     period = positive_count(samples_per_period, "samples_per_period")
@@ -64,6 +67,7 @@ def classify(
         limits,
         positive_count(idle_lines, "idle_lines"),
         0 if orbit_period is None else positive_count(orbit_period, "orbit_period"),
+        *orders_of(force_orders, force_amplitudes),
         (period - 1) // 2,
     )
     moving = bool(counts[2])
@@ -76,3 +80,12 @@ def classify(
         "sampling_sufficient": bool(counts[3]),
         "harmonics": harmonics,
     }
+
+
+def orders_of(orders: Any, amplitudes: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Orders of a force and their amplitudes, as the kernel takes them."""
+    whole = np.array([positive_count(order, "force_orders") for order in np.atleast_1d(orders)], dtype=np.int32)
+    sizes = finite_samples(amplitudes, "force_amplitudes")
+    if whole.size != sizes.size:
+        raise ValueError(f"a force has as many amplitudes as orders, not {sizes.size} for {whole.size}")
+    return whole, sizes
