@@ -10,8 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import rattle
 from outcomes import assert_faults, summary_of
+
+import rattle
 from rattle.verdict import classify
 
 CANONICAL = {
@@ -114,14 +115,20 @@ def test_force_of_the_series_is_the_sum_of_its_orders(run, scene_text, tmp_path:
         20.0 * np.cos(7 * phase + 0.4) + 100.0 * np.cos(phase - 2.0) + 3.0 * np.cos(32 * phase + 9.0)
     )
     # Powers on the unit circle: some units of rounding an order.
-    assert last_period(result, "applied_force", 2048) == pytest.approx(expected, rel=0.0, abs=32 * 8 * 2.2e-16 * 123.0)
+    assert last_period(result, "applied_force", 2048) == pytest.approx(
+        expected, rel=0.0, abs=32 * 8 * 2.2e-16 * 123.0
+    )
 
 
 def test_motion_shifts_with_its_force(run, scene_text, tmp_path: Path) -> None:
     """A quarter of a period earlier: every phase moves by its order times a quarter of a turn."""
     first, early = (
         solve(
-            run, scene_text, tmp_path, name, load=LOAD | ORDERS | {"force_phases": ", ".join(map(repr, phases))}
+            run,
+            scene_text,
+            tmp_path,
+            name,
+            load=LOAD | ORDERS | {"force_phases": ", ".join(map(repr, phases))},
         )
         for name, phases in (
             ("first", (0.0, 0.7, -1.2)),
@@ -175,7 +182,10 @@ def test_rows_and_sweeps_over_the_scale_are_the_single_scenes(run, scene_text, t
 @pytest.mark.parametrize(
     ("load", "faults"),
     [
-        ({}, ["&load force_amplitude: a force is required: give either force_amplitude, or force_orders with"]),
+        (
+            {},
+            ["&load force_amplitude: a force is required: give either force_amplitude, or force_orders with"],
+        ),
         ({"force_orders": "1"}, ["&load force_orders: force_orders and force_amplitudes are given together"]),
         ({"force_amplitudes": "1"}, ["&load force_amplitudes: force_orders and force_amplitudes are given"]),
         (
@@ -189,7 +199,9 @@ def test_rows_and_sweeps_over_the_scale_are_the_single_scenes(run, scene_text, t
         (ORDERS | {"force_orders": "1, 2, 30"}, ["the highest order of the force needs at least 120"]),
     ],
 )
-def test_a_force_that_is_none_is_refused(load: dict, faults: list[str], run, scene_text, tmp_path: Path) -> None:
+def test_a_force_that_is_none_is_refused(
+    load: dict, faults: list[str], run, scene_text, tmp_path: Path
+) -> None:
     solver = TAYLOR | {"samples_per_period": "96"}
     (tmp_path / "scene.nml").write_text(scene_text(**CANONICAL, load=LOAD | load, solver=solver))
     ended = run("--check", "scene.nml", cwd=tmp_path)
@@ -214,7 +226,9 @@ def test_a_sweep_of_the_amplitude_needs_one(refused, scene_text, tmp_path: Path)
     found = refused("scene.nml")
     line = text[: text.index("key = ")].count("\n") + 1
     assert_faults(
-        found, "scene.nml", [f"{line}: &sweep key: a force of several orders has no force_amplitude; sweep force_scale"]
+        found,
+        "scene.nml",
+        [f"{line}: &sweep key: a force of several orders has no force_amplitude; sweep force_scale"],
     )
 
 

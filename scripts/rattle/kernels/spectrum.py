@@ -84,7 +84,9 @@ def classify(
 
 def orders_of(orders: Any, amplitudes: Any) -> tuple[np.ndarray, np.ndarray]:
     """Orders of a force and their amplitudes, as the kernel takes them."""
-    whole = np.array([positive_count(order, "force_orders") for order in np.atleast_1d(orders)], dtype=np.int32)
+    whole = np.array(
+        [positive_count(order, "force_orders") for order in np.atleast_1d(orders)], dtype=np.int32
+    )
     sizes = finite_samples(amplitudes, "force_amplitudes")
     if whole.size != sizes.size:
         raise ValueError(f"a force has as many amplitudes as orders, not {sizes.size} for {whole.size}")
