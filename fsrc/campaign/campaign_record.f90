@@ -91,7 +91,7 @@ contains
          if (quantity_table(code)%kind == a_list) then
             if (allocated(list)) deallocate (list)
             allocate (list, source=quantity_list(code, judged))
-            row(column + 1:column + recorded_numbers) = ieee_value(row, ieee_quiet_nan)
+            row(column + 1:column + recorded_numbers) = ieee_value(0.0_dp, ieee_quiet_nan)
             if (size(list) > 0) row(column + 1:column + recorded_numbers) = list(:recorded_numbers)
             column = column + recorded_numbers
          else

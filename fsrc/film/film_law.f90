@@ -2,9 +2,8 @@
 !>
 !> To add a law: write its kernel in a file of its own, give it a word in the key table and a code in scene_types, and add it to
 !> every choice in this file; with a Taylor series, see module film_series. A choice that has forgotten a law refuses it: there is
-!> no load, NaN, no film that carries one, no kernel.
+!> a load beyond `overflow_load`, no film that carries one, no kernel.
 module film_law
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use kinds, only: dp
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_terms_load, published_piezo_viscous_load, &
@@ -180,7 +179,7 @@ contains
       real(dp), intent(in) :: thickness
       !> Film velocity w = dh/dt [m/s]
       real(dp), intent(in) :: velocity
-      !> Load W [N]; NaN for a law that is not known
+      !> Load W [N]; beyond `overflow_load` for a law that is not known
       real(dp), intent(out) :: load
       !> dW/dh [N/m]
       real(dp), intent(out) :: load_by_film
@@ -192,9 +191,9 @@ contains
       if (associated(kernel)) then
          call kernel(film, thickness, velocity, load, load_by_film, load_by_velocity)
       else
-         load = ieee_value(load, ieee_quiet_nan)
-         load_by_film = load
-         load_by_velocity = load
+         load = 2.0_dp*overflow_load
+         load_by_film = 0.0_dp
+         load_by_velocity = 0.0_dp
       end if
    end subroutine film_load
 
@@ -206,7 +205,7 @@ contains
       real(dp), intent(in) :: thicknesses(:)
       !> Film velocities w = dh/dt [m/s], as many
       real(dp), intent(in) :: velocities(:)
-      !> Loads W [N], as many; NaN for a law that is not known
+      !> Loads W [N], as many; beyond `overflow_load` for a law that is not known
       real(dp), intent(out) :: loads(:)
       real(dp) :: load_by_film, load_by_velocity
       integer :: i
@@ -241,7 +240,7 @@ contains
       real(dp), intent(in) :: thicknesses(:)
       !> Film velocities w = dh/dt [m/s]
       real(dp), intent(in) :: velocities(:)
-      !> Loads W [N]; NaN for a law that is not known
+      !> Loads W [N]; beyond `overflow_load` for a law that is not known
       real(dp), intent(out) :: loads(:)
       !> dW/dh [N/m]
       real(dp), intent(out) :: loads_by_film(:)

@@ -25,7 +25,7 @@ module engine
       logical :: until_steady = .false.
       !> Compute every period, those too that return to the last bit
       logical :: every_period = .false.
-      !> Set out to where a slowly settling motion is forecast to come to rest. If it then repeats, the periods before the
+      !> Jump to the extrapolated fixed point of a slowly settling motion. If it then repeats, the periods before the
       !> samples are fewer than those that follow from the start
       logical :: forecast = .false.
       !> Hand over the samples of all periods, of a single motion

@@ -42,6 +42,9 @@ module film_series
       real(dp) :: best_accuracy = 0.0_dp
    end type film_series_t
 
+   !> Damping rate that no step follows [1/periods]
+   real(dp), parameter :: unfollowable_rate = 1.0e30_dp
+
    public :: series_of, has_series, set_coefficients, expand_motion, check_ends
 
 contains
@@ -139,7 +142,7 @@ contains
       case default
          block%film(:, 1:) = 0.0_dp
          block%momentum(:, 1:) = 0.0_dp
-         block%damping_rate = huge(1.0_dp)
+         block%damping_rate = unfollowable_rate
       end select
    end subroutine expand_motion
 
