@@ -30,6 +30,7 @@ module key_table
    type(range_t), parameter :: a_signed_force = range_t(-1.0e12_dp, .false., 1.0e12_dp, .false.)
    type(range_t), parameter :: an_amplitude = range_t(0.0_dp, .false., 1.0e12_dp, .false.)
    type(range_t), parameter :: an_order = range_t(1.0_dp, .false., real(highest_order, dp), .false.)
+   type(range_t), parameter :: a_phase = range_t(-1.0e6_dp, .false., 1.0e6_dp, .false.)
    type(range_t), parameter :: a_scale = range_t(0.0_dp, .false., 1.0e6_dp, .false.)
    type(range_t), parameter :: a_frequency = range_t(1.0e-7_dp, .false., 1.0e11_dp, .false.)
    type(range_t), parameter :: a_fall = range_t(0.0_dp, .false., 1.0e8_dp, .false.)
@@ -123,7 +124,8 @@ module key_table
             computable=an_amplitude), &
       key_t('load', 'force_phases', reals_kind, 'rad', '', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Phase of each order: a cos(2 pi n f t + phase); absent: all 0.', &
-            sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp)), &
+            sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
+            computable=a_phase), &
       key_t('load', 'force_scale', real_kind, '-', '1.0', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Multiplies all that oscillates of the force.', &
             sensible=range_t(lower=0.0_dp, upper=1.0e4_dp), &

@@ -167,4 +167,4 @@ def test_a_foreign_file_is_one_sentence(made, tmp_path):
     (tmp_path / "notes.txt").write_text("not a result")
     done = merge(tmp_path, "notes.txt", *made.write_parts(tmp_path, 2), "--output", "map.rattle")
     assert done.returncode == 2
-    assert done.stderr == "campaign.py: notes.txt is not a rattle result file.\n"
+    assert done.stderr == "campaign.py: notes.txt is not a rattle result file, which is called NAME.rattle.\n"

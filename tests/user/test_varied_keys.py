@@ -55,6 +55,7 @@ KEYS = {
     "load.mass": ("2.0", "4.0", "film_minimum"),
     "load.steady_force": ("150.0", "170.0", "film_minimum"),
     "load.force_amplitude": ("20.0", "50.0", "film_minimum"),
+    "load.force_scale": ("0.25", "0.6", "film_minimum"),
     "load.frequency": ("500.0", "700.0", "film_minimum"),
     "load.gravity": ("0.0", "20.0", "film_minimum"),
     "film.initial_film": ("2.0e-6", "4.0e-6", "film_maximum"),

@@ -67,7 +67,7 @@ def classify(
         limits,
         positive_count(idle_lines, "idle_lines"),
         0 if orbit_period is None else positive_count(orbit_period, "orbit_period"),
-        *orders_of(force_orders, force_amplitudes),
+        *_orders_of(force_orders, force_amplitudes),
         (period - 1) // 2,
     )
     moving = bool(counts[2])
@@ -82,12 +82,12 @@ def classify(
     }
 
 
-def orders_of(orders: Any, amplitudes: Any) -> tuple[np.ndarray, np.ndarray]:
+def _orders_of(orders: Any, amplitudes: Any) -> tuple[np.ndarray, np.ndarray]:
     """Orders of a force and their amplitudes, as the kernel takes them."""
     whole = np.array(
         [positive_count(order, "force_orders") for order in np.atleast_1d(orders)], dtype=np.int32
     )
-    sizes = finite_samples(amplitudes, "force_amplitudes")
+    sizes = finite_samples(np.asarray(amplitudes, dtype=float), "force_amplitudes")
     if whole.size != sizes.size:
         raise ValueError(f"a force has as many amplitudes as orders, not {sizes.size} for {whole.size}")
     return whole, sizes
