@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from rattle.figures import style
 from rattle.result import Result, ResultError
 from rattle.summary import Summary, read_summary
-from rattle.verdict import classify, thresholds
+from rattle.verdict import classify, forced, thresholds
 
 LAST_FORCE_RATIO = 5.0
 SUBJECT = "Spectrum of the acceleration"
@@ -125,7 +125,8 @@ def _draw_single(
     if visible.any():
         handles["between the harmonics"] = panels[0].collections[0]
     first = amplitude[periods]
-    if first > 0.0:
+    # Under several orders lines are held against the largest forced one, which is not always the first.
+    if first > 0.0 and not forced(result):
         handles[f"{100 * threshold:.3g} % of the first harmonic"] = panels[1].axhline(
             threshold * first, color=style.FORCE_COLOUR, linewidth=0.9, linestyle=(0, (4, 2))
         )
