@@ -12,18 +12,18 @@ compilers=${COMPILERS:-gfortran flang-new-19}
 packages='gfortran flang-19 libomp-19-dev libfftw3-dev liblapack-dev make gawk'
 
 cd "$repository"
-inside() { env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
-    chroot "$debian" sh -c "cd /root/rattle && $1"; }
+inside() { env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/ LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
+    chroot "$debian" sh -c "cd /rattle && $1"; }
 
-if [ ! -e "$debian/root/rattle" ]; then
+if [ ! -e "$debian/rattle" ]; then
     command -v debootstrap > /dev/null || apt-get install -y -qq debootstrap > /dev/null
-    debootstrap --variant=minbase trixie "$debian" http://deb.debian.org/debian > /dev/null
-    mkdir -p "$debian/root/rattle"
+    debootstrap --variant=minbase trixie "$debian" > /dev/null
+    mkdir -p "$debian/rattle"
 fi
 mkdir -p "$build/compilers"
 inside "dpkg -s $packages > /dev/null 2>&1 || { apt-get update -qq && apt-get install -y -qq --no-install-recommends $packages; } > /dev/null"
-rm -rf "$debian/root/rattle/fsrc" "$debian/root/rattle/tests" "$debian/root/rattle/input"
-git ls-files | tar -c -T - | tar -x -C "$debian/root/rattle"
+rm -rf "$debian/rattle/fsrc" "$debian/rattle/tests" "$debian/rattle/input"
+git ls-files | tar -c -T - | tar -x -C "$debian/rattle"
 
 failed=0
 "$build/rattle" --quiet --overwrite --output "$build/compilers/here" input/*.nml
@@ -40,6 +40,6 @@ for compiler in $compilers; do
     for input in input/*.nml; do
         inside "$place/rattle --quiet --overwrite --output $place/results $input" || { failed=1; echo "FAILED  $input"; }
     done
-    "$python" "$here/compare_results.py" "$build/compilers/here" "$debian/root/rattle/$place/results" || failed=1
+    "$python" "$here/compare_results.py" "$build/compilers/here" "$debian/rattle/$place/results" || failed=1
 done
 exit $failed

@@ -16,7 +16,7 @@ def unit_tests(rattle: Path) -> Runner:
     """The unit tests beside the program under test."""
     program = rattle.with_name("unit_tests")
     if not program.exists():
-        pytest.skip("no unit tests were built beside the program")
+        pytest.fail(f"There is no {program}: run `make unit`.", pytrace=False)
     return lambda *names: subprocess.run([program, *names], capture_output=True, text=True, check=False)
 
 
