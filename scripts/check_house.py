@@ -72,11 +72,11 @@ def counts() -> Iterator[tuple[str, int, int]]:
     lines = sum(len(path.read_text().splitlines()) for path in fortran if path.parent != GENERATED)
     readme = Path("README.md").read_text()
     yield "Fortran files in motion", sum("motion" in path.parts for path in fortran), 30
-    yield "Fortran files", len(fortran), 155
+    yield "Fortran files", len(fortran), 158
     yield "files that name a film law below scene", sum(map(names_law, fortran)), 2
-    yield "Fortran lines without generated tables", lines, 24800
+    yield "Fortran lines without generated tables", lines, 25400
     yield "Python files in scripts", len(list(Path("scripts").rglob("*.py"))), 54
-    yield "README lines", len(readme.splitlines()), 170
+    yield "README lines", len(readme.splitlines()), 172
     yield "README words", len(readme.split()), 1800
 
 

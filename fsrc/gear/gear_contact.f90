@@ -1,0 +1,117 @@
+!> From the data of a gear pair to the contact of two flanks: an involute pair with parallel axes and external teeth. Gear 1 is
+!> on the shaft and drives, gear 2 is loose. Lengths along the line of action lie in the transverse plane. Radius and speeds at a
+!> point agree with ISO/TR 15144-1 (normal radius of relative curvature, sum of the tangential velocities).
+module gear_contact
+   use constants, only: pi, two_pi
+   use kinds, only: dp
+   implicit none(type, external)
+   private
+
+   real(dp), parameter :: degree = pi/180.0_dp
+
+   !> A gear pair as its drawing gives it.
+   type, public :: gear_pair_t
+      !> Teeth z_1 and z_2
+      integer :: teeth_1 = 0
+      integer :: teeth_2 = 0
+      !> Normal module m_n [m]
+      real(dp) :: normal_module = 0.0_dp
+      !> Normal pressure angle alpha_n and helix angle beta [degrees]
+      real(dp) :: pressure_angle = 20.0_dp
+      real(dp) :: helix_angle = 0.0_dp
+      !> Face width [m]
+      real(dp) :: face_width = 0.0_dp
+      !> Centre distance a [m]; 0: that without profile shift
+      real(dp) :: centre_distance = 0.0_dp
+      !> Place xi on the line of action, 0 at the pitch point, towards the root of gear 2 positive [m]
+      real(dp) :: contact_position = 0.0_dp
+      !> Lines in contact, each as long as the face is wide
+      real(dp) :: contact_lines = 1.0_dp
+      !> Inertia J_2 of the loose gear [kg m2] and drag torque T_d on it [N m]
+      real(dp) :: loose_inertia = 0.0_dp
+      real(dp) :: drag_torque = 0.0_dp
+   end type gear_pair_t
+
+   !> The contact of its flanks.
+   type, public :: gear_contact_t
+      !> Base radii r_b1 and r_b2, and centre distance a [m]
+      real(dp) :: base_radius_1 = 0.0_dp
+      real(dp) :: base_radius_2 = 0.0_dp
+      real(dp) :: centre_distance = 0.0_dp
+      !> Working pressure angle alpha_wt and base helix angle beta_b [degrees]
+      real(dp) :: working_pressure_angle = 0.0_dp
+      real(dp) :: base_helix_angle = 0.0_dp
+      !> Ends of the line of action, where it touches the base circles [m]
+      real(dp) :: first_position = 0.0_dp
+      real(dp) :: last_position = 0.0_dp
+      !> Equivalent radius R and length l of the contact [m]
+      real(dp) :: radius = 0.0_dp
+      real(dp) :: length = 0.0_dp
+      !> Surface speeds u_1 and u_2, and entrainment speed U [m/s]
+      real(dp) :: surface_speed_1 = 0.0_dp
+      real(dp) :: surface_speed_2 = 0.0_dp
+      real(dp) :: entrainment_speed = 0.0_dp
+      !> Mass m of the loose gear at the flank [kg] and force Q of the drag torque [N]
+      real(dp) :: mass = 0.0_dp
+      real(dp) :: steady_force = 0.0_dp
+      !> Force for each rad/s2 of angular acceleration of the shaft, m cos(beta_b) r_b1 [N s2/rad]
+      real(dp) :: force_per_acceleration = 0.0_dp
+   end type gear_contact_t
+
+   public :: find_contact
+
+contains
+
+   !> The contact of a gear pair. What is wrong with it is told with the name of the value that would have to change.
+   pure subroutine find_contact(pair, shaft_speed, contact, wrong, message)
+      !> The pair
+      type(gear_pair_t), intent(in) :: pair
+      !> Speed n/60 of the shaft [1/s]
+      real(dp), intent(in) :: shaft_speed
+      !> Its contact; radii, angles and ends of the line of action are known too where only contact_position is wrong
+      type(gear_contact_t), intent(out) :: contact
+      !> Component of the pair that is wrong, empty if none is
+      character(:), allocatable, intent(out) :: wrong
+      !> What is wrong with it
+      character(:), allocatable, intent(out) :: message
+      real(dp) :: transverse_module, helix, transverse_angle, base_helix, working, rho_1, rho_2
+
+      wrong = ''
+      message = ''
+      helix = degree*pair%helix_angle
+      transverse_module = pair%normal_module/cos(helix)
+      transverse_angle = atan(tan(degree*pair%pressure_angle)/cos(helix))
+      base_helix = asin(sin(helix)*cos(degree*pair%pressure_angle))
+      contact%base_helix_angle = base_helix/degree
+      contact%base_radius_1 = 0.5_dp*transverse_module*real(pair%teeth_1, dp)*cos(transverse_angle)
+      contact%base_radius_2 = 0.5_dp*transverse_module*real(pair%teeth_2, dp)*cos(transverse_angle)
+      contact%centre_distance = pair%centre_distance
+      if (.not. pair%centre_distance > 0.0_dp) &
+         contact%centre_distance = 0.5_dp*transverse_module*real(pair%teeth_1 + pair%teeth_2, dp)
+      if (.not. contact%base_radius_1 + contact%base_radius_2 < contact%centre_distance) then
+         wrong = 'centre_distance'
+         message = 'it must exceed the sum of the base radii'
+         return
+      end if
+      working = acos((contact%base_radius_1 + contact%base_radius_2)/contact%centre_distance)
+      contact%working_pressure_angle = working/degree
+      contact%first_position = -contact%base_radius_1*tan(working)
+      contact%last_position = contact%base_radius_2*tan(working)
+      rho_1 = pair%contact_position - contact%first_position
+      rho_2 = contact%last_position - pair%contact_position
+      if (.not. min(rho_1, rho_2) > 0.0_dp) then
+         wrong = 'contact_position'
+         message = 'it lies beyond the line of action, which touches the base circles at its ends'
+         return
+      end if
+      contact%radius = rho_1*rho_2/((rho_1 + rho_2)*cos(base_helix))
+      contact%length = pair%face_width*pair%contact_lines/cos(base_helix)
+      contact%surface_speed_1 = two_pi*shaft_speed*rho_1
+      contact%surface_speed_2 = two_pi*shaft_speed*rho_2*real(pair%teeth_1, dp)/real(pair%teeth_2, dp)
+      contact%entrainment_speed = 0.5_dp*(contact%surface_speed_1 + contact%surface_speed_2)
+      contact%mass = pair%loose_inertia/(contact%base_radius_2*cos(base_helix))**2
+      contact%steady_force = pair%drag_torque/(contact%base_radius_2*cos(base_helix))
+      contact%force_per_acceleration = contact%mass*cos(base_helix)*contact%base_radius_1
+   end subroutine find_contact
+
+end module gear_contact
