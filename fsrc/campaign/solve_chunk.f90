@@ -10,6 +10,7 @@ module solve_chunk
    use key_table, only: find_key
    use force, only: force_of, largest_oscillation
    use kinds, only: dp, int64
+   use loudness, only: loudness_of_record
    use many_motions, only: solve_motions
    use memory_need, only: window_bytes
    use node_extremes, only: seen_pressure, seen_quantities
@@ -386,6 +387,7 @@ contains
       if (.not. judged%judged) return
       call note_orbit(judged%rattle, judged%repeats_after)
       judged%extremes = extremes_of_record(record)
+      judged%loudness = loudness_of_record(record, scene%load%frequency)
       associate (pressure => record%highest(seen_pressure))
          if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%problem%film, pressure%value, pressure%film)
       end associate

@@ -23,7 +23,7 @@ module window_record
    use lane_functions, only: lane_cosine_sine, lanes
    use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
                             seen_velocity
-   use problem, only: problem_t
+   use problem, only: problem_t, static_load
    use step_nodes, only: node_place, node_weight, nodes_per_piece, step_nodes_t
    implicit none(type, external)
    private
@@ -52,10 +52,16 @@ module window_record
       real(dp) :: end_velocity = 0.0_dp
       !> Smallest and largest values
       type(extreme_t) :: lowest(seen_quantities) = extreme_t(), highest(seen_quantities) = extreme_t()
-      !> Integrals of z'', |z''| and z''**2 over the time in periods [m/s2], [m/s2], [m2/s4]
+      !> Integrals of z'', |z''| and powers of z'' over the time in periods [m/s2], [m/s2], [m2/s4], [m3/s6], [m4/s8]
       real(dp) :: acceleration_sum = 0.0_dp
       real(dp) :: acceleration_size = 0.0_dp
       real(dp) :: acceleration_square = 0.0_dp
+      real(dp) :: acceleration_cube = 0.0_dp
+      real(dp) :: acceleration_fourth = 0.0_dp
+      !> Integrals of W - Q - m g, of its square and of its power over the time in periods [N], [N2], [W]
+      real(dp) :: beyond_static = 0.0_dp
+      real(dp) :: beyond_static_square = 0.0_dp
+      real(dp) :: power_beyond_static = 0.0_dp
       !> Integrals of W dh, of (F + m g) dh, and of the magnitudes of both [J]
       real(dp) :: film_work = 0.0_dp
       real(dp) :: force_work = 0.0_dp
@@ -140,6 +146,7 @@ contains
       type(window_record_t), intent(inout) :: record
       real(dp), dimension(block_nodes) :: phases, weights, values, loads, forces, cosine, sine
       real(dp) :: sum_of, size_of, square_of, film_work, force_work, work_size, period
+      real(dp) :: static, beyond, cube_of, fourth_of, beyond_sum, beyond_square, beyond_power
       integer :: n, i, before
 
       n = size(films)
@@ -172,11 +179,28 @@ contains
          force_work = force_work + weights(i)*forces(i)*velocities(i)
          work_size = work_size + weights(i)*(abs(loads(i)*velocities(i)) + abs(forces(i)*velocities(i)))
       end do
+      static = static_load(problem)
+      cube_of = 0.0_dp; fourth_of = 0.0_dp
+      beyond_sum = 0.0_dp; beyond_square = 0.0_dp; beyond_power = 0.0_dp
+      !$omp simd private(beyond) reduction(+: cube_of, fourth_of, beyond_sum, beyond_square, beyond_power)
+      do i = 1, n
+         cube_of = cube_of + weights(i)*values(i)*values(i)*values(i)
+         fourth_of = fourth_of + weights(i)*values(i)*values(i)*values(i)*values(i)
+         beyond = loads(i) - static
+         beyond_sum = beyond_sum + weights(i)*beyond
+         beyond_square = beyond_square + weights(i)*beyond*beyond
+         beyond_power = beyond_power + weights(i)*beyond*velocities(i)
+      end do
       period = 1.0_dp/problem%frequency
       record%shortest_piece = min(record%shortest_piece, minval(length))
       record%acceleration_sum = record%acceleration_sum + sum_of
       record%acceleration_size = record%acceleration_size + size_of
       record%acceleration_square = record%acceleration_square + square_of
+      record%acceleration_cube = record%acceleration_cube + cube_of
+      record%acceleration_fourth = record%acceleration_fourth + fourth_of
+      record%beyond_static = record%beyond_static + beyond_sum
+      record%beyond_static_square = record%beyond_static_square + beyond_square
+      record%power_beyond_static = record%power_beyond_static + beyond_power
       record%film_work = record%film_work + film_work*period
       record%force_work = record%force_work + force_work*period
       record%work_size = record%work_size + work_size*period

@@ -5,6 +5,7 @@ module judge_scene
    use errors, only: error_t
    use fine_window, only: classify_window, judge_window, window_t
    use judged_scene, only: judged_scene_t
+   use loudness, only: loudness_of_record, loudness_of_samples
    use node_extremes, only: seen_pressure
    use rattle_class, only: note_orbit
    use regime_check, only: check_regime
@@ -74,8 +75,11 @@ contains
       judged%lines_by_integrals = window%by_integrals
       if (window%record%periods > 0) then
          judged%extremes = extremes_of_record(record)
+         judged%loudness = loudness_of_record(record, scene%load%frequency)
       else
          judged%extremes = extremes_of_samples(judged%resolved%problem%film, window%films, window%velocities, &
+                                               window%accelerations)
+         judged%loudness = loudness_of_samples(judged%resolved%problem, window%samples_per_period, window%velocities, &
                                                window%accelerations)
       end if
       associate (pressure => judged%extremes%highest(seen_pressure))

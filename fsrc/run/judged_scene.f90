@@ -5,12 +5,16 @@ module judged_scene
    use engine, only: motion_count_t
    use floquet, only: orbit_stability
    use kinds, only: dp
+   use loudness, only: loudness_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_load, seen_velocity
    use periodic_orbit, only: periodic_orbit_t
-   use quantities, only: quantity_acceleration_error, quantity_acceleration_maximum, quantity_acceleration_maximum_error, &
-      quantity_acceleration_minimum, quantity_acceleration_minimum_error, quantity_alpha_p_maximum, quantity_certified, &
-      quantity_damping_ratio, quantity_deflection, quantity_evaluations, quantity_film_error, quantity_film_maximum, &
-      quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
+   use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
+      quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
+      quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_certified, &
+      quantity_crest_factor, quantity_damping_ratio, quantity_deflection, quantity_dissipated_energy, quantity_dissipated_power, &
+      quantity_evaluations, quantity_film_error, quantity_film_maximum, &
+      quantity_film_force_rms, quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, &
+      quantity_film_regime, &
       quantity_first_harmonic, quantity_floquet_modulus, quantity_floquet_multipliers, quantity_harmonic_distortion, &
       quantity_harmonic_distortion_is_bound, quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, &
       quantity_iterations_per_step, quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, &
@@ -44,6 +48,7 @@ module judged_scene
       logical :: series_coarse = .false.
       !> Extremes of the window
       type(window_extremes_t) :: extremes
+      type(loudness_t) :: loudness
       type(rattle_verdict_t) :: rattle
       type(regime_verdict_t) :: regime
       type(certificate_t) :: certificate
@@ -121,6 +126,20 @@ contains
             value = lowest(seen_load)%value
          case (quantity_load_maximum)
             value = highest(seen_load)%value
+         case (quantity_acceleration_rms)
+            value = judged%loudness%acceleration_rms
+         case (quantity_crest_factor)
+            if (judged%loudness%acceleration_rms > judged%resolved%noise_floor) &
+               value = max(abs(lowest(seen_acceleration)%value), abs(highest(seen_acceleration)%value)) &
+                       /judged%loudness%acceleration_rms
+         case (quantity_acceleration_kurtosis)
+            if (judged%loudness%acceleration_rms > judged%resolved%noise_floor) value = judged%loudness%acceleration_kurtosis
+         case (quantity_film_force_rms)
+            value = judged%loudness%film_force_rms
+         case (quantity_dissipated_energy)
+            value = judged%loudness%dissipated_energy
+         case (quantity_dissipated_power)
+            value = judged%loudness%dissipated_energy*judged%resolved%problem%frequency
          case (quantity_model_limit)
             value = real(model_limit(lowest(seen_film)%value, highest(seen_film)%value, judged%resolved%problem%film%radius), dp)
          case (quantity_reversals_per_period)

@@ -12,6 +12,7 @@ module run_sweep
    use key_table, only: choice_word, find_swept_key, keys
    use kinds, only: dp, int64
    use log_file, only: log_t
+   use loudness, only: loudness_of_record
    use output_place, only: log_path, result_path, summary_path
    use periodic_orbit, only: attracting_period, find_periodic_orbit
    use progress, only: progress_t
@@ -226,6 +227,7 @@ contains
       judged%orbit = find_periodic_orbit(judged%resolved%problem, film, velocity, orbit_nearness)
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
       judged%extremes = extremes_of_record(window%record)
+      judged%loudness = loudness_of_record(window%record, scene%load%frequency)
    end subroutine solve_value
 
    !> What the sweep did.

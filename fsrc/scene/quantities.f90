@@ -23,7 +23,9 @@ module quantities
          quantity_window_periods, quantity_samples_per_period, quantity_series_coarse, quantity_lines_by_integrals, &
          quantity_film_minimum, quantity_film_maximum, quantity_velocity_minimum, quantity_velocity_maximum, &
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
-         quantity_model_limit, quantity_reversals_per_period, quantity_harmonics, quantity_first_harmonic, &
+         quantity_acceleration_rms, quantity_crest_factor, quantity_acceleration_kurtosis, quantity_film_force_rms, &
+         quantity_dissipated_energy, quantity_dissipated_power, quantity_model_limit, quantity_reversals_per_period, &
+         quantity_harmonics, quantity_first_harmonic, &
          quantity_line_count, quantity_line_count_is_bound, quantity_harmonic_distortion, &
          quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, quantity_sampling_sufficient, &
          quantity_rattle_class, quantity_certified, quantity_film_error, quantity_film_minimum_error, &
@@ -93,6 +95,24 @@ module quantities
          'Smallest load of the film over the window.'), &
       quantity_t(quantity_load_maximum, 'load_maximum', 'N', a_number, part_window, needs_load_range, 'summary campaign', &
          'Largest load of the film over the window.'), &
+      quantity_t(quantity_acceleration_rms, 'acceleration_rms', 'm/s2', a_number, part_window, needs_nothing, &
+         'summary sweep campaign log', &
+         'Root of the mean square of the acceleration over the window.', digits=4), &
+      quantity_t(quantity_crest_factor, 'crest_factor', '-', a_number, part_window, needs_acceleration_range, &
+         'summary campaign', &
+         'Largest size of the acceleration over acceleration_rms; of a cosine 1.414.'), &
+      quantity_t(quantity_acceleration_kurtosis, 'acceleration_kurtosis', '-', a_number, part_window, needs_nothing, &
+         'summary campaign', &
+         'Fourth central moment of the acceleration over the square of its variance; of a cosine 1.5.'), &
+      quantity_t(quantity_film_force_rms, 'film_force_rms', 'N', a_number, part_window, needs_nothing, &
+         'summary sweep campaign log', &
+         'Root of the mean square by which the film force leaves its mean: what the bearings feel.', digits=4), &
+      quantity_t(quantity_dissipated_energy, 'dissipated_energy', 'J', a_number, part_window, needs_nothing, &
+         'summary campaign', &
+         'Work that the film takes a period of the force, - integral of (W - Q - m g) dh over the window by its periods.'), &
+      quantity_t(quantity_dissipated_power, 'dissipated_power', 'W', a_number, part_window, needs_nothing, &
+         'summary sweep campaign log', &
+         'dissipated_energy times the frequency of the force.', digits=4), &
       quantity_t(quantity_model_limit, 'model_limit', '-', a_code, part_window, needs_film_range, 'summary sweep campaign', &
          'Where the motion leaves what the model can mean.', &
          'within|too_wide|too_narrow|too_wide_and_narrow'), &

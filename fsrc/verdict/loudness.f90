@@ -1,0 +1,90 @@
+!> How loud a motion is: what its acceleration and the force of its film amount to over the window, and what the film takes
+!> from it.
+!>
+!> Work is that of what the film carries beyond the static load, which does no work in a motion that repeats:
+!>
+!>     dissipated energy = - integral of (W - Q - m g) dh,      in a periodic motion the work - integral of (F - Q) dh of the force
+module loudness
+   use force, only: force_of_period
+   use kinds, only: dp
+   use problem, only: problem_t
+   use window_record, only: window_record_t
+   implicit none(type, external)
+   private
+
+   !> Loudness of a window.
+   type, public :: loudness_t
+      !> Root of the mean square of z'' [m/s2]
+      real(dp) :: acceleration_rms = 0.0_dp
+      !> Fourth central moment of z'' over the square of the second [-], 0 where z'' stands still
+      real(dp) :: acceleration_kurtosis = 0.0_dp
+      !> Root of the mean square by which the film force leaves its mean [N]
+      real(dp) :: film_force_rms = 0.0_dp
+      !> What the film takes from the motion, a period of the force [J]
+      real(dp) :: dissipated_energy = 0.0_dp
+   end type loudness_t
+
+   public :: loudness_of_record, loudness_of_samples
+
+contains
+
+   !> Loudness that the steps of the engine tell.
+   pure type(loudness_t) function loudness_of_record(record, frequency) result(loudness)
+      !> A record of one or more periods
+      type(window_record_t), intent(in) :: record
+      !> Frequency of the force [Hz]
+      real(dp), intent(in) :: frequency
+      real(dp) :: periods
+
+      periods = real(record%periods, dp)
+      loudness = loudness_of_means([record%acceleration_sum, record%acceleration_square, record%acceleration_cube, &
+                                    record%acceleration_fourth]/periods, &
+                                   [record%beyond_static, record%beyond_static_square]/periods, &
+                                   record%power_beyond_static/(periods*frequency))
+   end function loudness_of_record
+
+   !> Loudness of samples of whole periods.
+   pure type(loudness_t) function loudness_of_samples(problem, samples_per_period, velocities, accelerations) result(loudness)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      integer, intent(in) :: samples_per_period
+      !> z' [m/s] and z'' [m/s2], from the first sample of a period on
+      real(dp), intent(in) :: velocities(:)
+      real(dp), intent(in) :: accelerations(:)
+      real(dp) :: powers(4), beyond(2), power, load, force(samples_per_period)
+      integer :: i
+
+      call force_of_period(problem%force, force)
+      powers = 0.0_dp
+      beyond = 0.0_dp
+      power = 0.0_dp
+      do i = 1, size(accelerations)
+         load = problem%mass*accelerations(i) + (force(modulo(i - 1, samples_per_period) + 1) - problem%force%steady)
+         powers = powers + accelerations(i)**[1, 2, 3, 4]
+         beyond = beyond + load**[1, 2]
+         power = power + load*velocities(i)
+      end do
+      associate (samples => real(size(accelerations), dp))
+         loudness = loudness_of_means(powers/samples, beyond/samples, power/(samples*problem%frequency))
+      end associate
+   end function loudness_of_samples
+
+   !> Loudness from means over the window.
+   pure type(loudness_t) function loudness_of_means(powers, beyond, work) result(loudness)
+      !> Of z'' and its powers
+      real(dp), intent(in) :: powers(4)
+      !> Of what the film carries beyond the static load, and of its square [N], [N2]
+      real(dp), intent(in) :: beyond(2)
+      !> Work of it, a period of the force [J]
+      real(dp), intent(in) :: work
+      real(dp) :: variance
+
+      loudness%acceleration_rms = sqrt(powers(2))
+      variance = powers(2) - powers(1)**2
+      if (variance > 0.0_dp) loudness%acceleration_kurtosis = &
+         (powers(4) - 4.0_dp*powers(1)*powers(3) + 6.0_dp*powers(1)**2*powers(2) - 3.0_dp*powers(1)**4)/variance**2
+      loudness%film_force_rms = sqrt(max(0.0_dp, beyond(2) - beyond(1)**2))
+      loudness%dissipated_energy = -work
+   end function loudness_of_means
+
+end module loudness
