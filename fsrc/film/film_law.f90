@@ -4,6 +4,7 @@
 !> every choice in this file; with a Taylor series, see module film_series. A choice that has forgotten a law refuses it: there is
 !> a load beyond `overflow_load`, no film that carries one, no kernel.
 module film_law
+   use constants, only: pi
    use kinds, only: dp
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_terms_load, published_piezo_viscous_load, &
@@ -16,6 +17,7 @@ module film_law
    use scene_status, only: status_no_rigid_film, status_overflow
    use scene_types, only: contact_t, film_choice_t, law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, &
                           rupture_half_pi, rupture_solved, rupture_solver_fast, rupture_solver_successive, scene_t
+   use squeeze_of_load, only: iso_viscous_squeeze, load_carried, load_too_small, piezo_viscous_squeeze, published_squeeze
    implicit none(type, external)
    private
 
@@ -81,7 +83,8 @@ module film_law
       end subroutine film_kernel
    end interface
 
-   public :: new_film, contact_radius, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, law_words, film_kernel
+   public :: new_film, contact_radius, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, squeeze_velocity, &
+             law_words, film_kernel
 
 contains
 
@@ -289,6 +292,55 @@ contains
          steady_film = 0.0_dp
       end select
    end function steady_film
+
+   !> Film velocity at which a film carries a load, and its slopes. Those of a film that carries it at no velocity, and of a law
+   !> that is not known, are 0.
+   pure subroutine squeeze_velocity(film, thickness, load, velocity, velocity_by_film, velocity_by_load, outcome)
+      type(film_t), intent(in) :: film
+      !> Film thickness h > 0 [m]
+      real(dp), intent(in) :: thickness
+      !> Load W [N]
+      real(dp), intent(in) :: load
+      !> Film velocity w = dh/dt [m/s]
+      real(dp), intent(out) :: velocity
+      !> dw/dh at constant load [1/s]
+      real(dp), intent(out) :: velocity_by_film
+      !> dw/dW at constant thickness [m/(N s)]
+      real(dp), intent(out) :: velocity_by_load
+      !> Whether some velocity gives the load, one of load_... of module squeeze_of_load
+      integer, intent(out) :: outcome
+      real(dp) :: a, width_factor, carried, load_by_film, load_by_velocity
+
+      velocity = 0.0_dp
+      velocity_by_film = 0.0_dp
+      velocity_by_load = 0.0_dp
+      select case (film%kernel)
+      case (kernel_half_pi)
+         outcome = load_carried
+         velocity = (film%rolling - load*thickness)*sqrt(thickness)/(pi*film%squeeze)
+      case (kernel_solved_fast, kernel_solved_successive)
+         width_factor = film%squeeze/(film%rolling*film%squeeze_rate)
+         call published_squeeze(load*thickness/film%rolling, width_factor, a, outcome)
+         velocity = a*sqrt(thickness)/film%squeeze_rate
+      case (kernel_piezo)
+         outcome = merge(load_carried, load_too_small, load > 0.0_dp)
+         if (load > 0.0_dp) velocity = -log(load/film%piezo*(thickness*thickness*thickness)*sqrt(thickness))/film%rate
+      case (kernel_reynolds_iso)
+         call iso_viscous_squeeze(load*thickness/film%scale, a, outcome)
+         velocity = a*sqrt(thickness)/film%squeeze_rate
+      case (kernel_reynolds_piezo)
+         call piezo_viscous_squeeze(load*thickness/film%scale, film%pressure_rate/(thickness*sqrt(thickness)), a, outcome)
+         velocity = a*sqrt(thickness)/film%squeeze_rate
+      case default
+         outcome = load_too_small
+      end select
+      if (outcome /= load_carried) return
+      call film_load(film, thickness, velocity, carried, load_by_film, load_by_velocity)
+      ! Of (24) this slope is lost in rounding where the film separates very fast.
+      if (.not. load_by_velocity < 0.0_dp) return
+      velocity_by_film = -load_by_film/load_by_velocity
+      velocity_by_load = 1.0_dp/load_by_velocity
+   end subroutine squeeze_velocity
 
    !> The law that the group &film chooses, in words.
    pure function law_words(choice) result(words)

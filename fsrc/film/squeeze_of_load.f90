@@ -1,0 +1,171 @@
+!> Squeeze group A at which a film that ruptures carries a given load: the film laws turned round.
+!>
+!> At a given thickness the load falls with A. Written in asinh A its logarithm is nearly straight (slope -1 where the film is
+!> squeezed fast, -2 where it separates fast), so Newton's steps need no other start; a bracket guards them.
+module squeeze_of_load
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use constants, only: half_pi
+   use kinds, only: dp
+   use reynolds_iso_viscous, only: iso_viscous_load, peak_pressure_group, rupture_tangent_fast, rupture_tangent_slope
+   use reynolds_piezo_viscous, only: piezo_viscous_load
+   implicit none(type, external)
+   private
+
+   !> Whether some squeeze velocity gives the load: one does; all give more; all that leave a film give less.
+   integer, parameter, public :: load_carried = 0, load_too_small = -1, load_too_large = 1
+
+   public :: iso_viscous_squeeze, piezo_viscous_squeeze, published_squeeze
+
+   !> What falls with A: Phi of the exact film, its max p*, Psi, and 8/3 - A (x_e + pi/2) of the published load (24)
+   integer, parameter :: iso_load = 1, peak = 2, piezo_load = 3, published_load = 4
+   !> Limits of asinh A and of what falls with A there
+   real(dp), parameter :: widest = 110.0_dp, smallest_group = 1.0e-90_dp, largest_group = 1.0e40_dp
+   !> A (x_e + pi/2) of a film that separates fast
+   real(dp), parameter :: last_width = 8.0_dp/3.0_dp
+
+   !> Bisection alone needs 64 passes; Newton's steps make it about 6.
+   integer, parameter :: most_passes = 200
+
+contains
+
+   !> Exact iso-viscous film: A of Phi(A) = phi.
+   elemental subroutine iso_viscous_squeeze(phi, a, outcome)
+      !> Load group W h/(12 l u eta0 R) [-]
+      real(dp), intent(in) :: phi
+      !> A [-], 0 where no film carries the load
+      real(dp), intent(out) :: a
+      !> One of load_...
+      integer, intent(out) :: outcome
+
+      call find_group(iso_load, 0.0_dp, phi, -widest, a, outcome)
+   end subroutine iso_viscous_squeeze
+
+   !> Exact piezo-viscous film: A of Psi(A, B) = psi. A film that is squeezed faster and faster ceases to exist at B max p*(A) = 1
+   !> under a finite load, which it reaches with infinite slope.
+   elemental subroutine piezo_viscous_squeeze(psi, b, a, outcome)
+      !> Load group W h/(12 l u eta0 R) [-]
+      real(dp), intent(in) :: psi
+      !> Pressure group B >= 0 [-]
+      real(dp), intent(in) :: b
+      !> A [-], 0 where no film carries the load
+      real(dp), intent(out) :: a
+      !> One of load_...
+      integer, intent(out) :: outcome
+      real(dp) :: fastest, last, load, slope, nudge
+
+      fastest = -widest
+      if (b*largest_group > 1.0_dp) then
+         call find_group(peak, 0.0_dp, 1.0_dp/b, -widest, last, outcome)
+         nudge = 4.0_dp*epsilon(1.0_dp)*max(1.0_dp, abs(asinh(last)))
+         do
+            fastest = asinh(last) + nudge
+            call evaluate(piezo_load, b, sinh(fastest), load, slope)
+            if (load > 0.0_dp) exit
+            nudge = 2.0_dp*nudge
+         end do
+         if (psi > load) then
+            a = 0.0_dp
+            outcome = load_too_large
+            return
+         end if
+      end if
+      call find_group(piezo_load, b, psi, fastest, a, outcome)
+   end subroutine piezo_viscous_squeeze
+
+   !> Published film (24) with x_e solved: A of W h = a (1 - c A (x_e + pi/2)). Its load never falls to zero, only to the share
+   !> 1 - 8/3 c of that without squeeze; close to it A depends on the last digits of the load.
+   elemental subroutine published_squeeze(load_share, width_factor, a, outcome)
+      !> W h/a, the load over that without squeeze [-]
+      real(dp), intent(in) :: load_share
+      !> c [-]
+      real(dp), intent(in) :: width_factor
+      !> A [-], 0 where no film carries the load
+      real(dp), intent(out) :: a
+      !> One of load_...
+      integer, intent(out) :: outcome
+
+      call find_group(published_load, 0.0_dp, (load_share - 1.0_dp)/width_factor + last_width, -widest, a, outcome)
+   end subroutine published_squeeze
+
+   !> A at which a quantity that falls with it has a given value.
+   pure subroutine find_group(quantity, b, wanted, fastest, a, outcome)
+      !> What falls with A
+      integer, intent(in) :: quantity
+      !> B [-], where it matters
+      real(dp), intent(in) :: b
+      !> Its value [-]
+      real(dp), intent(in) :: wanted
+      !> Lower limit of asinh A, at which the value is larger
+      real(dp), intent(in) :: fastest
+      !> A [-], 0 where there is none
+      real(dp), intent(out) :: a
+      !> One of load_...
+      integer, intent(out) :: outcome
+      real(dp) :: low, high, place, next, value, slope, rounding
+      integer :: pass
+
+      a = 0.0_dp
+      outcome = load_too_small
+      if (.not. wanted > smallest_group) return
+      outcome = load_too_large
+      if (wanted > largest_group) return
+      outcome = load_carried
+      rounding = epsilon(1.0_dp)*wanted
+      if (quantity == published_load) rounding = epsilon(1.0_dp)*max(wanted, last_width)
+      low = fastest
+      high = widest
+      place = max(fastest, 0.0_dp)
+      do pass = 1, most_passes
+         a = sinh(place)
+         call evaluate(quantity, b, a, value, slope)
+         if (abs(value - wanted) <= rounding) return
+         if (value > wanted) then
+            low = place
+         else
+            high = place
+         end if
+         next = 0.5_dp*(low + high)
+         if (value > 0.0_dp .and. slope < 0.0_dp) then
+            value = place + log(wanted/value)*value/(slope*cosh(place))
+            if (value > low .and. value < high) next = value
+         end if
+         if (abs(next - place) <= epsilon(1.0_dp)*max(1.0_dp, abs(place))) return
+         place = next
+      end do
+   end subroutine find_group
+
+   !> What falls with A, and its slope; a load of 0 where there is no film.
+   pure subroutine evaluate(quantity, b, a, value, slope)
+      !> Which
+      integer, intent(in) :: quantity
+      !> B [-], where it matters
+      real(dp), intent(in) :: b
+      !> A [-]
+      real(dp), intent(in) :: a
+      !> The value [-]
+      real(dp), intent(out) :: value
+      !> Its derivative with respect to A [-]
+      real(dp), intent(out) :: slope
+      real(dp) :: tangent, width, value_by_b
+
+      select case (quantity)
+      case (iso_load)
+         call iso_viscous_load(a, value, slope)
+      case (peak)
+         call peak_pressure_group(a, value, slope)
+      case (piezo_load)
+         call piezo_viscous_load(a, b, value, slope, value_by_b)
+         if (ieee_is_nan(value)) value = 0.0_dp
+      case (published_load)
+         tangent = rupture_tangent_fast(a)
+         width = half_pi + atan(tangent)
+         if (tangent < 0.0_dp) width = atan(-1.0_dp/tangent)
+         value = last_width - a*width
+         slope = -(width + a*rupture_tangent_slope(a)/(1.0_dp + tangent*tangent))
+      case default
+         value = 0.0_dp
+         slope = 0.0_dp
+      end select
+   end subroutine evaluate
+
+end module squeeze_of_load
