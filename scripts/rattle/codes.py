@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
@@ -14,6 +15,20 @@ import numpy as np
 
 with Path(__file__).with_name("quantities.csv").open(newline="", encoding="ascii") as _stream:
     _TABLE = tuple(csv.DictReader(_stream))
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One row of the table; `kind` is 'number', 'count', 'flag', 'code' or 'list'."""
+
+    unit: str
+    kind: str
+    meaning: str
+
+
+QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
+    {row["name"]: Quantity(row["unit"], row["kind"], row["meaning"]) for row in _TABLE}
+)
 
 # Columns whose numbers stand for words.
 CODES: Mapping[str, Mapping[int, str]] = MappingProxyType(

@@ -146,11 +146,6 @@ class Result(ResultFile):
         return max(self.row_count - 1, 0) // self.samples_per_period
 
     @property
-    def summary_path(self) -> Path:
-        """Where the program writes the summary of this run."""
-        return self.path.with_suffix(".summary.nml")
-
-    @property
     def orbit_period(self) -> int | None:
         """Periods after which the motion is known to repeat, by the summary beside it."""
         if not self.summary_path.exists():

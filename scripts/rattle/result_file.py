@@ -66,6 +66,11 @@ class ResultFile:
             raise ResultError(f"The resolved input in {self.path} has no {group}.{key}.") from None
 
     @property
+    def summary_path(self) -> Path:
+        """Where the program writes the summary of this run."""
+        return self.path.with_suffix(".summary.nml")
+
+    @property
     def task(self) -> str:
         """What the program was to do, as in 'motion', 'film' or 'sweep'."""
         return str(self.value("scene", "task")).strip()

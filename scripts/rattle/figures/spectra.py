@@ -111,7 +111,7 @@ def _draw_single(
     periods = round(1.0 / ratio[1])
     harmonic = np.arange(amplitude.size) % periods == 0
     harmonic[0] = False
-    between = ~harmonic
+    between = ~harmonic & (amplitude > FLOOR * amplitude[1:].max())  # the others could not be seen
     between[0] = False
     threshold = thresholds(result)["line_threshold"]
     colour = style.law_colour(result.law)
@@ -121,8 +121,7 @@ def _draw_single(
         handles[f"harmonics of {result.frequency:g} Hz"] = axes.vlines(
             ratio[harmonic], 0.0, amplitude[harmonic], color=colour, linewidth=1.8
         )
-    visible = amplitude[between] > FLOOR * amplitude[1:].max()
-    if visible.any():
+    if between.any():
         handles["between the harmonics"] = panels[0].collections[0]
     first = amplitude[periods]
     # Under several orders lines are held against the largest forced one, which is not always the first.

@@ -1,0 +1,154 @@
+"""One page on results of any task, for readers who never saw the program."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import rattle
+from rattle.campaign import Campaign
+from rattle.codes import QUANTITIES, words_of
+from rattle.figures import film, film_points
+from rattle.report import asked, campaign, motion, page, sweep
+from rattle.result import Result, read
+from rattle.result_file import ResultFile
+from rattle.summary import comparison_table
+
+ABOUT = (
+    "A loose gear pair, shaken by the engine, hammers through its oil film. This page says how the tooth "
+    "pair moves under "
+    "the force given here, how it rattles, and how far that can be trusted. Computed with rattle."
+)
+FILM_CAPTIONS = {
+    "figure_03": "Pressure in the film between the flanks, oil of constant viscosity.",
+    "figure_04a": "Stiffness of the film over its thickness.",
+    "figure_04b": "Damping of the film over its thickness.",
+    "figure_05": "Pressure in the film between the flanks, oil that thickens under pressure.",
+}
+
+
+def report(paths: Sequence[Path]) -> str:
+    """The page on all results, in the order given."""
+    results = [opened(path) for path in paths]
+    names = [path.name.removesuffix(".rattle") for path in paths]
+    title = f"Rattle of {names[0]}" if len(names) == 1 else f"Rattle of {len(names)} results"
+    body = [page.heading(1, title), page.paragraph(ABOUT, "lead")]
+    if len(results) > 1:
+        body += overview(results, names)
+    for place, (result, name) in enumerate(zip(results, names, strict=True), 1):
+        if len(results) > 1:
+            body.append(page.heading(1, name, f"result-{place}"))
+        body += part(result, name)
+    return page.document(title, body)
+
+
+def opened(path: Path) -> ResultFile:
+    """A campaign as a campaign, everything else as a result."""
+    result = read(path)
+    return rattle.read_campaign(path) if result.task == "campaign" else result
+
+
+def part(result: ResultFile, name: str) -> list[str]:
+    """All that is said of one result."""
+    if isinstance(result, Campaign):
+        parts = campaign_part(result)
+    elif isinstance(result, Result):
+        parts = {"motion": motion_part, "sweep": sweep_part, "film": film_part}.get(result.task, table_part)(
+            result
+        )
+    if not result.closed:
+        words = "This run was not finished when the page was written; what it had done so far is shown."
+        parts.insert(0, page.paragraph(words, "note"))
+    return [
+        page.paragraph(asked.in_short(result)),
+        *parts,
+        page.heading(2, "What was asked"),
+        *asked.inputs(result),
+        page.heading(2, "How to compute it again"),
+        *asked.repeat(result, name),
+    ]
+
+
+def motion_part(result: Result) -> list[str]:
+    summary = motion.summary_of(result)
+    parts = [page.heading(2, "Verdict"), *motion.verdict(result, summary)]
+    if summary:
+        parts.append(motion.key_figures(summary))
+        remarks = motion.remarks(summary)
+        if remarks:
+            parts += [page.heading(2, "Stiffness of the teeth and backlash"), *remarks]
+    parts += [page.heading(2, "The motion in pictures"), *motion.figures(result)]
+    if summary:
+        parts += [page.heading(2, "All quantities"), *motion.quantities(summary)]
+    return [*parts, page.heading(2, "How it was computed"), *motion.computed(result, summary)]
+
+
+def sweep_part(result: Result) -> list[str]:
+    return [
+        page.heading(2, "Verdict"),
+        *sweep.verdict(result),
+        *sweep.tables(result),
+        page.heading(2, "The sweep in pictures"),
+        *sweep.figures(result),
+        page.heading(2, "How it was computed"),
+        *motion.computed(result, motion.summary_of(result)),
+    ]
+
+
+def campaign_part(result: Campaign) -> list[str]:
+    return [
+        page.heading(2, "Verdict"),
+        *campaign.verdict(result),
+        campaign.keys_table(result),
+        page.heading(2, "The campaign in pictures"),
+        *campaign.figures(result),
+        page.heading(2, "Numbers"),
+        *campaign.tables(result),
+        page.heading(2, "How it was computed"),
+        *motion.computed(result, motion.summary_of(result)),
+    ]
+
+
+def film_part(result: Result) -> list[str]:
+    choice = film_points.Choice(None, None)
+    drawn = [
+        page.drawing(
+            lambda maker=maker: maker(result.path, choice), FILM_CAPTIONS[stem], f"{result.path.stem} {stem}"
+        )
+        for _, stem, maker in film.FIGURES
+    ]
+    words = (
+        f"The film at {result.row_count} points: load, stiffness and damping of the oil between the flanks."
+    )
+    return [page.heading(2, "The film in pictures"), page.paragraph(words), *drawn, *table_part(result)]
+
+
+def table_part(result: Result) -> list[str]:
+    """The range of every column, for tasks without a page of their own."""
+    rows = [
+        (name, QUANTITIES[name].meaning if name in QUANTITIES else "", result.units[name], result[name])
+        for name in result.names
+        if words_of(name) is None
+    ]
+    return [
+        page.heading(2, "Numbers"),
+        page.paragraph(f"The range of each column of the result over its {result.row_count} rows.", "note"),
+        page.ranges(rows),
+        page.heading(2, "How it was computed"),
+        *motion.computed(result, motion.summary_of(result)),
+    ]
+
+
+def overview(results: Sequence[ResultFile], names: Sequence[str]) -> list[str]:
+    """Links to all parts, and the summaries of motions side by side."""
+    links = "".join(
+        f'<a href="#result-{place}">{page.escape(name)}</a>' for place, name in enumerate(names, 1)
+    )
+    motions = [result for result in results if isinstance(result, Result) and result.task == "motion"]
+    summaries = [summary for result in motions if (summary := motion.summary_of(result))]
+    parts = [f"<nav>{links}</nav>"]
+    if len(summaries) > 1:
+        head, *rows = comparison_table(summaries)
+        kinds = ["", *("number" for _ in summaries)]
+        parts += [page.heading(2, "Side by side"), page.table(head, rows, kinds=kinds)]
+    return parts

@@ -1,0 +1,82 @@
+"""What was asked of the program: the resolved input, key by key, and as text that repeats the run."""
+
+from __future__ import annotations
+
+from html import escape
+from urllib.parse import quote
+
+from rattle.keys import key_table
+from rattle.report import page
+from rattle.result_file import ResultFile
+
+# What matters most of a scene, in the order in which it is told.
+IN_SHORT = (
+    ("load", "mass", "mass of the tooth pair"),
+    ("load", "steady_force", "steady force"),
+    ("load", "force_amplitude", "amplitude of the oscillating force"),
+    ("load", "force_amplitudes", "amplitudes of the oscillating force"),
+    ("load", "frequency", "its frequency"),
+    ("lubricant", "viscosity", "viscosity of the oil"),
+    ("kinematics", "entrainment_speed", "speed at which the flanks draw oil in"),
+    ("contact", "radius", "radius of the contact"),
+    ("contact", "length", "its length"),
+    ("contact", "backlash", "play between the flanks"),
+    ("contact", "stiffness", "stiffness of the teeth"),
+)
+
+
+def in_short(result: ResultFile) -> str:
+    """The few values that a scene is known by; those that a campaign or a sweep varies are not among them."""
+    known = key_table()
+    varied = {name.rpartition(".")[2] for name in result.names if "." in name}
+    if result.task == "sweep":
+        varied.add(result.names[0])
+    parts = []
+    for group, name, words in IN_SHORT:
+        given = result.input.get(group, {}).get(name)
+        if given is None or name in varied:
+            continue
+        unit = known[group, name].unit if (group, name) in known else ""
+        numbers = given if isinstance(given, list) else [given]
+        parts.append(f"{words} {', '.join(page.plain(number, unit) for number in numbers)}")
+    film = result.input.get("film", {})
+    law = " ".join(str(film[name]).strip() for name in ("model", "law") if name in film)
+    if law:
+        parts.append(f"film by the {law} law")
+    words = "; ".join(parts)
+    return f"Asked: {words}. All inputs stand below." if parts else "All inputs stand below."
+
+
+def inputs(result: ResultFile) -> list[str]:
+    """A table of the resolved input with units and meanings."""
+    known = key_table()
+    rows: list[list[str]] = []
+    for group, keys in result.input.items():
+        rows.append([page.code(f"&{group}")])
+        for name, given in keys.items():
+            key = known.get((group, name))
+            unit = key.unit if key else ""
+            meaning = key.meaning.replace("`", "") if key else ""
+            rows.append([page.code(name), page.value(given, unit), meaning.partition(" Only with ")[0]])
+    return [
+        page.paragraph("Every value that the run used, also those that were left at their defaults.", "note"),
+        page.table(("Key", "Value", "Meaning"), rows, kinds=("", "number", "meaning"), kind="explained"),
+    ]
+
+
+def repeat(result: ResultFile, name: str) -> list[str]:
+    """The input as text, and how to run it again."""
+    file = f"{name}.nml"
+    text = result.input_text.rstrip() + "\n"
+    link = (
+        f'<p class="screen"><a download="{escape(file)}" '
+        f'href="data:text/plain;charset=utf-8,{quote(text)}">Save as {escape(file)}</a></p>'
+    )
+    how = f"This text, saved as {file}, repeats the run with: rattle {file}"
+    parts = [page.paragraph(how), link, f'<pre class="input">{escape(text)}</pre>']
+    if "csv" in result.input.get("campaign", {}):
+        csv = str(result.input["campaign"]["csv"]).strip()
+        parts.insert(
+            1, page.paragraph(f"It needs the table of scenes {csv}, which is not part of this page.")
+        )
+    return parts

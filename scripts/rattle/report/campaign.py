@@ -1,0 +1,165 @@
+"""What a report says of a campaign: how often each class is, how scenes ended, where it is worst."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from rattle import rerun
+from rattle.campaign import Campaign
+from rattle.campaign_plan import GRID
+from rattle.campaign_section import new_section
+from rattle.codes import QUANTITIES, word, words_of
+from rattle.figures import campaign_look as look
+from rattle.figures import campaign_map, campaign_slice
+from rattle.report import motion, page
+
+# Columns that are drawn where they are recorded, and what their picture shows.
+DRAWN = {
+    "rattle_class": "Class of the motion over the varied keys. Hatched: no class, because the scene failed "
+    "or is not done.",
+    "certified": "Whether the class stands when the scene is solved again, tighter.",
+    "acceleration_maximum": "Largest acceleration: how hard the tooth is thrown back by the film.",
+    "film_minimum": "Thinnest film: how close the flanks come.",
+    "film_force_rms": "Fluctuation of the force on the bearings of the shaft: how loud.",
+}
+WORST_BY = "acceleration_maximum"
+WORST_COUNT = 10
+EXTRA = ("rattle_class", "film_regime", "certified")
+
+
+def verdict(campaign: Campaign) -> list[str]:
+    counts = counted(campaign, "rattle_class")
+    done = int(campaign.done.sum())
+    most = [f"{name} in {look.share(count, done)} of the scenes" for name, count in counts.most_common(1)]
+    doubt = not campaign.done.all() or bool(campaign.failed.any())
+    box = page.verdict_box("".join(most) or "no class", None, list(sentences_on(campaign)), doubt=doubt)
+    return [box, motion.class_meanings(name for name, _ in counts.most_common())]
+
+
+def sentences_on(campaign: Campaign) -> Iterator[str]:
+    done, failed = int(campaign.done.sum()), int(campaign.failed.sum())
+    yield f"{done} of {campaign.row_count} scenes are solved; {failed} of them failed."
+    counts = counted(campaign, "rattle_class")
+    if counts:
+        shares = [f"{name} in {count} ({look.share(count, done)})" for name, count in counts.most_common()]
+        yield f"Class of the motion: {', '.join(shares)}."
+    else:
+        yield "The class was not recorded."
+    if "certified" in campaign:
+        certified, lacking = certificates(campaign)
+        yield (
+            f"The class is certified in {certified} scenes: solved again, tighter, it is the same. "
+            f"In {lacking} it is uncertain."
+        )
+    else:
+        yield "Whether the classes stand when the scenes are solved again, tighter, was not recorded."
+    if "law_contradicted" in campaign:
+        count = int((campaign["law_contradicted"][campaign.done] == 1.0).sum())
+        yield f"In {count} scenes the film law is not the one of the regime that the motion reaches."
+    elif "film_regime" in campaign:
+        regimes = counted(campaign, "film_regime").most_common()
+        yield f"Regime of the film: {', '.join(f'{name} in {count}' for name, count in regimes)}."
+    for name, sentence in (
+        (
+            "stiffness_matters",
+            "In {count} scenes the stiffness of the teeth matters: a rigid tooth is no fair assumption.",
+        ),
+        ("double_sided", "In {count} scenes the tooth strikes both flanks of its gap."),
+    ):
+        if name in campaign:
+            yield sentence.format(count=int((campaign[name][campaign.done] == 1.0).sum()))
+
+
+def certificates(campaign: Campaign) -> tuple[int, int]:
+    """How many classes are certified, and how many are not."""
+    flags = campaign["certified"][campaign.done]
+    return int((flags == 1.0).sum()), int((flags == 0.0).sum())
+
+
+def counted(campaign: Campaign, column: str) -> Counter[str]:
+    """How often each word of a column of codes is, over the scenes that are done and have one."""
+    if column not in campaign:
+        return Counter()
+    codes = campaign[column][campaign.done]
+    return Counter(word(column, code) for code in codes[np.isfinite(codes)].tolist())
+
+
+def figures(campaign: Campaign) -> list[str]:
+    """Maps over the first two varied keys, or slices along the only one."""
+    if campaign.kind == GRID and len(campaign.varied) == 1:
+        columns = [name for name in DRAWN if name in campaign and name != "certified"]
+        caption = f"Along {look.short_name(campaign.varied[0])}. Crosses: scenes that failed."
+        section = new_section(campaign, campaign.varied, {})
+        draw = partial(campaign_slice.draw, section, columns)
+        return [page.drawing(draw, caption, f"{campaign.name} slice")]
+    if len(campaign.varied) == 1:
+        return [page.paragraph("A sample of one key only has no map.", "note")]
+    x, y = campaign.varied[:2]
+    drawn = []
+    for name, words in DRAWN.items():
+        if name not in campaign:
+            continue
+        contours = campaign_map.CONTOURS if name == "rattle_class" else ()
+        options = campaign_map.Options(contours)
+        if campaign.kind == GRID:
+            section = new_section(campaign, (x, y), {})
+            held = f" Held: {section.words}." if section.held else ""
+            draw = partial(campaign_map.draw, section, name, options)
+        else:
+            held = ""
+            draw = partial(campaign_map.draw_points, campaign, x, y, name, options)
+        drawn.append(page.drawing(draw, words + held, f"{campaign.name} {name}"))
+    return drawn
+
+
+def keys_table(campaign: Campaign) -> str:
+    """What was varied, and between which values."""
+    rows = []
+    for axis in campaign.axes:
+        ends = (
+            [page.value(float(end), axis.unit) for end in axis.values[[0, -1]]]
+            if axis.values.size
+            else ["-", "-"]
+        )
+        count = str(axis.values.size) if campaign.kind == GRID else "-"
+        rows.append([page.code(axis.key), *ends, axis.scale, count])
+    kinds = ("", "number", "number", "", "number")
+    return page.table(("Varied key", "First", "Last", "Scale", "Values"), rows, kinds=kinds)
+
+
+def tables(campaign: Campaign) -> list[str]:
+    """The worst scenes, and the range of every quantity."""
+    parts = []
+    if WORST_BY in campaign:
+        parts += [page.heading(3, f"Scenes with the largest {look.short_name(WORST_BY)}"), worst(campaign)]
+    kept = campaign.done & ~campaign.failed
+    rows = [
+        (name, QUANTITIES[name].meaning, campaign.units[name], campaign[name][kept])
+        for name in campaign.names
+        if name in QUANTITIES and words_of(name) is None
+    ]
+    return [*parts, page.heading(3, "Range of each quantity"), page.ranges(rows)]
+
+
+def worst(campaign: Campaign) -> str:
+    extra = [name for name in EXTRA if name in campaign]
+    heads = [
+        "Scene",
+        *map(look.short_name, campaign.varied),
+        look.short_name(WORST_BY),
+        *map(look.short_name, extra),
+    ]
+    rows = []
+    for row in rerun.extreme_rows(campaign, WORST_BY, WORST_COUNT):
+        numbers = [
+            page.value(float(campaign[key][row]), campaign.units[key]) for key in (*campaign.varied, WORST_BY)
+        ]
+        rows.append(
+            [str(int(campaign["scene"][row])), *numbers, *(word(name, campaign[name][row]) for name in extra)]
+        )
+    kinds = ("number", *("number" for _ in campaign.varied), "number", *("" for _ in extra))
+    return page.table(heads, rows, kinds=kinds)

@@ -1,0 +1,314 @@
+"""What a report says of one motion; every number is one of its summary."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from rattle.codes import QUANTITIES, STATUSES, SUCCESSES
+from rattle.figures import histories, spectra, style
+from rattle.keys import unit_of
+from rattle.report import page
+from rattle.result import Result
+from rattle.result_file import ResultFile
+from rattle.summary import Summary, read_summary
+from rattle.verdict import forced
+
+SHOWN_PERIODS = 4
+HARMONICS_SHOWN = 12
+# Keys of a summary that are no quantities: what they are, and their unit.
+COMPUTED = {
+    "program_version": ("Version of rattle", ""),
+    "law": ("Film law", ""),
+    "model": ("Film model: published, the formulas of the paper; reynolds, exact", ""),
+    "speed_used": ("Speed that the film was computed with", "m/s"),
+    "speed_meaning": ("That speed is", ""),
+    "status_time": ("Time at which the run ended", "s"),
+    "film_at_status_time": ("Film at that time", "m"),
+    "wall_seconds": ("Time that the computation took", "s"),
+}
+ERRORS = {
+    "film_minimum": "film_minimum_error",
+    "film_maximum": "film_maximum_error",
+    "acceleration_minimum": "acceleration_minimum_error",
+    "acceleration_maximum": "acceleration_maximum_error",
+}
+# What is said of each class. Words in braces are numbers of summary or input.
+CLASSES = {
+    "quiet": "Quiet: the tooth follows the force smoothly. What its acceleration adds to the lines of the "
+    "force is small: "
+    "a harmonic distortion of {harmonic_distortion}, below the limit of {quiet_limit}.",
+    "creep": "Creep rattle: the tooth rolls through the oil film rather than beats. {lines} of the "
+    "acceleration "
+    "stand above {threshold}, fewer than the {idle_lines} from which on it is idle rattle.",
+    "idle": "Idle rattle: the tooth beats. {lines} of the acceleration stand above {threshold}; "
+    "{idle_lines} or more make it idle "
+    "rattle: short impacts, whose sound reaches far up in frequency.",
+    "irregular": "Irregular rattle: no period of the motion is like the one before. A share of "
+    "{irregular_fraction} of the "
+    "power of the acceleration lies off the harmonics of the force; {irregular_limit} is the limit.",
+    "subharmonic": "Subharmonic rattle: the motion repeats, but only after {orbit_period} periods of the "
+    "force.",
+}
+# The same words without numbers, for several motions.
+CLASS_MEANINGS = {
+    "quiet": "The tooth follows the force smoothly.",
+    "creep": "The tooth rolls through the oil film; few harmonics of the acceleration stand out.",
+    "idle": "The tooth beats: short impacts, many harmonics, a sound that reaches far up in frequency.",
+    "irregular": "No period of the motion is like the one before.",
+    "subharmonic": "The motion repeats only after several periods of the force.",
+}
+REGIMES = {
+    "iso-viscous": "The pressure in the film hardly thickens the oil (iso-viscous regime).",
+    "piezo-viscous": "The pressure in the film thickens the oil, and the flanks stay rigid (piezo-viscous "
+    "regime).",
+    "elastohydrodynamic": "The pressure in the film is too high for rigid flanks: either no piezo-viscous "
+    "film exists "
+    "between them, or they give way by more than a tenth of the film (elastohydrodynamic regime).",
+}
+CONTRADICTED = (
+    "The film law of this scene ({law}) is not the one of that regime. What is said here is true within "
+    "the model; "
+    "whether the model holds at this load is another question."
+)
+LIMITS = {
+    "too_wide": "The film grows beyond a tenth of the radius, where the model of a line contact ends.",
+    "too_narrow": "The film falls below 1 nm, where no oil film is left.",
+    "too_wide_and_narrow": "The film grows beyond a tenth of the radius and falls below 1 nm, where the "
+    "model ends.",
+}
+STABILITIES = {
+    "unstable": "A periodic motion was found, but it is unstable: small disturbances lead away from it."
+}
+# Quantities that tell of teeth that give way and of the other flank, where a summary has them.
+REMARKS = {
+    "stiffness_matters": (
+        "The stiffness of the teeth matters: a rigid tooth is no fair assumption for this motion.",
+        "The stiffness of the teeth hardly matters: a rigid tooth is a fair assumption for this motion.",
+    ),
+    "double_sided": (
+        "The tooth strikes both flanks of its gap (double-sided rattle).",
+        "The tooth strikes one flank only; the flank on the other side of the gap is not reached.",
+    ),
+}
+REMARK_WORDS = ("stiffness", "deflection", "double_sided", "coast", "backlash")
+
+
+def summary_of(result: ResultFile) -> Summary | None:
+    return read_summary(result.summary_path) if result.summary_path.exists() else None
+
+
+def verdict(result: Result, summary: Summary | None) -> list[str]:
+    """The class, its certificate, and what must be known beside it."""
+    if summary is None:
+        words = f"No summary stands beside {result.path.name}: its class and errors are not known here."
+        return [page.verdict_box("No verdict", None, [words], doubt=True)]
+    sentences = list(verdict_sentences(result, summary))
+    word = str(summary.get("rattle_class", "no class")).strip()
+    badge = badge_of(summary)
+    ended = str(summary["status"]).strip() in _ended_well()
+    return [page.verdict_box(word, badge, sentences, doubt=not ended or badge[0] == "doubt")]
+
+
+def badge_of(summary: Summary) -> tuple[str, str]:
+    """What the certificate of the class says, in a word."""
+    certificate = str(summary.get("certificate", "")).strip()
+    if not certificate:
+        return "open", "not examined"
+    return ("good" if certificate == "certified" else "doubt"), certificate
+
+
+def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
+    """Plain sentences, the most important first."""
+    if str(summary["status"]).strip() not in _ended_well():
+        yield f"The run did not reach its end ({summary['status']}). {summary.get('status_text', '')}".strip()
+    word = str(summary.get("rattle_class", "")).strip()
+    if word in CLASSES:
+        yield CLASSES[word].format_map(_words(result, summary))
+    if "certificate" in summary:
+        yield str(summary.get("certificate_text", "")).strip()
+    elif word:
+        yield (
+            "The scene was not solved a second time, so nothing is known of how far its class can be trusted."
+        )
+    if summary.get("sampling_sufficient") is False:
+        yield "There are too few samples a period for this motion: its lines are not those of the motion."
+    periods = summary.get("orbit_period")
+    if periods and "orbit_stability" in summary:
+        stability = str(summary["orbit_stability"]).strip()
+        every = "every period" if periods == 1 else f"every {periods} periods"
+        yield STABILITIES.get(
+            stability, f"A periodic motion was found: it repeats {every} of the force ({stability})."
+        )
+    yield from regime_sentences(summary)
+    limit = LIMITS.get(str(summary.get("model_limit", "")).strip())
+    if limit:
+        yield limit
+    for name, (if_true, if_false) in REMARKS.items():
+        if name in summary:
+            yield if_true if summary[name] else if_false
+
+
+def class_meanings(words: Iterable[str]) -> str:
+    """What the classes named mean."""
+    rows = [[word, CLASS_MEANINGS[word]] for word in words if word in CLASS_MEANINGS]
+    return page.table(("Class", "Meaning"), rows, kinds=("", "meaning"))
+
+
+def regime_sentences(summary: Summary) -> Iterator[str]:
+    sentence = REGIMES.get(str(summary.get("film_regime", "")).strip())
+    if sentence:
+        yield sentence
+    if summary.get("law_contradicted"):
+        yield CONTRADICTED.format(law=str(summary.get("law", "unknown")).strip())
+
+
+def remarks(summary: Summary) -> list[str]:
+    """Stiffness of the teeth and backlash, as far as the summary tells of them."""
+    names = [name for name in summary if name in QUANTITIES and any(word in name for word in REMARK_WORDS)]
+    return [explained(summary, names)] if names else []
+
+
+def figures(result: Result) -> list[str]:
+    """Film and force, acceleration, and its spectrum."""
+    periods = min(SHOWN_PERIODS, result.whole_periods)
+    runs, labels = [result], style.run_labels([result])
+    salt = result.scene_name
+    return [
+        page.drawing(
+            lambda: histories.draw_acceleration(runs, labels, periods),
+            f"Acceleration over the last {periods} periods of the force. Each sharp peak is an impact on "
+            "the oil film.",
+            f"{salt} acceleration",
+        ),
+        page.drawing(
+            lambda: histories.draw_film_and_force(runs, labels, periods),
+            "Thickness of the oil film between the flanks, over the force that presses and lifts the "
+            "tooth. Where the "
+            "film is thin the flanks are close; where it is thick the tooth is in flight.",
+            f"{salt} film",
+        ),
+        page.drawing(
+            lambda: spectra.draw_acceleration(runs, labels, None),
+            "Lines of the acceleration at multiples of the frequency of the force, linear above and "
+            "logarithmic "
+            "below. The class is judged by how many of them stand out.",
+            f"{salt} spectrum",
+        ),
+    ]
+
+
+def key_figures(summary: Summary) -> str:
+    """The extremes of the motion with their errors."""
+    rows = []
+    for name, error in ERRORS.items():
+        if name in summary:
+            unit = QUANTITIES[name].unit
+            known = page.value(summary[error], unit) if error in summary else "not known"
+            rows.append([_meaning(name).rstrip("."), page.value(summary[name], unit), known])
+    extremes = page.table(("", "Value", "Error at most"), rows, kinds=("", "number", "number"))
+    window = (
+        f"The window is the last {summary['window_periods']} periods of the force."
+        if "window_periods" in summary
+        else ""
+    )
+    return extremes + (page.paragraph(window, "note") if window else "")
+
+
+def quantities(summary: Summary) -> list[str]:
+    """Everything that the summary tells, with its meaning."""
+    plain = [name for name in summary if name in QUANTITIES and not isinstance(summary[name], list)]
+    return [explained(summary, plain), *harmonics(summary)]
+
+
+def explained(summary: Summary, names: list[str]) -> str:
+    """A table of quantities of the summary with their meanings."""
+    rows = [
+        [page.code(name), page.value(summary[name], QUANTITIES[name].unit), _meaning(name)] for name in names
+    ]
+    return page.table(
+        ("Quantity", "Value", "Meaning"), rows, kinds=("", "number", "meaning"), kind="explained"
+    )
+
+
+def harmonics(summary: Summary) -> list[str]:
+    """The first lines of the acceleration."""
+    lines = np.atleast_1d(summary.get("harmonics", []))
+    errors = np.atleast_1d(summary.get("harmonic_errors", []))
+    if not lines.size:
+        return []
+    unit = QUANTITIES["harmonics"].unit
+    rows = []
+    for place, line in enumerate(lines[:HARMONICS_SHOWN].tolist()):
+        error = page.value(errors.tolist()[place], unit) if place < errors.size else "not known"
+        rows.append([str(place + 1), page.value(line, unit), error])
+    more = f"The summary lists {lines.size} of them." if lines.size > len(rows) else ""
+    return [
+        page.heading(3, "Lines of the acceleration"),
+        page.table(
+            ("Multiple of the frequency", "Amplitude", "Error at most"), rows, kinds=("", "number", "number")
+        ),
+        *([page.paragraph(more, "note")] if more else []),
+    ]
+
+
+def computed(result: ResultFile, summary: Summary | None) -> list[str]:
+    """Version, method, accuracy and effort."""
+    solver = result.input.get("solver", {})
+    words = {
+        "newmark": "Newmark's method as in the paper, with steps of equal length",
+        "taylor": "series in time with controlled errors; the steps follow the motion",
+    }
+    rows = [["Version of rattle", page.value(result.program_version)]]
+    if "method" in solver:
+        method = str(solver["method"]).strip()
+        rows.append(["Method", words.get(method, method)])
+    for key, label, unit in (
+        ("accuracy", "Relative accuracy of the film that was aimed at", ""),
+        ("tolerance", "Tolerance of the iteration on the film", "m"),
+        ("steps_per_period", "Steps in a period of the force", ""),
+    ):
+        if key in solver:
+            rows.append([label, page.value(solver[key], unit)])
+    told = summary or {}
+    for name, given in told.items():
+        if name in COMPUTED and name != "program_version":
+            label, unit = COMPUTED[name]
+            rows.append([label, page.value(given, unit)])
+        elif name not in QUANTITIES and name not in (
+            "name",
+            "program_version",
+            "status_text",
+            "certificate",
+            "certificate_text",
+        ):
+            rows.append([name.replace("_", " "), page.value(given, unit_of(name))])
+    return [page.table(("", ""), rows, kinds=("", "number"))]
+
+
+def _ended_well() -> set[str]:
+    return {STATUSES[code] for code in SUCCESSES}
+
+
+def _meaning(name: str) -> str:
+    return QUANTITIES[name].meaning
+
+
+def _words(result: Result, summary: Summary) -> dict[str, str]:
+    """What the sentences on classes speak of."""
+    count = summary.get("line_count", 0)
+    bound = "at least " if summary.get("line_count_is_bound") else ""
+    noun = "harmonic" if count == 1 else "harmonics"
+    limits = result.input.get("spectrum", {})
+    words = {
+        name: f"{limits[name]:g}"
+        for name in ("quiet_limit", "irregular_limit", "idle_lines")
+        if name in limits
+    }
+    for name in ("harmonic_distortion", "irregular_fraction", "orbit_period"):
+        words[name] = f"{summary[name]:.4g}" if name in summary else "unknown"
+    lines = f"{bound}{count} {noun}"
+    largest = "the largest one of the force's own orders" if forced(result) else "the first"
+    words["threshold"] = f"{100.0 * limits.get('line_threshold', 0.0):g} % of {largest}"
+    return words | {"lines": lines[0].upper() + lines[1:]}

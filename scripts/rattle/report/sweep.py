@@ -1,0 +1,132 @@
+"""What a report says of a sweep: where along its key the class changes, on the way there and back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from rattle.codes import SUCCESSES, word
+from rattle.figures import sweep as picture
+from rattle.report import motion, page
+from rattle.result import Result
+
+WAYS = (("there", 1.0), ("back", -1.0))
+SAME_PEAKS = 0.01  # share by which the largest accelerations of one motion differ at most
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Neighbouring motions of one class on one way: first and last value of the key, and their rows."""
+
+    way: str
+    word: str
+    first: float
+    last: float
+    rows: np.ndarray
+
+
+def key_of(result: Result) -> tuple[str, str]:
+    """Name and unit of the swept key."""
+    return result.names[0].replace("_", " "), result.units[result.names[0]]
+
+
+def stretches(result: Result) -> list[Stretch]:
+    """Both ways cut where the class, or whether there is one, changes."""
+    values, failed = result[result.names[0]], ~np.isin(result["status"], SUCCESSES)
+    words = np.array(
+        [
+            f"failed: {word('status', status)}" if bad else word("rattle_class", code)
+            for bad, status, code in zip(failed, result["status"], result["rattle_class"], strict=True)
+        ]
+    )
+    found = []
+    for name, direction in WAYS:
+        rows = np.flatnonzero(result["direction"] == direction)
+        for part in np.split(rows, np.flatnonzero(words[rows][1:] != words[rows][:-1]) + 1):
+            if part.size:
+                found.append(Stretch(name, str(words[part[0]]), values[part[0]], values[part[-1]], part))
+    return found
+
+
+def verdict(result: Result) -> list[str]:
+    sentences = list(sentences_on(result))
+    failed = int((~np.isin(result["status"], SUCCESSES)).sum())
+    names = dict.fromkeys(
+        stretch.word for stretch in stretches(result) if not stretch.word.startswith("failed")
+    )
+    box = page.verdict_box(", ".join(names) or "no class", None, sentences, doubt=failed > 0)
+    return [box, motion.class_meanings(names)]
+
+
+def sentences_on(result: Result) -> Iterator[str]:
+    name, unit = key_of(result)
+    values = result[result.names[0]]
+    failed = int((~np.isin(result["status"], SUCCESSES)).sum())
+    span = f"from {values.min():.6g} to {values.max():.6g} {unit}"
+    yield (
+        f"{result.row_count} steady motions along the {name}, {span}, each from the one before; {failed} "
+        "failed."
+    )
+    both = differing(result)
+    if (result["direction"] < 0.0).any():
+        if both.size:
+            yield (
+                f"The way back differs from the way there at {both.size} values of the {name}, from "
+                f"{both.min():.6g} to "
+                f"{both.max():.6g} {unit}: there are two motions, and which one comes depends on the one "
+                "before."
+            )
+        else:
+            yield "The way back has the motions of the way there."
+    if "orbit_period" in result:
+        longest = int(np.nanmax(result["orbit_period"], initial=0.0))
+        if longest > 1:
+            yield f"Some motions repeat only after several periods of the force, at most {longest}."
+    yield "A sweep gives no certificate of its classes; the single scene at a value of interest does."
+
+
+def differing(result: Result) -> np.ndarray:
+    """Values of the key at which the motion on the way back is another than on the way there."""
+    kept = np.isin(result["status"], SUCCESSES)
+    told = zip(
+        result[result.names[0]], result["direction"], result["rattle_class"], peaks(result), kept, strict=True
+    )
+    there, found = {}, []
+    for value, direction, name, peak, known in told:
+        if not known:
+            continue
+        if direction > 0.0:
+            there[value] = (name, peak)
+        elif value in there and (name != there[value][0] or abs(peak - there[value][1]) > SAME_PEAKS * peak):
+            found.append(value)
+    return np.array(found)
+
+
+def peaks(result: Result) -> np.ndarray:
+    """Largest size of the acceleration of each motion."""
+    return np.maximum(-result["acceleration_minimum"], result["acceleration_maximum"])
+
+
+def tables(result: Result) -> list[str]:
+    """The stretches of one class, with the extremes of their motions."""
+    _, unit = key_of(result)
+    rows = []
+    for part in stretches(result):
+        span = page.Cell(f"{page.value(part.first, unit)} to {page.value(part.last, unit)}")
+        peak = peaks(result)[part.rows].max()
+        least = result["film_minimum"][part.rows].min()
+        extremes = (page.value(least, "m"), page.value(peak, "m/s2"))
+        rows.append([part.way, part.word, span, str(part.rows.size), *extremes])
+    heads = ("Way", "Class", "Values", "Motions", "Thinnest film", "Largest acceleration")
+    return [page.table(heads, rows, kinds=("", "", "", "number", "number", "number"))]
+
+
+def figures(result: Result) -> list[str]:
+    caption = (
+        "Steady motions along the swept key: thinnest and thickest film, largest acceleration, period of "
+        "the motion, "
+        "and how much of a disturbance is left after one period (below 1: the motion is stable)."
+    )
+    return [page.drawing(lambda: picture.draw(result), caption, f"{result.scene_name} sweep")]

@@ -1,0 +1,345 @@
+"""Pages of report.py say what results and summaries say, and nothing else."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import campaign_runs
+import numpy as np
+import pytest
+from report_reader import figures, input_of, number, read_page
+from result_writer import write_motion, write_result
+from script_calls import call_script
+
+import rattle
+from rattle import codes
+from rattle.keys import key_table
+from rattle.report import report as page_on
+
+CALM = {"steps_per_period": None, "method": None, "periods": "60", "accuracy": "1e-6", "until": "'steady'"}
+LOOSE = {"steps_per_period": "20", "periods": "20"}
+
+
+def report(*results: Path) -> Path:
+    """Write the page beside the first result."""
+    output = results[0].with_suffix(".html")
+    output.write_text(page_on(results), encoding="utf-8")
+    return output
+
+
+def with_summary(result: Path, **changes: object) -> None:
+    """Change keys of the summary beside a result as another program would; None leaves a key out."""
+    path = result.with_suffix(".summary.nml")
+    text = path.read_text().partition("! checksum")[0]
+    for key, value in changes.items():
+        text = re.sub(rf"^   {key} = .*\n", "", text, flags=re.MULTILINE)
+        if value is not None:
+            text = text.replace("&summary\n", f"&summary\n   {key} = {value}\n", 1)
+    path.write_text(text)
+
+
+@pytest.fixture
+def motion(solved) -> Path:
+    """A certified motion by the default method."""
+    return solved("calm", solver=CALM) / "calm.rattle"
+
+
+def test_every_number_of_the_summary_stands_on_the_page_as_it_is(motion):
+    page, summary = read_page(report(motion)), rattle.read_summary(motion.with_suffix(".summary.nml"))
+    held = [float(digits) for digits, _ in page.numbers]
+    told = [name for name in summary if name in codes.QUANTITIES and not isinstance(summary[name], list)]
+    assert len(told) > 30
+    for name in told:
+        value, shown = summary[name], page.shown(name)
+        if isinstance(value, bool):
+            assert shown == ("yes" if value else "no"), name
+        elif isinstance(value, str):
+            assert shown == value, name
+        else:
+            assert value in held, name
+            assert number(shown) == pytest.approx(value, rel=1e-5), name
+    for line in summary["harmonics"][:12] + summary["harmonic_errors"][:12]:
+        assert line in held
+
+
+def test_all_numbers_are_shown_as_their_digits_say(motion):
+    page = read_page(report(motion))
+    assert len(page.numbers) > 80
+    for digits, shown in page.numbers:
+        assert number(shown) == pytest.approx(float(digits), rel=1e-5), (digits, shown)
+
+
+def test_every_input_stands_there_with_unit_and_meaning(motion):
+    page, result = read_page(report(motion)), rattle.read(motion)
+    for group, keys in result.input.items():
+        assert [f"&{group}"] in page.rows
+        for name, value in keys.items():
+            rows = [row for row in page.rows if len(row) == 3 and row[0] == name]
+            key = key_table()[group, name]
+            meanings = [row[2] for row in rows]
+            assert key.meaning.replace("`", "").partition(" Only with ")[0] in meanings, (group, name)
+            if isinstance(value, float) and key.unit in ("kg", "N", "Hz", "Pa s"):
+                assert f"{value:g}\xa0{key.unit}" in [row[1] for row in rows]
+
+
+@pytest.mark.parametrize("certificate", ("certified", "uncertain", None))
+def test_certified_stands_there_exactly_if_the_summary_says_so(motion, certificate):
+    text = "'The reason of this test.'"
+    with_summary(
+        motion,
+        certificate=certificate and f"'{certificate}'",
+        certificate_text=certificate and text,
+    )
+    page = read_page(report(motion))
+    assert page.badges == [certificate or "not examined"]
+    assert ("The reason of this test." in page.verdicts[0]) == (certificate is not None)
+    assert ("certified" in page.verdicts[0]) == (certificate == "certified")
+    assert ("not solved a second time" in page.verdicts[0]) == (certificate is None)
+
+
+def test_a_scene_that_was_not_certified_is_not_called_so(solved):
+    result = solved("plain", spectrum={"certify": ".false."}) / "plain.rattle"
+    page = read_page(report(result))
+    assert page.badges == ["not examined"]
+
+
+@pytest.mark.parametrize("word", codes.CLASSES.values())
+def test_the_class_is_the_one_of_the_summary(motion, word):
+    with_summary(motion, rattle_class=f"'{word}'", line_count="17", orbit_period="3")
+    verdict = read_page(report(motion)).verdicts[0]
+    assert verdict.strip().startswith(word)
+    named = {"quiet": "Quiet:", "creep": "Creep rattle:", "idle": "Idle rattle:"}
+    named |= {"irregular": "Irregular rattle:", "subharmonic": "Subharmonic rattle:"}
+    assert [known for known, words in named.items() if words in verdict] == [word]
+    assert ("17 harmonics" in verdict) == (word in ("creep", "idle"))
+    assert ("after 3 periods" in verdict) == (word == "subharmonic")
+
+
+@pytest.mark.parametrize("regime", ("unknown", "iso-viscous", "piezo-viscous", "elastohydrodynamic"))
+@pytest.mark.parametrize("contradicted", (True, False))
+def test_regime_and_law_are_told_as_the_summary_has_them(motion, regime, contradicted):
+    with_summary(motion, film_regime=f"'{regime}'", law_contradicted=f".{contradicted}.".lower())
+    verdict = read_page(report(motion)).verdicts[0]
+    found = re.findall(r"\((\S+) regime\)", verdict)
+    assert found == ([] if regime == "unknown" else [regime])
+    assert ("is not the one of that regime" in verdict) == contradicted
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    (
+        ("model_limit", "'too_narrow'", "falls below 1 nm"),
+        ("model_limit", "'too_wide'", "beyond a tenth of the radius"),
+        ("sampling_sufficient", ".false.", "too few samples"),
+        ("orbit_stability", "'unstable'", "unstable"),
+        ("status", "'film_lost'", "did not reach its end"),
+        ("line_count_is_bound", ".true.", "At least"),
+        ("stiffness_matters", ".true.", "no fair assumption"),
+        ("stiffness_matters", ".false.", "is a fair assumption"),
+        ("double_sided", ".true.", "strikes both flanks"),
+        ("double_sided", ".false.", "strikes one flank only"),
+    ),
+)
+def test_what_must_be_known_beside_the_class_is_told_only_where_it_is_so(motion, key, value, words):
+    with_summary(motion, rattle_class="'idle'", stiffness_matters=None, double_sided=None)
+    assert words not in read_page(report(motion)).verdicts[0]
+    with_summary(motion, **{key: value})
+    assert words in read_page(report(motion)).verdicts[0]
+
+
+def test_without_a_summary_there_is_no_verdict(motion):
+    motion.with_suffix(".summary.nml").unlink()
+    page = read_page(report(motion))
+    assert page.verdicts[0].strip().startswith("No verdict")
+    assert page.badges == []
+
+
+def test_the_page_stands_alone(motion):
+    text = report(motion).read_text()
+    targets = re.findall(r'\b(?:src|href|xlink:href)="([^"]*)"', text)
+    assert all(target.startswith(("#", "data:")) for target in targets)
+    outside = re.findall(r"url\(([^)]*)\)", text)
+    assert all(target.startswith("#") for target in outside)
+    assert not re.search(r"<(script|link|iframe|img)\b|@import", text)
+
+
+def test_figures_are_drawings_whose_parts_are_all_there(motion):
+    drawn = figures(report(motion))
+    assert len(drawn) == 3
+    for svg in drawn:
+        ids = re.findall(r'\bid="([^"]+)"', svg)
+        assert len(ids) == len(set(ids))
+        used = re.findall(r'href="#([^"]+)"', svg) + re.findall(r"url\(#([^)]+)\)", svg)
+        assert used and set(used) <= set(ids)
+        assert 'role="img"' in svg and "viewBox" in svg
+
+
+def test_same_results_give_the_same_page(motion):
+    first = report(motion)
+    other = motion.with_name("other.html")
+    done = call_script("report.py", motion, "--output", other, TZ="Asia/Tokyo")
+    assert (done.returncode, done.stdout, done.stderr) == (0, f"{other}\n", "")
+    assert other.read_bytes() == first.read_bytes()
+
+
+def test_the_input_on_the_page_repeats_the_run(motion, run, tmp_path):
+    (tmp_path / "again.nml").write_text(input_of(report(motion)))
+    ended = run("again.nml", "--output", "again", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    again, first = rattle.read(tmp_path / "again" / "calm.rattle"), rattle.read(motion)
+    for name in first.names:
+        np.testing.assert_array_equal(again[name], first[name])
+
+
+def test_how_it_was_computed_is_that_of_the_input(solved):
+    page = read_page(report(solved("loose", solver=LOOSE) / "loose.rattle"))
+    assert page.shown("Method").startswith("Newmark")
+    assert page.shown("Steps in a period of the force") == "20"
+    page = read_page(report(solved("calm", solver=CALM) / "calm.rattle"))
+    assert page.shown("Method").startswith("series")
+    assert number(page.shown("Relative accuracy of the film that was aimed at")) == 1e-6
+
+
+def test_a_sweep_is_cut_where_its_class_changes(tmp_path):
+    columns = [
+        ("frequency", "Hz"),
+        ("direction", "-"),
+        ("status", "-"),
+        ("film_minimum", "m"),
+        ("film_maximum", "m"),
+    ]
+    columns += [("acceleration_minimum", "m/s2"), ("acceleration_maximum", "m/s2"), ("rattle_class", "-")]
+    columns += [("orbit_period", "-"), ("floquet_modulus", "-"), ("line_count", "-")]
+    rows = [
+        [100.0, 1, 1, 4e-7, 2e-6, -5.0, 30.0, 2, 1, 0.5, 7],
+        [200.0, 1, 1, 3e-7, 2e-6, -5.0, 40.0, 2, 1, 0.5, 8],
+        [300.0, 1, 1, 2e-7, 2e-6, -5.0, 50.0, 3, 2, 0.5, 30],
+        [400.0, 1, 3, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0],
+        [300.0, -1, 1, 2e-7, 2e-6, -5.0, 50.0, 3, 2, 0.5, 30],
+        [200.0, -1, 1, 1e-7, 2e-6, -77.0, 40.0, 3, 1, 0.5, 30],
+        [100.0, -1, 1, 4e-7, 2e-6, -5.0, 30.2, 2, 1, 0.5, 7],
+    ]
+    text = "&scene\n name = 'up'\n task = 'sweep'\n/\n&film\n law = 'iso-viscous'\n/\n"
+    text += "&sweep\n key = 'frequency'\n/\n"
+    page = read_page(report(write_result(tmp_path / "up.rattle", columns, rows, input_text=text)))
+    cut = [row[:4] for row in page.rows if row and row[0] in ("there", "back")]
+    assert cut == [
+        ["there", "creep", "100\xa0Hz to 200\xa0Hz", "2"],
+        ["there", "idle", "300\xa0Hz to 300\xa0Hz", "1"],
+        ["there", "failed: film_lost", "400\xa0Hz to 400\xa0Hz", "1"],
+        ["back", "idle", "300\xa0Hz to 200\xa0Hz", "2"],
+        ["back", "creep", "100\xa0Hz to 100\xa0Hz", "1"],
+    ]
+    extremes = [[number(cell) for cell in row[4:6]] for row in page.rows if row and row[0] == "back"]
+    np.testing.assert_allclose(extremes, [[1e-7, 77.0], [4e-7, 30.2]])
+    assert "1 failed" in page.verdicts[0]
+    assert "differs from the way there at 1 values of the frequency, from 200 to 200 Hz" in page.verdicts[0]
+    assert "at most 2" in page.verdicts[0]
+    assert "no certificate" in page.verdicts[0]
+
+
+@pytest.mark.parametrize("record", ("'rattle_class', 'acceleration_maximum', 'film_minimum'", "+certified"))
+def test_a_campaign_is_counted(run, scene_text, tmp_path, record):
+    with_certificates = record == "+certified"
+    if with_certificates:
+        record = "'rattle_class', 'certified', 'acceleration_maximum'"
+    (tmp_path / "scene.nml").write_text(campaign_runs.grid(scene_text, 5, 4, campaign={"record": record}))
+    path = campaign_runs.solve(run, tmp_path)
+    page, campaign = read_page(report(path)), rattle.read_campaign(path)
+    assert "20 of 20 scenes are solved; 0 of them failed." in page.verdicts[0]
+    for code, word in codes.CLASSES.items():
+        count = int((campaign["rattle_class"] == code).sum())
+        assert (f"{word} in {count} (" in page.verdicts[0]) == (count > 0)
+    if with_certificates:
+        certified = int((campaign["certified"] == 1.0).sum())
+        assert f"certified in {certified} scenes" in page.verdicts[0]
+        assert f"In {20 - certified} it is uncertain" in page.verdicts[0]
+    else:
+        assert "was not recorded" in page.verdicts[0]
+        assert "certified" not in page.verdicts[0]
+    peaks = np.sort(campaign["acceleration_maximum"])[::-1]
+    numbers = [float(digits) for digits, _ in page.numbers]
+    assert all(peak in numbers for peak in peaks[:10])
+    assert peaks[11] not in numbers
+    assert float(np.median(peaks)) in numbers
+    assert len(figures(path.with_suffix(".html"))) == 3
+
+
+def test_a_campaign_that_is_not_finished_says_so(run, scene_text, tmp_path):
+    (tmp_path / "scene.nml").write_text(campaign_runs.grid(scene_text, 3, 3))
+    path = campaign_runs.solve(run, tmp_path)
+    part = path.read_bytes()
+    path.write_bytes(part[:24] + b"\xff" * 8 + part[32:])
+    assert "was not finished" in read_page(report(path)).words
+
+
+def test_a_film_task_has_its_figures_and_ranges(run, repository, tmp_path):
+    ended = run("--output", tmp_path, repository / "input" / "film.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    output = report(tmp_path / "film.rattle")
+    page, result = read_page(output), rattle.read(tmp_path / "film.rattle")
+    assert len(figures(output)) == 4
+    numbers = [float(digits) for digits, _ in page.numbers]
+    for name in ("load_published", "stiffness_iso_viscous"):
+        assert float(result[name].min()) in numbers and float(result[name].max()) in numbers
+    assert not any(row[:1] == ["Method"] for row in page.rows)
+
+
+def test_several_results_share_a_page(motion, solved):
+    other = solved("loose", solver=LOOSE) / "loose.rattle"
+    page = read_page(report(motion, other))
+    assert page.headings[0] == "Rattle of 2 results"
+    assert [anchor for anchor in page.anchors if anchor] == ["result-1", "result-2"]
+    assert len(page.badges) == len(page.verdicts) == 2
+    assert ["", "calm", "loose"] in page.rows
+
+
+def test_a_motion_without_the_columns_of_a_figure_says_so(tmp_path):
+    path = write_motion(tmp_path / "bare.rattle", lines={1.0: 2.0}, without="acceleration")
+    output = report(path)
+    assert "No figure here" in read_page(output).words
+    assert len(figures(output)) == 1
+
+
+def test_names_cannot_break_the_page(tmp_path):
+    path = write_motion(tmp_path / "a.rattle", lines={1.0: 2.0}, name="<b>&amp;x")
+    text = report(path).read_text()
+    assert "<b>" not in text
+    assert "&lt;b&gt;&amp;amp;x" in text
+
+
+def test_what_is_no_result_is_refused_in_one_sentence(tmp_path):
+    (tmp_path / "a.rattle").write_text("nothing")
+    done = call_script("report.py", tmp_path / "a.rattle", "--output", tmp_path / "a.html")
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1 and "is not a rattle result file" in done.stderr
+    assert not (tmp_path / "a.html").exists()
+
+
+def test_a_result_is_never_replaced_by_its_page(motion):
+    before = motion.read_bytes()
+    for options in (("--output", motion), ("--output", motion.with_suffix(".html"), "--pdf", motion)):
+        done = call_script("report.py", motion, *options)
+        assert done.returncode == 2 and "is a result itself" in done.stderr
+    assert motion.read_bytes() == before
+
+
+def test_without_a_browser_the_page_is_there_and_the_pdf_is_not(motion, tmp_path):
+    pdf, output = tmp_path / "a.pdf", tmp_path / "a.html"
+    done = call_script("report.py", motion, "--output", output, "--pdf", pdf, PATH=str(tmp_path))
+    assert done.returncode == 2
+    assert output.exists() and not pdf.exists()
+    assert done.stderr.count("\n") == 1 and "no browser" in done.stderr
+
+
+def test_a_browser_that_fails_is_named(motion, tmp_path):
+    browser = tmp_path / "chromium"
+    browser.write_text("#!/bin/sh\necho 'no display today' >&2\nexit 3\n")
+    browser.chmod(0o755)
+    output = tmp_path / "a.html"
+    done = call_script(
+        "report.py", motion, "--output", output, "--pdf", tmp_path / "a.pdf", PATH=f"{tmp_path}:/bin"
+    )
+    assert done.returncode == 2
+    assert "chromium failed (no display today)" in done.stderr
