@@ -14,7 +14,7 @@ module solve_chunk
    use many_motions, only: solve_motions
    use memory_need, only: window_bytes
    use node_extremes, only: seen_pressure, seen_quantities
-   use problem, only: accelerations_of_samples, problem_t
+   use problem, only: accelerations_of_samples, problem_t, thinner_film
    use rattle_class, only: classify_steps, note_orbit
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: need_count, needs_certificate, needs_regime, needs_spectrum, quantity_table
@@ -22,7 +22,7 @@ module solve_chunk
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use sampling, only: chunk_values, largest_value, sample_plan_t
    use scene_status, only: is_success, status_invalid
-   use scene_types, only: scene_t
+   use scene_types, only: least_static_load, scene_t
    use schedule, only: cost_order
    use signals, only: must_stop
    use varied_keys, only: varied_code
@@ -331,7 +331,7 @@ contains
       if (.not. resolved%steady_film > 0.0_dp) return
       oscillations = resolved%natural_frequency/scene%load%frequency
       settling = 1.0_dp/max(resolved%damping_ratio*oscillations, 1.0e-3_dp)
-      ratio = min(largest_oscillation(force_of(scene%load))/scene%load%static_load(), largest_ratio)
+      ratio = min(largest_oscillation(force_of(scene%load))/max(abs(scene%load%static_load()), least_static_load), largest_ratio)
       likely_cost = (1.0_dp + oscillations*(1.0_dp + resolved%damping_ratio))* &
                     (4.0_dp + settling + irregular_share*ratio**5*settling**2)
    end function likely_cost
@@ -389,7 +389,8 @@ contains
       judged%extremes = extremes_of_record(record)
       judged%loudness = loudness_of_record(record, scene%load%frequency)
       associate (pressure => record%highest(seen_pressure))
-         if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%problem%film, pressure%value, pressure%film)
+         if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%problem%film, pressure%value, &
+                                                                thinner_film(judged%resolved%problem, pressure%film))
       end associate
       if (needed(needs_certificate)) call test_class(scene, judged%resolved, request_of(scene, needed), judged%rattle, &
                                                      judged%certificate, error)

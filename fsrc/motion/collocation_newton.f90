@@ -23,7 +23,7 @@ module collocation_newton
       real(dp), dimension(lanes) :: change = huge(1.0_dp), imbalance = huge(1.0_dp)
    end type newton_pass_t
 
-   public :: stage_states, scaled_load, residual_and_matrix, solve_lanes, correct, allowed
+   public :: stage_states, scaled_load, residual_and_matrix, solve_lanes, correct, allowed, thinner
 
 contains
 
@@ -57,7 +57,7 @@ contains
       end do
    end subroutine stage_states
 
-   !> Load of the film law and its slopes in scaled units.
+   !> Net load and its slopes in scaled units.
    pure subroutine scaled_load(film_law, block, lane, film, momentum, load, by_film, by_momentum)
       type(film_t), intent(in) :: film_law
       type(lane_block_t), intent(in) :: block
@@ -71,9 +71,16 @@ contains
       real(dp), intent(out) :: by_film
       real(dp), intent(out) :: by_momentum
 
+      real(dp) :: coast_load, coast_by_film, coast_by_momentum
+
       call film_load(film_law, film*block%film_scale(lane), momentum*block%velocity_scale(lane), load, &
                      by_film, by_momentum)
       call scale_load(block, lane, load, by_film, by_momentum)
+      if (.not. block%backlash(lane) < huge(1.0_dp)) return
+      call film_load(film_law, (block%backlash(lane) - film)*block%film_scale(lane), -momentum*block%velocity_scale(lane), &
+                     coast_load, coast_by_film, coast_by_momentum)
+      call scale_load(block, lane, coast_load, coast_by_film, coast_by_momentum)
+      call subtract_coast(coast_load, coast_by_film, coast_by_momentum, load, by_film, by_momentum)
    end subroutine scaled_load
 
    !> Load and slopes from physical units to scaled ones; a load that is none stays as it is.
@@ -92,7 +99,27 @@ contains
       end if
    end subroutine scale_load
 
-   !> Loads at the nodes of all busy lanes, up to the first node where there is no film.
+   !> Take the load of the coast film off that of the drive film; where there is none of it there is no net load.
+   pure subroutine subtract_coast(coast_load, coast_by_film, coast_by_momentum, load, by_film, by_momentum)
+      !> Load of the coast film [-], its slopes in its own thickness and velocity
+      real(dp), intent(in) :: coast_load
+      real(dp), intent(in) :: coast_by_film
+      real(dp), intent(in) :: coast_by_momentum
+      !> Of the drive film, then of both
+      real(dp), intent(inout) :: load
+      real(dp), intent(inout) :: by_film
+      real(dp), intent(inout) :: by_momentum
+
+      if (abs(load) < overflow_load .and. abs(coast_load) < overflow_load) then
+         load = load - coast_load
+         by_film = by_film + coast_by_film
+         by_momentum = by_momentum + coast_by_momentum
+      else
+         load = 2.0_dp*overflow_load
+      end if
+   end subroutine subtract_coast
+
+   !> Net loads at the nodes of all busy lanes, up to the first node where there is no film.
    pure subroutine loads_of_stages(films, film, momentum, block, busy, load, by_film, by_momentum)
       type(film_t), intent(in) :: films(lanes)
       real(dp), intent(in) :: film(lanes, stages)
@@ -114,7 +141,7 @@ contains
       do l = 1, lanes
          if (.not. busy(l)) cycle
          do i = 1, stages
-            if (.not. film(l, i) > 0.0_dp) exit
+            if (.not. thinner(film(l, i), l, block) > 0.0_dp) exit
             n = n + 1
             lane_of(n) = l
             stage_of(n) = i
@@ -130,7 +157,37 @@ contains
          by_film(l, stage_of(i)) = by_thickness(i)
          by_momentum(l, stage_of(i)) = by_velocity(i)
       end do
+      n = 0
+      do l = 1, lanes
+         if (.not. (busy(l) .and. block%backlash(l) < huge(1.0_dp))) cycle
+         do i = 1, stages
+            if (.not. thinner(film(l, i), l, block) > 0.0_dp) exit
+            n = n + 1
+            lane_of(n) = l
+            stage_of(n) = i
+            thickness(n) = (block%backlash(l) - film(l, i))*block%film_scale(l)
+            velocity(n) = -momentum(l, i)*block%velocity_scale(l)
+         end do
+      end do
+      if (n == 0) return
+      call mixed_film_loads(films, lane_of(:n), thickness(:n), velocity(:n), loads(:n), by_thickness(:n), by_velocity(:n))
+      do i = 1, n
+         l = lane_of(i)
+         call scale_load(block, l, loads(i), by_thickness(i), by_velocity(i))
+         call subtract_coast(loads(i), by_thickness(i), by_velocity(i), load(l, stage_of(i)), by_film(l, stage_of(i)), &
+                             by_momentum(l, stage_of(i)))
+      end do
    end subroutine loads_of_stages
+
+   !> The thinner one of the films of both flanks [-].
+   pure real(dp) function thinner(film, lane, block)
+      !> H [-]
+      real(dp), intent(in) :: film
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      thinner = min(film, block%backlash(lane) - film)
+   end function thinner
 
    !> Newton's equations of all busy lanes; a lane whose film law has no value is given up, and gets equations
    !> that change nothing, as do the lanes that are done beside busy ones.
@@ -154,8 +211,8 @@ contains
       do l = 1, lanes
          do i = 1, stages
             if (.not. busy(l)) exit
-            if (film(l, i) > 0.0_dp) block%no_load(l) = .not. abs(load(l, i)) < overflow_load
-            busy(l) = film(l, i) > 0.0_dp .and. .not. block%no_load(l)
+            if (thinner(film(l, i), l, block) > 0.0_dp) block%no_load(l) = .not. abs(load(l, i)) < overflow_load
+            busy(l) = thinner(film(l, i), l, block) > 0.0_dp .and. .not. block%no_load(l)
             if (busy(l)) residual(l, i) = load(l, i) - force(l, i) - k(l, i)
          end do
          if (busy(l)) then
@@ -251,7 +308,7 @@ contains
          k(l, :) = k(l, :) + correction(l, :)
          change = maxval(abs(correction(l, :)))
          film_change = change*block%step(l)/allowed(block%film(l, 0), l, block) &
-            *min(block%step(l), momentum_weight(block%film(l, 0), block%damping_rate(l), block%force(l)))
+            *min(block%step(l), momentum_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l)))
          ! From the second pass on: the next correction will be smaller by the same factor at least, and where
          ! corrections fall fast by its square, if the slopes of the film law are the total ones. But not where a
          ! correction went too far, to where the film is stiff: the ones that lead back are small, and many.
@@ -274,7 +331,7 @@ contains
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
 
-      allowed = max(block%accuracy(lane)*film_weight(film), rounding*film)
+      allowed = max(block%accuracy(lane)*film_weight(thinner(film, lane, block)), rounding*film)
    end function allowed
 
 end module collocation_newton

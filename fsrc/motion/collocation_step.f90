@@ -21,7 +21,8 @@
 !> other. The measure of these is that of the Taylor series (taylor_step_control), with the least damping rate
 !> of the step and the least film that counts as one at its nodes.
 module collocation_step
-   use collocation_newton, only: allowed, correct, newton_pass_t, residual_and_matrix, scaled_load, solve_lanes, stage_states
+   use collocation_newton, only: allowed, correct, newton_pass_t, residual_and_matrix, scaled_load, solve_lanes, stage_states, &
+      thinner
    use film_law, only: film_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
@@ -159,7 +160,7 @@ contains
          if (block%trust(l) > 0.0_dp) then
             polynomial = matmul(power, k(l, :))
             call highest_terms(polynomial, top, next)
-            weight = momentum_weight(block%film(l, 0), block%damping_rate(l), block%force(l))
+            weight = momentum_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l))
             error = max(top/last_share, next/next_share)*block%step(l) &
                *max(block%step(l)/real(4*stages**2, dp), weight/real(2*stages, dp))
             between = abs(at_start(polynomial) - block%acceleration(l))*twice_between*block%step(l)**2
@@ -167,7 +168,8 @@ contains
                /min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
                     allowed(maxval(film(l, :)), l, block))
             growth = max(least_growth, min(most_growth, 0.9_dp/sqrt(sqrt(sqrt(max(error, tiny(1.0_dp)))))))
-            if (.not. error <= 1.0_dp .or. minval(film(l, :)) <= 0.0_dp) block%trust(l) = 0.0_dp
+            if (.not. error <= 1.0_dp .or. &
+                min(minval(film(l, :)), block%backlash(l) - maxval(film(l, :))) <= 0.0_dp) block%trust(l) = 0.0_dp
          end if
          block%proposed(l) = growth*block%step(l)
          if (block%trust(l) > 0.0_dp) then

@@ -74,7 +74,7 @@ contains
          calm = merge(1.0_dp, 0.0_dp, block%remaining(l) > 0.0_dp) &
             *merge(1.0_dp, 0.0_dp, block%limit(l) > shortest_step) &
             *merge(1.0_dp, 0.0_dp, block%period_steps(l) <= most_steps) &
-            *merge(1.0_dp, 0.0_dp, block%film(l, 0) > lost_film) &
+            *merge(1.0_dp, 0.0_dp, min(block%film(l, 0), block%backlash(l) - block%film(l, 0)) > lost_film) &
             *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_rate)
          quiet = quiet + calm
       end do

@@ -8,17 +8,19 @@ module lane_block
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
    use engine, only: motion_state_t
-   use film_law, only: film_load, overflow_load
+   use film_law, only: overflow_load
    use force, only: force_t, largest_oscillation
    use kinds, only: dp
    use lane_force, only: lane_force_t, no_forces, set_force, start_force
    use lane_functions, only: lanes
    use load_expansion, only: load_expansion_t
    use memory, only: allocate_lines
-   use problem, only: problem_t, reference_film, settling_of, settling_t, static_load
+   use problem, only: has_two_flanks, net_load, problem_t, reference_film, rest_film, settling_of, settling_t, static_load, &
+                      thinner_film
    use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
+   use scene_types, only: least_static_load
    use taylor_step_control, only: order
    implicit none(type, external)
    private
@@ -31,6 +33,8 @@ module lane_block
       real(dp) :: force(lanes)
       !> What counts as 1: film [m], velocity [m/s], force [N]
       real(dp) :: film_scale(lanes), velocity_scale(lanes), force_scale(lanes)
+      !> Backlash, scaled; huge where there is one flank
+      real(dp) :: backlash(lanes)
       !> Accuracy [-]
       real(dp) :: accuracy(lanes)
       !> Series of H and V; coefficients 0 are the state
@@ -82,7 +86,8 @@ contains
       real(dp) :: film
 
       lane_accuracy = accuracy
-      film = reference_film(problem)
+      film = rest_film(problem)
+      if (.not. film > 0.0_dp) film = problem%initial_film
       if (.not. (film > 0.0_dp .and. ieee_is_finite(film))) return
       settling = settling_of(problem, film, film)
       lane_accuracy = min(accuracy, max(accuracy*settling%rate, best_accuracy))
@@ -97,8 +102,8 @@ contains
 
       start_status = status_film_lost
       if (.not. (ieee_is_finite(start%film) .and. ieee_is_finite(start%velocity))) return
-      if (start%film <= 0.0_dp) return
-      call film_load(problem%film, start%film, start%velocity, load, load_by_film, load_by_velocity)
+      if (thinner_film(problem, start%film) <= 0.0_dp) return
+      call net_load(problem, start%film, start%velocity, load, load_by_film, load_by_velocity)
       start_status = merge(status_complete, status_overflow, abs(load) < overflow_load)
    end function start_status
 
@@ -132,11 +137,13 @@ contains
       film_scale = 2.0_dp**nint(log(reference_film(problem))/log(2.0_dp))
       force_scale = problem%mass*film_scale*problem%frequency**2
       block%film_scale(lane) = film_scale
+      if (has_two_flanks(problem)) block%backlash(lane) = problem%backlash/film_scale
       block%velocity_scale(lane) = film_scale*problem%frequency
       block%force_scale(lane) = force_scale
       block%static_load(lane) = static_load(problem)/force_scale
       call set_force(problem%force, force_scale, lane, block%oscillation)
       block%force(lane) = abs(block%static_load(lane)) + largest_oscillation(problem%force)/force_scale
+      if (has_two_flanks(problem)) block%force(lane) = max(block%force(lane), least_static_load/force_scale)
       block%accuracy(lane) = lane_accuracy(problem, accuracy)
       block%film(lane, 0) = start%film/film_scale
       block%momentum(lane, 0) = start%velocity/block%velocity_scale(lane)
@@ -150,6 +157,7 @@ contains
       type(lane_block_t), intent(inout) :: block
 
       block%film_scale(lane) = 1.0_dp
+      block%backlash(lane) = huge(1.0_dp)
       block%velocity_scale(lane) = 1.0_dp
       block%force_scale(lane) = 1.0_dp
       block%strength(lane) = 1.0_dp

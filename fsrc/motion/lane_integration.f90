@@ -227,7 +227,8 @@ contains
 
       associate (watch => run%watches(lane), block => run%block)
          watch%ending%status = status_not_converged
-         if (block%film(lane, 0) < lost_film) watch%ending%status = status_film_lost
+         if (min(block%film(lane, 0), block%backlash(lane) - block%film(lane, 0)) < lost_film) &
+            watch%ending%status = status_film_lost
          if (block%no_load(lane)) watch%ending%status = run%films(lane)%status_without_load
          watch%phase = block%phase(lane)
          watch%ending%count%steps = watch%ending%count%steps + nint(block%period_steps(lane), int64)
@@ -312,7 +313,7 @@ contains
 
       in_trouble = .not. (run%block%limit(lane) > shortest_step &
          .and. run%block%period_steps(lane) <= run%most_steps &
-                          .and. run%block%film(lane, 0) > lost_film &
+                          .and. min(run%block%film(lane, 0), run%block%backlash(lane) - run%block%film(lane, 0)) > lost_film &
                           .and. run%block%damping_rate(lane) < run%largest_rate)
    end function in_trouble
 

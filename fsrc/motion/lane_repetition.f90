@@ -18,9 +18,9 @@ module lane_repetition
    use lane_sampling, only: repeat_samples
    use problem, only: problem_t, settling_of, settling_t
    use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, state_of_age, &
-      watch_from
+      watch_from, weight_of_film
    use scene_status, only: status_steady
-   use taylor_step_control, only: film_weight, momentum_weight
+   use taylor_step_control, only: momentum_weight
    implicit none(type, external)
    private
 
@@ -63,9 +63,10 @@ contains
       associate (watch => run%watches(lane), block => run%block)
          ! A run without samples is one to be carried on: there the last state counts like the others.
          if (request%until_steady .and. (watch%period < watch%sample_from .or. request%sampled_periods == 0)) then
-            weight = momentum_weight(watch%film, block%damping_rate(lane), block%force(lane))
+            weight = momentum_weight(min(watch%film, block%backlash(lane) - watch%film), block%damping_rate(lane), &
+                                     block%force(lane))
             call note_state(watch%states, watch%film, watch%momentum, weight, settling_of_lane(lane, problem, run), &
-                            repetition_share*request%accuracy, orbit, distance)
+                            repetition_share*request%accuracy, orbit, distance, block%backlash(lane))
             if (orbit > 0) then
                watch%ending%orbit = orbit
                watch%ending%distance = distance
@@ -204,7 +205,7 @@ contains
       film = 0.0_dp
       momentum = 0.0_dp
       state = state_of_age(watch, 0)
-      weight = [1.0_dp, momentum_weight]/film_weight(state(1))
+      weight = [1.0_dp, momentum_weight]/weight_of_film(watch, state(1))
       ! Longer orbits are looked for now and again: most motions do not have them.
       longest = merge(longest_orbit, 1, modulo(watch%count, longer_every) == 0)
       do periods = 1, longest
@@ -215,7 +216,7 @@ contains
          if (.not. abs(older_multiplier - multiplier) < agreement*(1.0_dp - multiplier)) cycle
          film = state(1) + rest(1)/weight(1)
          momentum = state(2) + rest(2)/weight(2)
-         if (film > 0.0_dp) orbit = periods
+         if (min(film, watch%backlash - film) > 0.0_dp) orbit = periods
          return
       end do
    end subroutine forecast_rest

@@ -2,13 +2,12 @@
 !> for all others and for motions too stiff for explicit steps.
 module many_motions
    use engine, only: ending_t, motion_state_t, request_t
-   use film_law, only: film_load
    use film_series, only: has_series
    use force, only: largest_oscillation
    use kinds, only: dp
    use lane_block, only: lane_accuracy, start_status
    use lane_integration, only: integrate_lanes
-   use problem, only: problem_t, static_load
+   use problem, only: has_two_flanks, net_load, problem_t, static_load
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_film_lost, status_not_converged
    use window_record, only: window_record_t
@@ -45,7 +44,7 @@ contains
       allocate (explicit(size(problems)), left(size(problems)), number(size(problems)))
       number(:) = [(i, i=1, size(problems))]
       explicit(:) = has_series(problems%film, lane_accuracy(problems, request%accuracy)) .and. .not. starts%implicit &
-                    .and. .not. outgrows_series(problems, starts)
+                    .and. .not. has_two_flanks(problems) .and. .not. outgrows_series(problems, starts)
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)
@@ -83,7 +82,7 @@ contains
       if (start%carried_on) return
       if (start_status(problem, start) /= status_complete) return
       if (.not. start%film > thinnest) return
-      call film_load(problem%film, start%film, start%velocity, load, load_by_film, load_by_velocity)
+      call net_load(problem, start%film, start%velocity, load, load_by_film, load_by_velocity)
       load = load + abs(static_load(problem)) + largest_oscillation(problem%force)
       rate = largest_growth*problem%frequency
       outgrows_series = abs(start%velocity) > rate*start%film .or. &

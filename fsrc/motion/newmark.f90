@@ -11,7 +11,7 @@ module newmark
    use film_law, only: film_kernel, overflow_load
    use force, only: force_at
    use kinds, only: dp, int64
-   use problem, only: problem_t
+   use problem, only: net_load, problem_t, thinner_film
    use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
    implicit none(type, external)
@@ -55,7 +55,7 @@ contains
       integer, intent(out) :: status
       real(dp) :: load, load_by_film, load_by_velocity
 
-      call kernel(problem%film, problem%initial_film, problem%initial_velocity, load, load_by_film, load_by_velocity)
+      call net_load(problem, problem%initial_film, problem%initial_velocity, load, load_by_film, load_by_velocity, kernel)
       count%evaluations = count%evaluations + 1
       state%film = problem%initial_film
       state%velocity = problem%initial_velocity
@@ -186,12 +186,12 @@ contains
                   smallest_film
 
       call begin_step(request, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
-      smallest_film = smallest_film_ratio*state%film
+      smallest_film = smallest_film_ratio*thinner_film(problem, state%film)
       status = status_film_lost
       passes = 0
-      if (next%film <= smallest_film) return
+      if (thinner_film(problem, next%film) <= smallest_film) return
       do passes = 1, request%iteration_limit
-         call kernel(problem%film, next%film, next%velocity, load, load_by_film, load_by_velocity)
+         call net_load(problem, next%film, next%velocity, load, load_by_film, load_by_velocity, kernel)
          if (.not. load < overflow_load) then
             status = problem%film%status_without_load
             return
@@ -202,7 +202,7 @@ contains
          old_film = next%film
          next%film = known_film + film_weight*next%acceleration
          next%velocity = known_velocity + velocity_weight*next%acceleration
-         if (next%film <= smallest_film) return
+         if (thinner_film(problem, next%film) <= smallest_film) return
          if (abs(next%film - old_film) < request%tolerance) then
             status = status_complete
             return
@@ -230,12 +230,12 @@ contains
                   smallest_film
 
       call begin_step(request, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
-      smallest_film = smallest_film_ratio*state%film
+      smallest_film = smallest_film_ratio*thinner_film(problem, state%film)
       status = status_film_lost
       passes = 0
-      if (next%film <= smallest_film) return
+      if (thinner_film(problem, next%film) <= smallest_film) return
       do passes = 1, request%iteration_limit
-         call kernel(problem%film, next%film, next%velocity, load, load_by_film, load_by_velocity)
+         call net_load(problem, next%film, next%velocity, load, load_by_film, load_by_velocity, kernel)
          if (.not. load < overflow_load) then
             status = problem%film%status_without_load
             return
@@ -244,7 +244,7 @@ contains
          old_film = next%film
          next%film = known_film + film_weight*next%acceleration
          next%velocity = known_velocity + velocity_weight*next%acceleration
-         if (next%film <= smallest_film) return
+         if (thinner_film(problem, next%film) <= smallest_film) return
          if (abs(next%film - old_film) < request%tolerance) then
             status = status_complete
             return

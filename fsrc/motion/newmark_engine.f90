@@ -8,7 +8,7 @@ module newmark_engine
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use newmark, only: advance_period, newmark_state_t, start_motion
-   use problem, only: problem_t, rest_film, settling_of
+   use problem, only: has_two_flanks, problem_t, rest_film, settling_of, thinner_film
    use repetition, only: note_state, orbit_watch_t
    use scene_status, only: status_complete, status_steady
    use window_record, only: window_record_t
@@ -125,11 +125,15 @@ contains
       type(orbit_watch_t), intent(inout) :: states
       !> Periods after which the motion repeats, 0: not known to, or too many
       integer, intent(out) :: orbit
-      real(dp) :: distance
+      real(dp) :: distance, unit, backlash
 
       ! The film at t = 0 scales the states.
-      call note_state(states, state%film/problem%initial_film, state%velocity/(problem%initial_film*problem%frequency), &
-                      1.0_dp/two_pi, settling_of(problem, state%film, rest_film(problem)), repetition_tolerance, orbit, distance)
+      unit = thinner_film(problem, problem%initial_film)
+      backlash = huge(1.0_dp)
+      if (has_two_flanks(problem)) backlash = problem%backlash/unit
+      call note_state(states, state%film/unit, state%velocity/(unit*problem%frequency), &
+                      1.0_dp/two_pi, settling_of(problem, state%film, rest_film(problem)), repetition_tolerance, orbit, distance, &
+                      backlash)
       if (orbit > periods_left) orbit = 0
    end subroutine look_back
 

@@ -4,18 +4,18 @@
 !> film and velocity are interpolated in the piece of the step, the quantity follows from them by its own law, and the
 !> parabola is renewed until it stands.
 module node_extremes
-   use film_law, only: film_load
-   use film_pressure, only: exact_pressure
    use kinds, only: dp
-   use problem, only: acceleration_at, problem_t
+   use problem, only: acceleration_at, coast_loads, drive_loads, largest_pressures, net_loads, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    use value_range, only: range_of
    implicit none(type, external)
    private
 
-   !> Quantities whose extremes are looked for: h [m], z' [m/s], z'' [m/s2], W [N], largest pressure of the exact film [Pa].
-   integer, parameter, public :: seen_film = 1, seen_velocity = 2, seen_acceleration = 3, seen_load = 4, seen_pressure = 5
-   integer, parameter, public :: seen_quantities = 5
+   !> Quantities whose extremes are looked for: h [m], z' [m/s], z'' [m/s2], load of the drive film [N], largest pressure of the
+   !> exact films [Pa]; and where there are two flanks load of the coast film and net load [N].
+   integer, parameter, public :: seen_film = 1, seen_velocity = 2, seen_acceleration = 3, seen_load = 4, seen_pressure = 5, &
+                                 seen_coast_load = 6, seen_net_load = 7
+   integer, parameter, public :: seen_quantities = 7
 
    !> How far above its nodes a smooth curve may rise within a piece, as a share of its range there.
    real(dp), parameter :: between = 0.06_dp
@@ -173,7 +173,7 @@ contains
       pure type(extreme_t) function at_place(piece, x)
          integer, intent(in) :: piece
          real(dp), intent(in) :: x
-         real(dp) :: by_film, by_velocity
+         real(dp) :: value(1)
          integer :: before
 
          before = nodes_per_piece*(piece - 1)
@@ -184,17 +184,21 @@ contains
                           at_place%film, at_place%velocity)
          select case (quantity)
          case (seen_film)
-            at_place%value = at_place%film
+            value = at_place%film
          case (seen_velocity)
-            at_place%value = at_place%velocity
+            value = at_place%velocity
          case (seen_pressure)
-            at_place%value = exact_pressure(problem%film%radius, problem%film%speed, problem%film%viscosity, at_place%film, &
-                                            at_place%velocity)
+            call largest_pressures(problem, [at_place%film], [at_place%velocity], value)
          case (seen_acceleration)
-            at_place%value = acceleration_at(problem, at_place%film, at_place%velocity, min(1.0_dp, at_place%phase))
+            value = acceleration_at(problem, at_place%film, at_place%velocity, min(1.0_dp, at_place%phase))
+         case (seen_coast_load)
+            call coast_loads(problem, [at_place%film], [at_place%velocity], value)
+         case (seen_net_load)
+            call net_loads(problem, [at_place%film], [at_place%velocity], value)
          case default
-            call film_load(problem%film, at_place%film, at_place%velocity, at_place%value, by_film, by_velocity)
+            call drive_loads(problem, [at_place%film], [at_place%velocity], value)
          end select
+         at_place%value = value(1)
       end function at_place
 
    end subroutine find_extremes

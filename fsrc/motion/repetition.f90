@@ -62,6 +62,8 @@ module repetition
       integer :: newest = 0
       real(dp) :: film(0:kept - 1) = 0.0_dp
       real(dp) :: momentum(0:kept - 1) = 0.0_dp
+      !> Scaled backlash [-], told with every state; huge: there is one flank
+      real(dp) :: backlash = huge(1.0_dp)
    end type orbit_watch_t
 
    !> A film that settles at a lower rate does so slowly [1/periods].
@@ -85,7 +87,7 @@ module repetition
       type(mark_t) :: marks(size(mark_periods)) = mark_t()
    end type recurrence_t
 
-   public :: watch_from, note_state, state_of_age, look_back
+   public :: watch_from, note_state, weight_of_film, state_of_age, look_back
 
 contains
 
@@ -114,8 +116,17 @@ contains
       state = [watch%film(place), watch%momentum(place)]
    end function state_of_age
 
+   !> Film error that counts as one: that of the thinner film of both flanks [-].
+   pure real(dp) function weight_of_film(watch, film)
+      type(orbit_watch_t), intent(in) :: watch
+      !> Scaled film H [-]
+      real(dp), intent(in) :: film
+
+      weight_of_film = film_weight(min(film, watch%backlash - film))
+   end function weight_of_film
+
    !> Take the state at the end of a period.
-   pure subroutine note_state(watch, film, momentum, momentum_weight, settling, tolerance, orbit, distance)
+   pure subroutine note_state(watch, film, momentum, momentum_weight, settling, tolerance, orbit, distance, backlash)
       !> Watcher of this motion
       type(orbit_watch_t), intent(inout) :: watch
       !> Scaled film H [-]
@@ -132,7 +143,11 @@ contains
       integer, intent(out) :: orbit
       !> Bound of the distance from the motion that repeats, where there is one [-]
       real(dp), intent(out) :: distance
+      !> Scaled backlash, where there are two flanks [-]
+      real(dp), intent(in), optional :: backlash
       integer :: last, periods
+
+      if (present(backlash)) watch%backlash = backlash
 
       watch%newest = modulo(watch%newest + 1, kept)
       watch%film(watch%newest) = film
@@ -197,7 +212,7 @@ contains
                                  abs(step(1))/sqrt(stiffness))
          newer = older
       end do
-      creeping_distance = creeping_distance/film_weight(newer(1))
+      creeping_distance = creeping_distance/weight_of_film(watch, newer(1))
    end function creeping_distance
 
    !> Bound of the distance from a motion that repeats after `orbit` periods, huge where there is none.
@@ -251,7 +266,7 @@ contains
       states(:, 2) = state_of_age(watch, 2*orbit)
       states(:, 3) = state_of_age(watch, 3*orbit)
       states(2, :) = states(2, :)*momentum_weight
-      states = states/film_weight(states(1, 0))
+      states = states/weight_of_film(watch, states(1, 0))
       a = states(:, 2) - states(:, 3)
       b = states(:, 1) - states(:, 2)
       c = states(:, 0) - states(:, 1)
@@ -293,7 +308,7 @@ contains
       j = modulo(watch%newest - back_2, kept)
       apart = max(abs(watch%film(i) - watch%film(j)), abs(watch%momentum(i) &
          - watch%momentum(j))*momentum_weight) &
-         /film_weight(watch%film(i))
+         /weight_of_film(watch, watch%film(i))
    end function apart
 
    !> Compare the state at the start of a period with earlier ones, and keep it.

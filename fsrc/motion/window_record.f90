@@ -16,14 +16,12 @@
 module window_record
    use constants, only: two_pi
    use engine, only: motion_state_t
-   use film_law, only: film_loads
-   use film_pressure, only: exact_pressures
    use force, only: forces_on_circle
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
-   use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
-                            seen_velocity
-   use problem, only: problem_t, static_load
+   use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_coast_load, seen_film, seen_load, &
+      seen_net_load, seen_pressure, seen_quantities, seen_velocity
+   use problem, only: coast_loads, drive_loads, has_two_flanks, largest_pressures, problem_t, static_load
    use step_nodes, only: node_place, node_weight, nodes_per_piece, step_nodes_t
    implicit none(type, external)
    private
@@ -144,7 +142,7 @@ contains
       real(dp), contiguous, intent(in) :: films(:)
       real(dp), contiguous, intent(in) :: velocities(:)
       type(window_record_t), intent(inout) :: record
-      real(dp), dimension(block_nodes) :: phases, weights, values, loads, forces, cosine, sine
+      real(dp), dimension(block_nodes) :: phases, weights, values, loads, coast, forces, cosine, sine
       real(dp) :: sum_of, size_of, square_of, film_work, force_work, work_size, period
       real(dp) :: static, beyond, cube_of, fourth_of, beyond_sum, beyond_square, beyond_power
       integer :: n, i, before
@@ -161,7 +159,14 @@ contains
       do i = 1, n, lanes
          call lane_cosine_sine(phases(i:i + lanes - 1), cosine(i:i + lanes - 1), sine(i:i + lanes - 1))
       end do
-      call film_loads(problem%film, films, velocities, loads(:n))
+      call drive_loads(problem, films, velocities, loads(:n))
+      call search(seen_load, loads(:n), record)
+      if (has_two_flanks(problem)) then
+         call coast_loads(problem, films, velocities, coast(:n))
+         loads(:n) = loads(:n) - coast(:n)
+         call search(seen_coast_load, coast(:n), record)
+         call search(seen_net_load, loads(:n), record)
+      end if
       call forces_on_circle(problem%force, cosine(:n), sine(:n), forces(:n))
       !$omp simd
       do i = 1, n
@@ -212,9 +217,8 @@ contains
       call search(seen_film, films, record)
       call search(seen_velocity, velocities, record)
       call search(seen_acceleration, values(:n), record)
-      call search(seen_load, loads(:n), record)
       if (record%wants(seen_pressure)) then
-         call exact_pressures(problem%film%radius, problem%film%speed, problem%film%viscosity, films, velocities, values(:n))
+         call largest_pressures(problem, films, velocities, values(:n))
          call search(seen_pressure, values(:n), record)
       end if
 

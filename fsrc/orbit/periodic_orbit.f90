@@ -4,7 +4,7 @@ module periodic_orbit
    use floquet, only: floquet_multipliers, orbit_stability, orbit_unstable
    use kinds, only: dp
    use period_map, only: map_states
-   use problem, only: problem_t
+   use problem, only: problem_t, thinner_film
    implicit none(type, external)
    private
 
@@ -52,7 +52,8 @@ contains
       do period = 1, longest_period
          call map_states(problem, 1, map_accuracy, films, velocities, mapped)
          if (.not. mapped) return
-         if (max(abs(films(1) - film), abs(velocities(1) - velocity)*scale) > nearness*film) cycle
+         if (max(abs(films(1) - film), abs(velocities(1) - velocity)*scale) > &
+             nearness*thinner_film(problem, film)) cycle
          orbit = newton(problem, period, film, velocity, scale)
          if (orbit%period > 0 .and. orbit%distance <= nearness) return
       end do
@@ -78,14 +79,15 @@ contains
       !> Film that a velocity counts as [s]
       real(dp), intent(in) :: scale
       type(periodic_orbit_t) :: orbit
-      real(dp) :: films(5), velocities(5), jacobian(2, 2), state(2), gap(2), change(2), h, w, determinant
+      real(dp) :: films(5), velocities(5), jacobian(2, 2), state(2), gap(2), change(2), h, w, determinant, thickness
       integer :: step
       logical :: mapped
 
       state = [film, velocity]
       do step = 1, most_newton_steps
-         h = difference_step*state(1)
-         w = difference_step*state(1)/scale
+         thickness = min(state(1), problem%backlash - state(1))
+         h = difference_step*thickness
+         w = difference_step*thickness/scale
          films = state(1) + [0.0_dp, h, -h, 0.0_dp, 0.0_dp]
          velocities = state(2) + [0.0_dp, 0.0_dp, 0.0_dp, w, -w]
          call map_states(problem, period, map_accuracy, films, velocities, mapped)
@@ -99,12 +101,13 @@ contains
          change(1) = ((1.0_dp - jacobian(2, 2))*gap(1) + jacobian(1, 2)*gap(2))/determinant
          change(2) = (jacobian(2, 1)*gap(1) + (1.0_dp - jacobian(1, 1))*gap(2))/determinant
          state = state + change
-         if (.not. state(1) > 0.0_dp) return
-         if (max(abs(change(1)), abs(change(2))*scale) > converged*state(1)) cycle
+         thickness = thinner_film(problem, state(1))
+         if (.not. thickness > 0.0_dp) return
+         if (max(abs(change(1)), abs(change(2))*scale) > converged*thickness) cycle
          orbit%period = period
          orbit%film = state(1)
          orbit%velocity = state(2)
-         orbit%distance = max(abs(state(1) - film), abs(state(2) - velocity)*scale)/state(1)
+         orbit%distance = max(abs(state(1) - film), abs(state(2) - velocity)*scale)/thickness
          orbit%multipliers = floquet_multipliers(jacobian)
          return
       end do

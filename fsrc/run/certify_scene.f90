@@ -100,7 +100,7 @@ contains
       associate (stride => tight%samples_per_period/window%samples_per_period)
          call compare_windows(window%films, tight%films(stride::stride), extremes, extremes_of_record(tight%record), verdict, &
                               tight_verdict, unclosed, scene%spectrum, scene%spectrum%certificate_tolerance, accuracy, &
-                              resolved%noise_floor_at(accuracy), certificate)
+                              resolved%noise_floor_at(accuracy), certificate, resolved%problem%backlash)
       end associate
    end subroutine certify
 

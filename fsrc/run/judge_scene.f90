@@ -7,6 +7,7 @@ module judge_scene
    use judged_scene, only: judged_scene_t
    use loudness, only: loudness_of_record, loudness_of_samples
    use node_extremes, only: seen_pressure
+   use problem, only: thinner_film
    use rattle_class, only: note_orbit
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
@@ -77,13 +78,14 @@ contains
          judged%extremes = extremes_of_record(record)
          judged%loudness = loudness_of_record(record, scene%load%frequency)
       else
-         judged%extremes = extremes_of_samples(judged%resolved%problem%film, window%films, window%velocities, &
+         judged%extremes = extremes_of_samples(judged%resolved%problem, window%films, window%velocities, &
                                                window%accelerations)
          judged%loudness = loudness_of_samples(judged%resolved%problem, window%samples_per_period, window%velocities, &
                                                window%accelerations)
       end if
       associate (pressure => judged%extremes%highest(seen_pressure))
-         judged%regime = check_regime(judged%resolved%problem%film, pressure%value, pressure%film)
+         judged%regime = check_regime(judged%resolved%problem%film, pressure%value, &
+                                      thinner_film(judged%resolved%problem, pressure%film))
       end associate
       if (scene%spectrum%certify) call certify(scene, judged%resolved, judged%periods, window, judged%extremes, &
                                                judged%rattle, judged%certificate, error, judged%orbit)

@@ -6,15 +6,15 @@ module judged_scene
    use floquet, only: orbit_stability
    use kinds, only: dp
    use loudness, only: loudness_t
-   use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_load, seen_velocity
+   use node_extremes, only: extreme_t, seen_acceleration, seen_coast_load, seen_film, seen_load, seen_net_load, seen_velocity
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
-      quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_certified, &
-      quantity_crest_factor, quantity_damping_ratio, quantity_deflection, quantity_dissipated_energy, quantity_dissipated_power, &
-      quantity_evaluations, quantity_film_error, quantity_film_maximum, &
-      quantity_film_force_rms, quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, &
-      quantity_film_regime, &
+      quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_certified, quantity_coast_film_maximum, &
+      quantity_coast_film_minimum, quantity_coast_load_maximum, quantity_crest_factor, quantity_damping_ratio, &
+      quantity_deflection, quantity_dissipated_energy, quantity_dissipated_power, quantity_double_sided, &
+      quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, quantity_film_maximum_error, &
+      quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
       quantity_first_harmonic, quantity_floquet_modulus, quantity_floquet_multipliers, quantity_harmonic_distortion, &
       quantity_harmonic_distortion_is_bound, quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, &
       quantity_iterations_per_step, quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, &
@@ -23,6 +23,7 @@ module judged_scene
       quantity_pressure_maximum, quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, &
       quantity_sampling_sufficient, quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, &
       quantity_steps_cut, quantity_velocity_maximum, quantity_velocity_minimum, quantity_window_periods
+   use problem, only: has_two_flanks, thinner_film
    use rattle_class, only: rattle_verdict_t
    use regime_check, only: model_limit, regime_verdict_t
    use resolved_scene, only: resolved_scene_t
@@ -100,7 +101,7 @@ contains
 
       value = ieee_value(value, ieee_quiet_nan)
       associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest, lines => judged%rattle%lines, &
-                 regime => judged%regime, certificate => judged%certificate)
+                 regime => judged%regime, certificate => judged%certificate, problem => judged%resolved%problem)
          select case (quantity)
          case (quantity_window_periods)
             value = real(judged%window_periods, dp)
@@ -141,7 +142,16 @@ contains
          case (quantity_dissipated_power)
             value = judged%loudness%dissipated_energy*judged%resolved%problem%frequency
          case (quantity_model_limit)
-            value = real(model_limit(lowest(seen_film)%value, highest(seen_film)%value, judged%resolved%problem%film%radius), dp)
+            value = real(model_limit(min(lowest(seen_film)%value, thinner_film(problem, highest(seen_film)%value)), &
+                                     highest(seen_film)%value, problem%film%radius), dp)
+         case (quantity_coast_film_minimum)
+            if (has_two_flanks(problem)) value = problem%backlash - highest(seen_film)%value
+         case (quantity_coast_film_maximum)
+            if (has_two_flanks(problem)) value = problem%backlash - lowest(seen_film)%value
+         case (quantity_coast_load_maximum)
+            if (has_two_flanks(problem)) value = highest(seen_coast_load)%value
+         case (quantity_double_sided)
+            if (has_two_flanks(problem)) value = flag(lowest(seen_net_load)%value < 0.0_dp)
          case (quantity_reversals_per_period)
             value = judged%rattle%reversals_per_period
          case (quantity_first_harmonic)

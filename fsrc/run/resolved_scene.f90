@@ -2,14 +2,13 @@
 module resolved_scene
    use constants, only: two_pi
    use engine, only: request_t
-   use film_law, only: steady_film
    use film_pressure, only: pressure_scale
    use force, only: largest_oscillation
    use kinds, only: dp
-   use problem, only: linearise, problem_of, problem_t
+   use problem, only: film_at_rest, has_two_flanks, linearise, problem_of, problem_t, thinner_film
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
-   use scene_types, only: iteration_newton, method_newmark, predictor_extrapolated, scene_t, until_steady
+   use scene_types, only: iteration_newton, least_static_load, method_newmark, predictor_extrapolated, scene_t, until_steady
    use taylor_step_control, only: film_weight, momentum_weight
    implicit none(type, external)
    private
@@ -45,28 +44,31 @@ contains
       !> Checked scene
       type(scene_t), intent(in) :: scene
       type(resolved_scene_t) :: resolved
-      real(dp) :: static_load, stiffness, damping
+      real(dp) :: static_load, stiffness, damping, thinner, force
 
       resolved%problem = problem_of(scene)
       static_load = scene%load%static_load()
-      resolved%steady_film = steady_film(resolved%problem%film, static_load)
+      resolved%steady_film = film_at_rest(resolved%problem, static_load)
       associate (problem => resolved%problem, film => resolved%problem%film, mass => resolved%problem%mass)
          if (problem%initial_film > 0.0_dp) resolved%initial_squeeze_group = &
             squeeze_group(film%radius, film%speed, problem%initial_film, problem%initial_velocity)
-         resolved%rounding_noise = 1.0e-12_dp*(static_load + largest_oscillation(problem%force))/mass
+         resolved%rounding_noise = 1.0e-12_dp*(abs(static_load) + largest_oscillation(problem%force))/mass
          resolved%noise_floor = resolved%rounding_noise
          if (.not. resolved%steady_film > 0.0_dp) return
          call linearise(problem, resolved%steady_film, stiffness, damping)
          resolved%natural_frequency = sqrt(stiffness/mass)/two_pi
          resolved%damping_ratio = damping/(2.0_dp*sqrt(stiffness*mass))
-         resolved%noise_by_accuracy = noise_of_steps(resolved%steady_film, stiffness/mass, damping/mass, &
-                                                     static_load/mass, problem%frequency)
+         thinner = thinner_film(problem, resolved%steady_film)
+         force = static_load
+         if (has_two_flanks(problem)) force = max(abs(static_load) + largest_oscillation(problem%force), least_static_load)
+         resolved%noise_by_accuracy = noise_of_steps(thinner, stiffness/mass, damping/mass, &
+                                                     force/mass, problem%frequency)
          ! Newmark's steps are not chosen by an accuracy, and at rest they stand still. What a loose tolerance makes of them
          ! is a motion that the certificate doubts.
          if (scene%solver%method /= method_newmark) resolved%noise_floor = resolved%noise_floor_at(scene%solver%accuracy)
          resolved%pressure_group = film%pressure_viscosity* &
-                                   pressure_scale(film%radius, film%speed, film%viscosity, resolved%steady_film)
-         resolved%alpha_p = steady_alpha_p(film, resolved%steady_film)
+                                   pressure_scale(film%radius, film%speed, film%viscosity, thinner)
+         resolved%alpha_p = steady_alpha_p(film, thinner)
       end associate
    end function resolve
 
@@ -104,7 +106,7 @@ contains
    pure real(dp) function noise_of_steps(film, stiffness, damping, load, frequency)
       !> Steady film [m]
       real(dp), intent(in) :: film
-      !> Stiffness [1/s2], damping [1/s] and static load [m/s2] by mass
+      !> Stiffness [1/s2], damping [1/s] and load [m/s2] by mass
       real(dp), intent(in) :: stiffness
       real(dp), intent(in) :: damping
       real(dp), intent(in) :: load

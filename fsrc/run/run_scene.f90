@@ -71,7 +71,7 @@ contains
       else if (state%periods > 0) then
          call log%line('  carried on from period '//integer_text(state%periods))
       end if
-      call recorder%open(scene, result_path(scene), state%periods, error)
+      call recorder%open(scene, judged%resolved%problem, result_path(scene), state%periods, error)
       if (.not. allocated(error)) then
          call watcher%start(log, quiet)
          if (scene%solver%method /= method_taylor) then
@@ -85,8 +85,7 @@ contains
          if (.not. allocated(error)) call judge(scene, recorder, record, judged, error)
          ! A signal that came meanwhile has cut the certificate short.
          if (is_success(judged%status) .and. caught_signal() /= 0) judged%status = status_interrupted
-         if (judged%judged) call recorder%add_extremes(judged%resolved%problem, record, &
-                                                         judged%periods - judged%window_periods, judged%series_coarse)
+         if (judged%judged) call recorder%add_extremes(record, judged%periods - judged%window_periods, judged%series_coarse)
          call recorder%close(write_error)
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
          if (.not. allocated(error)) call save_state(scene, state, error)

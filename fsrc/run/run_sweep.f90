@@ -157,9 +157,18 @@ contains
       integer :: key
 
       key = find_swept_key(choice_word('sweep', 'key', scene%sweep%key))
-      names = [character(column_name_bytes) :: keys(key)%name, 'direction', quantity_table(quantities_told_in('sweep'))%name]
-      units = [character(column_unit_bytes) :: keys(key)%unit, '-', quantity_table(quantities_told_in('sweep'))%unit]
+      names = [character(column_name_bytes) :: keys(key)%name, 'direction', quantity_table(told_quantities(scene))%name]
+      units = [character(column_unit_bytes) :: keys(key)%unit, '-', quantity_table(told_quantities(scene))%unit]
    end subroutine sweep_columns
+
+   !> Codes of the quantities that this sweep tells.
+   pure function told_quantities(scene) result(codes)
+      type(scene_t), intent(in) :: scene
+      integer, allocatable :: codes(:)
+
+      codes = quantities_told_in('sweep')
+      if (scene%contact%backlash > 0.0_dp) codes = [codes, quantities_told_in('flanks')]
+   end function told_quantities
 
    !> Row of a value; what is unknown is 0.
    pure function sweep_row(scene, place, judged) result(row)
@@ -172,7 +181,7 @@ contains
       integer, allocatable :: told(:)
       integer :: i
 
-      allocate (told, source=quantities_told_in('sweep'))
+      allocate (told, source=told_quantities(scene))
       row = [scene%sweep%values(place), merge(1.0_dp, -1.0_dp, place <= scene%sweep%outward), &
              (quantity_value(told(i), judged), i=1, size(told))]
       where (ieee_is_nan(row)) row = 0.0_dp

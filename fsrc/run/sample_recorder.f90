@@ -6,11 +6,11 @@ module sample_recorder
    use force, only: force_at
    use kinds, only: dp, int64
    use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_velocity
-   use problem, only: acceleration_at, problem_t
+   use problem, only: acceleration_at, coast_loads, has_two_flanks, problem_t
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
-   use scene_types, only: column_acceleration, column_applied_force, column_film_thickness, &
-                          column_names, column_squeeze_velocity, column_time, column_units, scene_t
+   use scene_types, only: column_acceleration, column_applied_force, column_coast_load, column_coast_film, &
+                          column_film_thickness, column_names, column_squeeze_velocity, column_time, column_units, scene_t
    use signals, only: caught_signal
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -22,7 +22,8 @@ module sample_recorder
       !> Samples of the window [m], [m/s], [m/s2]
       real(dp), allocatable, public :: films(:), velocities(:), accelerations(:)
       integer(int64) :: window_start = huge(1_int64)
-      real(dp) :: steps_per_second = 0.0_dp, mass = 0.0_dp, gravity = 0.0_dp
+      real(dp) :: steps_per_second = 0.0_dp, gravity = 0.0_dp
+      type(problem_t) :: problem
       logical :: series = .false.
       integer :: stride = 1
       integer, allocatable :: columns(:)
@@ -42,10 +43,12 @@ module sample_recorder
 contains
 
    !> Prepare for the samples of a scene; its series is opened if it is asked for.
-   subroutine open_recorder(self, scene, path, resumed_periods, error)
+   subroutine open_recorder(self, scene, problem, path, resumed_periods, error)
       class(sample_recorder_t), intent(inout) :: self
       !> Checked scene
       type(scene_t), intent(in) :: scene
+      !> What moves
+      type(problem_t), intent(in) :: problem
       !> Path of the series
       character(*), intent(in) :: path
       !> Periods of an earlier series at this path that are kept, 0: none
@@ -56,7 +59,7 @@ contains
 
       samples = scene%solver%samples_per_period()
       self%steps_per_second = scene%load%frequency*real(samples, dp)
-      self%mass = scene%load%mass
+      self%problem = problem
       self%gravity = scene%load%gravity
       self%series = scene%output%series
       if (.not. self%series) return
@@ -173,6 +176,7 @@ contains
       real(dp), intent(in) :: velocity(:)
       real(dp), intent(in) :: acceleration(:)
       real(dp), intent(inout) :: rows(:, :)
+      real(dp) :: coast(size(times))
       integer :: column, last
 
       last = size(times)
@@ -188,19 +192,25 @@ contains
             rows(column, :last) = velocity
          case (column_acceleration)
             rows(column, :last) = acceleration
+         case (column_coast_film)
+            rows(column, :last) = self%problem%backlash - film
+         case (column_coast_load)
+            call coast_loads(self%problem, film, velocity, rows(column, :last))
          case default
-            ! Film load, read off the equation of motion (1), which the sample fulfils.
-            rows(column, :last) = self%mass*(acceleration + self%gravity) + force
+            ! Load of the drive film: the net load, read off the equation of motion (1), which the sample fulfils, and what the
+            ! coast film carries.
+            rows(column, :last) = self%problem%mass*(acceleration + self%gravity) + force
+            if (.not. has_two_flanks(self%problem)) cycle
+            call coast_loads(self%problem, film, velocity, coast)
+            rows(column, :last) = rows(column, :last) + coast
          end select
       end do
    end subroutine fill_rows
 
    !> Put the extremes of the window, which fall between samples, behind the rows of the series, and say there whether the series
    !> is coarser than the motion.
-   subroutine add_extremes(self, problem, record, first_period, coarse)
+   subroutine add_extremes(self, record, first_period, coarse)
       class(sample_recorder_t), intent(inout) :: self
-      !> What moves
-      type(problem_t), intent(in) :: problem
       !> What the steps of the window tell; nothing where each sample is a step of its own
       type(window_record_t), intent(in) :: record
       !> Periods before the window
@@ -226,9 +236,9 @@ contains
       end do
       if (n == 0) return
       phases(:n) = min(1.0_dp, kept(:n)%phase)
-      call fill_rows(self, (real(first_period + kept(:n)%period, dp) + kept(:n)%phase)/problem%frequency, &
-                     force_at(problem%force, phases(:n)), kept(:n)%film, kept(:n)%velocity, &
-                     acceleration_at(problem, kept(:n)%film, kept(:n)%velocity, phases(:n)), rows)
+      call fill_rows(self, (real(first_period + kept(:n)%period, dp) + kept(:n)%phase)/self%problem%frequency, &
+                     force_at(self%problem%force, phases(:n)), kept(:n)%film, kept(:n)%velocity, &
+                     acceleration_at(self%problem, kept(:n)%film, kept(:n)%velocity, phases(:n)), rows)
       call self%writer%write_extremes(rows(:, :n))
    end subroutine add_extremes
 

@@ -12,7 +12,8 @@ module quantities
    !> What has to be found for a quantity beyond the motion itself. The first are the extremes of the window, by the codes of
    !> node_extremes.
    integer, parameter :: needs_nothing = 0, needs_film_range = 1, needs_velocity_range = 2, needs_acceleration_range = 3, &
-                                 needs_load_range = 4, needs_regime = 5, needs_spectrum = 6, needs_certificate = 7, need_count = 7
+                                 needs_load_range = 4, needs_regime = 5, needs_coast_load_range = 6, needs_net_load_range = 7, &
+                                 needs_spectrum = 8, needs_certificate = 9, need_count = 9
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_lines = 3, part_class = 4, part_errors = 5, &
@@ -24,8 +25,9 @@ module quantities
          quantity_film_minimum, quantity_film_maximum, quantity_velocity_minimum, quantity_velocity_maximum, &
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
          quantity_acceleration_rms, quantity_crest_factor, quantity_acceleration_kurtosis, quantity_film_force_rms, &
-         quantity_dissipated_energy, quantity_dissipated_power, quantity_model_limit, quantity_reversals_per_period, &
-         quantity_harmonics, quantity_first_harmonic, &
+         quantity_dissipated_energy, quantity_dissipated_power, &
+         quantity_coast_film_minimum, quantity_coast_film_maximum, quantity_coast_load_maximum, quantity_double_sided, &
+         quantity_model_limit, quantity_reversals_per_period, quantity_harmonics, quantity_first_harmonic, &
          quantity_line_count, quantity_line_count_is_bound, quantity_harmonic_distortion, &
          quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, quantity_sampling_sufficient, &
          quantity_rattle_class, quantity_certified, quantity_film_error, quantity_film_minimum_error, &
@@ -45,7 +47,8 @@ module quantities
       integer :: kind
       integer :: part
       integer :: need
-      !> Where it is told, besides the words of its codes: any of summary, sweep, campaign (a word of its key record), log
+      !> Where it is told, besides the words of its codes: any of summary, sweep, flanks (a sweep of scenes with a backlash),
+      !> campaign (a word of its key record), log
       character(28) :: told_in
       character(160) :: meaning
       !> Words of the codes, from the first code on, a bar between two
@@ -113,6 +116,18 @@ module quantities
       quantity_t(quantity_dissipated_power, 'dissipated_power', 'W', a_number, part_window, needs_nothing, &
          'summary sweep campaign log', &
          'dissipated_energy times the frequency of the force.', digits=4), &
+      quantity_t(quantity_coast_film_minimum, 'coast_film_minimum', 'm', a_number, part_window, needs_film_range, &
+         'summary flanks campaign', &
+         'Smallest film of the coast flank over the window, where there is a backlash.'), &
+      quantity_t(quantity_coast_film_maximum, 'coast_film_maximum', 'm', a_number, part_window, needs_film_range, &
+         'summary campaign', &
+         'Largest film of the coast flank over the window.'), &
+      quantity_t(quantity_coast_load_maximum, 'coast_load_maximum', 'N', a_number, part_window, needs_coast_load_range, &
+         'summary campaign', &
+         'Largest load of the film of the coast flank over the window.'), &
+      quantity_t(quantity_double_sided, 'double_sided', '-', a_flag, part_window, needs_net_load_range, &
+         'summary flanks campaign log', &
+         'Whether the coast film carries more than the drive film at some time of the window: the tooth strikes both flanks.'), &
       quantity_t(quantity_model_limit, 'model_limit', '-', a_code, part_window, needs_film_range, 'summary sweep campaign', &
          'Where the motion leaves what the model can mean.', &
          'within|too_wide|too_narrow|too_wide_and_narrow'), &

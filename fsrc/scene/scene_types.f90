@@ -39,11 +39,13 @@ module scene_types
    integer, parameter, public :: predictor_extrapolated = 1, predictor_previous = 2
 
    !> Columns that a time series can hold, in the order of their codes.
-   character(*), parameter, public :: column_names(6) = [character(16) :: 'time', 'applied_force', 'film_thickness', &
-                                                         'squeeze_velocity', 'acceleration', 'film_load']
-   character(*), parameter, public :: column_units(6) = [character(4) :: 's', 'N', 'm', 'm/s', 'm/s2', 'N']
+   character(*), parameter, public :: column_names(8) = [character(16) :: 'time', 'applied_force', 'film_thickness', &
+                                                         'squeeze_velocity', 'acceleration', 'film_load', &
+                                                         'coast_film', 'coast_load']
+   character(*), parameter, public :: column_units(8) = [character(4) :: 's', 'N', 'm', 'm/s', 'm/s2', 'N', 'm', 'N']
    integer, parameter, public :: column_time = 1, column_applied_force = 2, column_film_thickness = 3, &
-                                 column_squeeze_velocity = 4, column_acceleration = 5, column_film_load = 6
+                                 column_squeeze_velocity = 4, column_acceleration = 5, column_film_load = 6, &
+                                 column_coast_film = 7, column_coast_load = 8
 
    !> &contact
    type, public :: contact_t
@@ -52,6 +54,8 @@ module scene_types
       !> Radii of the two flanks [m]
       real(dp) :: radius_1 = 0.0_dp
       real(dp) :: radius_2 = 0.0_dp
+      !> Backlash between both flanks b [m]; 0: there is one flank
+      real(dp) :: backlash = 0.0_dp
       !> Contact length l [m]
       real(dp) :: length = 0.0_dp
       !> Young's modulus E [Pa] and Poisson ratio [-] of the teeth

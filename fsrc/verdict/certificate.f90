@@ -48,7 +48,7 @@ contains
 
    !> Certificate of a window by a tighter one of the same samples.
    pure subroutine compare_windows(films, tight_films, extremes, tight_extremes, verdict, tight_verdict, unclosed, choice, &
-                                   tolerance, tight_accuracy, tight_noise, certificate)
+                                   tolerance, tight_accuracy, tight_noise, certificate, backlash)
       !> Film of the scene and of its tighter solution [m]
       real(dp), intent(in) :: films(:)
       real(dp), intent(in) :: tight_films(:)
@@ -69,17 +69,22 @@ contains
       !> Acceleration that its errors explain [m/s2]
       real(dp), intent(in) :: tight_noise
       type(certificate_t), intent(out) :: certificate
+      !> Backlash [m], where there are two flanks: the films are those of the drive flank, their errors count against the thinner
+      !> film of both
+      real(dp), intent(in), optional :: backlash
       real(dp), allocatable :: differences(:)
-      real(dp) :: peak, errors(2), film_difference
+      real(dp) :: peak, errors(2), film_difference, gap
       integer :: lines
 
       certificate%exists = .true.
       errors = errors_of(seen_film, 0.0_dp)
       certificate%film_minimum_error = errors(1)
       certificate%film_maximum_error = errors(2)
-      film_difference = max(maxval(abs(films - tight_films)/tight_films), &
-                            errors(1)/(margin*tight_extremes%lowest(seen_film)%value), &
-                            errors(2)/(margin*tight_extremes%highest(seen_film)%value))
+      gap = huge(1.0_dp)
+      if (present(backlash)) gap = backlash
+      film_difference = max(maxval(abs(films - tight_films)/thinner(tight_films)), &
+                            errors(1)/(margin*thinner(tight_extremes%lowest(seen_film)%value)), &
+                            errors(2)/(margin*thinner(tight_extremes%highest(seen_film)%value)))
       certificate%film_error = margin*film_difference
       errors = errors_of(seen_acceleration, tight_noise)
       certificate%acceleration_minimum_error = errors(1)
@@ -99,6 +104,13 @@ contains
                                                       'within the errors.'
 
    contains
+
+      !> The thinner film of both flanks [m].
+      elemental real(dp) function thinner(film)
+         real(dp), intent(in) :: film
+
+         thinner = min(film, gap - film)
+      end function thinner
 
       !> Errors of the smallest and the largest value of a quantity.
       pure function errors_of(quantity, noise) result(differences)

@@ -1,10 +1,10 @@
 !> Smallest and largest values of a motion over its window: of the steps of the engine and what lies between their ends, or of
 !> the samples where each is a step of its own (Newmark's method).
 module window_extremes
-   use film_law, only: film_loads, film_t
-   use film_pressure, only: exact_pressures
    use kinds, only: dp
-   use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, seen_velocity
+   use node_extremes, only: extreme_t, seen_acceleration, seen_coast_load, seen_film, seen_load, seen_net_load, &
+      seen_pressure, seen_quantities, seen_velocity
+   use problem, only: coast_loads, drive_loads, has_two_flanks, largest_pressures, net_loads, problem_t
    use value_range, only: range_of
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -13,8 +13,7 @@ module window_extremes
    !> Samples that are looked at together: their arrays stay in the cache.
    integer, parameter :: block = 512
 
-   !> Extremes of a window, by the codes of node_extremes: h [m], z' [m/s], z'' [m/s2], W [N], largest pressure of the exact
-   !> film [Pa].
+   !> Extremes of a window, by the codes of node_extremes.
    type, public :: window_extremes_t
       type(extreme_t) :: lowest(seen_quantities), highest(seen_quantities)
    end type window_extremes_t
@@ -34,8 +33,8 @@ contains
    end function extremes_of_record
 
    !> Extremes of samples.
-   pure function extremes_of_samples(film, films, velocities, accelerations) result(extremes)
-      type(film_t), intent(in) :: film
+   pure function extremes_of_samples(problem, films, velocities, accelerations) result(extremes)
+      type(problem_t), intent(in) :: problem
       !> h [m], z' [m/s], z'' [m/s2]
       real(dp), intent(in) :: films(:)
       real(dp), intent(in) :: velocities(:)
@@ -50,10 +49,15 @@ contains
             call note(h, w, h, extremes%lowest(seen_film), extremes%highest(seen_film))
             call note(h, w, w, extremes%lowest(seen_velocity), extremes%highest(seen_velocity))
             call note(h, w, accelerations(first:last), extremes%lowest(seen_acceleration), extremes%highest(seen_acceleration))
-            call film_loads(film, h, w, part)
+            call drive_loads(problem, h, w, part)
             call note(h, w, part, extremes%lowest(seen_load), extremes%highest(seen_load))
-            call exact_pressures(film%radius, film%speed, film%viscosity, h, w, part)
+            call largest_pressures(problem, h, w, part)
             call note(h, w, part, extremes%lowest(seen_pressure), extremes%highest(seen_pressure))
+            if (.not. has_two_flanks(problem)) cycle
+            call coast_loads(problem, h, w, part)
+            call note(h, w, part, extremes%lowest(seen_coast_load), extremes%highest(seen_coast_load))
+            call net_loads(problem, h, w, part)
+            call note(h, w, part, extremes%lowest(seen_net_load), extremes%highest(seen_net_load))
          end associate
       end do
    end function extremes_of_samples

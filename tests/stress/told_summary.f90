@@ -70,7 +70,7 @@ contains
       type(error_t), allocatable :: error
       integer :: n
 
-      call recorder%open(drawn%scene, '', 0, error)
+      call recorder%open(drawn%scene, drawn%resolved%problem, '', 0, error)
       if (drawn%scene%solver%method == method_taylor) then
          call solve_controlled(drawn%resolved%problem, request_of(drawn%scene), recorder, nobody, start, ending, record, error)
       else

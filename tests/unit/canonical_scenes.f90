@@ -82,7 +82,7 @@ contains
       type(window_record_t) :: record
       type(error_t), allocatable :: error
 
-      call recorder%open(scene, '', 0, error)
+      call recorder%open(scene, problem_of(scene), '', 0, error)
       if (present(watcher)) then
          call solve_newmark(problem_of(scene), request_of(scene), recorder, watcher, checkpoint, ending, record, error)
       else

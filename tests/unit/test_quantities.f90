@@ -122,6 +122,7 @@ contains
 
       scene = canonical_scene(law_iso_viscous, 512)
       scene%load%force_amplitude = 100.0_dp
+      scene%contact%backlash = 1.0e-4_dp
       scene%solver%method = method_taylor
       scene%solver%until = until_steady
       scene%solver%kept_per_period = 512
@@ -145,7 +146,7 @@ contains
       type(error_t), allocatable :: error
 
       judged%resolved = resolve(scene)
-      call recorder%open(scene, '', 0, error)
+      call recorder%open(scene, judged%resolved%problem, '', 0, error)
       call solve_controlled(judged%resolved%problem, request_of(scene), recorder, watcher, start, ending, record, error)
       call note_ending(ending, judged)
       call judge(scene, recorder, record, judged, error)

@@ -139,7 +139,7 @@ contains
          sampled_periods=window), films, velocities, endings, records=records)
       call checks%check(endings(1)%status == status_complete .and. records(1)%periods == window, name//': recorded')
       call accelerations_of_samples(lane, fine, films(:, 1), velocities(:, 1), accelerations)
-      extremes = extremes_of_samples(lane%film, films(:, 1), velocities(:, 1), accelerations)
+      extremes = extremes_of_samples(lane, films(:, 1), velocities(:, 1), accelerations)
       do quantity = 1, seen_quantities
          size_of = extremes%highest(quantity)%value - extremes%lowest(quantity)%value
          ! Samples fall short of the extreme, by (pi 100/fine)**2/2 of the range for a hundred lines.
