@@ -388,6 +388,7 @@ contains
       real(dp) :: imbalance(lane_count)
 
       block%film(:, 0) = 1.0_dp
+      block%backlash = huge(1.0_dp)
       block%step = 0.1_dp
       block%accuracy = 1.0e-6_dp
       block%damping_rate = 0.0_dp
