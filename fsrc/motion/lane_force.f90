@@ -25,10 +25,16 @@ module lane_force
       integer :: highest
    end type lane_force_t
 
-   integer :: i
+   integer :: i, n
    !> Derivative k-1 of cos(2 pi x), over k!, is factor(k) times cos (k odd) or sin (k even) of 2 pi x.
    real(dp), parameter, public :: factor(order) = &
       [(merge(1.0_dp, -1.0_dp, mod(i, 4) < 2)*two_pi**(i - 1)/gamma(real(i + 1, dp)), i=1, order)]
+
+   !> Orders whose derivatives are added at once
+   integer, parameter :: together = 4
+   !> (k, n): n**(k-1)
+   real(dp), parameter :: powers(order, highest_order + together) = &
+      reshape([((real(n, dp)**(i - 1), i=1, order), n=1, highest_order + together)], [order, highest_order + together])
 
    public :: no_forces, set_force, start_force, turn_to, move_forces, force_values, force_derivatives, total_forces
 
@@ -60,10 +66,14 @@ contains
          forces%sine(:, n) = 0.0_dp
       end do
       forces%highest = max(forces%highest, force%highest)
-      do n = 1, forces%highest
-         forces%cosine(lane, n) = force%cosine(n)/unit
-         forces%sine(lane, n) = force%sine(n)/unit
+      forces%cosine(lane, 1) = force%cosine/unit
+      forces%sine(lane, 1) = force%sine/unit
+      do n = 2, force%highest
+         forces%cosine(lane, n) = force%others(1, n)/unit
+         forces%sine(lane, n) = force%others(2, n)/unit
       end do
+      forces%cosine(lane, force%highest + 1:forces%highest) = 0.0_dp
+      forces%sine(lane, force%highest + 1:forces%highest) = 0.0_dp
    end subroutine set_force
 
    !> Bring the force of a lane to the start of a period.
@@ -123,7 +133,8 @@ contains
       real(dp), intent(out) :: derivatives(lanes, order)
       type(lane_phase_t) :: power
       real(dp), dimension(lanes) :: cosine, sine
-      integer :: n, k
+      real(dp), dimension(lanes, together) :: cosines, sines
+      integer :: first, i, n, k
 
       associate (phase => forces%phase)
          cosine = forces%cosine(:, 1)*phase%cosine + forces%sine(:, 1)*phase%sine
@@ -136,19 +147,42 @@ contains
          end do
          if (forces%highest < 2) return
          power = phase
-         do n = 2, forces%highest
-            call raise(phase, power)
-            cosine = forces%cosine(:, n)*power%cosine + forces%sine(:, n)*power%sine
-            sine = forces%cosine(:, n)*power%sine - forces%sine(:, n)*power%cosine
+         do first = 2, forces%highest, together
+            do i = 1, together
+               n = first + i - 1
+               if (n > forces%highest) then
+                  cosines(:, i) = 0.0_dp
+                  sines(:, i) = 0.0_dp
+                  cycle
+               end if
+               call raise(phase, power)
+               cosines(:, i) = forces%cosine(:, n)*power%cosine + forces%sine(:, n)*power%sine
+               sines(:, i) = forces%cosine(:, n)*power%sine - forces%sine(:, n)*power%cosine
+            end do
             do k = 1, last, 2
-               derivatives(:, k) = derivatives(:, k) + real(n, dp)**(k - 1)*cosine
+               call add_orders(powers(k, first:first + together - 1), cosines, derivatives(:, k))
             end do
             do k = 2, last, 2
-               derivatives(:, k) = derivatives(:, k) + real(n, dp)**(k - 1)*sine
+               call add_orders(powers(k, first:first + together - 1), sines, derivatives(:, k))
             end do
          end do
       end associate
    end subroutine force_derivatives
+
+   !> Add the share of some orders to a derivative.
+   pure subroutine add_orders(power, values, derivative)
+      !> By which each order is multiplied
+      real(dp), intent(in) :: power(together)
+      real(dp), intent(in) :: values(lanes, together)
+      real(dp), intent(inout) :: derivative(lanes)
+      integer :: l
+
+      !$omp simd
+      do l = 1, lanes
+         derivative(l) = derivative(l) + power(1)*values(l, 1) + power(2)*values(l, 2) + power(3)*values(l, 3) &
+                         + power(4)*values(l, 4)
+      end do
+   end subroutine add_orders
 
    !> Steady and oscillating part together, at other phases.
    pure subroutine total_forces(phase, steady, forces, total)

@@ -6,7 +6,7 @@
 module force
    use elementary_functions, only: cosine_sine
    use kinds, only: dp
-   use scene_types, only: highest_order, load_t
+   use scene_types, only: load_t
    implicit none(type, external)
    private
 
@@ -16,8 +16,10 @@ module force
       real(dp) :: steady = 0.0_dp
       !> Order n of the last harmonic
       integer :: highest = 1
-      !> a_n cos(phi_n) and -a_n sin(phi_n): factors of cos(2 pi n x) and sin(2 pi n x), up to the highest [N]
-      real(dp) :: cosine(highest_order) = 0.0_dp, sine(highest_order) = 0.0_dp
+      !> a_n cos(phi_n) and -a_n sin(phi_n): factors of cos(2 pi n x) and sin(2 pi n x), of the first order, and of the others
+      !> (both, n) from the second to the highest if there are any [N]
+      real(dp) :: cosine = 0.0_dp, sine = 0.0_dp
+      real(dp), allocatable :: others(:, :)
    end type force_t
 
    public :: cosine_force, force_of, force_at, forces_on_circle, force_of_period, largest_oscillation
@@ -31,7 +33,7 @@ contains
       real(dp), intent(in) :: amplitude
 
       force%steady = steady
-      force%cosine(1) = amplitude
+      force%cosine = amplitude
    end function cosine_force
 
    !> The force of a scene.
@@ -46,10 +48,15 @@ contains
          return
       end if
       force%highest = maxval(load%force_orders)
+      if (force%highest > 1) allocate (force%others(2, 2:force%highest), source=0.0_dp)
       do k = 1, size(load%force_orders)
          associate (n => load%force_orders(k), a => load%force_scale*load%force_amplitudes(k), phi => load%force_phases(k))
-            force%cosine(n) = a*cos(phi)
-            force%sine(n) = -a*sin(phi)
+            if (n == 1) then
+               force%cosine = a*cos(phi)
+               force%sine = -a*sin(phi)
+            else
+               force%others(:, n) = [a*cos(phi), -a*sin(phi)]
+            end if
          end associate
       end do
    end function force_of
@@ -81,7 +88,7 @@ contains
 
       !$omp simd
       do i = 1, size(cosine)
-         values(i) = force%steady + force%cosine(1)*cosine(i) + force%sine(1)*sine(i)
+         values(i) = force%steady + force%cosine*cosine(i) + force%sine*sine(i)
       end do
       if (force%highest < 2) return
       c = cosine
@@ -92,7 +99,7 @@ contains
             next = c(i)*cosine(i) - s(i)*sine(i)
             s(i) = s(i)*cosine(i) + c(i)*sine(i)
             c(i) = next
-            values(i) = values(i) + force%cosine(n)*c(i) + force%sine(n)*s(i)
+            values(i) = values(i) + force%others(1, n)*c(i) + force%others(2, n)*s(i)
          end do
       end do
    end subroutine forces_on_circle
@@ -120,8 +127,12 @@ contains
    elemental real(dp) function largest_oscillation(force)
       !> The force
       type(force_t), intent(in) :: force
+      integer :: n
 
-      largest_oscillation = sum(hypot(force%cosine(:force%highest), force%sine(:force%highest)))
+      largest_oscillation = hypot(force%cosine, force%sine)
+      do n = 2, force%highest
+         largest_oscillation = largest_oscillation + hypot(force%others(1, n), force%others(2, n))
+      end do
    end function largest_oscillation
 
 end module force

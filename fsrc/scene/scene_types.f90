@@ -85,7 +85,7 @@ module scene_types
    end type kinematics_t
 
    !> Highest order of a force that a scene may have
-   integer, parameter, public :: highest_order = 32
+   integer, parameter, public :: highest_order = 128
 
    !> &load
    type, public :: load_t

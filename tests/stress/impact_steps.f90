@@ -52,7 +52,7 @@ contains
       tooth%film = lane%film
       tooth%mass = lane%mass
       tooth%static_load = lane%force%steady + lane%weight
-      tooth%amplitude = lane%force%cosine(1)
+      tooth%amplitude = lane%force%cosine
       tooth%frequency = lane%frequency
    end function tooth_of_lane
 

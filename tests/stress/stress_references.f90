@@ -102,7 +102,7 @@ contains
       rest = starts
       rest%film = starts%film*(1.0_dp + offset)
       off_problems = problems
-      off_problems%force%steady = problems%force%steady + offset*(static_load(problems) + problems%force%cosine(1))
+      off_problems%force%steady = problems%force%steady + offset*(static_load(problems) + problems%force%cosine)
       call last_periods(off_problems, rest, off, group%periods, accuracy, unused, endings)
       call note_growth()
       rest = middle%motion_state_t

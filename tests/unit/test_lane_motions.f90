@@ -306,7 +306,7 @@ contains
 
       lanes(:size(kernels)) = all_lanes()
       lanes(size(kernels) + 1:) = lanes(:size(kernels))
-      lanes%force%cosine(1) = [(20.0_dp*real(modulo(5*i, 12), dp), i=1, size(lanes))]
+      lanes%force%cosine = [(20.0_dp*real(modulo(5*i, 12), dp), i=1, size(lanes))]
       lanes(9)%initial_velocity = -0.02_dp
       lanes(3)%initial_film = -1.0_dp
       starts = start_of(lanes)

@@ -150,11 +150,11 @@ contains
       problem = problem_of(canonical_scene(law_iso_viscous, 512))
       problem%force%cosine = 0.0_dp
       call force_of_period(problem%force, accelerations)
-      problem%force%cosine(1) = 1.0_dp
+      problem%force%cosine = 1.0_dp
       call force_of_period(problem%force, velocities)
       velocities = velocities - accelerations
       accelerations = 5.0_dp + 2.0_dp*velocities
-      problem%force%cosine(1) = 0.0_dp
+      problem%force%cosine = 0.0_dp
       found = loudness_of_samples(problem, samples, velocities, accelerations)
       call checks%check_close(found%acceleration_rms, sqrt(27.0_dp), 1.0e-11_dp, 'cosine: rms about zero')
       call checks%check_close(found%acceleration_kurtosis, 1.5_dp, 1.0e-11_dp, 'cosine: kurtosis about the mean')

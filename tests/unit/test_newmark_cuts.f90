@@ -157,7 +157,7 @@ contains
       type(problem_t) :: problem
 
       problem = linear_problem()
-      problem%force%cosine(1) = amplitude
+      problem%force%cosine = amplitude
       problem%film = film_t(piezo=problem%mass*angular**2)
       problem%film%rolling = problem%film%piezo*rest + static_load(problem)
    end function falling_film

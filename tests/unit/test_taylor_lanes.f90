@@ -65,7 +65,7 @@ contains
       scene%mass = mass
       scene%weight = mass*standard_gravity
       scene%force%steady = 40.0_dp
-      scene%force%cosine(1) = force_ratio*scene%force%steady
+      scene%force%cosine = force_ratio*scene%force%steady
       scene%frequency = frequency
       scene%initial_film = first_film
       load = scene%force%steady + scene%weight
@@ -178,7 +178,7 @@ contains
       scene%mass = 3.0_dp
       scene%weight = 3.0_dp*standard_gravity
       scene%force%steady = 199.2_dp
-      scene%force%cosine(1) = 205.7_dp
+      scene%force%cosine = 205.7_dp
       scene%frequency = 600.0_dp
       scene%film%kernel = kernel_half_pi
       scene%film%rolling = rolling_coefficient(0.010_dp, 1.905_dp, 0.3_dp, radius)
@@ -272,9 +272,9 @@ contains
       h = scene%initial_film
       v = scene%initial_velocity
       call film_load(scene%film, h, v, load, by_film, by_velocity)
-      a = (load - scene%weight - scene%force%steady - scene%force%cosine(1))/scene%mass
+      a = (load - scene%weight - scene%force%steady - scene%force%cosine)/scene%mass
       do i = 1, periods*steps
-         force = scene%force%steady + scene%force%cosine(1)*cos(two_pi*real(modulo(i, steps), &
+         force = scene%force%steady + scene%force%cosine*cos(two_pi*real(modulo(i, steps), &
             dp)/real(steps, dp))
          next = a
          do pass = 1, 20
@@ -354,7 +354,7 @@ contains
       scenes(3)%film%piezo = piezo_coefficient(1.958e-3_dp, 1.905_dp, viscosity, radius, pressure_viscosity)
       scenes(3)%film%rate = squeeze_exponent_rate(1.905_dp)
       scenes(3)%force%steady = 38.27_dp
-      scenes(3)%force%cosine(1) = 203.1_dp
+      scenes(3)%force%cosine = 203.1_dp
       scenes(3)%initial_film = 0.889e-6_dp
       ! Slow surfaces: the film rises for hundreds of periods.
       scenes(4) = scene_of(kernel_piezo, 0.05_dp, 3.0_dp)

@@ -76,7 +76,7 @@ contains
       scene%mass = 1.1847070022232703e-1_dp
       scene%weight = 1.1618006923352833_dp
       scene%force%steady = 8.5248996137767730e-1_dp
-      scene%force%cosine(1) = 1.1335863523156863e1_dp
+      scene%force%cosine = 1.1335863523156863e1_dp
       scene%frequency = 3.3377924443537181e3_dp
       scene%initial_film = 1.3945928475863152e-5_dp
       call largest_error(scene, 1.0e-4_dp, 14, .false., error, ending)
@@ -100,7 +100,7 @@ contains
       scene%mass = 2.0489868142673440_dp
       scene%weight = 2.0093696542134847e1_dp
       scene%force%steady = 2.5718992217975565e3_dp
-      scene%force%cosine(1) = 8.5688727383669557e3_dp
+      scene%force%cosine = 8.5688727383669557e3_dp
       scene%frequency = 3.2351430272900971e3_dp
       scene%initial_film = 3.5893279803907646e-6_dp
       do digits = 3, 6
@@ -127,7 +127,7 @@ contains
       scene%mass = 2.0946522249044204_dp
       scene%weight = 2.0541521241358932e1_dp
       scene%force%steady = 2.5606598107152614_dp
-      scene%force%cosine(1) = 2.2477053946577504e2_dp
+      scene%force%cosine = 2.2477053946577504e2_dp
       scene%frequency = 3.7803949891367083e3_dp
       scene%initial_film = 1.3569829599508520e-5_dp
       call largest_error(scene, 1.0e-8_dp, 14, .true., error, ending)
