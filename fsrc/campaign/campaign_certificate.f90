@@ -6,6 +6,7 @@ module campaign_certificate
    use errors, only: error_t
    use fine_window, only: judge_window, window_t
    use kinds, only: dp
+   use loudness, only: loudness_of_record
    use many_motions, only: solve_motions
    use problem, only: accelerations_of_samples
    use rattle_class, only: note_orbit, rattle_verdict_t
@@ -65,8 +66,8 @@ contains
       if (allocated(error)) return
       call note_orbit(own_verdict, endings(1)%orbit)
       if (own_verdict%class /= verdict%class) return
-      call certify(scene, resolved, endings(1)%periods, window, extremes_of_record(records(1)), own_verdict, certificate, &
-                   error)
+      call certify(scene, resolved, endings(1)%periods, window, extremes_of_record(records(1)), &
+                   loudness_of_record(records(1), resolved%problem%frequency), own_verdict, certificate, error)
       ! An irregular class does not stand where the certificate has found that the motion repeats.
       certificate%certified = certificate%certified .and. own_verdict%class == verdict%class
    end subroutine test_class

@@ -2,11 +2,12 @@
 !> method solved it first, sampled finely enough for its lines; and the periodic motion behind it with its Floquet
 !> multipliers.
 module certify_scene
-   use certificate, only: certificate_t, closing_sentence, compare_windows, no_certificate
+   use certificate, only: certificate_t, closing_sentence, compare_windows, loudness_error, no_certificate
    use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
+   use loudness, only: loudness_of_record, loudness_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use quantities, only: quantity_rattle_class, quantity_word
    use problem, only: problem_t
@@ -34,7 +35,7 @@ module certify_scene
 contains
 
    !> Certificate and periodic motion of a judged scene.
-   subroutine certify(scene, resolved, periods, window, extremes, verdict, certificate, error, orbit)
+   subroutine certify(scene, resolved, periods, window, extremes, loudness, verdict, certificate, error, orbit)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
@@ -43,8 +44,9 @@ contains
       integer, intent(in) :: periods
       !> Window at their end
       type(window_t), intent(in) :: window
-      !> Its extremes
+      !> Its extremes and loudness
       type(window_extremes_t), intent(in) :: extremes
+      type(loudness_t), intent(in) :: loudness
       !> Verdict to be tested; an irregular motion found to repeat becomes subharmonic
       type(rattle_verdict_t), intent(inout) :: verdict
       !> Its certificate
@@ -102,6 +104,7 @@ contains
                               tight_verdict, unclosed, scene%spectrum, scene%spectrum%certificate_tolerance, accuracy, &
                               resolved%noise_floor_at(accuracy), certificate, resolved%problem%backlash)
       end associate
+      certificate%loudness_error = loudness_error(loudness, loudness_of_record(tight%record, resolved%problem%frequency), accuracy)
    end subroutine certify
 
    !> Whether a motion stays irregular behind its window. One that strikes now and then may be quiet for a window and irregular

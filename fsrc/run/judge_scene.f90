@@ -88,7 +88,7 @@ contains
                                       thinner_film(judged%resolved%problem, pressure%film))
       end associate
       if (scene%spectrum%certify) call certify(scene, judged%resolved, judged%periods, window, judged%extremes, &
-                                               judged%rattle, judged%certificate, error, judged%orbit)
+                                               judged%loudness, judged%rattle, judged%certificate, error, judged%orbit)
       judged%judged = .not. allocated(error)
    end subroutine judge
 

@@ -18,7 +18,8 @@ module judged_scene
       quantity_first_harmonic, quantity_floquet_modulus, quantity_floquet_multipliers, quantity_harmonic_distortion, &
       quantity_harmonic_distortion_is_bound, quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, &
       quantity_iterations_per_step, quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, &
-      quantity_lines_by_integrals, quantity_load_maximum, quantity_load_minimum, quantity_model_limit, &
+      quantity_lines_by_integrals, quantity_load_maximum, quantity_load_minimum, quantity_loudness_error, &
+      quantity_model_limit, &
       quantity_natural_frequency, quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, &
       quantity_pressure_maximum, quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, &
       quantity_sampling_sufficient, quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, &
@@ -186,6 +187,8 @@ contains
             value = real(regime%regime, dp)
          case (quantity_law_contradicted)
             value = flag(regime%law_contradicted)
+         case (quantity_loudness_error)
+            if (allocated(certificate%harmonic_errors) .and. lines%moving) value = error_value(quantity, certificate)
          case default
             if (allocated(certificate%harmonic_errors)) value = error_value(quantity, certificate)
          end select
@@ -212,6 +215,8 @@ contains
          value = certificate%acceleration_minimum_error
       case (quantity_acceleration_maximum_error)
          value = certificate%acceleration_maximum_error
+      case (quantity_loudness_error)
+         value = certificate%loudness_error
       case default
          continue
       end select

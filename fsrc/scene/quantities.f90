@@ -32,7 +32,8 @@ module quantities
          quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, quantity_sampling_sufficient, &
          quantity_rattle_class, quantity_certified, quantity_film_error, quantity_film_minimum_error, &
          quantity_film_maximum_error, quantity_acceleration_error, quantity_acceleration_minimum_error, &
-         quantity_acceleration_maximum_error, quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, &
+         quantity_acceleration_maximum_error, quantity_loudness_error, &
+         quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, &
          quantity_floquet_multipliers, quantity_floquet_modulus, quantity_pressure_maximum, quantity_alpha_p_maximum, &
          quantity_deflection, quantity_film_regime, quantity_law_contradicted, quantity_periods_solved, &
          quantity_evaluations, quantity_steps, quantity_steps_cut, quantity_iterations_per_step
@@ -174,6 +175,8 @@ module quantities
       quantity_t(quantity_acceleration_maximum_error, 'acceleration_maximum_error', 'm/s2', a_number, part_errors, &
          needs_certificate, 'summary', &
          'Error of acceleration_maximum.'), &
+      quantity_t(quantity_loudness_error, 'loudness_error', '-', a_number, part_errors, needs_certificate, 'summary', &
+         'Largest relative error of acceleration_rms, acceleration_kurtosis, film_force_rms and dissipated_energy.'), &
       quantity_t(quantity_harmonic_errors, 'harmonic_errors', 'm/s2', a_list, part_errors, needs_certificate, 'summary', &
          'Errors of the harmonics.'), &
       quantity_t(quantity_orbit_period, 'orbit_period', '-', a_count, part_orbit, needs_nothing, 'summary sweep campaign', &

@@ -1,6 +1,7 @@
 !> How far a verdict can be trusted: the window of a scene held against the same window solved tighter.
 module certificate
    use kinds, only: dp
+   use loudness, only: loudness_t
    use node_extremes, only: seen_acceleration, seen_film
    use quantities, only: quantity_rattle_class, quantity_word
    use rattle_class, only: class_irregular, class_subharmonic, rattle_verdict_t
@@ -27,6 +28,8 @@ module certificate
       real(dp) :: acceleration_minimum_error = 0.0_dp
       real(dp) :: acceleration_maximum_error = 0.0_dp
       real(dp) :: acceleration_error = 0.0_dp
+      !> Largest relative error of the numbers of loudness [-]
+      real(dp) :: loudness_error = 0.0_dp
       !> Errors of the lines [m/s2]
       real(dp), allocatable :: harmonic_errors(:)
       !> Why it is not certified, or that it is
@@ -42,7 +45,7 @@ module certificate
    !> Share of the flow of momentum, or of energy, by which a window that closes may miss.
    real(dp), parameter :: closing_share = 1.0e-3_dp
 
-   public :: compare_windows, no_certificate, certificate_word, closing_sentence
+   public :: compare_windows, loudness_error, no_certificate, certificate_word, closing_sentence
 
 contains
 
@@ -152,6 +155,31 @@ contains
       end function doubt
 
    end subroutine compare_windows
+
+   !> Largest relative error of the numbers of loudness [-].
+   pure real(dp) function loudness_error(loudness, tight, tight_accuracy)
+      !> Of the scene and of its tighter solution
+      type(loudness_t), intent(in) :: loudness
+      type(loudness_t), intent(in) :: tight
+      !> Relative accuracy of the tighter solution [-]
+      real(dp), intent(in) :: tight_accuracy
+
+      associate (numbers => numbers_of(loudness))
+         loudness_error = margin*(tight_share*tight_accuracy + &
+                                  maxval(abs(numbers - numbers_of(tight))/max(abs(numbers), tiny(1.0_dp))))
+      end associate
+
+   contains
+
+      !> All of them.
+      pure function numbers_of(loudness) result(numbers)
+         type(loudness_t), intent(in) :: loudness
+         real(dp) :: numbers(4)
+
+         numbers = [loudness%acceleration_rms, loudness%acceleration_kurtosis, loudness%film_force_rms, loudness%dissipated_energy]
+      end function numbers_of
+
+   end function loudness_error
 
    !> Why a window does not close, empty if it does.
    pure function closing_sentence(record, frequency, mass, noise_floor) result(reason)

@@ -1,6 +1,7 @@
 !> Tests of loudness: values of an independent solver, the work of the force, steps and samples of all film laws.
 module test_loudness
    use canonical_scenes, only: canonical_scene
+   use certificate, only: loudness_error
    use checks, only: check_list_t
    use controlled_engine, only: solve_window
    use engine, only: ending_t, motion_state_t, start_of
@@ -29,6 +30,7 @@ contains
       call test_work(checks)
       call test_unclosed(checks)
       call test_cosine(checks)
+      call test_error(checks)
    end subroutine run_loudness_tests
 
    !> The canonical tooth pair under three orders.
@@ -162,5 +164,20 @@ contains
       call checks%check_close(found%dissipated_energy*problem%frequency/problem%mass, -1.0_dp, 1.0e-11_dp, &
                               'cosine: work in phase with the velocity')
    end subroutine test_cosine
+
+   !> The largest error of the four numbers by a tighter solution, which has one of its own.
+   subroutine test_error(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      real(dp) :: tight(4)
+      integer :: i
+
+      do i = 1, 4
+         tight = [1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp]
+         tight(i) = 1.01_dp*tight(i)
+         call checks%check_close(loudness_error(loudness_t(1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp), &
+                                                loudness_t(tight(1), tight(2), tight(3), tight(4)), 1.0e-10_dp), &
+                                 0.020000002_dp, 1.0e-14_dp, 'error: twice the difference')
+      end do
+   end subroutine test_error
 
 end module test_loudness
