@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 import math
 import re
-import shutil
 from collections import Counter
 from pathlib import Path
 
@@ -14,10 +13,10 @@ import numpy as np
 
 import rattle
 from rattle import codes, command, job_script, rerun, table
-from rattle.campaign import Campaign
+from rattle.campaign_result import Campaign
 from rattle.namelist import NamelistError, parse
+from rattle.solve import find_program
 
-REPOSITORY = Path(__file__).resolve().parents[1]
 NAME = re.compile(r"[A-Za-z0-9._-]+")
 MOST_ARRAY_TASKS = 10_000
 DIRECTIVE_SAFE = re.compile(r'[^"\n%\\]*')
@@ -85,17 +84,6 @@ def check_times(time: str | None, signal_seconds: int) -> None:
             f"a time limit of {time} leaves no time to compute: Slurm may warn {warning} s before it "
             f"(--signal-seconds and a minute)."
         )
-
-
-def find_program() -> str:
-    """The program of this repository, else that of the search path."""
-    built = REPOSITORY / "build" / "rattle"
-    if built.exists():
-        return str(built)
-    found = shutil.which("rattle")
-    if found is None:
-        raise command.CommandError("there is no program rattle: run make, or give --program.")
-    return found
 
 
 def merge_parts(options: argparse.Namespace) -> None:

@@ -1,18 +1,29 @@
-"""Reading, judging and drawing the results of the gear-rattle solver `rattle`."""
+"""Running the gear-rattle solver `rattle`; reading, judging and drawing its results."""
 
-from rattle.campaign import Campaign, read_campaign
+from rattle.campaign_result import Campaign, read_campaign
+from rattle.faults import Fault, InputError, RunError
 from rattle.result import Result, ResultError, read
+from rattle.solve import Range, SceneFailed, Solved, campaign, run, sweep
 from rattle.summary import SummaryError, read_summary
 
 version = "0.1.0"
 
 __all__ = [
     "Campaign",
+    "Fault",
+    "InputError",
+    "Range",
     "Result",
     "ResultError",
+    "RunError",
+    "SceneFailed",
+    "Solved",
     "SummaryError",
+    "campaign",
     "read",
     "read_campaign",
     "read_summary",
+    "run",
+    "sweep",
     "version",
 ]

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rattle.campaign import WORD_ENDING, Campaign
-from rattle.codes import CODES, word
+from rattle.campaign_result import Campaign
+from rattle.codes import CODES, WORD_ENDING, word
 
 if TYPE_CHECKING:
     import pyarrow

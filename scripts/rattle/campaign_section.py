@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rattle.campaign import Axis, Campaign
+from rattle.campaign_result import Axis, Campaign
 from rattle.command import CommandError
 
 

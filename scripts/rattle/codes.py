@@ -43,6 +43,7 @@ CODES: Mapping[str, Mapping[int, str]] = MappingProxyType(
 FLAGS = tuple(row["name"] for row in _TABLE if row["kind"] == "flag")
 CLASSES, FILM_REGIMES, STATUSES = (CODES[name] for name in ("rattle_class", "film_regime", "status"))
 NO_OR_YES = MappingProxyType({0: "no", 1: "yes"})
+WORD_ENDING = "_word"  # of columns that hold the words of a column of codes
 SUCCESSES = tuple(code for code, word in STATUSES.items() if word in ("complete", "steady"))
 
 

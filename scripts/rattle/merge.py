@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rattle.campaign import SCENE, Campaign, read_campaign
+from rattle.campaign_result import SCENE, Campaign, read_campaign
 from rattle.command import CommandError
 from rattle.result_header import CAMPAIGN, COLUMN_PART, ChunkTable, header_bytes_of
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import f90nml
 import numpy as np
 
-from rattle.campaign import SCENE, Campaign
+from rattle.campaign_result import SCENE, Campaign
 from rattle.command import CommandError
 from rattle.namelist import parse_groups
 

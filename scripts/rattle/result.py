@@ -6,12 +6,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rattle.attributes import attributes
+from rattle.codes import CODES, WORD_ENDING, word
 from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import ResultError, ResultHeader, read_header
 from rattle.summary import read_summary
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 TIME = "time"
 
@@ -86,6 +93,42 @@ class Result(ResultFile):
             np.insert(part, places, self.extremes[name][inside])
             for name, part in zip(names, parts, strict=True)
         ]
+
+    def table(self) -> dict[str, np.ndarray]:
+        """All columns, with the extreme rows put in by time where there are times."""
+        if TIME in self and self.extremes[TIME].size:
+            return dict(zip(self.names, self.merged(self.names), strict=True))
+        return {name: np.array(self[name]) for name in self.names}
+
+    def frame(self) -> pandas.DataFrame:
+        """The table as a pandas DataFrame; codes also as words, in columns NAME_word."""
+        import pandas
+
+        frame = pandas.DataFrame(self.table())
+        for name in filter(self.__contains__, CODES):
+            frame[name + WORD_ENDING] = [word(name, code) for code in frame[name]]
+        frame.attrs = {"units": dict(self.units), **self._told}
+        return frame
+
+    def dataset(self) -> xarray.Dataset:
+        """The table as an xarray Dataset over time, or over the rows where there are no times."""
+        import xarray
+
+        columns = self.table()
+        along = TIME if TIME in self else "row"
+        variables = {
+            name: (along, values, attributes(name, self.units[name])) for name, values in columns.items()
+        }
+        coordinates = {TIME: variables.pop(TIME)} if TIME in self else {}
+        return xarray.Dataset(variables, coordinates, self._told)
+
+    @property
+    def _told(self) -> dict[str, str]:
+        return {
+            "title": self.scene_name,
+            "source": f"rattle {self.program_version}",
+            "resolved_input": self.input_text,
+        }
 
     def __repr__(self) -> str:
         state = "closed" if self.closed else "not closed"

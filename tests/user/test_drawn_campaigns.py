@@ -15,7 +15,7 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 
 import rattle
-from rattle.campaign import Campaign
+from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
 from rattle.codes import CLASSES
 from rattle.figures import campaign_look as look

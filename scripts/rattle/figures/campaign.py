@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 import rattle
 from rattle import command, rerun
-from rattle.campaign import Campaign
 from rattle.campaign_plan import GRID
+from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
 from rattle.figures import campaign_map, campaign_slice, campaign_summary, style
 

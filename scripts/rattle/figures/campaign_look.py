@@ -13,8 +13,8 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
-from rattle.campaign import Axis, Campaign
 from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC, SAMPLE, TABLE
+from rattle.campaign_result import Axis, Campaign
 from rattle.campaign_section import short_name
 from rattle.codes import STATUSES, SUCCESSES, words_of
 

@@ -17,7 +17,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 
-from rattle.campaign import Campaign
+from rattle.campaign_result import Campaign
 from rattle.campaign_section import Section
 from rattle.codes import word
 from rattle.figures import campaign_look as look

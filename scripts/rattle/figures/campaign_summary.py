@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 from rattle import table
-from rattle.campaign import Campaign
 from rattle.campaign_plan import GRID
+from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section, spaced_unit
 from rattle.codes import CLASSES, SUCCESSES, word
 from rattle.figures import campaign_look as look

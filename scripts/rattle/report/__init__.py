@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import rattle
-from rattle.campaign import Campaign
+from rattle.campaign_result import Campaign
 from rattle.codes import QUANTITIES, words_of
 from rattle.figures import film, film_points
 from rattle.report import asked, campaign, motion, page, sweep

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 
 from rattle import rerun
-from rattle.campaign import Campaign
 from rattle.campaign_plan import GRID
+from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
 from rattle.codes import QUANTITIES, word, words_of
 from rattle.figures import campaign_look as look

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rattle.attributes import attributes
 from rattle.campaign_plan import GRID, LINEAR, Plan, PlannedAxis, read_plan
-from rattle.codes import CODES, SUCCESSES, words_of
+from rattle.codes import CODES, SUCCESSES, WORD_ENDING
 from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import CAMPAIGN, ResultError, ResultHeader, read_header
 
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     import xarray
 
 SCENE = "scene"
-WORD_ENDING = "_word"
 
 
 @dataclass(frozen=True)
@@ -168,26 +168,26 @@ class Campaign(ResultFile):
         coordinates: dict[str, Any] = {}
         if on_grid:
             for axis in self.axes:
-                coordinates[axis.key] = ((axis.key,), axis.values, _attributes(self, axis.key))
+                coordinates[axis.key] = ((axis.key,), axis.values, attributes(axis.key, self.units[axis.key]))
         else:
             scenes = self["scene"][self.done].astype("int64")
-            coordinates["scene"] = (dimensions, scenes, _attributes(self, "scene"))
+            coordinates["scene"] = (dimensions, scenes, attributes("scene", self.units["scene"]))
             for key in self.varied:
-                coordinates[key] = (dimensions, self[key][self.done], _attributes(self, key))
+                coordinates[key] = (dimensions, self[key][self.done], attributes(key, self.units[key]))
         variables = {}
         for name in self.names:
             if name in coordinates:
                 continue
             values = self.grid(name) if on_grid else self[name][self.done]
-            variables[name] = (dimensions, values, _attributes(self, name))
-        attributes = {
+            variables[name] = (dimensions, values, attributes(name, self.units[name]))
+        told = {
             "title": self.name,
             "source": f"rattle {self.program_version}",
             "scenes_done": int(self.done.sum()),
             "scenes": self.row_count,
             "resolved_input": self.input_text,
         }
-        return xarray.Dataset(variables, coordinates, attributes)
+        return xarray.Dataset(variables, coordinates, told)
 
     def _axis(self, key: str, planned: PlannedAxis | None) -> Axis:
         values = np.unique(self[key][self.done])
@@ -269,21 +269,3 @@ def _completed(values: np.ndarray, expected: np.ndarray, complaint: str) -> np.n
             raise ResultError(f"{complaint} such as {values[strange][0]:.6g} that are not on its axis.")
         completed[place] = values
     return completed
-
-
-def _attributes(campaign: Campaign, name: str) -> dict[str, Any]:
-    attributes: dict[str, Any] = {
-        "units": _udunits(campaign.units[name]),
-        "long_name": name.replace("_", " "),
-    }
-    words = words_of(name)
-    if words:
-        attributes["flag_values"] = np.array(list(words), dtype=float)
-        attributes["flag_meanings"] = " ".join(words.values())
-    return attributes
-
-
-def _udunits(unit: str) -> str:
-    """The unit as readers of NetCDF know it."""
-    known = {"": "1", "-": "1", "m/s2": "m s-2", "m/s": "m s-1", "1/Pa": "Pa-1"}
-    return known.get(unit, unit)

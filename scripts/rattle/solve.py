@@ -1,0 +1,234 @@
+"""Runs the program from Python: a file, a text or a dict in, its result and its summary out."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import weakref
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rattle.campaign_result import Campaign, read_campaign
+from rattle.faults import InputError, RunError, read_faults
+from rattle.result import Result, read
+from rattle.summary import read_summary
+
+COMPLETE, SCENE_FAILED, BAD_INPUT = 0, 1, 2
+_HERE = Path(__file__).resolve().parent
+# The program of this repository, of this installation, of this Python.
+PROGRAMS = (
+    _HERE.parents[1] / "build" / "rattle",
+    _HERE.parents[2] / "bin" / "rattle",
+    Path(sys.executable).parent / "rattle",
+)
+
+Input = str | Path | Mapping[str, Mapping[str, Any]]
+
+
+class Solved(NamedTuple):
+    """What a run left; `result` is None where no series was asked for."""
+
+    result: Result | Campaign | None
+    summary: dict[str, Any]
+
+
+class SceneFailed(RunError):
+    """The scene did not reach its end; `solved` has what there is of it."""
+
+    def __init__(self, solved: Solved) -> None:
+        status, words = solved.summary.get("status", "failed"), solved.summary.get("status_text", "")
+        super().__init__([], SCENE_FAILED, f"{solved.summary['name']}: {status}. {words}".strip())
+        self.solved = solved
+
+
+@dataclass(frozen=True)
+class Range:
+    """A varied key of a campaign from `first` to `last`; `count` values of it on a grid."""
+
+    first: float
+    last: float
+    count: int | None = None
+    scale: str = "linear"
+
+    @property
+    def values(self) -> np.ndarray:
+        """The points of its grid."""
+        if self.count is None:
+            raise ValueError("A range beside keys with values needs a count.")
+        space = np.geomspace if self.scale == "logarithmic" else np.linspace
+        return space(self.first, self.last, self.count)
+
+
+def run(
+    input: Input,
+    *,
+    set: Mapping[str, Any] | None = None,
+    folder: str | Path | None = None,
+    overwrite: bool = False,
+    threads: int | None = None,
+    program: str | Path | None = None,
+) -> Solved:
+    """Solve one input and return its result and its summary.
+
+    Parameters
+    ----------
+    input : a file, namelist text, or a dict of groups of keys
+    set : keys as 'group.key' with the values that they get instead of those of the input
+    folder : where the files go; None: a temporary one that lives as long as the result
+    overwrite : whether files of an earlier run in `folder` may be replaced
+    threads : threads of a campaign, by default all cores
+    program : the program, by default the one of this installation
+
+    Raises
+    ------
+    InputError
+        Bad input, nothing was run; `faults` names file, line, group and key of each.
+    SceneFailed
+        A motion that did not reach its end. Sweeps and campaigns tell it in their columns of status.
+    RunError
+        Everything else, such as a full disk.
+    """
+    command = [str(program or find_program())]
+    place = Path(folder) if folder is not None else Path(tempfile.mkdtemp(prefix="rattle-"))
+    command += ["--output", str(place), *(["--overwrite"] if overwrite else [])]
+    if threads is not None:
+        command += ["--threads", str(threads)]
+    for key, value in (set or {}).items():
+        command += ["--set", f"{key}={literal(value)}"]
+    text = text_of(input)
+    try:
+        ended = subprocess.run(
+            [*command, "-" if text is not None else str(input)],
+            input=text or "",
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        solved = _outcome(ended)
+    except BaseException:
+        if folder is None:
+            shutil.rmtree(place, ignore_errors=True)
+        raise
+    if folder is None:
+        if solved.result is None:
+            shutil.rmtree(place, ignore_errors=True)
+        else:
+            weakref.finalize(solved.result, shutil.rmtree, place, ignore_errors=True)
+    if ended.returncode == SCENE_FAILED and solved.summary["status"] not in ("complete", "steady"):
+        raise SceneFailed(solved)
+    return solved
+
+
+def sweep(
+    input: Input,
+    key: str | None = None,
+    first: float | None = None,
+    last: float | None = None,
+    *,
+    set: Mapping[str, Any] | None = None,
+    count: int | None = None,
+    spacing: str | None = None,
+    turn: bool | None = None,
+    **options: Any,
+) -> Solved:
+    """Follow steady motions along a key; None: as the input has it. `options` are those of `run`."""
+    given = {"key": key, "first": first, "last": last, "count": count, "spacing": spacing, "turn": turn}
+    asked = {f"sweep.{name}": value for name, value in given.items() if value is not None}
+    return run(input, set={"scene.task": "sweep", **asked, **(set or {})}, **options)
+
+
+def campaign(
+    input: Input,
+    vary: Mapping[str, Range | Iterable[float]] | None = None,
+    *,
+    set: Mapping[str, Any] | None = None,
+    record: Sequence[str] | None = None,
+    sample: str | None = None,
+    size: int | None = None,
+    seed: int | None = None,
+    **options: Any,
+) -> Solved:
+    """Solve many motions that differ in some keys.
+
+    `vary` maps 'group.key' to a `Range` or to values; what is None is as the input has it. `options` are
+    those of `run`.
+    """
+    given = {"record": record, "sample": sample, "size": size, "seed": seed}
+    asked: dict[str, Any] = {f"campaign.{name}": value for name, value in given.items() if value is not None}
+    varied = dict(vary or {})
+    if not all(isinstance(values, Range) for values in varied.values()):  # a table of values has no gaps
+        varied = {key: v.values if isinstance(v, Range) else v for key, v in varied.items()}
+    for place, (key, values) in enumerate(varied.items(), 1):
+        asked[f"campaign.vary({place})"] = key
+        if isinstance(values, Range):
+            parts = {"first": values.first, "last": values.last, "count": values.count, "scale": values.scale}
+            asked |= {f"campaign.{name}({place})": part for name, part in parts.items() if part is not None}
+        else:
+            asked[f"campaign.values(:,{place})"] = list(values)
+    return run(input, set={"scene.task": "campaign", **asked, **(set or {})}, **options)
+
+
+def find_program() -> str:
+    """The program: $RATTLE_PROGRAM, that of this repository or installation, else that of the search path."""
+    named = os.environ.get("RATTLE_PROGRAM")
+    found = named or next(
+        (str(path) for path in PROGRAMS if os.access(path, os.X_OK) and path.is_file()), None
+    )
+    found = found or shutil.which("rattle")
+    if found is None:
+        raise RunError([], BAD_INPUT, "There is no program rattle: run make, or name it as $RATTLE_PROGRAM.")
+    return found
+
+
+def text_of(given: Input) -> str | None:
+    """The namelist text of an input that is no file; None where it is one."""
+    if isinstance(given, Mapping):
+        groups = []
+        for group, keys in given.items():
+            lines = [f"   {key} = {literal(value)}\n" for key, value in keys.items()]
+            groups.append(f"&{group}\n{''.join(lines)}/\n")
+        return "".join(groups)
+    if isinstance(given, str) and ("\n" in given or given.lstrip().startswith("&")):
+        return given
+    return None
+
+
+def literal(value: Any) -> str:
+    """A Python value as a namelist has it."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, bool):
+        return ".true." if value else ".false."
+    if isinstance(value, str):
+        quoted = value.replace("'", "''")
+        return f"'{quoted}'"
+    if isinstance(value, int | float):
+        return repr(value)
+    if isinstance(value, Iterable):
+        return ", ".join(map(literal, value))
+    raise TypeError(f"{value!r} is nothing that an input can hold")
+
+
+def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved:
+    """Result and summary of a run that left them, by the names of files that end its log."""
+    if ended.returncode not in (COMPLETE, SCENE_FAILED):
+        kind = InputError if ended.returncode == BAD_INPUT else RunError
+        raise kind(read_faults(ended.stderr), ended.returncode)
+    told = [Path(line.strip()) for line in ended.stdout.splitlines()]
+    summaries = [path for path in told if path.name.endswith(".summary.nml")]
+    if not summaries:
+        raise RunError(read_faults(ended.stderr), ended.returncode, "The program left no summary.")
+    name = summaries[-1].name.removesuffix(".summary.nml")
+    path = summaries[-1].with_name(f"{name}.rattle")
+    result = None
+    if path in told:
+        opened = read(path)
+        result = read_campaign(path) if opened.task == "campaign" else opened
+    return Solved(result, read_summary(summaries[-1]))

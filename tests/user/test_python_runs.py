@@ -1,0 +1,231 @@
+"""rattle.run, sweep and campaign: what they return, and what they say of bad input."""
+
+from __future__ import annotations
+
+import gc
+from pathlib import Path
+
+import campaign_runs
+import numpy as np
+import pytest
+from conftest import FAST_SCENE
+
+import rattle
+from rattle import codes
+from rattle.faults import read_faults
+from rattle.solve import literal
+
+SCENE = {
+    "contact": {"radius": 0.0127, "length": 0.010},
+    "lubricant": {"viscosity": 0.3, "pressure_viscosity": 2.0e-8},
+    "kinematics": {"entrainment_speed": 1.905},
+    "load": {"mass": 3.0, "steady_force": 199.2, "force_amplitude": 205.7, "frequency": 600.0},
+    "film": {"law": "iso-viscous"},
+    "solver": {"steps_per_period": 32, "periods": 3, "method": "newmark"},
+    "spectrum": {"periods": 2},
+}
+STEADY = {"accuracy": 1e-6, "until": "steady", "periods": 60}
+
+
+@pytest.fixture(autouse=True)
+def program(request, monkeypatch):
+    """The program under test."""
+    monkeypatch.setenv("RATTLE_PROGRAM", str(request.getfixturevalue("rattle")))
+
+
+@pytest.fixture
+def file(scene_text, tmp_path) -> Path:
+    path = tmp_path / "file.nml"
+    path.write_text(scene_text())
+    return path
+
+
+def test_file_text_and_dict_give_the_same_motion(file, solved):
+    direct = rattle.read(solved("scene") / "scene.rattle")
+    for given in (file, str(file), file.read_text(), SCENE):
+        result, summary = rattle.run(given)
+        assert summary["status"] == "complete"
+        for name in direct.names:
+            np.testing.assert_array_equal(result[name], direct[name])
+    assert {group: set(keys) for group, keys in SCENE.items()} == {
+        group: set(keys) for group, keys in FAST_SCENE.items() if group != "output"
+    }
+
+
+def test_set_replaces_keys_of_every_kind(file):
+    changes = {
+        "load.mass": np.float64(2.5),
+        "solver.periods": 4,
+        "spectrum.certify": False,
+        "film.rupture": "solved",
+        "output.columns": ["time", "acceleration"],
+    }
+    result, summary = rattle.run(file, set=changes)
+    for key, value in changes.items():
+        assert result.value(*key.split(".")) == value
+    assert result.names == ("time", "acceleration")
+    assert "certificate" not in summary
+
+
+def test_files_go_to_the_folder_and_are_not_replaced_unasked(file, tmp_path):
+    folder = tmp_path / "out"
+    result, _ = rattle.run(file, folder=folder)
+    assert result.path == folder / "file.rattle"
+    with pytest.raises(rattle.InputError, match="--overwrite replaces it"):
+        rattle.run(file, folder=folder)
+    result, _ = rattle.run(file, folder=folder, overwrite=True, set={"load.mass": 2.0})
+    assert result.number("load", "mass") == 2.0
+
+
+def test_a_temporary_folder_lives_as_long_as_its_result(file):
+    result, _ = rattle.run(file)
+    folder, column = result.path.parent, result["acceleration"]
+    assert folder.exists()
+    first = column.copy()
+    del result
+    gc.collect()
+    assert not folder.exists()
+    np.testing.assert_array_equal(column, first)
+
+
+def test_without_a_series_there_is_a_summary_only(file):
+    result, summary = rattle.run(file, set={"output.series": False})
+    assert result is None and summary["name"] == "file"
+
+
+def test_every_fault_is_carried_with_its_place(file):
+    text = file.read_text().replace("mass =", "mas =").replace("'iso-viscous'", "'iso'")
+    file.write_text(text)
+    with pytest.raises(rattle.InputError) as refused:
+        rattle.run(file, set={"contact.radius": -1.0})
+    faults = {(fault.group, fault.key): fault for fault in refused.value.faults}
+    lines = text.splitlines()
+    misspelt = faults["load", "mas"]
+    assert misspelt.file == str(file) and lines[misspelt.line - 1].strip().startswith("mas")
+    assert "nearest known key is mass" in misspelt.message
+    assert lines[faults["film", "law"].line - 1].strip().startswith("law")
+    assert faults["load", "mass"].line is None
+    assert faults["contact", "radius"].file == "--set contact.radius=-1.0"
+    assert refused.value.exit_code == 2
+    assert str(misspelt) in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("line", "place"),
+    (
+        ("a b.nml:3: &load mass: no: really", ("a b.nml", 3, "load", "mass", "no: really")),
+        ("in.nml: &load: no group", ("in.nml", None, "load", None, "no group")),
+        ("in.nml: there is no such file", ("in.nml", None, None, None, "there is no such file")),
+        ("--set a.b=1: &a b: unknown", ("--set a.b=1", None, "a", "b", "unknown")),
+        ("no place at all", ("rattle", None, None, None, "no place at all")),
+    ),
+)
+def test_a_fault_is_taken_apart_and_put_together(line, place):
+    (fault,) = read_faults(line + "\n")
+    assert tuple(fault) == place
+    assert str(fault) == (line if fault.file != "rattle" else f"rattle: {line}")
+
+
+def test_a_file_that_is_not_there_is_an_input_error(tmp_path):
+    with pytest.raises(rattle.InputError, match="no such file"):
+        rattle.run(tmp_path / "none.nml")
+
+
+def test_a_scene_that_fails_brings_what_there_is(file):
+    with pytest.raises(rattle.SceneFailed, match="not_converged") as failed:
+        rattle.run(file, set={"load.force_amplitude": 1e9, "solver.iteration_limit": 2})
+    assert failed.value.solved.summary["status"] == "not_converged"
+    assert failed.value.solved.result.row_count >= 1
+
+
+def test_a_campaign_varies_ranges_and_values(scene_text, tmp_path):
+    vary = {
+        "load.force_amplitude": rattle.Range(5.0, 205.0, 3),
+        "kinematics.entrainment_speed": rattle.Range(0.5, 20.0, 4, scale="logarithmic"),
+        "load.mass": [1.0, 2.5],
+    }
+    scene = {**SCENE, "solver": STEADY, "spectrum": {"periods": 8}}
+    result, summary = rattle.campaign(scene, vary, record=["rattle_class", "film_minimum"], threads=1)
+    assert summary["scenes_done"] == 24
+    data = result.dataset()
+    assert dict(data.sizes) == dict(zip(vary, (3, 4, 2), strict=True))
+    assert result.varied == tuple(vary)
+    np.testing.assert_allclose(data["kinematics.entrainment_speed"], np.geomspace(0.5, 20.0, 4))
+    np.testing.assert_array_equal(data["load.mass"], [1.0, 2.5])
+    (tmp_path / "one.nml").write_text(scene_text())
+    single = rattle.run(
+        {**scene, "load": {**SCENE["load"], "mass": 2.5, "force_amplitude": 105.0}},
+        set={"kinematics.entrainment_speed": float(data["kinematics.entrainment_speed"][2])},
+    )
+    cell = data.isel({"load.force_amplitude": 1, "kinematics.entrainment_speed": 2, "load.mass": 1})
+    assert codes.CLASSES[int(cell.rattle_class)] == single.summary["rattle_class"]
+    assert float(cell.film_minimum) == pytest.approx(single.summary["film_minimum"], rel=1e-4)
+
+
+def test_a_campaign_of_the_input_is_run_as_it_is(scene_text):
+    text = campaign_runs.grid(scene_text, 3, 2)
+    assert rattle.campaign(text).result.shape == (3, 2)
+    sampled = {"load.mass": rattle.Range(1.0, 2.0)}
+    scene = {**SCENE, "solver": STEADY}
+    result, _ = rattle.campaign(scene, sampled, sample="sobol", size=5, seed=3)
+    assert result.kind == "sample" and result.row_count == 5
+
+
+def test_failed_scenes_of_a_campaign_are_rows():
+    scene = {**SCENE, "solver": STEADY, "film": {"law": "piezo-viscous", "model": "reynolds"}}
+    result, summary = rattle.campaign(scene, {"load.force_amplitude": [1.0, 900.0]}, record=["film_minimum"])
+    assert summary["scenes_failed_in_this_run"] == int(result.failed.sum()) > 0
+
+
+def test_a_sweep_goes_there_and_back():
+    scene = {**SCENE, "solver": {"accuracy": 1e-6, "periods": 60}}
+    result, summary = rattle.sweep(scene, "frequency", 500.0, 700.0, count=3)
+    assert summary["motions"] == 5
+    frame = result.frame()
+    assert frame.frequency.tolist() == [500.0, 600.0, 700.0, 600.0, 500.0]
+    assert set(frame.rattle_class_word) <= set(codes.CLASSES.values())
+    result, _ = rattle.sweep(scene, "frequency", 500.0, 700.0, count=3, turn=False, spacing="logarithmic")
+    np.testing.assert_allclose(result["frequency"], np.geomspace(500.0, 700.0, 3))
+
+
+def test_frames_and_datasets_hold_the_columns_with_units(file):
+    result, _ = rattle.run(file)
+    frame, data = result.frame(), result.dataset()
+    for name in result.names:
+        np.testing.assert_array_equal(frame[name], result[name])
+        np.testing.assert_array_equal(data[name], result[name])
+    assert frame.attrs["units"] == dict(result.units)
+    assert data.acceleration.attrs["units"] == "m s-2"
+    assert data.acceleration.dims == ("time",)
+    assert data.attrs["resolved_input"] == result.input_text
+
+
+def test_extreme_rows_stand_where_their_times_are():
+    scene = {**SCENE, "solver": {"periods": 20, "samples_per_period": 8}}
+    result, _ = rattle.run(scene)
+    assert result.coarse and result.extremes["time"].size
+    frame = result.frame()
+    assert len(frame) == result.row_count + result.extremes["time"].size
+    assert frame.time.is_monotonic_increasing
+    assert frame.acceleration.max() == result.extremes["acceleration"].max()
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    ((True, ".true."), (3, "3"), (1e-14, "1e-14"), ("it's", "'it''s'"), (np.array([1.0, 2.0]), "1.0, 2.0")),
+)
+def test_values_become_namelist_text(value, text):
+    assert literal(value) == text
+
+
+def test_what_no_input_can_hold_is_refused():
+    with pytest.raises(TypeError, match="nothing that an input can hold"):
+        literal(None)
+
+
+def test_without_a_program_there_is_a_plain_sentence(monkeypatch, tmp_path):
+    monkeypatch.delenv("RATTLE_PROGRAM")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr("rattle.solve.PROGRAMS", ())
+    with pytest.raises(rattle.RunError, match="no program rattle"):
+        rattle.run(SCENE)
