@@ -74,6 +74,7 @@ def counts() -> Iterator[tuple[str, int, int]]:
     yield "Fortran files in motion", sum("motion" in path.parts for path in fortran), 30
     yield "Fortran files", len(fortran), 158
     yield "files that name a film law below scene", sum(map(names_law, fortran)), 2
+    yield "files of scene and campaign that a varied key touches", sum(map(names_key, fortran)), 2
     yield "Fortran lines without generated tables", lines, 27500
     yield "Python files in scripts", len(list(Path("scripts").rglob("*.py"))), 65
     yield "README lines", len(readme.splitlines()), 172
@@ -84,6 +85,14 @@ def names_law(path: Path) -> bool:
     """Whether a file below scene names a film law by its code."""
     laws = r"\b(kernel_(?!of)|law_(iso|piezo)_viscous|rupture_(half_pi|solved|solver))"
     return path.parts[1] not in {"scene", "bindings"} and re.search(laws, path.read_text()) is not None
+
+
+def names_key(path: Path) -> bool:
+    """Whether a file between input and physics names a varied key: one of them stands for all."""
+    return (
+        path.parts[1] in {"scene", "campaign"}
+        and re.search(r"\bpoisson_ratio\b", path.read_text()) is not None
+    )
 
 
 def unlike_rooms() -> Iterator[str]:

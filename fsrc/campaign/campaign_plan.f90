@@ -3,6 +3,7 @@ module campaign_plan
    use campaign_axis, only: campaign_axis_t
    use csv_samples, only: csv_samples_t, read_csv_samples
    use errors, only: fault_list_t
+   use key_table, only: key_name
    use kinds, only: dp, int64
    use odd_numbers, only: odd_numbers_of_list
    use sampling, only: chunk_values, method_grid, method_sobol, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, &
@@ -10,8 +11,7 @@ module campaign_plan
    use scene_types, only: scene_t
    use signals, only: must_stop
    use text, only: integer_text, printable
-   use varied_keys, only: find_varied_key, is_whole, varied_code, varied_key_name
-   use varied_scene, only: is_valid_scene, set_varied_keys, why_invalid
+   use varied_keys, only: find_varied_key, is_valid_scene, is_whole, set_varied_keys, why_invalid
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -51,7 +51,7 @@ contains
          call read_csv_samples(scene%campaign%csv, samples, faults)
          if (faults%count() > before) return
          do i = 1, size(samples%positions)
-            call check_position(scene, scene%campaign%csv, varied_key_name(samples%positions(i)), samples%positions(i), faults)
+            call check_position(scene, scene%campaign%csv, key_name(samples%positions(i)), samples%positions(i), faults)
          end do
          if (faults%count() > before) return
          do i = 1, size(samples%positions)
@@ -159,11 +159,10 @@ contains
       type(scene_t) :: trial
       real(dp), allocatable :: values(:, :)
       integer(int64) :: start
-      integer :: codes(size(plan%positions)), i, count
+      integer :: i, count
 
       invalid = 0_int64
       trial = scene
-      codes = varied_code(plan%positions)
       seen = 0_int64
       do start = first, min(last, plan%known), int(block, int64)
          count = int(min(int(block, int64), min(last, plan%known) - start + 1_int64))
@@ -171,7 +170,7 @@ contains
          allocate (values(size(plan%positions), count))
          call chunk_values(plan, start, values)
          do i = 1, count
-            call set_varied_keys(trial, codes, values(:, i))
+            call set_varied_keys(trial, plan%positions, values(:, i))
             if (is_valid_scene(trial, plan%positions, values(:, i))) cycle
             invalid = invalid + 1_int64
             if (scene%campaign%allow_invalid .or. invalid > int(most_named, int64)) cycle

@@ -4,12 +4,13 @@
 module csv_samples
    use csv_fields, only: csv_text_t, field_t
    use errors, only: error_t, fault_list_t
+   use key_table, only: key_name
    use kinds, only: dp, int64
    use memory, only: expect_memory
    use number_text, only: read_strict_integer, read_strict_real
    use signals, only: must_stop
    use text, only: integer_text
-   use varied_keys, only: find_varied_key, is_whole, varied_key_name
+   use varied_keys, only: find_varied_key, is_whole
    implicit none(type, external)
    private
 
@@ -159,7 +160,7 @@ contains
                call read_number(field, samples%positions(column), samples%values(column, row), message)
                if (len(message) > 0) &
                   call faults%add(path, line, '', '', 'column '//integer_text(column)//' ('// &
-                                  varied_key_name(samples%positions(column))//'): '//message)
+                                  key_name(samples%positions(column))//'): '//message)
             end if
             if (field%ends_line) exit
          end do

@@ -25,8 +25,7 @@ module solve_chunk
    use scene_types, only: least_static_load, scene_t
    use schedule, only: cost_order
    use signals, only: must_stop
-   use varied_keys, only: varied_code
-   use varied_scene, only: is_valid_scene, set_varied_keys
+   use varied_keys, only: is_valid_scene, set_varied_keys
    use window_extremes, only: extremes_of_record
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -74,11 +73,10 @@ contains
       real(dp), allocatable :: values(:, :)
       type(scene_t) :: scene
       logical :: needed(need_count)
-      integer :: codes(size(plan%positions)), start, count, batch, i
+      integer :: start, count, batch, i
 
       batch = scenes_together(base, plan)
       allocate (values(size(plan%positions), min(batch, size(rows, 2))))
-      codes = varied_code(plan%positions)
       needed = [(any(quantity_table(base%campaign%record)%need == i), i=1, need_count)]
       scene = base
       scene%resolved_input = ''
@@ -86,7 +84,7 @@ contains
          if (must_stop()) return
          count = min(batch, size(rows, 2) - start + 1)
          call chunk_values(plan, first + int(start - 1, int64), values(:, :count))
-         call solve_batch(scene, plan%positions, codes, values(:, :count), first + int(start - 1, int64), needed, space, &
+         call solve_batch(scene, plan%positions, values(:, :count), first + int(start - 1, int64), needed, space, &
                           rows(:, start:start + count - 1), error)
          if (allocated(error)) return
       end do
@@ -134,12 +132,11 @@ contains
    end function chunk_bytes
 
    !> Rows of a batch.
-   subroutine solve_batch(scene, positions, codes, values, first, needed, space, rows, error)
+   subroutine solve_batch(scene, positions, values, first, needed, space, rows, error)
       !> Base scene; its varied keys are changed
       type(scene_t), intent(inout) :: scene
-      !> Varied keys by their positions in the key table, and by their codes
+      !> Varied keys by their positions in the key table
       integer, intent(in) :: positions(:)
-      integer, intent(in) :: codes(:)
       real(dp), intent(in) :: values(:, :)
       integer(int64), intent(in) :: first
       !> What the columns need
@@ -158,7 +155,7 @@ contains
 
       solved = 0
       do i = 1, size(values, 2)
-         call set_varied_keys(scene, codes, values(:, i))
+         call set_varied_keys(scene, positions, values(:, i))
          valid(i) = is_valid_scene(scene, positions, values(:, i))
          costs(i) = huge(1.0_dp)
          if (.not. valid(i)) cycle
@@ -181,7 +178,7 @@ contains
          if (must_stop()) return
          associate (scene_number => order(i))
             if (valid(scene_number)) then
-               call set_varied_keys(scene, codes, values(:, scene_number))
+               call set_varied_keys(scene, positions, values(:, scene_number))
                associate (problem => resolved(scene_number)%problem)
                   if (.not. together) call solve_motions([problem], [start_of(problem)], requests(scene_number), &
                                                          space%films(:, :1), space%velocities(:, :1), endings(i:i), &
@@ -208,7 +205,7 @@ contains
       do i = 1, size(number)
          if (must_stop()) return
          associate (place => number(i), scene_number => order(number(i)))
-            call set_varied_keys(scene, codes, values(:, scene_number))
+            call set_varied_keys(scene, positions, values(:, scene_number))
             if (.not. together) windows = integral_windows(scene, [resolved(scene_number)%problem], endings([place]), &
                                                            space%records([place]), requests(scene_number))
             call note_ending(resolved(scene_number), endings(place), space%judged)

@@ -1,58 +1,15 @@
-!> Which keys a campaign may vary: the numbers that describe a motion scene. The one table of them; what each sets
-!> stands in varied_scene.
+!> The keys that a campaign varies: which may be, their values put into a scene, and whether these make one.
 module varied_keys
-   use input_key, only: integer_kind, real_kind
-   use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
-   use text, only: lower
+   use input_key, only: allowed_text, in_range, integer_kind, is_computable, not_computable_text, real_kind
+   use key_table, only: find_key, key_name, keys, known_group, nearest_group, nearest_key
+   use kinds, only: dp
+   use scene_rules, only: broken_rules
+   use scene_types, only: scene_t, set_number
+   use text, only: lower, real_text
    implicit none(type, external)
    private
 
-   integer, parameter, public :: &
-      vary_radius = 1, vary_radius_1 = 2, vary_radius_2 = 3, vary_length = 4, vary_young_modulus = 5, vary_poisson_ratio = 6, &
-      vary_viscosity = 7, vary_pressure_viscosity = 8, vary_entrainment_speed = 9, vary_rolling_speed = 10, &
-      vary_surface_speed_1 = 11, vary_surface_speed_2 = 12, vary_mass = 13, vary_steady_force = 14, &
-      vary_force_amplitude = 15, vary_frequency = 16, vary_gravity = 17, vary_initial_film = 18, vary_initial_velocity = 19, &
-      vary_accuracy = 20, vary_solver_periods = 21, vary_spectrum_periods = 22, vary_line_threshold = 23, &
-      vary_idle_lines = 24, vary_quiet_limit = 25, vary_irregular_limit = 26, vary_force_scale = 27
-
-   !> A key that may be varied.
-   type, public :: varied_key_t
-      integer :: code
-      !> As in the key table
-      character(12) :: group
-      character(24) :: name
-   end type varied_key_t
-
-   type(varied_key_t), parameter, public :: varied(*) = [ &
-      varied_key_t(vary_radius, 'contact', 'radius'), &
-      varied_key_t(vary_radius_1, 'contact', 'radius_1'), &
-      varied_key_t(vary_radius_2, 'contact', 'radius_2'), &
-      varied_key_t(vary_length, 'contact', 'length'), &
-      varied_key_t(vary_young_modulus, 'contact', 'young_modulus'), &
-      varied_key_t(vary_poisson_ratio, 'contact', 'poisson_ratio'), &
-      varied_key_t(vary_viscosity, 'lubricant', 'viscosity'), &
-      varied_key_t(vary_pressure_viscosity, 'lubricant', 'pressure_viscosity'), &
-      varied_key_t(vary_entrainment_speed, 'kinematics', 'entrainment_speed'), &
-      varied_key_t(vary_rolling_speed, 'kinematics', 'rolling_speed'), &
-      varied_key_t(vary_surface_speed_1, 'kinematics', 'surface_speed_1'), &
-      varied_key_t(vary_surface_speed_2, 'kinematics', 'surface_speed_2'), &
-      varied_key_t(vary_mass, 'load', 'mass'), &
-      varied_key_t(vary_steady_force, 'load', 'steady_force'), &
-      varied_key_t(vary_force_amplitude, 'load', 'force_amplitude'), &
-      varied_key_t(vary_frequency, 'load', 'frequency'), &
-      varied_key_t(vary_gravity, 'load', 'gravity'), &
-      varied_key_t(vary_initial_film, 'film', 'initial_film'), &
-      varied_key_t(vary_initial_velocity, 'film', 'initial_velocity'), &
-      varied_key_t(vary_accuracy, 'solver', 'accuracy'), &
-      varied_key_t(vary_solver_periods, 'solver', 'periods'), &
-      varied_key_t(vary_spectrum_periods, 'spectrum', 'periods'), &
-      varied_key_t(vary_line_threshold, 'spectrum', 'line_threshold'), &
-      varied_key_t(vary_idle_lines, 'spectrum', 'idle_lines'), &
-      varied_key_t(vary_quiet_limit, 'spectrum', 'quiet_limit'), &
-      varied_key_t(vary_irregular_limit, 'spectrum', 'irregular_limit'), &
-      varied_key_t(vary_force_scale, 'load', 'force_scale')]
-
-   public :: find_varied_key, varied_code, varied_key_name, is_whole
+   public :: find_varied_key, is_whole, set_varied_keys, is_valid_scene, why_invalid
 
 contains
 
@@ -65,7 +22,9 @@ contains
       !> Why not; empty if it can
       character(:), allocatable, intent(out) :: message
       character(:), allocatable :: group, key
+      type(scene_t) :: scene
       integer :: dot
+      logical :: known
 
       position = 0
       message = ''
@@ -85,32 +44,12 @@ contains
          message = 'unknown key; '//nearest_key(group, key)
       else if (keys(position)%kind /= real_kind .and. keys(position)%kind /= integer_kind) then
          message = 'this key is not a number, so it cannot be varied'
-      else if (varied_code(position) == 0) then
-         message = 'this key does not describe the motion of a scene, so it cannot be varied'
+      else
+         call set_number(scene, keys(position)%group, keys(position)%name, 0.0_dp, known)
+         if (.not. known) message = 'this key does not describe the motion of a scene, so it cannot be varied'
       end if
       if (len(message) > 0) position = 0
    end subroutine find_varied_key
-
-   !> Code of a key of the key table, 0 if it cannot be varied.
-   elemental integer function varied_code(position)
-      !> Position in the key table
-      integer, intent(in) :: position
-      integer :: i
-
-      varied_code = 0
-      do i = 1, size(varied)
-         if (varied(i)%group == keys(position)%group .and. varied(i)%name == keys(position)%name) varied_code = varied(i)%code
-      end do
-   end function varied_code
-
-   !> Name of a key as 'group.key'.
-   pure function varied_key_name(position) result(name)
-      !> Position in the key table
-      integer, intent(in) :: position
-      character(:), allocatable :: name
-
-      name = trim(keys(position)%group)//'.'//trim(keys(position)%name)
-   end function varied_key_name
 
    !> Whether a key takes whole numbers only.
    pure logical function is_whole(position)
@@ -119,5 +58,63 @@ contains
 
       is_whole = keys(position)%kind == integer_kind
    end function is_whole
+
+   !> Set the varied keys of a scene, in their order.
+   pure subroutine set_varied_keys(scene, positions, values)
+      !> The scene
+      type(scene_t), intent(inout) :: scene
+      !> Keys by their positions in the key table
+      integer, intent(in) :: positions(:)
+      !> Their values, SI units
+      real(dp), intent(in) :: values(:)
+      integer :: i
+
+      do i = 1, size(positions)
+         call set_number(scene, keys(positions(i))%group, keys(positions(i))%name, values(i))
+      end do
+   end subroutine set_varied_keys
+
+   !> Whether every value is in the range of its key and the scene as a whole is one.
+   pure logical function is_valid_scene(scene, positions, values)
+      !> The scene with its values set
+      type(scene_t), intent(in) :: scene
+      !> Varied keys, by their positions in the key table
+      integer, intent(in) :: positions(:)
+      !> Their values
+      real(dp), intent(in) :: values(:)
+      integer :: i
+
+      is_valid_scene = .true.
+      do i = 1, size(positions)
+         is_valid_scene = is_valid_scene .and. in_range(keys(positions(i)), values(i)) &
+                          .and. is_computable(keys(positions(i)), values(i))
+      end do
+      ! A value that is not allowed may overflow together with another.
+      if (is_valid_scene) is_valid_scene = size(broken_rules(scene)) == 0
+   end function is_valid_scene
+
+   !> What is wrong with a scene that is not valid: the first of its varied keys whose value is not allowed, or the rule that
+   !> the scene as a whole breaks.
+   pure function why_invalid(scene, positions, values) result(words)
+      !> The scene with its values set
+      type(scene_t), intent(in) :: scene
+      !> Varied keys, by their positions in the key table
+      integer, intent(in) :: positions(:)
+      !> Their values
+      real(dp), intent(in) :: values(:)
+      character(:), allocatable :: words
+      integer :: i
+
+      do i = 1, size(positions)
+         if (in_range(keys(positions(i)), values(i)) .and. is_computable(keys(positions(i)), values(i))) cycle
+         words = key_name(positions(i))//': '//not_computable_text(keys(positions(i)), values(i))
+         if (.not. in_range(keys(positions(i)), values(i))) words = key_name(positions(i))//': '//real_text(values(i))// &
+                                                         ' is not allowed; allowed: '//allowed_text(keys(positions(i)))
+         return
+      end do
+      associate (broken => broken_rules(scene))
+         words = broken(1)%keys(:index(broken(1)%keys, ' ') - 1)//': '//trim(broken(1)%sentence)
+      end associate
+   end function why_invalid
 
 end module varied_keys

@@ -9,7 +9,7 @@ module run_sweep
    use fine_window, only: solve_whole_window, window_t
    use finished_files, only: place_files
    use judged_scene, only: judged_scene_t, quantity_value
-   use key_table, only: choice_word, find_swept_key, keys
+   use key_table, only: keys
    use kinds, only: dp, int64
    use log_file, only: log_t
    use loudness, only: loudness_of_record
@@ -25,7 +25,7 @@ module run_sweep
    use scene_report, only: law_sentence, report_head
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written, status_sentence
    use scene_summary, only: add_head
-   use scene_types, only: scene_t, sweep_force_amplitude, sweep_force_scale, sweep_frequency, sweep_steady_force
+   use scene_types, only: scene_t, set_number
    use signals, only: caught_signal
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
@@ -119,18 +119,7 @@ contains
       type(scene_t) :: swept
 
       swept = scene
-      select case (scene%sweep%key)
-      case (sweep_frequency)
-         swept%load%frequency = value
-      case (sweep_force_amplitude)
-         swept%load%force_amplitude = value
-      case (sweep_force_scale)
-         swept%load%force_scale = value
-      case (sweep_steady_force)
-         swept%load%steady_force = value
-      case default
-         swept%kinematics%entrainment_speed = value
-      end select
+      call set_number(swept, keys(scene%sweep%key)%group, keys(scene%sweep%key)%name, value)
    end function swept_scene
 
    !> Tell where an earlier run of this sweep was cut, if it was.
@@ -154,11 +143,9 @@ contains
       character(column_name_bytes), allocatable, intent(out) :: names(:)
       character(column_unit_bytes), allocatable, intent(out) :: units(:)
 
-      integer :: key
-
-      key = find_swept_key(choice_word('sweep', 'key', scene%sweep%key))
-      names = [character(column_name_bytes) :: keys(key)%name, 'direction', quantity_table(told_quantities(scene))%name]
-      units = [character(column_unit_bytes) :: keys(key)%unit, '-', quantity_table(told_quantities(scene))%unit]
+      names = [character(column_name_bytes) :: keys(scene%sweep%key)%name, 'direction', &
+               quantity_table(told_quantities(scene))%name]
+      units = [character(column_unit_bytes) :: keys(scene%sweep%key)%unit, '-', quantity_table(told_quantities(scene))%unit]
    end subroutine sweep_columns
 
    !> Codes of the quantities that this sweep tells.

@@ -1,7 +1,7 @@
 !> The one table of input keys. Reader, checker, nearest-key suggestion, template, the page of all keys
 !> and the keys that a campaign may vary all come from here. A new key is a new line in this file
-!> and one line where its group is read (scene_reader, task_reader); choices of its own have codes in
-!> scene_types.
+!> and a field in scene_types, with a case in set_number there if it is a number that campaigns may vary. Other values are
+!> read where their group is (scene_reader, task_reader); choices of their own have codes in scene_types.
 module key_table
    use input_key, only: integer_kind, key_t, list_kind, logical_kind, range_t, real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
@@ -35,6 +35,8 @@ module key_table
    type(range_t), parameter :: a_frequency = range_t(1.0e-7_dp, .false., 1.0e11_dp, .false.)
    type(range_t), parameter :: a_fall = range_t(0.0_dp, .false., 1.0e8_dp, .false.)
    type(range_t), parameter :: a_film = range_t(1.0e-16_dp, .false., 1.0e4_dp, .false.)
+   type(range_t), parameter :: a_play = range_t(1.0e-9_dp, .false., 1.0e4_dp, .false.)
+   type(range_t), parameter :: a_stiffness = range_t(1.0_dp, .false., 1.0e20_dp, .false.)
    type(range_t), parameter :: a_film_ratio = range_t(1.0e-20_dp, .false., 1.0e10_dp, .false.)
    type(range_t), parameter :: a_squeeze_ratio = range_t(-1.0e20_dp, .false., 1.0e20_dp, .false.)
    type(range_t), parameter :: a_speed_group = range_t(1.0e-30_dp, .false., 1.0e10_dp, .false.)
@@ -71,6 +73,14 @@ module key_table
             computable=a_modulus), &
       key_t('contact', 'poisson_ratio', real_kind, '-', '0.3', poisson, '', '', &
             'Poisson ratio of the teeth; E* = E/(1 - nu^2) (3).'), &
+      key_t('contact', 'backlash', real_kind, 'm', '', positive, '', 'scene.task=motion|sweep|campaign', &
+            'Play between drive and coast flank along their normal, the sum of both gaps; absent: the drive flank alone.', &
+            sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
+            computable=a_play), &
+      key_t('contact', 'stiffness', real_kind, 'N/m', '', positive, '', 'scene.task=motion|sweep|campaign', &
+            'Stiffness of a flank with its tooth, in series with the film of each flank; absent: rigid teeth.', &
+            sensible=range_t(lower=1.0e5_dp, upper=1.0e12_dp), &
+            computable=a_stiffness), &
       key_t('lubricant', 'viscosity', real_kind, 'Pa s', 'required', positive, '', '', &
             'Dynamic viscosity eta0 at ambient pressure.', &
             example='0.3', &
@@ -107,7 +117,7 @@ module key_table
             sensible=range_t(lower=1.0e-4_dp, upper=1.0e3_dp), &
             computable=a_mass), &
       key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion|sweep|campaign', &
-            'Steady force Q of (34), of either sign as long as Q + m g is positive.', &
+            'Steady force Q of (34); without a backlash Q + m g must be positive.', &
             example='199.2', &
             sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
             computable=a_signed_force), &
@@ -233,9 +243,9 @@ module key_table
             'film.model=numerical', &
             'Cells of the finite-volume solution, an even number; its load is extrapolated from these and half of these.'), &
       key_t('sweep', 'key', text_kind, '', 'required', any_number, &
-            'frequency force_amplitude steady_force entrainment_speed force_scale', &
+            'frequency force_amplitude steady_force entrainment_speed force_scale backlash stiffness', &
             'scene.task=sweep', &
-            'What is swept: a key of &load, or the entrainment speed.', &
+            'What is swept: a key of &load or &contact, or the entrainment speed.', &
             example='frequency'), &
       key_t('sweep', 'first', real_kind, 'of key', 'required', any_number, '', 'scene.task=sweep', &
             'Value that the sweep begins with.', &
@@ -302,7 +312,7 @@ module key_table
 
    type(key_t), parameter, public :: keys(*) = [keys_of_gears, keys_of_tasks]
 
-   public :: choice_word, find_key, find_swept_key, known_group, starts_group, nearest_key, nearest_group
+   public :: choice_word, find_key, find_swept_key, key_name, known_group, starts_group, nearest_key, nearest_group
 
 contains
 
@@ -324,8 +334,19 @@ contains
       !> Its name, a choice of &sweep key
       character(*), intent(in) :: name
 
-      find_swept_key = find_key(trim(merge('kinematics', 'load      ', name == 'entrainment_speed')), name)
+      do find_swept_key = 1, size(keys)
+         if (keys(find_swept_key)%name == name) return
+      end do
    end function find_swept_key
+
+   !> Name of a key as 'group.name'.
+   pure function key_name(position) result(name)
+      !> Position in the key table
+      integer, intent(in) :: position
+      character(:), allocatable :: name
+
+      name = trim(keys(position)%group)//'.'//trim(keys(position)%name)
+   end function key_name
 
    !> The word of a choice, from its code: its position among the choices of the key.
    pure function choice_word(group, name, code) result(word)

@@ -3,12 +3,13 @@ module scene_checker
    use errors, only: error_t, fault_list_t
    use force_checker, only: check_force
    use input_key, only: allowed_text, in_range, is_computable, not_computable_text, real_kind, reals_kind
-   use key_table, only: find_key, find_swept_key, keys
+   use key_table, only: find_key, find_swept_key, key_name, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
    use memory, only: expect_memory
    use scene_input, only: scene_input_t
-   use scene_types, only: least_entrainment_speed, least_static_load, load_t
+   use scene_rules, only: broken_rules, rule_t
+   use scene_types, only: scene_t, set_number
    use text, only: integer_text
    use word_list, only: split_words, word_t
    implicit none(type, external)
@@ -30,6 +31,7 @@ contains
       call check_radius(input, faults)
       call check_speed(input, faults)
       call check_film_model(input, faults)
+      call check_rules(input, faults)
       call check_no_word_twice(input, 'output', 'columns', faults)
       call check_no_word_twice(input, 'points', 'compute', faults)
       call check_no_word_twice(input, 'campaign', 'vary', faults)
@@ -37,7 +39,6 @@ contains
       if (input%word('scene', 'task') == 'film') then
          call check_points(input, faults)
       else
-         call check_static_load(input, faults)
          call check_force(input, faults)
          call check_window(input, faults)
          if (input%word('scene', 'task') == 'sweep') call check_sweep(input, faults)
@@ -104,6 +105,44 @@ contains
       end do
    end subroutine check_used
 
+   !> The rules between numbers hold.
+   subroutine check_rules(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      type(rule_t), allocatable :: broken(:)
+      type(scene_t) :: scene
+      character(:), allocatable :: first
+      integer :: i, dot
+
+      call input%put_numbers(scene)
+      allocate (broken, source=broken_rules(scene))
+      do i = 1, size(broken)
+         if (.not. is_clear(input, broken(i)%keys)) cycle
+         first = broken(i)%keys(:index(broken(i)%keys, ' ') - 1)
+         dot = index(first, '.')
+         call input%add_fault(first(:dot - 1), first(dot + 1:), trim(broken(i)%sentence), faults)
+      end do
+   end subroutine check_rules
+
+   !> Whether all keys of a rule have a value that could be read.
+   pure logical function is_clear(input, names)
+      type(scene_input_t), intent(in) :: input
+      !> As group.name, with blanks between
+      character(*), intent(in) :: names
+      type(word_t), allocatable :: words(:)
+      integer :: i, dot
+
+      ! A backlash lifts the rule of the static load.
+      is_clear = index(names, 'load.') /= 1 .or. .not. input%is_faulty('contact', 'backlash')
+      allocate (words, source=split_words(names))
+      do i = 1, size(words)
+         dot = index(words(i)%text, '.')
+         associate (entry => input%entries(find_key(words(i)%text(:dot - 1), words(i)%text(dot + 1:))))
+            is_clear = is_clear .and. entry%present .and. .not. entry%faulty
+         end associate
+      end do
+   end function is_clear
+
    !> Exactly one way to give the radius.
    subroutine check_radius(input, faults)
       type(scene_input_t), intent(in) :: input
@@ -124,7 +163,7 @@ contains
       end if
    end subroutine check_radius
 
-   !> Exactly one way to give the speed, and a positive sum.
+   !> Exactly one way to give the speed.
    subroutine check_speed(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
@@ -149,47 +188,12 @@ contains
       else if (first .neqv. second) then
          if (first) call input%add_fault('kinematics', 'surface_speed_1', rule, faults)
          if (second) call input%add_fault('kinematics', 'surface_speed_2', rule, faults)
-      else if (first) then
-         if (input%is_faulty('kinematics', 'surface_speed_1')) return
-         if (input%is_faulty('kinematics', 'surface_speed_2')) return
-         if (0.5_dp*(input%number('kinematics', 'surface_speed_1') + input%number('kinematics', 'surface_speed_2')) &
-             < least_entrainment_speed) call input%add_fault('kinematics', 'surface_speed_1', &
-                                        'the sum of both surface speeds must be positive, at least 2e-9 m/s', faults)
-      else if (.not. (mean .or. sum_ .or. groups_given)) then
+      else if (.not. (mean .or. sum_ .or. first .or. groups_given)) then
          call input%add_fault('kinematics', 'entrainment_speed', 'a speed is required: '//rule, faults)
       end if
    end subroutine check_speed
 
-   !> The static load presses the flanks together.
-   subroutine check_static_load(input, faults)
-      type(scene_input_t), intent(in) :: input
-      type(fault_list_t), intent(inout) :: faults
-      integer :: i
-
-      associate (places => [find_key('load', 'mass'), find_key('load', 'steady_force'), find_key('load', 'gravity')])
-         do i = 1, size(places)
-            if (.not. input%entries(places(i))%present .or. input%entries(places(i))%faulty) return
-         end do
-      end associate
-      if (static_load_under(input, input%number('load', 'steady_force')) < least_static_load) &
-         call input%add_fault('load', 'steady_force', &
-                              'the static load steady_force + mass*gravity must be positive, at least 1e-12 N', faults)
-   end subroutine check_static_load
-
-   !> Static load under a steady force [N].
-   pure real(dp) function static_load_under(input, steady_force)
-      type(scene_input_t), intent(in) :: input
-      !> [N]
-      real(dp), intent(in) :: steady_force
-      type(load_t) :: load
-
-      load%mass = input%number('load', 'mass')
-      load%gravity = input%number('load', 'gravity')
-      load%steady_force = steady_force
-      static_load_under = load%static_load()
-   end function static_load_under
-
-   !> The window fits into the run.
+   !> The window is no larger than a transform can be.
    subroutine check_window(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
@@ -198,11 +202,6 @@ contains
       real(dp), parameter :: most_samples = 1.0e7_dp, most_of_any_number = 2.0e6_dp
 
       if (input%is_faulty('spectrum', 'periods')) return
-      if (.not. input%is_faulty('solver', 'periods') .and. &
-          input%count('solver', 'periods') < input%count('spectrum', 'periods')) then
-         call input%add_fault('solver', 'periods', 'at least &spectrum periods ('// &
-                              integer_text(input%count('spectrum', 'periods'))//') must be solved', faults)
-      end if
       if (input%word('scene', 'task') == 'campaign') then
          call check_samples('campaign', 'samples_per_period')
       else if (input%word('solver', 'method') == 'newmark') then
@@ -282,8 +281,10 @@ contains
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
       character(:), allocatable :: key, message
+      type(rule_t), allocatable :: broken(:)
+      type(scene_t) :: swept
       real(dp) :: ends(2)
-      integer :: i, position
+      integer :: i, j, position
 
       if (input%word('solver', 'method') /= 'taylor') &
          call input%add_fault('solver', 'method', 'a sweep needs the taylor method', faults)
@@ -308,9 +309,16 @@ contains
       if (.not. abs(ends(2) - ends(1)) > 0.0_dp) call input%add_fault('sweep', 'last', 'it must differ from first', faults)
       ! Measured with a margin: each motion has its own copy of the values.
       call check_memory(input, 'sweep', 'count', 80.0_dp*real(input%count('sweep', 'count'), dp), faults)
-      if (key /= 'steady_force' .or. input%is_faulty('load', 'mass') .or. input%is_faulty('load', 'gravity')) return
-      if (static_load_under(input, minval(ends)) < least_static_load) call input%add_fault('sweep', 'first', &
-         'the static load steady_force + mass*gravity must stay positive, at least 1e-12 N', faults)
+      do i = 1, 2
+         call input%put_numbers(swept)
+         call set_number(swept, keys(position)%group, keys(position)%name, ends(i))
+         if (allocated(broken)) deallocate (broken)
+         allocate (broken, source=broken_rules(swept))
+         do j = 1, size(broken)
+            if (index(broken(j)%keys, key_name(position)//' ') > 0 .and. is_clear(input, broken(j)%keys)) &
+               call input%add_fault('sweep', trim(merge('first', 'last ', i == 1)), trim(broken(j)%sentence), faults)
+         end do
+      end do
    end subroutine check_sweep
 
    !> There is memory for what a key makes large.

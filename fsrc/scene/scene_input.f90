@@ -2,10 +2,11 @@
 module scene_input
    use errors, only: fault_list_t
    use input_entry, only: continues_list, entry_t, new_entry, set_entry
+   use input_key, only: integer_kind, real_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
    use namelist_text, only: assignment_t
-   use scene_types, only: numbers_t
+   use scene_types, only: numbers_t, scene_t, set_number
    use text, only: integer_text
    use word_list, only: split_words, word_position, word_t
    implicit none(type, external)
@@ -18,6 +19,7 @@ module scene_input
       type(entry_t), allocatable :: entries(:)
    contains
       procedure :: set_all
+      procedure :: put_numbers
       procedure :: is_given
       procedure :: is_faulty
       procedure :: number => number_of
@@ -90,6 +92,19 @@ contains
          end associate
       end do
    end subroutine set_all
+
+   !> Put all numbers that have a value into a scene.
+   pure subroutine put_numbers(self, scene)
+      class(scene_input_t), intent(in) :: self
+      type(scene_t), intent(inout) :: scene
+      integer :: i
+
+      do i = 1, size(keys)
+         if (.not. self%entries(i)%present .or. self%entries(i)%faulty) cycle
+         if (keys(i)%kind == real_kind) call set_number(scene, keys(i)%group, keys(i)%name, self%entries(i)%number)
+         if (keys(i)%kind == integer_kind) call set_number(scene, keys(i)%group, keys(i)%name, real(self%entries(i)%count, dp))
+      end do
+   end subroutine put_numbers
 
    !> Whether the user set a key.
    pure logical function is_given(self, group, name)

@@ -12,8 +12,7 @@ module scene_reader
    use odd_numbers, only: odd_numbers_of_input
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
-   use scene_types, only: contact_t, film_choice_t, forced_orders, kinematics_t, load_t, lubricant_t, output_t, scene_t, &
-                          solver_t, spectrum_choice_t, task_campaign, task_sweep
+   use scene_types, only: forced_orders, output_t, scene_t, task_campaign, task_sweep
    use task_reader, only: read_campaign, read_points, read_sweep
    use text, only: integer_text, quoted
    implicit none(type, external)
@@ -84,15 +83,8 @@ contains
       call faults%sort_since(before)
       if (faults%count() > before) return
 
-      scene%contact = read_contact(input)
-      scene%lubricant = read_lubricant(input)
-      scene%kinematics = read_kinematics(input)
-      scene%load = read_load(input)
-      scene%film = read_film(input)
-      scene%solver = read_solver(input)
-      scene%spectrum = read_spectrum(input)
-      if (allocated(scene%load%force_orders)) scene%spectrum%forced = &
-         forced_orders(scene%load%force_orders, scene%load%force_amplitudes)
+      call input%put_numbers(scene)
+      call read_choices(input, scene)
       scene%points = read_points(input, scene%film%model)
       if (scene%task == task_sweep) scene%sweep = read_sweep(input)
       if (scene%task == task_campaign) scene%campaign = read_campaign(input)
@@ -139,109 +131,37 @@ contains
       end if
    end subroutine read_name
 
-   !> &contact
-   function read_contact(input) result(contact)
+   !> Choices and lists of the groups that make a motion; their numbers are there already.
+   subroutine read_choices(input, scene)
       type(scene_input_t), intent(in) :: input
-      type(contact_t) :: contact
+      type(scene_t), intent(inout) :: scene
 
-      contact%radius = input%number('contact', 'radius')
-      contact%radius_1 = input%number('contact', 'radius_1')
-      contact%radius_2 = input%number('contact', 'radius_2')
-      contact%length = input%number('contact', 'length')
-      contact%young_modulus = input%number('contact', 'young_modulus')
-      contact%poisson_ratio = input%number('contact', 'poisson_ratio')
-   end function read_contact
-
-   !> &lubricant
-   function read_lubricant(input) result(lubricant)
-      type(scene_input_t), intent(in) :: input
-      type(lubricant_t) :: lubricant
-
-      lubricant%viscosity = input%number('lubricant', 'viscosity')
-      lubricant%pressure_viscosity = input%number('lubricant', 'pressure_viscosity')
-      lubricant%viscosity_law = input%choice('lubricant', 'viscosity_law')
-   end function read_lubricant
-
-   !> &kinematics: all three ways to say it end as the entrainment speed.
-   function read_kinematics(input) result(kinematics)
-      type(scene_input_t), intent(in) :: input
-      type(kinematics_t) :: kinematics
-
-      kinematics%surface_speed_1 = input%number('kinematics', 'surface_speed_1')
-      kinematics%surface_speed_2 = input%number('kinematics', 'surface_speed_2')
-      if (input%is_given('kinematics', 'entrainment_speed')) then
-         kinematics%entrainment_speed = input%number('kinematics', 'entrainment_speed')
-      else if (input%is_given('kinematics', 'rolling_speed')) then
-         kinematics%entrainment_speed = 0.5_dp*input%number('kinematics', 'rolling_speed')
-      else
-         kinematics%entrainment_speed = 0.5_dp*(input%number('kinematics', 'surface_speed_1') + &
-                                                input%number('kinematics', 'surface_speed_2'))
-      end if
-   end function read_kinematics
-
-   !> &load
-   function read_load(input) result(load)
-      type(scene_input_t), intent(in) :: input
-      type(load_t) :: load
-
-      load%mass = input%number('load', 'mass')
-      load%steady_force = input%number('load', 'steady_force')
-      load%force_amplitude = input%number('load', 'force_amplitude')
-      load%force_scale = input%number('load', 'force_scale')
-      if (input%is_given('load', 'force_orders')) then
-         load%force_orders = nint(input%numbers('load', 'force_orders'))
-         load%force_amplitudes = input%numbers('load', 'force_amplitudes')
-         load%force_phases = 0.0_dp*load%force_amplitudes
-         if (input%is_given('load', 'force_phases')) load%force_phases = input%numbers('load', 'force_phases')
-      end if
-      load%frequency = input%number('load', 'frequency')
-      load%gravity = input%number('load', 'gravity')
-   end function read_load
-
-   !> &film
-   function read_film(input) result(film)
-      type(scene_input_t), intent(in) :: input
-      type(film_choice_t) :: film
-
-      film%law = input%choice('film', 'law')
-      film%model = input%choice('film', 'model')
-      film%rupture = input%choice('film', 'rupture')
-      film%rupture_solver = input%choice('film', 'rupture_solver')
-      film%initial_film = input%number('film', 'initial_film')
-      film%initial_velocity = input%number('film', 'initial_velocity')
-   end function read_film
-
-   !> &solver
-   function read_solver(input) result(solver)
-      type(scene_input_t), intent(in) :: input
-      type(solver_t) :: solver
-
-      solver%method = input%choice('solver', 'method')
-      solver%iteration = input%choice('solver', 'iteration')
-      solver%predictor = input%choice('solver', 'predictor')
-      solver%tolerance = input%number('solver', 'tolerance')
-      solver%iteration_limit = input%count('solver', 'iteration_limit')
-      solver%steps_per_period = input%count('solver', 'steps_per_period')
-      solver%kept_per_period = input%count('solver', 'samples_per_period')
-      solver%periods = input%count('solver', 'periods')
-      solver%accuracy = input%number('solver', 'accuracy')
-      solver%until = input%choice('solver', 'until')
-      solver%time_limit = input%number('solver', 'time_limit')
-   end function read_solver
-
-   !> &spectrum
-   function read_spectrum(input) result(spectrum)
-      type(scene_input_t), intent(in) :: input
-      type(spectrum_choice_t) :: spectrum
-
-      spectrum%periods = input%count('spectrum', 'periods')
-      spectrum%line_threshold = input%number('spectrum', 'line_threshold')
-      spectrum%idle_lines = input%count('spectrum', 'idle_lines')
-      spectrum%quiet_limit = input%number('spectrum', 'quiet_limit')
-      spectrum%irregular_limit = input%number('spectrum', 'irregular_limit')
-      spectrum%certify = input%flag('spectrum', 'certify')
-      spectrum%certificate_tolerance = input%number('spectrum', 'certificate_tolerance')
-   end function read_spectrum
+      associate (film => scene%film, solver => scene%solver, load => scene%load, spectrum => scene%spectrum)
+         scene%lubricant%viscosity_law = input%choice('lubricant', 'viscosity_law')
+         if (input%is_given('load', 'force_orders')) then
+            load%force_orders = nint(input%numbers('load', 'force_orders'))
+            load%force_amplitudes = input%numbers('load', 'force_amplitudes')
+            load%force_phases = 0.0_dp*load%force_amplitudes
+            if (input%is_given('load', 'force_phases')) load%force_phases = input%numbers('load', 'force_phases')
+            spectrum%forced = forced_orders(load%force_orders, load%force_amplitudes)
+         end if
+         film%law = input%choice('film', 'law')
+         film%model = input%choice('film', 'model')
+         film%rupture = input%choice('film', 'rupture')
+         film%rupture_solver = input%choice('film', 'rupture_solver')
+         solver%method = input%choice('solver', 'method')
+         solver%iteration = input%choice('solver', 'iteration')
+         solver%predictor = input%choice('solver', 'predictor')
+         solver%tolerance = input%number('solver', 'tolerance')
+         solver%iteration_limit = input%count('solver', 'iteration_limit')
+         solver%steps_per_period = input%count('solver', 'steps_per_period')
+         solver%kept_per_period = input%count('solver', 'samples_per_period')
+         solver%until = input%choice('solver', 'until')
+         solver%time_limit = input%number('solver', 'time_limit')
+         spectrum%certify = input%flag('spectrum', 'certify')
+         spectrum%certificate_tolerance = input%number('spectrum', 'certificate_tolerance')
+      end associate
+   end subroutine read_choices
 
    !> &output
    function read_output(input) result(output)

@@ -11,9 +11,6 @@ module scene_types
 
    !> What is computed.
    integer, parameter, public :: task_motion = 1, task_film = 2, task_sweep = 3, task_campaign = 4
-   !> What a sweep varies.
-   integer, parameter, public :: sweep_frequency = 1, sweep_force_amplitude = 2, sweep_steady_force = 3, &
-                                 sweep_entrainment_speed = 4, sweep_force_scale = 5
    !> What a film task computes of every point.
    integer, parameter, public :: compute_rupture = 1, compute_load = 2, compute_stiffness = 3, compute_damping = 4, &
                                  compute_pressure = 5, compute_limits = 6, compute_profile = 7
@@ -54,13 +51,15 @@ module scene_types
       !> Radii of the two flanks [m]
       real(dp) :: radius_1 = 0.0_dp
       real(dp) :: radius_2 = 0.0_dp
-      !> Backlash between both flanks b [m]; 0: there is one flank
-      real(dp) :: backlash = 0.0_dp
       !> Contact length l [m]
       real(dp) :: length = 0.0_dp
       !> Young's modulus E [Pa] and Poisson ratio [-] of the teeth
       real(dp) :: young_modulus = 0.0_dp
       real(dp) :: poisson_ratio = 0.0_dp
+      !> Play between the two flanks along their normal [m]; 0: there is one flank only
+      real(dp) :: backlash = 0.0_dp
+      !> Stiffness of a flank and its tooth, in series with the film [N/m]; 0: rigid
+      real(dp) :: stiffness = 0.0_dp
    end type contact_t
 
    !> Sums of keys that are smaller than this come of rounding, and lead out of the range of the reals: Q + m g [N], U [m/s]
@@ -187,7 +186,8 @@ module scene_types
 
    !> &sweep
    type, public :: sweep_t
-      integer :: key = sweep_frequency
+      !> Position of the swept key in the key table
+      integer :: key = 0
       !> Values in their order, there and back [unit of the key]
       real(dp), allocatable :: values(:)
       !> How many of them lead there; the others lead back
@@ -262,9 +262,91 @@ module scene_types
       end function fma
    end interface
 
-   public :: forced_orders
+   public :: forced_orders, set_number
 
 contains
+
+   !> Set the number that a key stands for. It knows every number of a motion that campaigns may vary. All speeds end as the
+   !> entrainment speed.
+   pure subroutine set_number(scene, group, name, value, known)
+      type(scene_t), intent(inout) :: scene
+      !> The key
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+      !> In the unit of the key
+      real(dp), intent(in) :: value
+      !> Whether there is such a number
+      logical, intent(out), optional :: known
+
+      if (present(known)) known = .true.
+      associate (contact => scene%contact, lubricant => scene%lubricant, kinematics => scene%kinematics, load => scene%load, &
+                 film => scene%film, solver => scene%solver, spectrum => scene%spectrum)
+         select case (trim(group)//'.'//name)
+         case ('contact.radius')
+            contact%radius = value
+         case ('contact.radius_1')
+            contact%radius_1 = value
+         case ('contact.radius_2')
+            contact%radius_2 = value
+         case ('contact.length')
+            contact%length = value
+         case ('contact.young_modulus')
+            contact%young_modulus = value
+         case ('contact.poisson_ratio')
+            contact%poisson_ratio = value
+         case ('contact.backlash')
+            contact%backlash = value
+         case ('contact.stiffness')
+            contact%stiffness = value
+         case ('lubricant.viscosity')
+            lubricant%viscosity = value
+         case ('lubricant.pressure_viscosity')
+            lubricant%pressure_viscosity = value
+         case ('kinematics.entrainment_speed')
+            kinematics%entrainment_speed = value
+         case ('kinematics.rolling_speed')
+            kinematics%entrainment_speed = 0.5_dp*value
+         case ('kinematics.surface_speed_1')
+            kinematics%surface_speed_1 = value
+            kinematics%entrainment_speed = 0.5_dp*kinematics%surface_speed_1 + 0.5_dp*kinematics%surface_speed_2
+         case ('kinematics.surface_speed_2')
+            kinematics%surface_speed_2 = value
+            kinematics%entrainment_speed = 0.5_dp*kinematics%surface_speed_1 + 0.5_dp*kinematics%surface_speed_2
+         case ('load.mass')
+            load%mass = value
+         case ('load.steady_force')
+            load%steady_force = value
+         case ('load.force_amplitude')
+            load%force_amplitude = value
+         case ('load.force_scale')
+            load%force_scale = value
+         case ('load.frequency')
+            load%frequency = value
+         case ('load.gravity')
+            load%gravity = value
+         case ('film.initial_film')
+            film%initial_film = value
+         case ('film.initial_velocity')
+            film%initial_velocity = value
+         case ('solver.accuracy')
+            solver%accuracy = value
+         case ('solver.periods')
+            solver%periods = nint(value)
+         case ('spectrum.periods')
+            spectrum%periods = nint(value)
+         case ('spectrum.line_threshold')
+            spectrum%line_threshold = value
+         case ('spectrum.idle_lines')
+            spectrum%idle_lines = nint(value)
+         case ('spectrum.quiet_limit')
+            spectrum%quiet_limit = value
+         case ('spectrum.irregular_limit')
+            spectrum%irregular_limit = value
+         case default
+            if (present(known)) known = .false.
+         end select
+      end associate
+   end subroutine set_number
 
    !> At which orders lines are forced: those of at least a hundredth of the largest amplitude of the force.
    pure function forced_orders(orders, amplitudes) result(forced)

@@ -1,6 +1,6 @@
 !> The groups of tasks other than a single motion: &points, &sweep, &campaign.
 module task_reader
-   use key_table, only: keys
+   use key_table, only: find_swept_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
    use quantities, only: quantity_code
@@ -61,7 +61,7 @@ contains
       type(sweep_t) :: sweep
       real(dp), allocatable :: values(:)
 
-      sweep%key = input%choice('sweep', 'key')
+      sweep%key = find_swept_key(input%word('sweep', 'key'))
       sweep%outward = input%count('sweep', 'count')
       allocate (values, source=spread_between(input%number('sweep', 'first'), input%number('sweep', 'last'), sweep%outward, &
                                               input%word('sweep', 'spacing') == 'logarithmic'))

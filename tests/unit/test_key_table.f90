@@ -3,7 +3,7 @@ module test_key_table
    use checks, only: check_list_t
    use input_key, only: allowed_text, in_range, integer_kind, key_t, list_kind, logical_kind, real_kind, &
       reals_kind, text_kind
-   use key_table, only: find_key, keys, known_group, nearest_group, nearest_key, starts_group
+   use key_table, only: find_key, find_swept_key, key_name, keys, known_group, nearest_group, nearest_key, starts_group
    use kinds, only: dp
    use quantities, only: quantity_code, quantity_table
    use scene_types, only: column_names, compute_damping, compute_limits, compute_load, compute_pressure, &
@@ -11,11 +11,11 @@ module test_key_table
       law_iso_viscous, law_piezo_viscous, method_newmark, method_taylor, &
       model_numerical, model_published, model_reynolds, predictor_extrapolated, predictor_previous, &
       rupture_half_pi, rupture_solved, rupture_solver_fast, rupture_solver_successive, speed_mean, &
-      speed_sum, sweep_entrainment_speed, sweep_force_amplitude, sweep_frequency, sweep_steady_force, &
+      speed_sum, &
       task_campaign, task_film, task_motion, task_sweep, until_periods, until_steady, viscosity_barus, &
       viscosity_roelands
-   use varied_keys, only: varied, varied_code
-   use word_list, only: word_position
+   use varied_keys, only: find_varied_key
+   use word_list, only: split_words, word_position, word_t
    implicit none(type, external)
    private
 
@@ -57,19 +57,24 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       character(*), parameter :: groups(5) = [character(12) :: 'contact', 'lubricant', 'kinematics', 'load', 'film']
+      character(:), allocatable :: message
+      type(word_t), allocatable :: swept(:)
       logical :: is_number, is_varied
-      integer :: i
+      integer :: i, position
 
-      do i = 1, size(varied)
-         call checks%check(varied(i)%code == i .and. varied_code(find_key(varied(i)%group, varied(i)%name)) == i, &
-            trim(varied(i)%name)//': its code is its place')
-      end do
       do i = 1, size(keys)
          is_number = keys(i)%kind == real_kind .or. keys(i)%kind == integer_kind
-         is_varied = varied_code(i) > 0
+         call find_varied_key(key_name(i), position, message)
+         is_varied = position > 0
+         call checks%check(is_varied .eqv. len(message) == 0, trim(keys(i)%name)//': varied, or told why not')
          call checks%check(is_number .or. .not. is_varied, trim(keys(i)%name)//': varied, so a number')
          if (any(groups == keys(i)%group)) &
             call checks%check(is_varied .eqv. is_number, trim(keys(i)%name)//': a number of a motion, so it can vary')
+      end do
+      allocate (swept, source=split_words(keys(find_key('sweep', 'key'))%choices))
+      do i = 1, size(swept)
+         call find_varied_key(key_name(find_swept_key(swept(i)%text)), position, message)
+         call checks%check(position > 0, swept(i)%text//': swept, so it can vary')
       end do
    end subroutine test_varied_keys
 
@@ -197,10 +202,6 @@ contains
       call agree('scene', 'task', 'film', task_film)
       call agree('scene', 'task', 'sweep', task_sweep)
       call agree('scene', 'task', 'campaign', task_campaign)
-      call agree('sweep', 'key', 'frequency', sweep_frequency)
-      call agree('sweep', 'key', 'force_amplitude', sweep_force_amplitude)
-      call agree('sweep', 'key', 'steady_force', sweep_steady_force)
-      call agree('sweep', 'key', 'entrainment_speed', sweep_entrainment_speed)
       call agree('lubricant', 'viscosity_law', 'barus', viscosity_barus)
       call agree('lubricant', 'viscosity_law', 'roelands', viscosity_roelands)
       call agree('points', 'speed_reading', 'mean', speed_mean)

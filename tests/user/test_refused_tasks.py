@@ -30,7 +30,7 @@ def sweep_text(scene_text, key: str, first: str, last: str, spacing: str = "line
         ("force_amplitude", "10.0", "0.0", "logarithmic", "last: not allowed for force_amplitude"),
         ("steady_force", "-10.0", "100.0", "logarithmic", "first: not allowed for steady_force"),
         ("steady_force", str(-WEIGHT - 0.01), "100.0", "linear", "first: the static load"),
-        ("steady_force", "100.0", str(-WEIGHT - 0.01), "linear", "first: the static load"),
+        ("steady_force", "100.0", str(-WEIGHT - 0.01), "linear", "last: the static load"),
         ("entrainment_speed", "0.0", "2.0", "linear", "first: not allowed for entrainment_speed"),
     ],
 )

@@ -1,0 +1,49 @@
+!> Rules between the numbers of a scene: read, swept or drawn by a campaign, they must hold.
+module scene_rules
+   use kinds, only: dp
+   use scene_types, only: least_entrainment_speed, least_static_load, scene_t
+   implicit none(type, external)
+   private
+
+   !> A rule that a scene breaks.
+   type, public :: rule_t
+      !> The keys that it concerns, as group.name with a blank behind each; its fault is told at the first
+      character(64) :: keys
+      character(96) :: sentence
+   end type rule_t
+
+   public :: broken_rules
+
+contains
+
+   !> The rules that a scene breaks.
+   pure function broken_rules(scene) result(broken)
+      !> Each of its numbers is one that can be computed with
+      type(scene_t), intent(in) :: scene
+      type(rule_t), allocatable :: broken(:)
+      type(rule_t) :: rules(5)
+      logical :: holds(5)
+
+      associate (contact => scene%contact, load => scene%load, solver => scene%solver, spectrum => scene%spectrum)
+         rules(1) = rule_t('load.steady_force load.mass load.gravity', &
+                           'the static load steady_force + mass*gravity must be positive, at least 1e-12 N')
+         holds(1) = contact%backlash > 0.0_dp .or. load%static_load() >= least_static_load
+         rules(2) = rule_t('film.initial_film contact.backlash', &
+                           'the film must be below the backlash, so that the coast flank has one')
+         holds(2) = .not. (contact%backlash > 0.0_dp .and. scene%film%initial_film >= contact%backlash)
+         rules(3) = rule_t('contact.backlash', 'two flanks and teeth that give are not solved yet')
+         if (.not. contact%backlash > 0.0_dp) rules(3)%keys = 'contact.stiffness'
+         holds(3) = .not. max(contact%backlash, contact%stiffness) > 0.0_dp
+         rules(4) = rule_t('kinematics.surface_speed_1 kinematics.surface_speed_2', &
+                           'the sum of both surface speeds must be positive, at least 2e-9 m/s')
+         holds(4) = scene%kinematics%entrainment_speed >= least_entrainment_speed
+         rules(5)%keys = 'solver.periods spectrum.periods'
+         holds(5) = solver%periods >= spectrum%periods
+         ! Not by integer_text: threads come here, and gfortran keeps the length of a text that a function allocates for all of them.
+         if (.not. holds(5)) write (rules(5)%sentence, '(a, i0, a)') 'at least &spectrum periods (', spectrum%periods, &
+            ') must be solved'
+      end associate
+      broken = pack(rules,.not. holds)
+   end function broken_rules
+
+end module scene_rules
