@@ -114,6 +114,8 @@ contains
       character(:), allocatable :: first
       integer :: i, dot
 
+      if (input%is_given('contact', 'stiffness')) &
+         call input%add_fault('contact', 'stiffness', 'teeth that give are not solved yet', faults)
       call input%put_numbers(scene)
       allocate (broken, source=broken_rules(scene))
       do i = 1, size(broken)

@@ -21,8 +21,8 @@ contains
       !> Each of its numbers is one that can be computed with
       type(scene_t), intent(in) :: scene
       type(rule_t), allocatable :: broken(:)
-      type(rule_t) :: rules(5)
-      logical :: holds(5)
+      type(rule_t) :: rules(4)
+      logical :: holds(4)
 
       associate (contact => scene%contact, load => scene%load, solver => scene%solver, spectrum => scene%spectrum)
          rules(1) = rule_t('load.steady_force load.mass load.gravity', &
@@ -31,16 +31,13 @@ contains
          rules(2) = rule_t('film.initial_film contact.backlash', &
                            'the film must be below the backlash, so that the coast flank has one')
          holds(2) = .not. (contact%backlash > 0.0_dp .and. scene%film%initial_film >= contact%backlash)
-         rules(3) = rule_t('contact.backlash', 'two flanks and teeth that give are not solved yet')
-         if (.not. contact%backlash > 0.0_dp) rules(3)%keys = 'contact.stiffness'
-         holds(3) = .not. max(contact%backlash, contact%stiffness) > 0.0_dp
-         rules(4) = rule_t('kinematics.surface_speed_1 kinematics.surface_speed_2', &
+         rules(3) = rule_t('kinematics.surface_speed_1 kinematics.surface_speed_2', &
                            'the sum of both surface speeds must be positive, at least 2e-9 m/s')
-         holds(4) = scene%kinematics%entrainment_speed >= least_entrainment_speed
-         rules(5)%keys = 'solver.periods spectrum.periods'
-         holds(5) = solver%periods >= spectrum%periods
+         holds(3) = scene%kinematics%entrainment_speed >= least_entrainment_speed
+         rules(4)%keys = 'solver.periods spectrum.periods'
+         holds(4) = solver%periods >= spectrum%periods
          ! Not by integer_text: threads come here, and gfortran keeps the length of a text that a function allocates for all of them.
-         if (.not. holds(5)) write (rules(5)%sentence, '(a, i0, a)') 'at least &spectrum periods (', spectrum%periods, &
+         if (.not. holds(4)) write (rules(4)%sentence, '(a, i0, a)') 'at least &spectrum periods (', spectrum%periods, &
             ') must be solved'
       end associate
       broken = pack(rules,.not. holds)
