@@ -4,10 +4,12 @@
 #   NATIVE=1     compile for this very processor instead of any x86-64-v3
 #   BUILD=DIR    build folder (default: build)
 #   FC=COMPILER  gfortran, or flang of LLVM 19 or later
-#   PREFIX=DIR   where make install puts the program
+#   PREFIX=DIR   below which make install puts program, Python package, man page and completion
 
 BUILD ?= build
 PREFIX ?= /usr/local
+SCRIPTS_PLACE := bin
+PACKAGES_PLACE := lib/rattle
 VERSION := $(shell cat fsrc/VERSION)
 FC := $(if $(MPI),mpifort,gfortran)
 PYTHON_ENV := .venv
@@ -90,7 +92,7 @@ help:
 	@echo 'make pages        write input/README.md and scripts/rattle/quantities.csv anew from the tables'
 	@echo 'make pictures     draw the pictures of the README anew'
 	@echo 'make format       bring Fortran and Python into the one format'
-	@echo 'make install      install the program into PREFIX/bin (PREFIX=$(PREFIX))'
+	@echo 'make install      install program, Python package, man page and completion below PREFIX=$(PREFIX)'
 	@echo 'make clean        remove everything that was built'
 
 # --- Python packages --------------------------------------------------------------------------------
@@ -162,7 +164,7 @@ python: $(BUILD)/kernels/built
 
 $(BUILD)/kernels/built: $(wildcard fsrc/bindings/*.f90) scripts/build_kernels.sh $(OBJECTS) $(PYTHON_ENV)/installed
 	@echo 'build the Python module of the kernels'
-	@scripts/build_kernels.sh $(PYTHON) $(BUILD) '$(OBJECTS)' '$(LIBRARIES)' '$(FC)'
+	@scripts/build_kernels.sh $(PYTHON) $(BUILD)/kernels '$(OBJECTS)' '$(LIBRARIES)' '$(FC)' $(BUILD) scripts/rattle
 	@touch $@
 
 # --- the two scenes of the paper ---------------------------------------------------------------------
@@ -305,8 +307,10 @@ $(STRESS_PROGRAMS): $(BUILD)/%: %.f90 $(OBJECTS) $(STRESS_OBJECTS)
 debug:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/debug DEBUG=1 all
 
-install: all
-	install -D -m 755 $(BUILD)/rattle $(DESTDIR)$(PREFIX)/bin/rattle
+# With PYTHON=... the package is for that Python, which must have numpy; else for the one of this folder.
+install: all $(if $(filter command line,$(origin PYTHON)),,$(PYTHON_ENV)/installed)
+	@scripts/install.sh $(abspath $(PYTHON)) $(BUILD) '$(OBJECTS)' '$(LIBRARIES)' '$(FC)' \
+	  $(DESTDIR)$(PREFIX) $(SCRIPTS_PLACE) $(PACKAGES_PLACE)
 
 clean:
 	rm -rf $(BUILD) scripts/rattle/*.so

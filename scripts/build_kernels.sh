@@ -1,13 +1,16 @@
 #!/bin/sh
-# Builds the Python module of the Fortran kernels. Usage: build_kernels.sh PYTHON BUILD OBJECTS LIBRARIES COMPILER
+# Builds the Python module of the Fortran kernels.
+# Usage: build_kernels.sh PYTHON PLACE OBJECTS LIBRARIES COMPILER MODULES TARGET
+# PLACE takes what is made on the way, MODULES has the modules of the program, TARGET is the package.
 # f2py writes the C layer; compiler and linker are called here, with the flags of the program.
 set -eu
 python=$1
-build=$2
+place=$2
 objects=$3
 libraries=$4
 compiler=$5
-place=$build/kernels
+modules=$6
+target=$7
 mkdir -p "$place"
 
 "$python" -m numpy.f2py --lower --build-dir "$place" -m _kernels fsrc/bindings/*.f90 > "$place/f2py.log" 2>&1 ||
@@ -32,5 +35,5 @@ for source in "$place"/_kernels-f2pywrappers*.f*; do
     [ -e "$source" ] && wrappers="$wrappers $source"
 done
 # shellcheck disable=SC2086
-$compiler -shared -O2 -fPIC -fopenmp -I"$build" -J"$place" fsrc/bindings/*.f90 $wrappers \
-    "$place/_kernelsmodule.o" "$place/fortranobject.o" $objects $libraries -o "scripts/rattle/_kernels$suffix"
+$compiler -shared -O2 -fPIC -fopenmp -I"$modules" -J"$place" fsrc/bindings/*.f90 $wrappers \
+    "$place/_kernelsmodule.o" "$place/fortranobject.o" $objects $libraries -o "$target/_kernels$suffix"

@@ -28,9 +28,14 @@ class Key:
 def key_table() -> dict[tuple[str, str], Key]:
     """All keys by group and name, in the order of the page; empty where the page is not there."""
     page = next((path for path in PAGES if path.exists()), None)
+    return read_page(page.read_text(encoding="utf-8")) if page else {}
+
+
+def read_page(text: str) -> dict[tuple[str, str], Key]:
+    """The keys that a page of `rattle --keys` lists."""
     found: dict[tuple[str, str], Key] = {}
     group = ""
-    for line in page.read_text(encoding="utf-8").splitlines() if page else ():
+    for line in text.splitlines():
         if line.startswith("#"):
             head = _GROUP.match(line)
             group = head[1] if head else ""
