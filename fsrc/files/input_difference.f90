@@ -32,7 +32,7 @@ contains
          if (place == 0) then
             sentence = key_name(new(i))//' is '//values_text(new(i))//' now and was not set'
          else if (values_text(old(place)) /= values_text(new(i))) then
-            sentence = key_name(new(i))//' is '//values_text(new(i))//' now and was '//values_text(old(place))
+            sentence = different_values(old(place), new(i))
          end if
          if (len(sentence) > 0) return
       end do
@@ -43,6 +43,23 @@ contains
          return
       end do
    end function first_difference
+
+   !> Both values of a key; of long lists of one length the first ones that differ.
+   pure function different_values(old, new) result(sentence)
+      type(assignment_t), intent(in) :: old
+      type(assignment_t), intent(in) :: new
+      character(:), allocatable :: sentence
+      integer, parameter :: long = 3
+      integer :: i
+
+      sentence = key_name(new)//' is '//values_text(new)//' now and was '//values_text(old)
+      if (size(new%values) < long .or. size(new%values) /= size(old%values)) return
+      do i = 1, size(new%values)
+         if (new%values(i)%text == old%values(i)%text) cycle
+         sentence = key_name(new)//'('//integer_text(i)//') is '//new%values(i)%text//' now and was '//old%values(i)%text
+         return
+      end do
+   end function different_values
 
    !> Whether a key is one of those that may differ.
    pure logical function may_differ(assignment, free)

@@ -25,7 +25,7 @@ module fourier
    integer :: oldest = 1
    !$omp threadprivate(kept, oldest)
 
-   public :: amplitude_spectrum
+   public :: amplitude_spectrum, trigonometric_interpolation
 
 contains
 
@@ -39,8 +39,7 @@ contains
       integer :: n, i
 
       n = size(samples)
-      i = findloc(kept%length, n, dim=1)
-      if (i == 0) call prepare(n, i)
+      i = plan_of(n)
       allocate (amplitudes(0:n/2))
       unit = binary_unit(samples)
       associate (transform => kept(i))
@@ -52,6 +51,39 @@ contains
       amplitudes(0) = 0.5_dp*amplitudes(0)
       if (mod(n, 2) == 0) amplitudes(n/2) = 0.5_dp*amplitudes(n/2)
    end subroutine amplitude_spectrum
+
+   !> The trigonometric polynomial a_0 + sum a_k cos(2 pi k x + phase_k) through samples at x = 0, 1/n, 2/n, ...
+   subroutine trigonometric_interpolation(samples, mean, amplitudes, phases)
+      !> n >= 2 equidistant samples of one period
+      real(dp), intent(in) :: samples(:)
+      !> a_0, unit of the samples
+      real(dp), intent(out) :: mean
+      !> a_1 to a_(n/2), unit of the samples, and their phases [rad]
+      real(dp), allocatable, intent(out) :: amplitudes(:)
+      real(dp), allocatable, intent(out) :: phases(:)
+      real(dp) :: unit
+      integer :: n, i
+
+      n = size(samples)
+      i = plan_of(n)
+      unit = binary_unit(samples)
+      associate (transform => kept(i))
+         transform%samples(:) = samples*(1.0_dp/unit)
+         call fftw_execute_dft_r2c(transform%plan, transform%samples, transform%lines)
+         mean = real(transform%lines(0), dp)/real(n, dp)*unit
+         amplitudes = 2.0_dp*abs(transform%lines(1:))/real(n, dp)*unit
+         phases = atan2(aimag(transform%lines(1:)), real(transform%lines(1:), dp))
+      end associate
+      if (mod(n, 2) == 0) amplitudes(n/2) = 0.5_dp*amplitudes(n/2)
+   end subroutine trigonometric_interpolation
+
+   !> Where the plan for so many samples is kept.
+   integer function plan_of(length)
+      integer, intent(in) :: length
+
+      plan_of = findloc(kept%length, length, dim=1)
+      if (plan_of == 0) call prepare(length, plan_of)
+   end function plan_of
 
    !> Replace the oldest plan of this thread. Plans are estimated, not measured: a measured plan may change the last
    !> bit from run to run. FFTW makes plans for one thread at a time.

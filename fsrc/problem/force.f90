@@ -12,7 +12,7 @@ module force
 
    !> A force that repeats.
    type, public :: force_t
-      !> Steady part Q [N]
+      !> Steady part: Q, with the mean of the force [N]
       real(dp) :: steady = 0.0_dp
       !> Order n of the last harmonic
       integer :: highest = 1
@@ -42,9 +42,9 @@ contains
       type(load_t), intent(in) :: load
       integer :: k
 
-      force%steady = load%steady_force
+      force%steady = load%steady_force + load%force_mean
       if (.not. allocated(load%force_orders)) then
-         force = cosine_force(load%steady_force, load%force_scale*load%force_amplitude)
+         force = cosine_force(force%steady, load%force_scale*load%force_amplitude)
          return
       end if
       force%highest = maxval(load%force_orders)

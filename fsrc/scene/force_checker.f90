@@ -17,13 +17,14 @@ contains
       type(scene_input_t), intent(in) :: input
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
-      character(*), parameter :: rule = 'give either force_amplitude, or force_orders with force_amplitudes'
+      character(*), parameter :: rule = 'give either force_amplitude, or force_orders with force_amplitudes, or signal'
       character(*), parameter :: lists(3) = [character(16) :: 'force_orders', 'force_amplitudes', 'force_phases']
-      character(:), allocatable :: samples
+      character(:), allocatable :: samples, remedy
       real(dp), allocatable :: orders(:)
       logical :: given(3)
       integer :: i, highest
 
+      if (input%is_given('load', 'signal')) return
       given = [(input%is_given('load', trim(lists(i))), i=1, 3)]
       if (.not. any(given)) then
          if (.not. input%is_given('load', 'force_amplitude')) &
@@ -61,8 +62,11 @@ contains
       if (input%word('solver', 'method') == 'newmark') samples = 'steps_per_period'
       if (input%is_faulty('solver', samples)) return
       highest = nint(maxval(orders))
-      if (input%count('solver', samples) < 4*highest) &
-         call input%add_fault('solver', samples, 'the highest order of the force needs at least '//integer_text(4*highest), faults)
+      if (input%count('solver', samples) >= 4*highest) return
+      remedy = ''
+      if (len(input%word('load', 'signal')) > 0) remedy = '; signal_orders keeps fewer'
+      call input%add_fault('solver', samples, 'the highest order of the force needs at least '//integer_text(4*highest)//remedy, &
+                           faults)
    end subroutine check_force
 
 end module force_checker

@@ -136,6 +136,17 @@ module key_table
             'Phase of each order: a cos(2 pi n f t + phase); absent: all 0.', &
             sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
             computable=a_phase), &
+      key_t('load', 'force_mean', real_kind, 'N', '', any_number, '', 'scene.task=motion|sweep|campaign', &
+            'Mean of the force beside steady_force: added to it, and not multiplied by force_scale; absent: 0.', &
+            sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
+            computable=a_signed_force), &
+      key_t('load', 'signal', text_kind, '', '', any_number, '', 'scene.task=motion|sweep|campaign', &
+            'CSV file, in the folder of this input, with one cycle of the force [N], uniformly sampled; it becomes '// &
+            'force_orders and, by its mean, force_mean.'), &
+      key_t('load', 'signal_column', text_kind, '', '', any_number, '', 'scene.task=motion|sweep|campaign', &
+            'Name of the signal in the header of the file; absent: the only column that is no time or angle.'), &
+      key_t('load', 'signal_orders', integer_kind, '-', '', an_order, '', 'scene.task=motion|sweep|campaign', &
+            'Orders that are kept of a signal, from the first on; absent: those that hold all but 1e-6 of its power.'), &
       key_t('load', 'force_scale', real_kind, '-', '1.0', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Multiplies all that oscillates of the force.', &
             sensible=range_t(lower=0.0_dp, upper=1.0e4_dp), &

@@ -3,6 +3,7 @@
 module scene_reader
    use errors, only: fault_list_t
    use file_system, only: read_whole_file
+   use force_signal, only: take_signal
    use input_entry, only: numbers_text, value_text
    use input_key, only: name_limit, table_kind
    use key_table, only: keys, starts_group
@@ -77,6 +78,8 @@ contains
          end if
          call input%set_all(assignments, overrides(i)%source, .true., faults)
       end do
+      allocate (scene%warnings(0))
+      call take_signal(input, scene%warnings, faults)
       if (is_input) call check_together(input, faults)
       call read_name(input, path, scene%name, faults)
       scene%task = input%choice('scene', 'task')
@@ -90,7 +93,7 @@ contains
       if (scene%task == task_campaign) scene%campaign = read_campaign(input)
       scene%output = read_output(input)
       scene%resolved_input = resolved_text(input, trim(scene%name))
-      scene%warnings = odd_numbers_of_input(input)
+      scene%warnings = [scene%warnings, odd_numbers_of_input(input)]
    end subroutine read_scene
 
    !> How faults call an input.

@@ -97,7 +97,9 @@ module scene_types
       !> Or its orders (multiples of the frequency), their amplitudes [N] and phases [rad]
       integer, allocatable :: force_orders(:)
       real(dp), allocatable :: force_amplitudes(:), force_phases(:)
-      !> By what all of it is multiplied [-]
+      !> Mean of the force beside Q [N]
+      real(dp) :: force_mean = 0.0_dp
+      !> By what all that oscillates is multiplied [-]
       real(dp) :: force_scale = 1.0_dp
       !> Frequency f_exc of the oscillating force [Hz]
       real(dp) :: frequency = 0.0_dp
@@ -246,7 +248,7 @@ module scene_types
       type(sweep_t) :: sweep
       type(campaign_choice_t) :: campaign
       type(output_t) :: output
-      !> What is allowed but hardly meant, a line each
+      !> What was made of a signal, and what is allowed but hardly meant, a line each
       type(word_t), allocatable :: warnings(:)
       !> All keys with their resolved values as namelist text, without places on this machine
       character(:), allocatable :: resolved_input
@@ -318,6 +320,8 @@ contains
             load%steady_force = value
          case ('load.force_amplitude')
             load%force_amplitude = value
+         case ('load.force_mean')
+            load%force_mean = value
          case ('load.force_scale')
             load%force_scale = value
          case ('load.frequency')
@@ -367,11 +371,11 @@ contains
       weight = self%mass*self%gravity
    end function weight
 
-   !> Static load Q + m g [N], which the steady film carries.
+   !> Static load Q + m g [N], with the mean of the force, which the steady film carries.
    elemental real(dp) function static_load(self)
       class(load_t), intent(in) :: self
 
-      static_load = fma(self%mass, self%gravity, self%steady_force)
+      static_load = fma(self%mass, self%gravity, self%steady_force + self%force_mean)
    end function static_load
 
    !> Samples of a period, whichever way the method makes them.

@@ -1,7 +1,7 @@
 !> Tests of the amplitude spectrum on made signals.
 module test_fourier
    use checks, only: check_list_t
-   use fourier, only: amplitude_spectrum
+   use fourier, only: amplitude_spectrum, trigonometric_interpolation
    use kinds, only: dp
    implicit none(type, external)
    private
@@ -27,6 +27,7 @@ contains
          call test_lines(checks, counts(i))
          call test_power(checks, counts(i))
          call test_size(checks, counts(i))
+         call test_interpolation(checks, counts(i))
       end do
    end subroutine run_fourier_tests
 
@@ -55,6 +56,28 @@ contains
       error = maxval(abs(amplitudes - expected))/sum(expected)
       call checks%check_close(error, 0.0_dp, rounding, 'lines, n ='//digits)
    end subroutine test_lines
+
+   !> The trigonometric interpolation goes through every sample.
+   subroutine test_interpolation(checks, n)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      integer, intent(in) :: n                     !> Number of samples
+
+      real(dp), allocatable :: amplitudes(:), phases(:)
+      real(dp) :: samples(n), mean, sum_there, error
+      integer :: i, k
+
+      samples = [(3.0e5_dp*(1.5_dp + sin(real(i*i, dp))), i=1, n)]
+      call trigonometric_interpolation(samples, mean, amplitudes, phases)
+      error = real(abs(size(amplitudes) - n/2) + abs(size(phases) - n/2), dp)
+      do i = 0, n - 1
+         sum_there = mean
+         do k = 1, n/2
+            sum_there = sum_there + amplitudes(k)*cos(two_pi*real(modulo(k*i, n), dp)/real(n, dp) + phases(k))
+         end do
+         error = max(error, abs(sum_there - samples(i + 1)))
+      end do
+      call checks%check_close(error/maxval(samples), 0.0_dp, rounding, 'interpolation goes through the samples')
+   end subroutine test_interpolation
 
    !> Parseval: the mean square of the samples is that of the lines.
    subroutine test_power(checks, n)

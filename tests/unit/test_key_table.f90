@@ -69,7 +69,8 @@ contains
          call checks%check(is_varied .eqv. len(message) == 0, trim(keys(i)%name)//': varied, or told why not')
          call checks%check(is_number .or. .not. is_varied, trim(keys(i)%name)//': varied, so a number')
          if (any(groups == keys(i)%group)) &
-            call checks%check(is_varied .eqv. is_number, trim(keys(i)%name)//': a number of a motion, so it can vary')
+            call checks%check(is_varied .eqv. keys(i)%kind == real_kind, &
+                              trim(keys(i)%name)//': a number of a motion, so it can vary')
       end do
       allocate (swept, source=split_words(keys(find_key('sweep', 'key'))%choices))
       do i = 1, size(swept)

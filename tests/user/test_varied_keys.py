@@ -62,6 +62,7 @@ KEYS = {
     "load.mass": ("2.0", "4.0", "film_minimum"),
     "load.steady_force": ("150.0", "170.0", "film_minimum"),
     "load.force_amplitude": ("20.0", "50.0", "film_minimum"),
+    "load.force_mean": ("-20.0", "30.0", "film_minimum"),
     "load.force_scale": ("0.25", "0.6", "film_minimum"),
     "load.frequency": ("500.0", "700.0", "film_minimum"),
     "load.gravity": ("0.0", "20.0", "film_minimum"),
@@ -84,6 +85,7 @@ BASES = {
     "kinematics.surface_speed_1": {
         "kinematics": {"entrainment_speed": None, "surface_speed_1": "1.5", "surface_speed_2": "2.3"}
     },
+    "load.force_mean": {"load": {"force_mean": "5.0"}},
     "film.initial_film": FROM_START,
     "film.initial_velocity": FROM_START,
     "spectrum.periods": FROM_START,

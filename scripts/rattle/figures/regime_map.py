@@ -153,6 +153,8 @@ def new_scene(name: str, groups: Mapping[str, Mapping[str, Any]], summary: Mappi
         number("contact", "young_modulus"), number("contact", "poisson_ratio")
     )
     weight = number("load", "mass") * number("load", "gravity")
+    given = groups["load"].get("force_amplitudes")
+    amplitudes = np.atleast_1d(number("load", "force_amplitude") if given is None else given)
     return Scene(
         name,
         radius,
@@ -160,8 +162,8 @@ def new_scene(name: str, groups: Mapping[str, Mapping[str, Any]], summary: Mappi
         speed,
         number("lubricant", "viscosity"),
         Material(number("lubricant", "pressure_viscosity"), modulus),
-        number("load", "steady_force") + weight,
-        number("load", "force_amplitude"),
+        number("load", "steady_force") + groups["load"].get("force_mean", 0.0) + weight,
+        sum(amplitudes) * groups["load"].get("force_scale", 1.0),
         summary,
     )
 

@@ -13,6 +13,7 @@ from rattle.result_file import ResultFile
 IN_SHORT = (
     ("load", "mass", "mass of the tooth pair"),
     ("load", "steady_force", "steady force"),
+    ("load", "force_mean", "mean of the force beside it"),
     ("load", "force_amplitude", "amplitude of the oscillating force"),
     ("load", "force_amplitudes", "amplitudes of the oscillating force"),
     ("load", "frequency", "its frequency"),
