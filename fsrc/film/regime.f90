@@ -42,6 +42,8 @@ module regime
    real(dp), parameter, public :: rigid_limit = 1.0_dp
    !> Share of the film by which the surfaces may be pressed in, eq (4), and still count as rigid.
    real(dp), parameter, public :: deflection_limit = 0.1_dp
+   !> Stiffness of a steel tooth and its flank by its face width, 14 N/(um mm), ISO 6336-1 [N/m2].
+   real(dp), parameter, public :: steel_tooth = 1.4e10_dp
 
 contains
 

@@ -12,20 +12,21 @@ module judged_scene
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
       quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_certified, quantity_coast_film_maximum, &
       quantity_coast_film_minimum, quantity_coast_load_maximum, quantity_crest_factor, quantity_damping_ratio, &
-      quantity_deflection, quantity_dissipated_energy, quantity_dissipated_power, quantity_double_sided, &
-      quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, quantity_film_maximum_error, &
-      quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
+      quantity_deflection, quantity_deflection_share, quantity_dissipated_energy, quantity_dissipated_power, &
+      quantity_double_sided, quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, &
+      quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
       quantity_first_harmonic, quantity_floquet_modulus, quantity_floquet_multipliers, quantity_harmonic_distortion, &
       quantity_harmonic_distortion_is_bound, quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, &
       quantity_iterations_per_step, quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, &
-      quantity_lines_by_integrals, quantity_load_maximum, quantity_load_minimum, quantity_loudness_error, &
-      quantity_model_limit, &
+      quantity_lines_by_integrals, quantity_load_maximum, quantity_load_minimum, quantity_loudness_error, quantity_model_limit, &
       quantity_natural_frequency, quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, &
       quantity_pressure_maximum, quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, &
       quantity_sampling_sufficient, quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, &
-      quantity_steps_cut, quantity_velocity_maximum, quantity_velocity_minimum, quantity_window_periods
+      quantity_steps_cut, quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, &
+      quantity_window_periods
    use problem, only: has_two_flanks, thinner_film
    use rattle_class, only: rattle_verdict_t
+   use regime, only: deflection_limit
    use regime_check, only: model_limit, regime_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: status_complete
@@ -183,6 +184,10 @@ contains
             value = regime%alpha_p_maximum
          case (quantity_deflection)
             value = regime%deflection
+         case (quantity_deflection_share)
+            value = deflection_share(judged)
+         case (quantity_stiffness_matters)
+            value = flag(deflection_share(judged) > deflection_limit)
          case (quantity_film_regime)
             value = real(regime%regime, dp)
          case (quantity_law_contradicted)
@@ -194,6 +199,18 @@ contains
          end select
       end associate
    end function window_value
+
+   !> By which share of the film a tooth gives way under the largest load of it, at the flank where that is more [-].
+   pure real(dp) function deflection_share(judged) result(share)
+      type(judged_scene_t), intent(in) :: judged
+
+      associate (highest => judged%extremes%highest, resolved => judged%resolved)
+         share = highest(seen_load)%value/highest(seen_load)%film
+         if (has_two_flanks(resolved%problem)) share = &
+            max(share, highest(seen_coast_load)%value/(resolved%problem%backlash - highest(seen_coast_load)%film))
+         share = resolved%tooth_compliance*share
+      end associate
+   end function deflection_share
 
    !> An error by the tighter solution, if there is one.
    pure real(dp) function error_value(quantity, certificate) result(value)

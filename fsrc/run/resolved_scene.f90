@@ -6,6 +6,7 @@ module resolved_scene
    use force, only: largest_oscillation
    use kinds, only: dp
    use problem, only: film_at_rest, has_two_flanks, linearise, problem_of, problem_t, thinner_film
+   use regime, only: steel_tooth
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
    use scene_types, only: iteration_newton, least_static_load, method_newmark, predictor_extrapolated, scene_t, until_steady
@@ -27,6 +28,8 @@ module resolved_scene
       real(dp) :: pressure_group = 0.0_dp
       !> Largest alpha p at the steady film, exact [-]
       real(dp) :: alpha_p = 0.0_dp
+      !> By how much a tooth gives way under a load; one that is taken for rigid as a steel tooth [m/N]
+      real(dp) :: tooth_compliance = 0.0_dp
       !> Amplitude of acceleration that rounding and the accuracy of the scene's own method explain [m/s2]
       real(dp) :: noise_floor = 0.0_dp
       !> What of it rounding explains, and what an accuracy of one would [m/s2]
@@ -47,6 +50,8 @@ contains
       real(dp) :: static_load, stiffness, damping, thinner, force
 
       resolved%problem = problem_of(scene)
+      resolved%tooth_compliance = 1.0_dp/(steel_tooth*scene%contact%length)
+      if (scene%contact%stiffness > 0.0_dp) resolved%tooth_compliance = 1.0_dp/scene%contact%stiffness
       static_load = scene%load%static_load()
       resolved%steady_film = film_at_rest(resolved%problem, static_load)
       associate (problem => resolved%problem, film => resolved%problem%film, mass => resolved%problem%mass)

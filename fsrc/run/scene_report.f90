@@ -2,14 +2,17 @@
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use certificate, only: certificate_word
-   use film_law, only: law_words
+   use film_law, only: film_load, law_words
    use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp
    use log_file, only: log_magic, log_t
    use node_extremes, only: seen_acceleration, seen_film
    use output_place, only: result_path, summary_path
-   use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_iterations_per_step, quantity_model_limit, &
-                         quantity_orbit_stability, quantity_rattle_class, quantity_t, quantity_table, quantity_word
+   use problem, only: thinner_film
+   use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_deflection_share, &
+                         quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
+                         quantity_t, quantity_table, quantity_word
+   use regime, only: deflection_limit
    use regime_check, only: model_limit, model_limit_sentence, regime_sentence, within_model
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
@@ -138,14 +141,21 @@ contains
       type(resolved_scene_t), intent(in) :: resolved
       character(:), allocatable :: lines
       character(1), parameter :: end_of_line = new_line('a')
+      character(:), allocatable :: warning
+      real(dp) :: share, thinner, load, by_film, by_velocity
       integer :: limit
 
+      share = 0.0_dp
       if (resolved%steady_film > 0.0_dp) then
+         thinner = thinner_film(resolved%problem, resolved%steady_film)
+         call film_load(resolved%problem%film, thinner, 0.0_dp, load, by_film, by_velocity)
+         share = resolved%tooth_compliance*load/thinner
          lines = '! steady film                          '//short_text(resolved%steady_film, 10)//' m'//end_of_line// &
                  '! natural frequency                    '//short_text(resolved%natural_frequency, 6)//' Hz'//end_of_line// &
                  '! damping ratio                        '//short_text(resolved%damping_ratio, 5)//end_of_line// &
                  '! pressure group B at the steady film  '//short_text(resolved%pressure_group, 5)//end_of_line// &
-                 '! largest alpha p at the steady film   '//short_text(resolved%alpha_p, 5)//end_of_line
+                 '! largest alpha p at the steady film   '//short_text(resolved%alpha_p, 5)//end_of_line// &
+                 '! deflection share at the steady film  '//short_text(share, 3)//end_of_line
       else
          lines = '! no rigid piezo-viscous film carries the static load'//end_of_line
       end if
@@ -157,6 +167,8 @@ contains
                           resolved%problem%film%radius)
       if (resolved%problem%initial_film > 0.0_dp .and. limit /= within_model) &
          lines = lines//'! warning: at rest '//model_limit_sentence(limit)//' (model_limit)'//end_of_line
+      warning = stiffness_warning(scene, 'at rest', share)
+      if (len(warning) > 0) lines = lines//'! '//warning//end_of_line
       lines = lines//'! A, B and alpha p are those of the exact film with u = '//short_text(resolved%problem%film%speed, 6)// &
               ' m/s, '//speed_meaning(scene)
    end function resolved_lines
@@ -195,6 +207,7 @@ contains
       type(log_t), intent(in) :: log
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(in) :: judged
+      character(:), allocatable :: warning
       integer :: limit
 
       associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
@@ -220,6 +233,8 @@ contains
       call log%line('  '//regime_sentence(judged%regime))
       if (judged%regime%law_contradicted) &
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted)')
+      warning = stiffness_warning(scene, 'under its largest load', quantity_value(quantity_deflection_share, judged))
+      if (len(warning) > 0) call log%line('  '//warning)
 
    contains
 
@@ -241,6 +256,23 @@ contains
       end function certified_in_brackets
 
    end subroutine report_window
+
+   !> That rigid teeth are no fair assumption; empty where they are, or where the teeth have a stiffness.
+   pure function stiffness_warning(scene, when, share) result(warning)
+      type(scene_t), intent(in) :: scene
+      !> Under which load
+      character(*), intent(in) :: when
+      !> Share of the film by which the tooth gives way then [-]
+      real(dp), intent(in) :: share
+      character(:), allocatable :: warning
+
+      warning = ''
+      if (scene%contact%stiffness > 0.0_dp .or. share <= deflection_limit) return
+      warning = short_text(100.0_dp*share, 2)//' % of'
+      if (share > 1.0_dp) warning = short_text(share, 2)//' times'
+      warning = 'warning: '//when//' a steel tooth gives way by '//warning//' the film, while these teeth are rigid '// &
+                '(stiffness_matters)'
+   end function stiffness_warning
 
    !> What samples that are too few for the motion mean, and how many would do.
    pure function coarse_sentence(scene, judged) result(sentence)

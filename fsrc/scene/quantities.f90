@@ -13,7 +13,8 @@ module quantities
    !> node_extremes.
    integer, parameter :: needs_nothing = 0, needs_film_range = 1, needs_velocity_range = 2, needs_acceleration_range = 3, &
                                  needs_load_range = 4, needs_regime = 5, needs_coast_load_range = 6, needs_net_load_range = 7, &
-                                 needs_spectrum = 8, needs_certificate = 9, need_count = 9
+                                 needs_deflection = 8, needs_spectrum = 9, needs_certificate = 10, &
+                                 need_count = 10
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_lines = 3, part_class = 4, part_errors = 5, &
@@ -25,18 +26,17 @@ module quantities
          quantity_film_minimum, quantity_film_maximum, quantity_velocity_minimum, quantity_velocity_maximum, &
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
          quantity_acceleration_rms, quantity_crest_factor, quantity_acceleration_kurtosis, quantity_film_force_rms, &
-         quantity_dissipated_energy, quantity_dissipated_power, &
-         quantity_coast_film_minimum, quantity_coast_film_maximum, quantity_coast_load_maximum, quantity_double_sided, &
-         quantity_model_limit, quantity_reversals_per_period, quantity_harmonics, quantity_first_harmonic, &
-         quantity_line_count, quantity_line_count_is_bound, quantity_harmonic_distortion, &
-         quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, quantity_sampling_sufficient, &
-         quantity_rattle_class, quantity_certified, quantity_film_error, quantity_film_minimum_error, &
-         quantity_film_maximum_error, quantity_acceleration_error, quantity_acceleration_minimum_error, &
-         quantity_acceleration_maximum_error, quantity_loudness_error, &
-         quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, &
-         quantity_floquet_multipliers, quantity_floquet_modulus, quantity_pressure_maximum, quantity_alpha_p_maximum, &
-         quantity_deflection, quantity_film_regime, quantity_law_contradicted, quantity_periods_solved, &
-         quantity_evaluations, quantity_steps, quantity_steps_cut, quantity_iterations_per_step
+         quantity_dissipated_energy, quantity_dissipated_power, quantity_coast_film_minimum, quantity_coast_film_maximum, &
+         quantity_coast_load_maximum, quantity_double_sided, quantity_model_limit, quantity_reversals_per_period, &
+         quantity_harmonics, quantity_first_harmonic, quantity_line_count, quantity_line_count_is_bound, &
+         quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, &
+         quantity_sampling_sufficient, quantity_rattle_class, quantity_certified, quantity_film_error, &
+         quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
+         quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_loudness_error, &
+         quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, quantity_floquet_multipliers, &
+         quantity_floquet_modulus, quantity_pressure_maximum, quantity_alpha_p_maximum, quantity_deflection, &
+         quantity_deflection_share, quantity_stiffness_matters, quantity_film_regime, quantity_law_contradicted, &
+         quantity_periods_solved, quantity_evaluations, quantity_steps, quantity_steps_cut, quantity_iterations_per_step
    end enum
 
    !> One quantity.
@@ -194,6 +194,11 @@ module quantities
          'Largest pressure of the exact iso-viscous film times the pressure-viscosity coefficient.'), &
       quantity_t(quantity_deflection, 'deflection', 'm', a_number, part_regime, needs_regime, 'summary campaign', &
          'Deflection (4) of the teeth at the largest pressure.'), &
+      quantity_t(quantity_deflection_share, 'deflection_share', '-', a_number, part_regime, needs_deflection, 'summary campaign', &
+         'Share of the film by which the tooth gives way under the largest load; a rigid one as a steel tooth, 14 N/(um mm).'), &
+      quantity_t(quantity_stiffness_matters, 'stiffness_matters', '-', a_flag, part_regime, needs_deflection, &
+         'summary campaign', &
+         'Whether deflection_share is above a tenth: a rigid tooth is no fair assumption.'), &
       quantity_t(quantity_film_regime, 'film_regime', '-', a_code, part_regime, needs_regime, 'summary campaign', &
          'Regime of the film by its largest pressure.', &
          'unknown|iso-viscous|piezo-viscous|elastohydrodynamic'), &

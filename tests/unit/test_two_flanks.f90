@@ -51,9 +51,10 @@ contains
       scene%load%mass = 0.45_dp
       scene%load%frequency = 26.7_dp
       scene%load%steady_force = 5.0_dp
-      scene%load%force_orders = [1, 2, 3]
-      scene%load%force_amplitudes = [7.9_dp, 2.0_dp, 0.8_dp]
-      scene%load%force_phases = [0.0_dp, 0.5_dp, 1.1_dp]
+      ! Allocated by name: gfortran 12 takes what an assignment would find for uninitialised.
+      allocate (scene%load%force_orders, source=[1, 2, 3])
+      allocate (scene%load%force_amplitudes, source=[7.9_dp, 2.0_dp, 0.8_dp])
+      allocate (scene%load%force_phases, source=[0.0_dp, 0.5_dp, 1.1_dp])
       scene%film%law = law_iso_viscous
       scene%film%model = model_reynolds
    end function loose_gear

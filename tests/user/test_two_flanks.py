@@ -1,4 +1,4 @@
-"""A tooth between two flanks, as a user describes it: reference R1, computed independently of this program."""
+"""A tooth between two flanks, as a user describes it: reference R1, computed by independent code."""
 
 from __future__ import annotations
 

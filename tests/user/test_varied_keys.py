@@ -41,6 +41,8 @@ RECORDED = (
     "alpha_p_maximum",
     "pressure_maximum",
     "deflection",
+    "deflection_share",
+    "stiffness_matters",
     "periods_solved",
     "sampling_sufficient",
 )
