@@ -257,9 +257,11 @@ def parse_options() -> argparse.Namespace:
     files.add_argument("files", nargs="+", type=Path, metavar="FILE", help="campaign result or part of one")
     files.set_defaults(act=status)
 
-    other = commands.add_parser("export", help="CSV, Parquet or NetCDF", description="Write another format.")
+    other = commands.add_parser(
+        "export", help="CSV, Parquet, NetCDF or MAT", description="Write another format."
+    )
     other.add_argument("file", type=Path, metavar="FILE", help="campaign result")
-    other.add_argument("--to", required=True, choices=("csv", "parquet", "netcdf"), help="the format")
+    other.add_argument("--to", required=True, choices=("csv", "parquet", "netcdf", "mat"), help="the format")
     other.add_argument("--output", type=Path, metavar="PATH", help="by default beside the campaign")
     other.add_argument("--overwrite", action="store_true", help="replace a file of that name")
     other.set_defaults(act=export)

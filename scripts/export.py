@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write a result file as CSV, exactly: every number reads back as the same float64."""
+"""Write a result file as CSV, NetCDF or MAT, exactly: every number reads back as the same float64."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from rattle import codes, command
 
 ROWS_AT_ONCE = 10000
 STANDARD_OUTPUT = Path("-")
-OTHER_FORMATS = (".nc", ".mat", ".parquet", ".h5", ".xlsx", ".json")
+FORMATS = {"csv": ".csv", "netcdf": ".nc", "mat": ".mat"}
+OTHER_FORMATS = (".parquet", ".h5", ".xlsx", ".json")
 
 
 def main() -> None:
@@ -26,20 +27,43 @@ def main() -> None:
     for name in names:
         result[name]  # an unknown name or damaged rows end the work before a file is touched
     command.note_open(result)
-    output = options.output or result.path.with_suffix(".csv")
-    if output.suffix.lower() in OTHER_FORMATS:
+    ending = (options.output or Path()).suffix.lower()
+    form = options.to or next((name for name, own in FORMATS.items() if own == ending), "csv")
+    output = options.output or result.path.with_suffix(FORMATS[form])
+    if ending in OTHER_FORMATS:
         raise command.CommandError(
-            f"{output}: this script writes CSV; "
-            "'campaign.py export --to netcdf' writes other formats of campaigns."
+            f"{output}: this script writes {', '.join(FORMATS)}; "
+            "'campaign.py export --to parquet' writes another format of campaigns."
         )
     if output == STANDARD_OUTPUT:
+        if form != "csv":
+            raise command.CommandError(f"{form} needs a file; standard output takes CSV.")
         write(sys.stdout, result, names, options.stride)
         return
     if output.exists() and output.samefile(result.path):
         raise command.CommandError(f"{output} is the result file itself; give another --output.")
+    if form != "csv":
+        write_other(result, form, output, options)
+        print(output)
+        return
     with output.open("w", newline="", encoding="utf-8") as stream:
         write(stream, result, names, options.stride)
     print(output)
+
+
+def write_other(result: rattle.Result, form: str, output: Path, options: argparse.Namespace) -> None:
+    """NetCDF or MAT."""
+    from rattle import campaign_export, result_export
+
+    if result.task != "campaign":
+        writer = {"netcdf": result_export.write_netcdf, "mat": result_export.write_matlab}[form]
+        writer(result, output, options.columns or list(result.columns), options.stride)
+        return
+    if options.columns or options.stride > 1:
+        raise command.CommandError(
+            "--columns and --stride choose from a series; a campaign is written whole."
+        )
+    campaign_export.WRITERS[form][1](rattle.read_campaign(options.result), output)
 
 
 def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) -> None:
@@ -73,16 +97,19 @@ def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) 
 
 
 def parse_options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description="Write a result file as CSV with a head of name[unit].")
+    parser = argparse.ArgumentParser(
+        description="Write a result file as CSV with a head of name[unit], as NetCDF or as MAT-file."
+    )
     parser.add_argument("result", type=Path, metavar="RESULT", help="result file, NAME.rattle")
     parser.add_argument(
         "--columns", type=command.names, metavar="NAME,NAME", help="the columns to write, all by default"
     )
+    parser.add_argument("--to", choices=tuple(FORMATS), help="the format, by default that of --output")
     parser.add_argument(
         "--output",
         type=Path,
-        metavar="FILE.csv",
-        help="the CSV file; by default NAME.csv beside the result, '-' is standard output",
+        metavar="FILE",
+        help="FILE.csv, .nc or .mat, by default NAME.csv beside the result; '-' is standard output",
     )
     parser.add_argument(
         "--stride", type=command.positive, default=1, metavar="N", help="write every N-th row only (1)"

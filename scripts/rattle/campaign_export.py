@@ -1,4 +1,4 @@
-"""Campaigns as CSV, Parquet and NetCDF files."""
+"""Campaigns as CSV, Parquet, NetCDF and MAT-files."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from rattle.campaign_result import Campaign
 from rattle.codes import CODES, WORD_ENDING, word
+from rattle.mat_file import write_mat
 
 if TYPE_CHECKING:
     import pyarrow
@@ -70,8 +71,20 @@ def write_netcdf(campaign: Campaign, path: Path) -> None:
     data.to_netcdf(path, engine="netcdf4", format="NETCDF4", encoding=encoding)
 
 
+def write_matlab(campaign: Campaign, path: Path) -> None:
+    """A MAT-file with a column vector over the scenes that are done for each column, and its unit."""
+    texts = {f"{name}_unit": unit for name, unit in campaign.units.items()}
+    texts |= {
+        "title": campaign.name,
+        "source": f"rattle {campaign.program_version}",
+        "resolved_input": campaign.input_text,
+    }
+    write_mat(path, {name: campaign[name][campaign.done] for name in campaign.names}, texts)
+
+
 WRITERS: dict[str, tuple[str, Callable[[Campaign, Path], None]]] = {
     "csv": (".csv", write_csv),
     "parquet": (".parquet", write_parquet),
     "netcdf": (".nc", write_netcdf),
+    "mat": (".mat", write_matlab),
 }

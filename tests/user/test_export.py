@@ -112,7 +112,7 @@ def test_unclosed_result_is_exported_with_a_word(tmp_path):
         (["run.rattle", "--output", "run.rattle"], "is the result file itself"),
         (["run.rattle", "--output", "absent/run.csv"], "No such file or directory"),
         (["run.rattle", "--stride", "0"], "not a positive whole number"),
-        (["run.rattle", "--output", "run.nc"], "this script writes CSV"),
+        (["run.rattle", "--output", "run.xlsx"], "this script writes csv"),
     ],
 )
 def test_what_cannot_be_done_is_one_sentence(result, arguments, words):
