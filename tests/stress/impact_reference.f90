@@ -84,11 +84,17 @@ contains
       real(dp), intent(in) :: noise_floor
       real(dp), intent(in) :: margin
       logical :: possible(size(possible_classes))
-      real(dp) :: a(integrated_lines), harmonic, between, rest, fraction(2), distortion(2)
+      real(dp) :: a(integrated_lines), forced, largest, harmonic, between, rest, fraction(2), distortion(2)
+      logical :: is_forced(integrated_lines)
       integer :: most, fewest
 
       possible = .true.
       a = window%amplitudes(window%divisions::window%divisions)
+      is_forced = .false.
+      most = min(integrated_lines, size(choice%forced))
+      is_forced(:most) = choice%forced(:most)
+      largest = maxval(a, mask=is_forced)
+      forced = sum(a**2, mask=is_forced)
       harmonic = sum(a**2)
       between = max(0.0_dp, sum(window%amplitudes**2) - harmonic)
       rest = max(0.0_dp, window%power - harmonic - between)
@@ -97,7 +103,7 @@ contains
          possible = possible_classes == 'quiet'
          return
       end if
-      if (sqrt(window%power) < 3.0_dp*noise_floor .or. a(1) < 30.0_dp*noise_floor) return
+      if (sqrt(window%power) < 3.0_dp*noise_floor .or. largest < 30.0_dp*noise_floor) return
       fraction = [between, between + rest]/window%power
       if (window%divisions == 1) fraction = 0.0_dp
       possible(4) = fraction(2) > choice%irregular_limit*(1.0_dp - margin)
@@ -105,13 +111,13 @@ contains
          possible(:3) = .false.
          return
       end if
-      distortion = sqrt([sum(a(2:)**2), sum(a(2:)**2) + rest])/a(1)
+      distortion = sqrt([harmonic - forced, harmonic - forced + rest]/forced)
       possible(1) = distortion(1) < choice%quiet_limit*(1.0_dp + margin)
       possible(2:3) = .false.
       if (distortion(2) < choice%quiet_limit*(1.0_dp - margin)) return
-      fewest = count(a > choice%line_threshold*a(1)*(1.0_dp + margin))
-      most = count(a > choice%line_threshold*a(1)*(1.0_dp - margin)) + &
-             int(min(rest/(choice%line_threshold*a(1))**2, 1.0e6_dp))
+      fewest = 1 + count(.not. is_forced .and. a > choice%line_threshold*largest*(1.0_dp + margin))
+      most = 1 + count(.not. is_forced .and. a > choice%line_threshold*largest*(1.0_dp - margin)) + &
+             int(min(rest/(choice%line_threshold*largest)**2, 1.0e6_dp))
       possible(3) = most >= choice%idle_lines
       possible(2) = fewest < choice%idle_lines
    end function classes_of

@@ -15,8 +15,10 @@ module impact_steps
    !> What moves.
    type, public :: tooth_t
       type(film_t) :: film
-      !> Mass [kg], static load Q + m g and amplitude of the force [N], its frequency [Hz]
-      real(dp) :: mass = 0.0_dp, static_load = 0.0_dp, amplitude = 0.0_dp, frequency = 0.0_dp
+      !> Mass [kg], static load Q + m g [N], frequency of the force [Hz]
+      real(dp) :: mass = 0.0_dp, static_load = 0.0_dp, frequency = 0.0_dp
+      !> Orders of the force that oscillates, from the first on: amplitudes [N] and phases [rad]
+      real(dp), allocatable :: amplitudes(:), phases(:)
    end type tooth_t
 
    !> Where it is, and how far the next step is likely to go.
@@ -39,7 +41,7 @@ module impact_steps
    integer, parameter :: most_passes = 12
    real(dp), parameter :: converged = 1.0e-10_dp, shortest = 1.0e-15_dp, two_pi = 6.28318530717958647692_dp
 
-   public :: take_step, tooth_of_lane, acceleration_of
+   public :: take_step, tooth_of_lane, acceleration_of, disturb
 
 contains
 
@@ -48,13 +50,55 @@ contains
       !> A scene
       type(problem_t), intent(in) :: lane
       type(tooth_t) :: tooth
+      integer :: n
 
       tooth%film = lane%film
       tooth%mass = lane%mass
       tooth%static_load = lane%force%steady + lane%weight
-      tooth%amplitude = lane%force%cosine
+      allocate (tooth%amplitudes(lane%force%highest), tooth%phases(lane%force%highest))
+      call set_order(1, lane%force%cosine, lane%force%sine)
+      do n = 2, lane%force%highest
+         call set_order(n, lane%force%others(1, n), lane%force%others(2, n))
+      end do
       tooth%frequency = lane%frequency
+
+   contains
+
+      !> An order from its factors of cosine and sine [N].
+      pure subroutine set_order(order, cosine, sine)
+         integer, intent(in) :: order
+         real(dp), intent(in) :: cosine
+         real(dp), intent(in) :: sine
+
+         tooth%amplitudes(order) = hypot(cosine, sine)
+         tooth%phases(order) = 0.0_dp
+         if (tooth%amplitudes(order) > 0.0_dp) tooth%phases(order) = atan2(-sine, cosine)
+      end subroutine set_order
+
    end function tooth_of_lane
+
+   !> Disturb the force by a share of all of it.
+   pure subroutine disturb(offset, tooth)
+      !> [-]
+      real(dp), intent(in) :: offset
+      type(tooth_t), intent(inout) :: tooth
+
+      tooth%static_load = tooth%static_load + offset*(tooth%static_load + sum(tooth%amplitudes))
+   end subroutine disturb
+
+   !> Static load and force [N].
+   elemental real(dp) function force_of_tooth(tooth, phase) result(force)
+      type(tooth_t), intent(in) :: tooth
+      !> [periods]
+      real(dp), intent(in) :: phase
+      integer :: n
+
+      force = tooth%static_load
+      do n = 1, size(tooth%amplitudes)
+         if (tooth%amplitudes(n) > 0.0_dp) &
+            force = force + tooth%amplitudes(n)*cos(two_pi*real(n, dp)*phase + tooth%phases(n))
+      end do
+   end function force_of_tooth
 
    !> z'' [m/s2].
    pure real(dp) function acceleration_of(tooth, phase, film, velocity) result(acceleration)
@@ -68,7 +112,7 @@ contains
       real(dp) :: load, by_film, by_velocity
 
       call film_load(tooth%film, film, velocity, load, by_film, by_velocity)
-      acceleration = (load - tooth%static_load - tooth%amplitude*cos(two_pi*phase))/tooth%mass
+      acceleration = (load - force_of_tooth(tooth, phase))/tooth%mass
    end function acceleration_of
 
    !> Take the next step, as long as the tolerance allows and not beyond the end of the period.
@@ -135,7 +179,7 @@ contains
       step%phase = state%phase
       step%length = length
       seconds = length/tooth%frequency
-      force = tooth%static_load + tooth%amplitude*cos(two_pi*(state%phase + rule%node*length))
+      force = force_of_tooth(tooth, state%phase + rule%node*length)
       call first_iterate(rule, length, state, before, growth, gain)
       last_change = huge(1.0_dp)
       do pass = 1, most_passes

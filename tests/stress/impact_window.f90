@@ -7,7 +7,7 @@ module impact_window
    private
 
    !> Lines of the force's frequency that are integrated, and the longest step for that [periods]. A step of a tenth of a
-   !> period without a window is short enough for the force.
+   !> period of its highest order is short enough for the force without a window.
    integer, parameter, public :: integrated_lines = 64
    real(dp), parameter :: longest_in_window = 1.0_dp/64.0_dp, longest = 0.1_dp
    !> More steps are not waited for.
@@ -51,7 +51,7 @@ contains
       do period = 1, periods
          state%phase = 0.0_dp
          do while (state%phase < 1.0_dp)
-            call take_step(tooth, rule, tolerance, longest, state, step, solved)
+            call take_step(tooth, rule, tolerance, longest/real(size(tooth%amplitudes), dp), state, step, solved)
             steps = steps + 1
             solved = solved .and. steps <= most_steps
             if (.not. solved) return

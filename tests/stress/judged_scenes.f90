@@ -1,6 +1,7 @@
 !> Random scenes as users have them judged: half of them those of random_scenes, over decades of every quantity, half of
 !> them loose gears of a transmission at engine orders of 5 to 60 Hz, with forces up to 50 static loads. These
-!> fly far and strike hard. Campaigns vary such gears, sweeps scenes of either kind. A scene depends on its number and the seed alone.
+!> fly far and strike hard. The forces of half of all scenes have several orders, up to 32. Campaigns vary loose gears, sweeps
+!> scenes of either kind. A scene depends on its number and the seed alone.
 module judged_scenes
    use constants, only: standard_gravity
    use film_law, only: new_film, steady_film
@@ -8,7 +9,7 @@ module judged_scenes
    use random_walk, only: next_uniform, random_state_t
    use random_scenes, only: choose_law, draw, draw_scene, drawn_scene_t, laws
    use resolved_scene, only: resolve
-   use scene_types, only: iteration_newton, iteration_successive, law_piezo_viscous, method_newmark, method_taylor, &
+   use scene_types, only: forced_orders, iteration_newton, iteration_successive, law_piezo_viscous, method_newmark, method_taylor, &
                           model_reynolds, &
                           predictor_extrapolated, predictor_previous, scene_t, until_periods, until_steady
    implicit none(type, external)
@@ -24,13 +25,15 @@ module judged_scenes
    integer, parameter :: windows(4) = [1, 4, 8, 16], samples(8) = [512, 512, 512, 512, 512, 512, 128, 2048]
    !> Law of a scene, by chance; successive substitution costs most and comes least.
    integer, parameter :: law_turns(16) = [1, 2, 4, 5, 6, 1, 5, 5, 2, 1, 4, 5, 2, 6, 5, 3]
-   integer(int64), parameter :: gear_stream = 2_int64**40
+   integer(int64), parameter :: gear_stream = 2_int64**40, order_stream = 2_int64**43
+   !> Highest order of a force
+   integer, parameter :: most_orders = 32
 
    !> Rows of a campaign, and the keys that it varies: forces, frequency and viscosity of a loose gear.
    integer, parameter, public :: campaign_rows = 32
    !> Values of a sweep.
    integer, parameter, public :: sweep_values = 8
-   character(*), parameter, public :: campaign_keys(4) = [character(24) :: 'load.steady_force', 'load.force_amplitude', &
+   character(*), parameter, public :: campaign_keys(4) = [character(24) :: 'load.steady_force', 'load.force_scale', &
       'load.frequency', 'lubricant.viscosity']
 
    public :: draw_campaign, draw_judged_scene, draw_sweep, is_gear
@@ -65,6 +68,7 @@ contains
       end if
       drawn%number = number
       call draw_solver(state, drawn%scene)
+      call draw_orders(random_state_t(seed=seed, stream=order_stream + number), drawn%scene)
       drawn%resolved = resolve(drawn%scene)
    end subroutine draw_judged_scene
 
@@ -92,6 +96,8 @@ contains
       call draw_solver(state, base)
       base%solver%method = method_taylor
       base%film%initial_film = 0.0_dp
+      base%load%force_amplitude = 1.0_dp
+      call draw_orders(random_state_t(seed=seed, stream=2_int64*order_stream + number), base)
       do i = 1, campaign_rows
          call draw(state, loads, values(1, i))
          call draw(state, ratios, ratio)
@@ -101,7 +107,7 @@ contains
          associate (scene => drawn(i)%scene)
             scene = base
             scene%load%steady_force = values(1, i)
-            scene%load%force_amplitude = values(2, i)
+            scene%load%force_scale = values(2, i)
             scene%load%frequency = values(3, i)
             scene%lubricant%viscosity = values(4, i)
          end associate
@@ -145,7 +151,7 @@ contains
             case (0)
                load%frequency = factor*load%frequency
             case (1)
-               load%force_amplitude = factor*load%force_amplitude
+               load%force_scale = factor
             case default
                load%steady_force = factor*load%steady_force
             end select
@@ -203,6 +209,46 @@ contains
       ! Without a steady film there is none to start off from, and the scene says so.
       scene%film%initial_film = max(0.0_dp, ratio*steady_film(new_film(scene), scene%load%static_load()))
    end subroutine draw_gear
+
+   !> Share the amplitude of every other force out among orders: from the first on, or any, their amplitudes even or falling with
+   !> the order.
+   pure subroutine draw_orders(start, scene)
+      !> Where the numbers come from
+      type(random_state_t), intent(in) :: start
+      type(scene_t), intent(inout) :: scene
+      type(random_state_t) :: state
+      real(dp) :: number, falls, weights(most_orders), phases(most_orders)
+      logical :: is_there(most_orders)
+      integer :: orders, i, n
+
+      state = start
+      call next_uniform(state, number)
+      if (number < 0.5_dp .or. .not. scene%load%force_amplitude > 0.0_dp) return
+      call draw(state, [2.0_dp, real(most_orders + 1, dp)], number)
+      orders = min(int(number), most_orders)
+      call next_uniform(state, number)
+      is_there = [(i <= orders, i=1, most_orders)]
+      if (number < 0.5_dp) then
+         is_there = .false.
+         do while (count(is_there) < orders)
+            call next_uniform(state, number)
+            is_there(1 + int(real(most_orders, dp)*number)) = .true.
+         end do
+      end if
+      call next_uniform(state, falls)
+      do n = 1, most_orders
+         call next_uniform(state, number)
+         weights(n) = merge((0.01_dp + number)/real(n, dp)**(2.0_dp*falls), 0.0_dp, is_there(n))
+         call next_uniform(state, number)
+         phases(n) = 6.28_dp*number
+      end do
+      associate (load => scene%load)
+         load%force_orders = pack([(n, n=1, most_orders)], is_there)
+         load%force_amplitudes = pack(weights, is_there)*(load%force_amplitude/sum(weights))
+         load%force_phases = pack(phases, is_there)
+         scene%spectrum%forced = forced_orders(load%force_orders, load%force_amplitudes)
+      end associate
+   end subroutine draw_orders
 
    !> Solver and window.
    pure subroutine draw_solver(state, scene)

@@ -18,11 +18,14 @@ module reference_check
       real(dp) :: speed
       real(dp) :: extremes(4)
       real(dp) :: harmonics(6)
+      !> Whether the force has three orders: 150, 60 and 25 N with phases of 0, 0.7 and -1.2; its extremes are those of 2048
+      !> samples a period
+      logical :: three_orders = .false.
    end type known_t
 
    !> The canonical scene of the paper's two films and of the exact ones: R 12.7 mm, l 10 mm, 0.3 Pa s, 2e-8 1/Pa, 3 kg,
    !> 199.2 N and 205.7 N at 600 Hz.
-   type(known_t), parameter :: known(5) = [ &
+   type(known_t), parameter :: known(6) = [ &
       known_t(1, 1.905_dp, [0.341405e-6_dp, 3.570926e-6_dp, -64.348064_dp, 202.785793_dp], &
               [21.2023751_dp, 30.5365166_dp, 25.8178690_dp, 22.4385275_dp, 19.3319685_dp, 16.5060500_dp]), &
       known_t(4, 1.905_dp, [0.837089e-6_dp, 1.827841e-6_dp, -27.155588_dp, 14.733975_dp], &
@@ -32,7 +35,9 @@ module reference_check
       known_t(2, 1.905_dp, [0.245194e-6_dp, 4.676586e-6_dp, -82.560498_dp, 387.838543_dp], &
               [28.9175793_dp, 40.2342318_dp, 35.9704977_dp, 34.0112309_dp, 30.7059169_dp, 27.0072316_dp]), &
       known_t(5, 1.905_dp, [0.409978e-6_dp, 6.885256e-6_dp, -92.317481_dp, 370.473132_dp], &
-              [42.1753420_dp, 52.7575920_dp, 44.9082791_dp, 38.5704473_dp, 32.4493844_dp, 27.3582296_dp])]
+              [42.1753420_dp, 52.7575920_dp, 44.9082791_dp, 38.5704473_dp, 32.4493844_dp, 27.3582296_dp]), &
+      known_t(1, 1.905_dp, [0.4385202e-6_dp, 2.0769293e-6_dp, -40.487302_dp, 67.754164_dp], &
+              [9.3167804_dp, 18.0493493_dp, 16.1777555_dp, 9.9559708_dp, 7.8172578_dp, 5.8696725_dp], three_orders=.true.)]
 
    public :: reference_deviation
 
@@ -67,6 +72,11 @@ contains
          scene%load%force_amplitude = 205.7_dp
          scene%load%frequency = 600.0_dp
          scene%load%gravity = 9.80665_dp
+         if (known(i)%three_orders) then
+            scene%load%force_orders = [1, 2, 3]
+            scene%load%force_amplitudes = [150.0_dp, 60.0_dp, 25.0_dp]
+            scene%load%force_phases = [0.0_dp, 0.7_dp, -1.2_dp]
+         end if
          resolved = resolve(scene)
          tooth = tooth_of_lane(resolved%problem)
          state = tooth_state_t(film=resolved%problem%initial_film)
@@ -77,8 +87,9 @@ contains
             deviation = huge(1.0_dp)
             return
          end if
-         deviation = max(deviation, maxval(abs([reference%extremes, reference%harmonics(:6)] - &
-                                               [known(i)%extremes, known(i)%harmonics])/digit))
+         deviation = max(deviation, maxval(abs(reference%harmonics(:6) - known(i)%harmonics)/digit(5:)), &
+                         maxval(abs(reference%extremes - known(i)%extremes)/digit(:4))*merge(5.0e-3_dp, 1.0_dp, &
+                                                                                              known(i)%three_orders))
       end do
    end function reference_deviation
 

@@ -1,5 +1,6 @@
 !> The namelist of a scene, ready to run, so that what failed can be seen again.
 module scene_namelist
+   use input_entry, only: numbers_text
    use kinds, only: dp
    use random_scenes, only: drawn_scene_t
    use scene_types, only: iteration_successive, law_iso_viscous, method_newmark, &
@@ -34,8 +35,7 @@ contains
          write (unit, '(a)') '&kinematics entrainment_speed = '// &
             real_text(scene%kinematics%entrainment_speed)//' /'
          write (unit, '(a)') '&load mass = '//real_text(scene%load%mass)//', steady_force = '// &
-            real_text(scene%load%steady_force)//', force_amplitude = '// &
-            real_text(scene%load%force_amplitude)// &
+            real_text(scene%load%steady_force)//force_keys(scene)// &
             ', frequency = '//real_text(scene%load%frequency)//', gravity = '//real_text(scene%load%gravity)//' /'
          write (unit, '(a)') film_group(scene)
          write (unit, '(a)') solver_group(scene)
@@ -44,6 +44,22 @@ contains
          write (unit, '(a)') ''
       end associate
    end subroutine print_namelist
+
+   !> Keys of the force that oscillates.
+   function force_keys(scene) result(words)
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: words
+
+      associate (load => scene%load)
+         if (allocated(load%force_orders)) then
+            words = ', force_orders = '//numbers_text(real(load%force_orders, dp))//', force_amplitudes = '// &
+                    numbers_text(load%force_amplitudes)//', force_phases = '//numbers_text(load%force_phases)
+         else
+            words = ', force_amplitude = '//real_text(load%force_amplitude)
+         end if
+         words = words//', force_scale = '//real_text(load%force_scale)
+      end associate
+   end function force_keys
 
    !> &film
    function film_group(scene) result(line)

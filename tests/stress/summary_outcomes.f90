@@ -14,8 +14,9 @@
 !> failure. Where a row was asked for a certificate, a wrong class is one only if it is certified. A value of a sweep is held
 !> against the truth as a row is.
 module summary_outcomes
+   use force, only: largest_oscillation
    use impact_reference, only: compared_harmonics, find_orbit, impact_reference_t, possible_classes, solve_reference
-   use impact_steps, only: tooth_of_lane, tooth_state_t, tooth_t
+   use impact_steps, only: disturb, tooth_of_lane, tooth_state_t, tooth_t
    use impact_window, only: solve_periods
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t
@@ -201,7 +202,7 @@ contains
       call reference_of(drawn, rule, told, tolerance, offset, margin, reference)
       if (told%orbit == 0 .or. .not. reference%solved) return
       tooth = tooth_of_lane(drawn%resolved%problem)
-      tooth%static_load = tooth%static_load + offset*(tooth%static_load + tooth%amplitude)
+      call disturb(offset, tooth)
       state = reference%start
       call find_orbit(tooth, rule, tolerance, told%orbit, state, found)
       reference%solved = .false.
@@ -225,7 +226,7 @@ contains
       logical :: solved
 
       tooth = tooth_of_lane(drawn%resolved%problem)
-      tooth%static_load = tooth%static_load + offset*(tooth%static_load + tooth%amplitude)
+      call disturb(offset, tooth)
       state%film = drawn%resolved%problem%initial_film*(1.0_dp + offset)
       state%velocity = drawn%resolved%problem%initial_velocity
       call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)
@@ -238,7 +239,8 @@ contains
       type(drawn_scene_t), intent(in) :: drawn
       real(dp) :: noise(quantities)
 
-      noise = 1.0e-11_dp*(drawn%scene%load%static_load() + drawn%scene%load%force_amplitude)/drawn%scene%load%mass
+      noise = 1.0e-11_dp*(drawn%scene%load%static_load() + largest_oscillation(drawn%resolved%problem%force))/ &
+              drawn%scene%load%mass
       noise(:2) = 0.0_dp
    end function noise
 
