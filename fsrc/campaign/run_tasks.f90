@@ -4,6 +4,7 @@ module run_tasks
    use check_campaign, only: check_one_campaign
    use batch, only: input_name, print_faults, run_batch
    use command_line, only: command_t, most_threads
+   use derived_scene, only: complete_scene
    use errors, only: error_t, exit_bad_input, exit_complete, fault_list_t
    use ranks, only: end_ranks, is_foreign_job, rank_count, start_ranks, this_rank
    use run_campaign, only: run_one_campaign
@@ -28,12 +29,14 @@ contains
       integer, intent(out) :: exit_code
       type(scene_t), allocatable :: scenes(:)
       type(fault_list_t) :: faults
-      integer :: i, threads
+      integer :: i, before, threads
 
       if (command%threads > 0) call omp_set_num_threads(command%threads)
       allocate (scenes(size(command%files)))
       do i = 1, size(scenes)
+         before = faults%count()
          call read_scene(command%files(i)%text, command%overrides, scenes(i), faults)
+         if (faults%count() == before) call complete_scene(scenes(i), input_name(command%files(i)%text), faults)
       end do
       if (is_foreign_job()) call faults%add('rattle', 0, '', '', 'a launcher started several copies of this program, which was '// &
                                             'built without MPI: each would do all the work. MPI=1 make builds it with MPI')

@@ -1,9 +1,10 @@
 !> The keys that a campaign varies: which may be, their values put into a scene, and whether these make one.
 module varied_keys
+   use derived_scene, only: derive, derived_rules
    use input_key, only: allowed_text, in_range, integer_kind, is_computable, not_computable_text, real_kind
    use key_table, only: find_key, key_name, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
-   use scene_rules, only: broken_rules
+   use scene_rules, only: broken_rules, rule_t
    use scene_types, only: scene_t, set_number
    use text, only: lower, real_text
    implicit none(type, external)
@@ -72,6 +73,7 @@ contains
       do i = 1, size(positions)
          call set_number(scene, keys(positions(i))%group, keys(positions(i))%name, values(i))
       end do
+      call derive(scene)
    end subroutine set_varied_keys
 
    !> Whether every value is in the range of its key and the scene as a whole is one.
@@ -91,6 +93,7 @@ contains
       end do
       ! A value that is not allowed may overflow together with another.
       if (is_valid_scene) is_valid_scene = size(broken_rules(scene)) == 0
+      if (is_valid_scene) is_valid_scene = size(derived_rules(scene)) == 0
    end function is_valid_scene
 
    !> What is wrong with a scene that is not valid: the first of its varied keys whose value is not allowed, or the rule that
@@ -103,6 +106,7 @@ contains
       !> Their values
       real(dp), intent(in) :: values(:)
       character(:), allocatable :: words
+      type(rule_t), allocatable :: broken(:)
       integer :: i
 
       do i = 1, size(positions)
@@ -112,9 +116,8 @@ contains
                                                          ' is not allowed; allowed: '//allowed_text(keys(positions(i)))
          return
       end do
-      associate (broken => broken_rules(scene))
-         words = broken(1)%keys(:index(broken(1)%keys, ' ') - 1)//': '//trim(broken(1)%sentence)
-      end associate
+      allocate (broken, source=[broken_rules(scene), derived_rules(scene)])
+      words = broken(1)%keys(:index(broken(1)%keys, ' ') - 1)//': '//trim(broken(1)%sentence)
    end function why_invalid
 
 end module varied_keys

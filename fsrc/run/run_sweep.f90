@@ -4,6 +4,7 @@ module run_sweep
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use clock, only: wall_seconds
    use controlled_engine, only: find_steady_motion
+   use derived_scene, only: derive
    use engine, only: ending_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
@@ -120,6 +121,7 @@ contains
 
       swept = scene
       call set_number(swept, keys(scene%sweep%key)%group, keys(scene%sweep%key)%name, value)
+      call derive(swept)
    end function swept_scene
 
    !> Tell where an earlier run of this sweep was cut, if it was.

@@ -41,6 +41,7 @@ contains
       call summary%add('model', choice_word('film', 'model', scene%film%model))
       call summary%add('speed_used', judged%resolved%problem%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))
+      call add_derived(summary, scene)
       call add_part(summary, judged, part_scene)
       if (judged%judged) then
          call add_part(summary, judged, part_window)
@@ -63,6 +64,30 @@ contains
       call summary%add('wall_seconds', seconds)
       call summary%write_beside(path, error)
    end subroutine write_scene_summary
+
+   !> What follows from &gear, &shaft and &oil, by the names of the keys that they stand for.
+   subroutine add_derived(summary, scene)
+      type(summary_t), intent(inout) :: summary
+      type(scene_t), intent(in) :: scene
+
+      if (scene%gear%given) then
+         call summary%add('radius', scene%contact%radius)
+         call summary%add('length', scene%contact%length)
+         if (scene%contact%backlash > 0.0_dp) call summary%add('backlash', scene%contact%backlash)
+         if (scene%contact%stiffness > 0.0_dp) call summary%add('stiffness', scene%contact%stiffness)
+         call summary%add('entrainment_speed', scene%kinematics%entrainment_speed)
+         call summary%add('mass', scene%load%mass)
+         call summary%add('steady_force', scene%load%steady_force)
+         call summary%add('force_orders', real(scene%load%force_orders, dp))
+         call summary%add('force_amplitudes', scene%load%force_amplitudes)
+         call summary%add('force_phases', scene%load%force_phases)
+         call summary%add('frequency', scene%load%frequency)
+      end if
+      if (scene%oil%given) then
+         call summary%add('viscosity', scene%lubricant%viscosity)
+         call summary%add('pressure_viscosity', scene%lubricant%pressure_viscosity)
+      end if
+   end subroutine add_derived
 
    !> Add the known quantities of a part.
    subroutine add_part(summary, judged, part)

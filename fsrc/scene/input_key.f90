@@ -44,6 +44,8 @@ module input_key
       type(range_t) :: sensible = range_t()
       !> Numbers that a film and its motion can be computed with, wider still; others are refused
       type(range_t) :: computable = range_t()
+      !> Group that gives this key where it stands; empty: none does
+      character(8) :: given_by = ''
    end type key_t
 
    !> Longest name of a scene, and longest text of any key.

@@ -2,7 +2,7 @@
 !> page and as CSV (--quantities).
 module key_page
    use input_key, only: allowed_text, key_t, list_kind, sensible_text, text_kind
-   use key_table, only: keys, starts_group
+   use key_table, only: keys, optional_groups, starts_group
    use quantities, only: a_code, kind_names, quantity_t, quantity_table
    use text, only: integer_text, quoted, quoted_words
    implicit none(type, external)
@@ -45,7 +45,8 @@ contains
       if (len(unit) > 0) unit = ' ['//unit//']'
       text = '   ! '//trim(key%sentence)//unit//' Allowed: '//allowed_text(key)//'.'//end_of_line
       ! An example is there to be run; one of another task would contradict the motion that the template solves.
-      if (key%example /= '' .and. (key%used_when == '' .or. index(key%used_when, 'motion') > 0)) then
+      if (key%example /= '' .and. all(optional_groups /= key%group) .and. &
+          (key%used_when == '' .or. index(key%used_when, 'motion') > 0)) then
          text = text//'   '//trim(key%name)//' = '//value//end_of_line
       else
          text = text//'   ! '//trim(key%name)//' = '//value//end_of_line
@@ -82,6 +83,7 @@ contains
       if (default == 'required') default = '**required**'
       if (default == '') default = '-'
       meaning = trim(key%sentence)
+      if (key%given_by /= '') meaning = meaning//' Follows from `&'//trim(key%given_by)//'` where that stands.'
       if (key%used_when /= '') meaning = meaning//' Only with `'//trim(key%used_when)//'`.'
       text = '| `'//trim(key%name)//'` | '//trim(key%unit)//' | '//default//' | '//allowed_text(key)//' | '// &
              sensible//' | '//meaning//' |'//end_of_line

@@ -36,13 +36,17 @@ module key_table
    type(range_t), parameter :: a_fall = range_t(0.0_dp, .false., 1.0e8_dp, .false.)
    type(range_t), parameter :: a_film = range_t(1.0e-16_dp, .false., 1.0e4_dp, .false.)
    type(range_t), parameter :: a_play = range_t(1.0e-9_dp, .false., 1.0e4_dp, .false.)
+   type(range_t), parameter :: a_tooth_count = range_t(2.0_dp, .false., 1.0e4_dp, .false.)
+   type(range_t), parameter :: a_data_viscosity = range_t(0.31_dp, .false., 1.0e6_dp, .false.)
    type(range_t), parameter :: a_stiffness = range_t(1.0_dp, .false., 1.0e20_dp, .false.)
    type(range_t), parameter :: a_film_ratio = range_t(1.0e-20_dp, .false., 1.0e10_dp, .false.)
    type(range_t), parameter :: a_squeeze_ratio = range_t(-1.0e20_dp, .false., 1.0e20_dp, .false.)
    type(range_t), parameter :: a_speed_group = range_t(1.0e-30_dp, .false., 1.0e10_dp, .false.)
    type(range_t), parameter :: fraction = range_t(0.0_dp, .true., 1.0_dp, .false.)
 
-   ! Two halves: a statement has 255 continuation lines at most.
+   character(*), parameter :: of_motions = 'scene.task=motion|sweep|campaign'
+
+   ! Three parts: a statement has 255 continuation lines at most.
    type(key_t), parameter :: keys_of_gears(*) = [ &
       key_t('scene', 'name', text_kind, '', '', any_number, '', '', &
             'Name of the scene and stem of its output files: letters, digits, . _ - only; absent: the stem of the input file.'), &
@@ -53,20 +57,20 @@ module key_table
             'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', &
             example='0.0127', &
             sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp), &
-            computable=a_length), &
+            computable=a_length, given_by='gear'), &
       key_t('contact', 'radius_1', real_kind, 'm', '', positive, '', '', &
             'Radius of the first tooth flank; 1/R = 1/radius_1 + 1/radius_2 (2).', &
             sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp), &
-            computable=a_length), &
+            computable=a_length, given_by='gear'), &
       key_t('contact', 'radius_2', real_kind, 'm', '', positive, '', '', &
             'Radius of the second tooth flank.', &
             sensible=range_t(lower=1.0e-4_dp, upper=10.0_dp), &
-            computable=a_length), &
+            computable=a_length, given_by='gear'), &
       key_t('contact', 'length', real_kind, 'm', 'required', positive, '', '', &
             'Length l of the line contact.', &
             example='0.010', &
             sensible=range_t(lower=1.0e-4_dp, upper=1.0_dp), &
-            computable=a_length), &
+            computable=a_length, given_by='gear'), &
       key_t('contact', 'young_modulus', real_kind, 'Pa', '205.66e9', positive, '', '', &
             'Young''s modulus E of the teeth, for the deflection (4); with the default Poisson ratio E* is 226 GPa.', &
             sensible=range_t(lower=1.0e8_dp, upper=1.0e12_dp), &
@@ -76,21 +80,21 @@ module key_table
       key_t('contact', 'backlash', real_kind, 'm', '', positive, '', 'scene.task=motion|sweep|campaign', &
             'Play between drive and coast flank along their normal, the sum of both gaps; absent: the drive flank alone.', &
             sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
-            computable=a_play), &
+            computable=a_play, given_by='gear'), &
       key_t('contact', 'stiffness', real_kind, 'N/m', '', positive, '', 'scene.task=motion|sweep|campaign', &
             'Stiffness of a flank with its tooth, in series with the film of each flank; absent: rigid teeth.', &
             sensible=range_t(lower=1.0e5_dp, upper=1.0e12_dp), &
-            computable=a_stiffness), &
+            computable=a_stiffness, given_by='gear'), &
       key_t('lubricant', 'viscosity', real_kind, 'Pa s', 'required', positive, '', '', &
             'Dynamic viscosity eta0 at ambient pressure.', &
             example='0.3', &
             sensible=range_t(lower=1.0e-4_dp, upper=20.0_dp), &
-            computable=a_viscosity), &
+            computable=a_viscosity, given_by='oil'), &
       key_t('lubricant', 'pressure_viscosity', real_kind, '1/Pa', 'required', positive, '', '', &
             'Barus coefficient alpha (29): the piezo-viscous laws and the regime check need it.', &
             example='2.0e-8', &
             sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp), &
-            computable=a_pressure_viscosity), &
+            computable=a_pressure_viscosity, given_by='oil'), &
       key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'barus roelands', '', &
             'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29); roelands only in a film task with '// &
             'model = numerical.'), &
@@ -98,55 +102,56 @@ module key_table
             'Entrainment speed U, the mean of the two surface speeds; give this, rolling_speed, or both surface speeds.', &
             example='1.905', &
             sensible=range_t(lower=1.0e-3_dp, upper=300.0_dp), &
-            computable=a_speed), &
+            computable=a_speed, given_by='gear'), &
       key_t('kinematics', 'rolling_speed', real_kind, 'm/s', '', positive, '', '', &
             'Sum u_r of the two surface speeds, twice the entrainment speed.', &
             sensible=range_t(lower=2.0e-3_dp, upper=600.0_dp), &
-            computable=a_speed), &
+            computable=a_speed, given_by='gear'), &
       key_t('kinematics', 'surface_speed_1', real_kind, 'm/s', '', any_number, '', '', &
             'Surface speed of the first flank; the sum of both must be positive.', &
             sensible=range_t(lower=-300.0_dp, upper=300.0_dp), &
-            computable=a_signed_speed), &
+            computable=a_signed_speed, given_by='gear'), &
       key_t('kinematics', 'surface_speed_2', real_kind, 'm/s', '', any_number, '', '', &
             'Surface speed of the second flank.', &
             sensible=range_t(lower=-300.0_dp, upper=300.0_dp), &
-            computable=a_signed_speed), &
+            computable=a_signed_speed, given_by='gear'), &
       key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
             'Equivalent mass m of the impacting tooth pair.', &
             example='3.0', &
             sensible=range_t(lower=1.0e-4_dp, upper=1.0e3_dp), &
-            computable=a_mass), &
+            computable=a_mass, given_by='gear'), &
       key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Steady force Q of (34); without a backlash Q + m g must be positive.', &
             example='199.2', &
             sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
-            computable=a_signed_force), &
+            computable=a_signed_force, given_by='gear'), &
       key_t('load', 'force_amplitude', real_kind, 'N', '', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Amplitude F0 of the oscillating force of (34); give this, or force_orders with force_amplitudes.', &
             example='205.7', &
             sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
-            computable=an_amplitude), &
+            computable=an_amplitude, given_by='shaft'), &
       key_t('load', 'force_orders', reals_kind, '-', '', an_order, '', 'scene.task=motion|sweep|campaign', &
-            'Orders of a force of any shape, whole multiples of the frequency, instead of force_amplitude.'), &
+            'Orders of a force of any shape, whole multiples of the frequency, instead of force_amplitude.', given_by='shaft'), &
       key_t('load', 'force_amplitudes', reals_kind, 'N', '', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Amplitude of each order.', &
             sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
-            computable=an_amplitude), &
+            computable=an_amplitude, given_by='shaft'), &
       key_t('load', 'force_phases', reals_kind, 'rad', '', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Phase of each order: a cos(2 pi n f t + phase); absent: all 0.', &
             sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
-            computable=a_phase), &
+            computable=a_phase, given_by='shaft'), &
       key_t('load', 'force_mean', real_kind, 'N', '', any_number, '', 'scene.task=motion|sweep|campaign', &
             'Mean of the force beside steady_force: added to it, and not multiplied by force_scale; absent: 0.', &
             sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
             computable=a_signed_force), &
       key_t('load', 'signal', text_kind, '', '', any_number, '', 'scene.task=motion|sweep|campaign', &
             'CSV file, in the folder of this input, with one cycle of the force [N], uniformly sampled; it becomes '// &
-            'force_orders and, by its mean, force_mean.'), &
+            'force_orders and, by its mean, force_mean.', given_by='shaft'), &
       key_t('load', 'signal_column', text_kind, '', '', any_number, '', 'scene.task=motion|sweep|campaign', &
-            'Name of the signal in the header of the file; absent: the only column that is no time or angle.'), &
+            'Name of the signal in the header of the file; absent: the only column that is no time or angle.', given_by='shaft'), &
       key_t('load', 'signal_orders', integer_kind, '-', '', an_order, '', 'scene.task=motion|sweep|campaign', &
-            'Orders that are kept of a signal, from the first on; absent: those that hold all but 1e-6 of its power.'), &
+            'Orders that are kept of a signal, from the first on; absent: those that hold all but 1e-6 of its power.', &
+            given_by='shaft'), &
       key_t('load', 'force_scale', real_kind, '-', '1.0', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Multiplies all that oscillates of the force.', &
             sensible=range_t(lower=0.0_dp, upper=1.0e4_dp), &
@@ -155,11 +160,11 @@ module key_table
             'Frequency f_exc of the oscillating force.', &
             example='600.0', &
             sensible=range_t(lower=0.1_dp, upper=1.0e5_dp), &
-            computable=a_frequency), &
+            computable=a_frequency, given_by='shaft'), &
       key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', 'scene.task=motion|sweep|campaign', &
             'Acceleration of free fall g.', &
             sensible=range_t(lower=0.0_dp, upper=100.0_dp), &
-            computable=a_fall), &
+            computable=a_fall, given_by='gear'), &
       key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', 'scene.task=motion|sweep|campaign', &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
             example='iso-viscous'), &
@@ -179,6 +184,102 @@ module key_table
             'Film velocity dh/dt at t = 0, negative on approach.', &
             sensible=range_t(lower=-100.0_dp, upper=100.0_dp), &
             computable=a_signed_speed) &
+      ]
+
+   ! What a drawing and a data sheet tell: from it keys of the groups above follow.
+   type(key_t), parameter :: keys_of_drawings(*) = [ &
+      key_t('gear', 'teeth_1', integer_kind, '-', 'required', a_tooth_count, '', of_motions, &
+            'Teeth of the gear on the shaft, which drives.', &
+            example='11'), &
+      key_t('gear', 'teeth_2', integer_kind, '-', 'required', a_tooth_count, '', of_motions, &
+            'Teeth of the loose gear.', &
+            example='38'), &
+      key_t('gear', 'normal_module', real_kind, 'm', 'required', positive, '', of_motions, &
+            'Normal module.', &
+            example='2.5e-3', &
+            sensible=range_t(lower=3.0e-4_dp, upper=0.05_dp), &
+            computable=a_length), &
+      key_t('gear', 'pressure_angle_deg', real_kind, 'deg', '20.0', range_t(1.0_dp, .false., 45.0_dp, .false.), '', of_motions, &
+            'Normal pressure angle.', &
+            sensible=range_t(lower=10.0_dp, upper=30.0_dp)), &
+      key_t('gear', 'helix_angle_deg', real_kind, 'deg', '0.0', range_t(-80.0_dp, .false., 80.0_dp, .false.), '', of_motions, &
+            'Helix angle at the reference circle; 0 is a spur gear.', &
+            sensible=range_t(lower=-50.0_dp, upper=50.0_dp)), &
+      key_t('gear', 'face_width', real_kind, 'm', 'required', positive, '', of_motions, &
+            'Common face width of both gears.', &
+            example='0.016', &
+            sensible=range_t(lower=1.0e-3_dp, upper=0.5_dp), &
+            computable=a_length), &
+      key_t('gear', 'centre_distance', real_kind, 'm', '', positive, '', of_motions, &
+            'Distance of the axes; absent: that of a pair without profile shift.', &
+            sensible=range_t(lower=5.0e-3_dp, upper=2.0_dp), &
+            computable=a_length), &
+      key_t('gear', 'contact_position', real_kind, 'm', '0.0', any_number, '', of_motions, &
+            'Place of the contact on the line of action: 0 is the pitch point, positive towards the root of gear 2.', &
+            sensible=range_t(lower=-0.1_dp, upper=0.1_dp)), &
+      key_t('gear', 'contact_lines', real_kind, '-', '1.0', positive, '', of_motions, &
+            'Tooth pairs in contact at a time, each as long as the face is wide.', &
+            sensible=range_t(lower=0.1_dp, upper=10.0_dp), &
+            computable=range_t(1.0e-6_dp, .false., 1.0e6_dp, .false.)), &
+      key_t('gear', 'loose_inertia', real_kind, 'kg m2', 'required', positive, '', of_motions, &
+            'Moment of inertia of the loose gear about its axis.', &
+            example='1.715e-3', &
+            sensible=range_t(lower=1.0e-7_dp, upper=10.0_dp), &
+            computable=range_t(1.0e-15_dp, .false., 1.0e12_dp, .false.)), &
+      key_t('gear', 'drag_torque', real_kind, 'N m', 'required', any_number, '', of_motions, &
+            'Drag torque on the loose gear, which holds its teeth against the drive flank; without a backlash it is positive.', &
+            example='0.10', &
+            sensible=range_t(lower=-100.0_dp, upper=100.0_dp), &
+            computable=a_signed_force), &
+      key_t('gear', 'backlash', real_kind, 'm', '', positive, '', of_motions, &
+            'Play between both flanks along their normal; absent: the drive flank alone.', &
+            sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
+            computable=a_play), &
+      key_t('gear', 'tooth_stiffness', real_kind, 'N/m2', '', positive, '', of_motions, &
+            'Stiffness of the teeth for each metre of face width, c'' of ISO 6336-1 (1.4e10 for steel); absent: rigid.', &
+            sensible=range_t(lower=1.0e7_dp, upper=1.0e12_dp), &
+            computable=a_stiffness), &
+      key_t('shaft', 'speed_rpm', real_kind, '1/min', 'required', positive, '', of_motions, &
+            'Mean speed of the shaft.', &
+            example='800.0', &
+            sensible=range_t(lower=1.0_dp, upper=1.0e5_dp), &
+            computable=range_t(1.0e-6_dp, .false., 1.0e9_dp, .false.)), &
+      key_t('shaft', 'orders', reals_kind, '-', 'required', positive, '', of_motions, &
+            'Orders of its angular acceleration, multiples of the speed; an engine of four strokes has halves among them.', &
+            example='2.0', &
+            sensible=range_t(lower=0.1_dp, upper=1000.0_dp), &
+            computable=range_t(1.0e-3_dp, .false., 1.0e6_dp, .false.)), &
+      key_t('shaft', 'accelerations', reals_kind, 'rad/s2', 'required', not_negative, '', of_motions, &
+            'Amplitude of the angular acceleration of each order; load.force_scale multiplies all of them.', &
+            example='600.0', &
+            sensible=range_t(lower=0.0_dp, upper=1.0e5_dp), &
+            computable=an_amplitude), &
+      key_t('shaft', 'phases', reals_kind, 'rad', '', any_number, '', of_motions, &
+            'Phase of each order: A cos(2 pi order t speed_rpm/60 + phase); absent: all 0.', &
+            sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
+            computable=a_phase), &
+      key_t('oil', 'viscosity_40_cst', real_kind, 'mm2/s', 'required', a_data_viscosity, '', '', &
+            'Kinematic viscosity at 40 degC, of the data sheet.', &
+            example='58.0', &
+            sensible=range_t(lower=2.0_dp, upper=2.0e3_dp)), &
+      key_t('oil', 'viscosity_100_cst', real_kind, 'mm2/s', 'required', a_data_viscosity, '', '', &
+            'Kinematic viscosity at 100 degC.', &
+            example='9.6', &
+            sensible=range_t(lower=1.0_dp, upper=200.0_dp)), &
+      key_t('oil', 'density_15', real_kind, 'kg/m3', '870.0', positive, '', '', &
+            'Density at 15 degC.', &
+            sensible=range_t(lower=600.0_dp, upper=1500.0_dp), &
+            computable=range_t(1.0_dp, .false., 1.0e5_dp, .false.)), &
+      key_t('oil', 'temperature_celsius', real_kind, 'degC', 'required', range_t(-150.0_dp, .false., 400.0_dp, .false.), '', '', &
+            'Temperature of the oil.', &
+            example='40.0', &
+            sensible=range_t(lower=-50.0_dp, upper=200.0_dp)), &
+      key_t('oil', 'base', text_kind, '', 'mineral', any_number, 'mineral pao polyglycol', '', &
+            'Kind of base oil, by which pressure raises its viscosity (ISO/TR 15144-1).'), &
+      key_t('oil', 'pressure_viscosity', real_kind, '1/Pa', '', positive, '', '', &
+            'Barus coefficient alpha; absent: that of its kind at this temperature.', &
+            sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp), &
+            computable=a_pressure_viscosity) &
       ]
 
    type(key_t), parameter :: keys_of_tasks(*) = [ &
@@ -254,9 +355,10 @@ module key_table
             'film.model=numerical', &
             'Cells of the finite-volume solution, an even number; its load is extrapolated from these and half of these.'), &
       key_t('sweep', 'key', text_kind, '', 'required', any_number, &
-            'frequency force_amplitude steady_force entrainment_speed force_scale backlash stiffness', &
+            'frequency force_amplitude steady_force entrainment_speed force_scale backlash stiffness '// &
+            'speed_rpm drag_torque temperature_celsius', &
             'scene.task=sweep', &
-            'What is swept: a key of &load or &contact, or the entrainment speed.', &
+            'What is swept: a key of &load or &contact, the entrainment speed; or a key of &shaft, &gear or &oil.', &
             example='frequency'), &
       key_t('sweep', 'first', real_kind, 'of key', 'required', any_number, '', 'scene.task=sweep', &
             'Value that the sweep begins with.', &
@@ -321,7 +423,10 @@ module key_table
             'Whether output files of an earlier run may be replaced; files of any other kind never are.') &
       ]
 
-   type(key_t), parameter, public :: keys(*) = [keys_of_gears, keys_of_tasks]
+   type(key_t), parameter, public :: keys(*) = [keys_of_gears, keys_of_drawings, keys_of_tasks]
+
+   !> Groups that need not stand; where one does, its required keys are required.
+   character(*), parameter, public :: optional_groups(3) = [character(5) :: 'gear', 'shaft', 'oil']
 
    public :: choice_word, find_key, find_swept_key, key_name, known_group, starts_group, nearest_key, nearest_group
 

@@ -1,6 +1,6 @@
 !> Which keys the choices of an input make use of, after the rules in the key table.
 module keys_in_use
-   use key_table, only: find_key, keys
+   use key_table, only: find_key, keys, optional_groups
    use scene_input, only: scene_input_t
    implicit none(type, external)
    private
@@ -18,6 +18,8 @@ contains
       integer :: conjunction
 
       used = .true.
+      if (any(optional_groups == keys(position)%group)) used = input%has_group(trim(keys(position)%group))
+      if (keys(position)%given_by /= '') used = .not. input%has_group(trim(keys(position)%given_by))
       rules = trim(keys(position)%used_when)
       do while (used .and. len(rules) > 0)
          conjunction = index(rules//' & ', ' & ')

@@ -2,6 +2,7 @@
 module scene_checker
    use errors, only: error_t, fault_list_t
    use force_checker, only: check_force
+   use gear_checker, only: check_gear, check_shaft
    use input_key, only: allowed_text, in_range, is_computable, not_computable_text, real_kind, reals_kind
    use key_table, only: find_key, find_swept_key, key_name, keys
    use keys_in_use, only: in_use
@@ -28,8 +29,12 @@ contains
       call check_computable(input, faults)
       call check_required(input, faults)
       call check_used(input, faults)
-      call check_radius(input, faults)
-      call check_speed(input, faults)
+      if (input%has_group('gear')) then
+         call check_gear(input, faults)
+      else
+         call check_radius(input, faults)
+         call check_speed(input, faults)
+      end if
       call check_film_model(input, faults)
       call check_rules(input, faults)
       call check_no_word_twice(input, 'output', 'columns', faults)
@@ -39,7 +44,11 @@ contains
       if (input%word('scene', 'task') == 'film') then
          call check_points(input, faults)
       else
-         call check_force(input, faults)
+         if (input%has_group('shaft')) then
+            call check_shaft(input, faults)
+         else
+            call check_force(input, faults)
+         end if
          call check_window(input, faults)
          if (input%word('scene', 'task') == 'sweep') call check_sweep(input, faults)
          if (input%word('scene', 'task') == 'campaign') call check_campaign(input, faults)
@@ -100,6 +109,11 @@ contains
 
       do i = 1, size(keys)
          if (.not. input%entries(i)%given .or. in_use(input, i)) cycle
+         if (keys(i)%given_by /= '' .and. input%has_group(trim(keys(i)%given_by))) then
+            call input%add_fault(trim(keys(i)%group), trim(keys(i)%name), 'it follows from &'//trim(keys(i)%given_by)// &
+                                 '; leave it out', faults)
+            cycle
+         end if
          call input%add_fault(trim(keys(i)%group), trim(keys(i)%name), 'this key is used only with '// &
                               trim(keys(i)%used_when)//'; leave it out', faults)
       end do
@@ -116,6 +130,8 @@ contains
 
       if (input%is_given('contact', 'stiffness')) &
          call input%add_fault('contact', 'stiffness', 'teeth that give are not solved yet', faults)
+      if (input%is_given('gear', 'tooth_stiffness')) &
+         call input%add_fault('gear', 'tooth_stiffness', 'teeth that give are not solved yet', faults)
       call input%put_numbers(scene)
       allocate (broken, source=broken_rules(scene))
       do i = 1, size(broken)
@@ -135,7 +151,8 @@ contains
       integer :: i, dot
 
       ! A backlash lifts the rule of the static load.
-      is_clear = index(names, 'load.') /= 1 .or. .not. input%is_faulty('contact', 'backlash')
+      is_clear = (index(names, 'load.') /= 1 .or. .not. input%is_faulty('contact', 'backlash')) .and. &
+                 (index(names, 'gear.drag') /= 1 .or. .not. input%is_faulty('gear', 'backlash'))
       allocate (words, source=split_words(names))
       do i = 1, size(words)
          dot = index(words(i)%text, '.')
@@ -294,6 +311,10 @@ contains
       if (.not. all([input%is_given('sweep', 'key'), input%is_given('sweep', 'first'), input%is_given('sweep', 'last')])) return
       key = input%word('sweep', 'key')
       position = find_swept_key(key)
+      if (.not. in_use(input, position)) then
+         call input%add_fault('sweep', 'key', 'the input does not use '//key_name(position)//'; sweep a key that it uses', faults)
+         return
+      end if
       ends = [input%number('sweep', 'first'), input%number('sweep', 'last')]
       do i = 1, 2
          if (.not. in_range(keys(position), ends(i)) .or. &

@@ -21,6 +21,7 @@ module scene_input
       procedure :: set_all
       procedure :: put_numbers
       procedure :: is_given
+      procedure :: has_group
       procedure :: is_faulty
       procedure :: number => number_of
       procedure :: count => count_of
@@ -99,6 +100,8 @@ contains
       type(scene_t), intent(inout) :: scene
       integer :: i
 
+      scene%gear%given = self%has_group('gear')
+      scene%oil%given = self%has_group('oil')
       do i = 1, size(keys)
          if (.not. self%entries(i)%present .or. self%entries(i)%faulty) cycle
          if (keys(i)%kind == real_kind) call set_number(scene, keys(i)%group, keys(i)%name, self%entries(i)%number)
@@ -114,6 +117,14 @@ contains
 
       is_given = self%entries(find_key(group, name))%given
    end function is_given
+
+   !> Whether the user set any key of a group.
+   pure logical function has_group(self, group)
+      class(scene_input_t), intent(in) :: self
+      character(*), intent(in) :: group
+
+      has_group = any(keys%group == group .and. self%entries%given)
+   end function has_group
 
    !> Whether a key was set to something that could not be read, so that no rule can be held against it.
    pure logical function is_faulty(self, group, name)

@@ -92,6 +92,7 @@ contains
       if (scene%task == task_sweep) scene%sweep = read_sweep(input)
       if (scene%task == task_campaign) scene%campaign = read_campaign(input)
       scene%output = read_output(input)
+      scene%lines = input%entries%line
       scene%resolved_input = resolved_text(input, trim(scene%name))
       scene%warnings = [scene%warnings, odd_numbers_of_input(input)]
    end subroutine read_scene
@@ -148,6 +149,13 @@ contains
             if (input%is_given('load', 'force_phases')) load%force_phases = input%numbers('load', 'force_phases')
             spectrum%forced = forced_orders(load%force_orders, load%force_amplitudes)
          end if
+         if (input%has_group('shaft')) then
+            scene%shaft%orders = input%numbers('shaft', 'orders')
+            scene%shaft%accelerations = input%numbers('shaft', 'accelerations')
+            scene%shaft%phases = 0.0_dp*scene%shaft%orders
+            if (input%is_given('shaft', 'phases')) scene%shaft%phases = input%numbers('shaft', 'phases')
+         end if
+         scene%oil%base = input%choice('oil', 'base')
          film%law = input%choice('film', 'law')
          film%model = input%choice('film', 'model')
          film%rupture = input%choice('film', 'rupture')

@@ -5,11 +5,13 @@ module scene_rules
    implicit none(type, external)
    private
 
+   integer, parameter, public :: sentence_length = 112
+
    !> A rule that a scene breaks.
    type, public :: rule_t
       !> The keys that it concerns, as group.name with a blank behind each; its fault is told at the first
       character(64) :: keys
-      character(96) :: sentence
+      character(sentence_length) :: sentence
    end type rule_t
 
    public :: broken_rules
@@ -21,8 +23,8 @@ contains
       !> Each of its numbers is one that can be computed with
       type(scene_t), intent(in) :: scene
       type(rule_t), allocatable :: broken(:)
-      type(rule_t) :: rules(4)
-      logical :: holds(4)
+      type(rule_t) :: rules(5)
+      logical :: holds(5)
 
       associate (contact => scene%contact, load => scene%load, solver => scene%solver, spectrum => scene%spectrum)
          rules(1) = rule_t('load.steady_force load.mass load.gravity', &
@@ -39,6 +41,14 @@ contains
          ! Not by integer_text: threads come here, and gfortran keeps the length of a text that a function allocates for all of them.
          if (.not. holds(4)) write (rules(4)%sentence, '(a, i0, a)') 'at least &spectrum periods (', spectrum%periods, &
             ') must be solved'
+         rules(5) = rule_t('oil.viscosity_100_cst oil.viscosity_40_cst', 'at 100 degC an oil is thinner than at 40 degC')
+         holds(5) = .not. scene%oil%given .or. scene%oil%viscosity_100_cst < scene%oil%viscosity_40_cst
+         if (scene%gear%given) then
+            rules(1) = rule_t('gear.drag_torque', 'without a backlash the drag torque must be positive')
+            holds(1) = scene%gear%backlash > 0.0_dp .or. scene%gear%drag_torque > 0.0_dp
+            rules(2)%keys = 'film.initial_film gear.backlash'
+            holds(2) = .not. (scene%gear%backlash > 0.0_dp .and. scene%film%initial_film >= scene%gear%backlash)
+         end if
       end associate
       broken = pack(rules,.not. holds)
    end function broken_rules

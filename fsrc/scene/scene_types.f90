@@ -110,6 +110,52 @@ module scene_types
       procedure :: static_load
    end type load_t
 
+   !> &gear: a loose gear and the gear that drives it, of which the contact follows
+   type, public :: gear_t
+      logical :: given = .false.
+      !> Teeth of the gear on the shaft and of the loose gear
+      integer :: teeth_1 = 0
+      integer :: teeth_2 = 0
+      !> Normal module, face width, centre distance (0: that without profile shift), place on the line of action [m]
+      real(dp) :: normal_module = 0.0_dp
+      real(dp) :: face_width = 0.0_dp
+      real(dp) :: centre_distance = 0.0_dp
+      real(dp) :: contact_position = 0.0_dp
+      !> Normal pressure angle and helix angle [degrees]
+      real(dp) :: pressure_angle_deg = 0.0_dp
+      real(dp) :: helix_angle_deg = 0.0_dp
+      real(dp) :: contact_lines = 1.0_dp
+      !> Inertia of the loose gear [kg m2] and drag torque on it [N m]
+      real(dp) :: loose_inertia = 0.0_dp
+      real(dp) :: drag_torque = 0.0_dp
+      !> Play along the normal of the flanks [m], 0: one flank; stiffness of the teeth for each width [N/m2], 0: rigid
+      real(dp) :: backlash = 0.0_dp
+      real(dp) :: tooth_stiffness = 0.0_dp
+   end type gear_t
+
+   !> &shaft: speed [1/min] and angular acceleration of the gear that drives, the sum of amplitude cos(2 pi order t/turn + phase)
+   type, public :: shaft_t
+      real(dp) :: speed_rpm = 0.0_dp
+      !> Multiples of the speed, halves among them; amplitudes [rad/s2] and phases [rad]
+      real(dp), allocatable :: orders(:), accelerations(:), phases(:)
+   end type shaft_t
+
+   !> Kind of base oil.
+   integer, parameter, public :: oil_mineral = 1, oil_pao = 2, oil_polyglycol = 3
+
+   !> &oil: the data sheet, of which &lubricant follows
+   type, public :: oil_t
+      logical :: given = .false.
+      !> Kinematic viscosities at 40 and 100 degC [mm2/s], density at 15 degC [kg/m3]
+      real(dp) :: viscosity_40_cst = 0.0_dp
+      real(dp) :: viscosity_100_cst = 0.0_dp
+      real(dp) :: density_15 = 0.0_dp
+      real(dp) :: temperature_celsius = 0.0_dp
+      integer :: base = oil_mineral
+      !> Barus coefficient [1/Pa]; 0: that of its kind at this temperature
+      real(dp) :: pressure_viscosity = 0.0_dp
+   end type oil_t
+
    !> &film
    type, public :: film_choice_t
       integer :: law = law_iso_viscous
@@ -241,6 +287,9 @@ module scene_types
       type(lubricant_t) :: lubricant
       type(kinematics_t) :: kinematics
       type(load_t) :: load
+      type(gear_t) :: gear
+      type(shaft_t) :: shaft
+      type(oil_t) :: oil
       type(film_choice_t) :: film
       type(solver_t) :: solver
       type(spectrum_choice_t) :: spectrum
@@ -250,6 +299,8 @@ module scene_types
       type(output_t) :: output
       !> What was made of a signal, and what is allowed but hardly meant, a line each
       type(word_t), allocatable :: warnings(:)
+      !> Line in which each key of the table was set; 0: it was not, or on the command line
+      integer, allocatable :: lines(:)
       !> All keys with their resolved values as namelist text, without places on this machine
       character(:), allocatable :: resolved_input
    end type scene_t
@@ -282,7 +333,7 @@ contains
 
       if (present(known)) known = .true.
       associate (contact => scene%contact, lubricant => scene%lubricant, kinematics => scene%kinematics, load => scene%load, &
-                 film => scene%film, solver => scene%solver, spectrum => scene%spectrum)
+                 film => scene%film, solver => scene%solver, spectrum => scene%spectrum, gear => scene%gear, oil => scene%oil)
          select case (trim(group)//'.'//name)
          case ('contact.radius')
             contact%radius = value
@@ -328,6 +379,44 @@ contains
             load%frequency = value
          case ('load.gravity')
             load%gravity = value
+         case ('gear.teeth_1')
+            gear%teeth_1 = nint(value)
+         case ('gear.teeth_2')
+            gear%teeth_2 = nint(value)
+         case ('gear.normal_module')
+            gear%normal_module = value
+         case ('gear.pressure_angle_deg')
+            gear%pressure_angle_deg = value
+         case ('gear.helix_angle_deg')
+            gear%helix_angle_deg = value
+         case ('gear.face_width')
+            gear%face_width = value
+         case ('gear.centre_distance')
+            gear%centre_distance = value
+         case ('gear.contact_position')
+            gear%contact_position = value
+         case ('gear.contact_lines')
+            gear%contact_lines = value
+         case ('gear.loose_inertia')
+            gear%loose_inertia = value
+         case ('gear.drag_torque')
+            gear%drag_torque = value
+         case ('gear.backlash')
+            gear%backlash = value
+         case ('gear.tooth_stiffness')
+            gear%tooth_stiffness = value
+         case ('shaft.speed_rpm')
+            scene%shaft%speed_rpm = value
+         case ('oil.viscosity_40_cst')
+            oil%viscosity_40_cst = value
+         case ('oil.viscosity_100_cst')
+            oil%viscosity_100_cst = value
+         case ('oil.density_15')
+            oil%density_15 = value
+         case ('oil.temperature_celsius')
+            oil%temperature_celsius = value
+         case ('oil.pressure_viscosity')
+            oil%pressure_viscosity = value
          case ('film.initial_film')
             film%initial_film = value
          case ('film.initial_velocity')

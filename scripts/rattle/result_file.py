@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
@@ -19,6 +20,7 @@ from rattle.result_header import SERIES, ResultError, ResultHeader
 # Threads that verify chunks, and chunks below which another thread is not worth its start.
 MOST_THREADS = 4
 FEWEST_CHUNKS = 4
+DERIVED = re.compile(r"^! derived: (\w+)\.(\w+) = ([-+.\dE]+(?:, [-+.\dE]+)*)", re.MULTILINE)
 # Tasks whose results plot.py draws, with a command of that name.
 DRAWN = ("motion", "film", "sweep", "campaign")
 
@@ -54,7 +56,13 @@ class ResultFile:
     def input(self) -> dict[str, dict[str, Any]]:
         """The resolved input: group, key, value."""
         try:
-            return parse(self.input_text)
+            groups = parse(self.input_text)
+            # What follows from &gear, &shaft and &oil; a sweep or campaign may vary what it follows from.
+            if groups.get("scene", {}).get("task") == "motion":
+                for group, key, value in DERIVED.findall(self.input_text):
+                    numbers = [float(number) for number in value.split(",")]
+                    groups.setdefault(group, {})[key] = numbers if key.startswith("force_") else numbers[0]
+            return groups
         except NamelistError as fault:
             raise ResultError(f"The resolved input in {self.path} cannot be read: {fault}") from None
 

@@ -176,6 +176,8 @@ def test_no_other_key_can_be_varied(run, scene_text, tmp_path: Path) -> None:
             numbers.append(f"{group}.{key[1]}")
     assert set(KEYS) <= set(numbers)
     for key in sorted(set(numbers) - set(KEYS) - {"contact.stiffness"}):
+        if key.split(".")[0] in {"gear", "shaft", "oil"}:
+            continue  # test_gear_inputs varies them
         (tmp_path / "many.nml").write_text(campaign_of(key, ("1", "2"), "published", scene_text))
         ended = run("--check", "many.nml", cwd=tmp_path)
         assert ended.returncode == 2 and "cannot be varied" in ended.stderr, key

@@ -1,0 +1,253 @@
+!> The scene that follows from &gear, &shaft and &oil: contact, kinematics, load and lubricant of a loose gear. Whatever sets a
+!> number of these groups, an input, a sweep or a campaign, derives the scene from them behind it.
+module derived_scene
+   use errors, only: fault_list_t
+   use gear_contact, only: find_contact, gear_contact_t, gear_pair_t
+   use input_entry, only: numbers_text
+   use input_key, only: is_computable
+   use key_table, only: find_key, keys
+   use kinds, only: dp
+   use oil_data, only: kinematic_viscosity, least_viscosity_meant, oil_pressure_viscosity, oil_viscosity
+   use scene_rules, only: rule_t, sentence_length
+   use scene_types, only: forced_orders, highest_order, scene_t, set_number, task_sweep
+   use shaft_orders, only: base_order
+   use text, only: short_text
+   use word_list, only: word_t
+   implicit none(type, external)
+   private
+
+   public :: derive, derived_rules, complete_scene
+
+contains
+
+   !> Set all that follows from the groups that are given. A scene that breaks a derived rule is of no use.
+   pure subroutine derive(scene)
+      type(scene_t), intent(inout) :: scene
+      type(gear_contact_t) :: contact
+      character(:), allocatable :: wrong, message
+
+      if (scene%oil%given) then
+         associate (oil => scene%oil, lubricant => scene%lubricant)
+            lubricant%viscosity = viscosity_at(scene, oil%temperature_celsius)
+            lubricant%pressure_viscosity = oil%pressure_viscosity
+            if (.not. oil%pressure_viscosity > 0.0_dp) lubricant%pressure_viscosity = &
+               oil_pressure_viscosity(oil%base, viscosity_at(scene, 38.0_dp), oil%temperature_celsius)
+         end associate
+      end if
+      if (.not. scene%gear%given) return
+      call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      scene%contact%radius = contact%radius
+      scene%contact%length = contact%length
+      scene%contact%backlash = scene%gear%backlash
+      scene%contact%stiffness = scene%gear%tooth_stiffness*scene%gear%face_width
+      scene%kinematics%entrainment_speed = contact%entrainment_speed
+      scene%load%mass = contact%mass
+      scene%load%steady_force = contact%steady_force
+      scene%load%gravity = 0.0_dp
+      call derive_force(scene, contact%force_per_acceleration)
+   end subroutine derive
+
+   !> Force, and the orders at which it makes lines.
+   pure subroutine derive_force(scene, force_per_acceleration)
+      type(scene_t), intent(inout) :: scene
+      !> [N s2/rad]
+      real(dp), intent(in) :: force_per_acceleration
+      real(dp) :: base
+
+      base = base_order(scene%shaft%orders)
+      if (.not. base > 0.0_dp) return
+      scene%load%frequency = base*scene%shaft%speed_rpm/60.0_dp
+      scene%load%force_orders = nint(scene%shaft%orders/base)
+      scene%load%force_amplitudes = force_per_acceleration*scene%shaft%accelerations
+      scene%load%force_phases = scene%shaft%phases
+      scene%spectrum%forced = forced_orders(scene%load%force_orders, scene%load%force_amplitudes)
+   end subroutine derive_force
+
+   !> Viscosity of the oil at a temperature [degC].
+   pure real(dp) function viscosity_at(scene, temperature)
+      type(scene_t), intent(in) :: scene
+      real(dp), intent(in) :: temperature
+
+      viscosity_at = oil_viscosity(scene%oil%viscosity_40_cst, scene%oil%viscosity_100_cst, scene%oil%density_15, temperature)
+   end function viscosity_at
+
+   !> The pair of gears as its geometry takes it.
+   pure type(gear_pair_t) function pair_of(scene)
+      type(scene_t), intent(in) :: scene
+
+      associate (gear => scene%gear)
+         pair_of = gear_pair_t(gear%teeth_1, gear%teeth_2, gear%normal_module, gear%pressure_angle_deg, gear%helix_angle_deg, &
+                               gear%face_width, gear%centre_distance, gear%contact_position, gear%contact_lines, &
+                               gear%loose_inertia, gear%drag_torque)
+      end associate
+   end function pair_of
+
+   !> The rules that a derived scene breaks.
+   pure function derived_rules(scene) result(broken)
+      !> Derived; it breaks none of the rules between its own numbers
+      type(scene_t), intent(in) :: scene
+      type(rule_t), allocatable :: broken(:)
+      type(gear_contact_t) :: contact
+      character(:), allocatable :: wrong, message
+      real(dp) :: base
+
+      allocate (broken(0))
+      if (scene%oil%given) then
+         call demand(broken, 'lubricant', 'viscosity', scene%lubricant%viscosity, 'oil.temperature_celsius')
+         call demand(broken, 'lubricant', 'pressure_viscosity', scene%lubricant%pressure_viscosity, 'oil.temperature_celsius')
+      end if
+      if (.not. scene%gear%given) return
+      call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      if (len(wrong) > 0) then
+         call add(broken, 'gear.'//wrong, message)
+         return
+      end if
+      call demand(broken, 'contact', 'radius', scene%contact%radius, 'gear.contact_position')
+      call demand(broken, 'contact', 'length', scene%contact%length, 'gear.face_width')
+      call demand(broken, 'kinematics', 'entrainment_speed', scene%kinematics%entrainment_speed, 'shaft.speed_rpm')
+      call demand(broken, 'load', 'mass', scene%load%mass, 'gear.loose_inertia')
+      base = base_order(scene%shaft%orders)
+      if (.not. base > 0.0_dp) then
+         call add(broken, 'shaft.orders', 'they have no common divisor to repeat with; halves, thirds and the like have')
+         return
+      end if
+      call demand(broken, 'load', 'frequency', scene%load%frequency, 'shaft.speed_rpm')
+      if (maxval(scene%load%force_orders) > highest_order) &
+         call add(broken, 'shaft.orders', 'the highest is too large a multiple of their common divisor')
+      if (scene%solver%samples_per_period() < 4*maxval(scene%load%force_orders)) &
+         call add(broken, 'solver.samples_per_period', 'at least four for each multiple of the base frequency are needed')
+   end function derived_rules
+
+   !> Add a rule that is broken.
+   pure subroutine add(broken, key, sentence)
+      type(rule_t), allocatable, intent(inout) :: broken(:)
+      character(*), intent(in) :: key
+      character(*), intent(in) :: sentence
+
+      broken = [broken, rule_t(key, sentence)]
+   end subroutine add
+
+   !> A number that is derived must be one that can be computed with.
+   pure subroutine demand(broken, group, name, value, cause)
+      type(rule_t), allocatable, intent(inout) :: broken(:)
+      !> Its key
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: value
+      !> Key that it follows from
+      character(*), intent(in) :: cause
+      character(sentence_length) :: sentence
+      integer :: position
+
+      position = find_key(group, name)
+      if (is_computable(keys(position), value)) return
+      write (sentence, '(3a, es9.2, 3a, es8.1, a, es8.1)') 'the ', name, ' that follows is ', value, ' ', &
+         trim(keys(position)%unit), '; possible:', keys(position)%computable%lower, ' to', keys(position)%computable%upper
+      call add(broken, cause, sentence)
+   end subroutine demand
+
+   !> Derive the scene of an input, tell what is wrong with it or odd about it, and put what follows into its resolved input as
+   !> comments.
+   subroutine complete_scene(scene, file, faults)
+      !> Without a fault of its own
+      type(scene_t), intent(inout) :: scene
+      !> Name of its input
+      character(*), intent(in) :: file
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(rule_t), allocatable :: broken(:)
+      integer :: i, dot
+
+      if (.not. (scene%gear%given .or. scene%oil%given)) return
+      call derive(scene)
+      allocate (broken, source=derived_rules(scene))
+      do i = 1, size(broken)
+         associate (key => broken(i)%keys)
+            dot = index(key, '.')
+            call faults%add(file, scene%lines(find_key(key(:dot - 1), key(dot + 1:))), key(:dot - 1), trim(key(dot + 1:)), &
+                            trim(broken(i)%sentence))
+         end associate
+      end do
+      if (size(broken) > 0) return
+      if (scene%task == task_sweep) call check_sweep(scene, file, faults)
+      if (scene%oil%given) call tell_oil(scene)
+      if (scene%gear%given) call tell_gear(scene)
+   end subroutine complete_scene
+
+   !> The scenes at both ends of a sweep can be derived.
+   subroutine check_sweep(scene, file, faults)
+      type(scene_t), intent(in) :: scene
+      character(*), intent(in) :: file
+      type(fault_list_t), intent(inout) :: faults
+      type(rule_t), allocatable :: broken(:)
+      type(scene_t) :: swept
+      integer :: i
+
+      associate (sweep => scene%sweep)
+         do i = 1, sweep%outward, sweep%outward - 1
+            swept = scene
+            call set_number(swept, keys(sweep%key)%group, keys(sweep%key)%name, sweep%values(i))
+            call derive(swept)
+            if (allocated(broken)) deallocate (broken)
+            allocate (broken, source=derived_rules(swept))
+            if (size(broken) > 0) call faults%add(file, 0, 'sweep', trim(merge('first', 'last ', i == 1)), &
+                                                  trim(broken(1)%sentence))
+         end do
+      end associate
+   end subroutine check_sweep
+
+   !> What follows from &oil.
+   subroutine tell_oil(scene)
+      type(scene_t), intent(inout) :: scene
+      real(dp) :: thin
+
+      thin = kinematic_viscosity(scene%oil%viscosity_40_cst, scene%oil%viscosity_100_cst, scene%oil%temperature_celsius)
+      if (thin < least_viscosity_meant) scene%warnings = [scene%warnings, word_t('warning: the oil has '// &
+         short_text(thin, 3)//' mm2/s at this temperature; the line through both viscosities (ASTM D341) is meant for 2 and more')]
+      call tell(scene, 'lubricant.viscosity', [scene%lubricant%viscosity], 'Pa s')
+      call tell(scene, 'lubricant.pressure_viscosity', [scene%lubricant%pressure_viscosity], '1/Pa')
+   end subroutine tell_oil
+
+   !> What follows from &gear and &shaft.
+   subroutine tell_gear(scene)
+      type(scene_t), intent(inout) :: scene
+      type(gear_contact_t) :: contact
+      character(:), allocatable :: wrong, message
+
+      call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      associate (load => scene%load)
+         if (load%steady_force >= load%force_scale*sum(load%force_amplitudes)) scene%warnings = [scene%warnings, &
+            word_t('warning: the drag of '//short_text(load%steady_force, 4)//' N is larger than the inertia force of '// &
+                   short_text(load%force_scale*sum(load%force_amplitudes), 4)//' N at most: nothing drives the teeth apart')]
+         call tell(scene, 'gear.base_radius_1', [contact%base_radius_1], 'm')
+         call tell(scene, 'gear.base_radius_2', [contact%base_radius_2], 'm')
+         call tell(scene, 'gear.centre_distance', [contact%centre_distance], 'm')
+         call tell(scene, 'gear.working_pressure_angle', [contact%working_pressure_angle], 'deg')
+         call tell(scene, 'gear.base_helix_angle', [contact%base_helix_angle], 'deg')
+         call tell(scene, 'contact.radius', [scene%contact%radius], 'm')
+         call tell(scene, 'contact.length', [scene%contact%length], 'm')
+         if (scene%contact%backlash > 0.0_dp) call tell(scene, 'contact.backlash', [scene%contact%backlash], 'm')
+         if (scene%contact%stiffness > 0.0_dp) call tell(scene, 'contact.stiffness', [scene%contact%stiffness], 'N/m')
+         call tell(scene, 'kinematics.entrainment_speed', [scene%kinematics%entrainment_speed], 'm/s')
+         call tell(scene, 'load.mass', [load%mass], 'kg')
+         call tell(scene, 'load.steady_force', [load%steady_force], 'N')
+         call tell(scene, 'load.force_orders', real(load%force_orders, dp), '')
+         call tell(scene, 'load.force_amplitudes', load%force_amplitudes, 'N')
+         call tell(scene, 'load.force_phases', load%force_phases, 'rad')
+         call tell(scene, 'load.frequency', [load%frequency], 'Hz')
+         call tell(scene, 'load.gravity', [load%gravity], 'm/s2')
+      end associate
+   end subroutine tell_gear
+
+   !> Put a derived key into the resolved input.
+   subroutine tell(scene, name, numbers, unit)
+      type(scene_t), intent(inout) :: scene
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: numbers(:)
+      character(*), intent(in) :: unit
+
+      scene%resolved_input = scene%resolved_input//'! derived: '//name//' = '//trim(numbers_text(numbers)//' '//unit)// &
+                             new_line('a')
+   end subroutine tell
+
+end module derived_scene

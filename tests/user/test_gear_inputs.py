@@ -1,0 +1,317 @@
+"""From a drawing and a data sheet to a motion: &gear, &shaft and &oil against independent numbers."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+from outcomes import assert_faults, summary_of
+
+import rattle as package
+
+PAIR = """
+&gear
+   teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96, face_width = 0.016
+   loose_inertia = 1.715e-3, drag_torque = 0.10, backlash = 1e-4
+/
+&shaft speed_rpm = 800.0, orders = 2.0, accelerations = 600.0 /
+&oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 40.0 /
+&film law = 'iso-viscous', model = 'reynolds' /
+&solver periods = 12, accuracy = 1e-6 /
+&spectrum periods = 2 /
+"""
+SECOND = {
+    "teeth_1": "33",
+    "teeth_2": "32",
+    "normal_module": "1.85e-3",
+    "helix_angle_deg": "30.8",
+    "loose_inertia": "2.8e-4",
+    "drag_torque": "0.05",
+    "centre_distance": "0.0702",
+    "contact_position": "1e-3",
+    "contact_lines": "1.5",
+}
+OILS = {
+    -20: (2.69145831, 2.47334058e-8),
+    0: (0.473715991, 2.20584281e-8),
+    20: (0.131045343, 1.97484482e-8),
+    80: (0.0126951718, 1.4388366e-8),
+    120: (5.18465014e-3, 1.172389e-8),
+}
+
+
+@pytest.fixture
+def check(run, tmp_path: Path):
+    def call(text: str, *options: str):
+        (tmp_path / "pair.nml").write_text(text)
+        settings = [word for option in options for word in ("--set", option)]
+        return run("--check", *settings, "pair.nml", cwd=tmp_path)
+
+    return call
+
+
+def derived(ended) -> dict[str, float]:
+    """What follows, of each key the first number."""
+    assert ended.returncode == 0, ended.stderr
+    return {
+        key: float(value) for key, value in re.findall(r"^! derived: (\S+) = ([-+.\dE]+)", ended.stdout, re.M)
+    }
+
+
+def test_check_tells_the_contact_of_a_pair(check) -> None:
+    told = derived(check(PAIR))
+    expected = {
+        "gear.base_radius_1": 0.01450969563,
+        "gear.base_radius_2": 0.05012440307,
+        "gear.centre_distance": 0.07000336377,
+        "gear.working_pressure_angle": 22.5866253,
+        "gear.base_helix_angle": 27.06481427,
+        "contact.radius": 0.005256471216,
+        "contact.length": 0.01796758757,
+        "kinematics.entrainment_speed": 0.5056564966,
+        "load.mass": 0.8608059738,
+        "load.steady_force": 2.240374258,
+        "load.force_amplitudes": 6.673367428,
+        "load.frequency": 800.0 / 60.0 * 2.0,
+        "load.gravity": 0.0,
+        "contact.backlash": 1e-4,
+        "lubricant.viscosity": 0.049445,
+        "lubricant.pressure_viscosity": 1.7733532e-8,
+    }
+    for key, value in expected.items():
+        assert told[key] == pytest.approx(
+            value, rel=2e-9 if key != "lubricant.pressure_viscosity" else 3e-8
+        ), key
+
+
+def test_check_tells_a_shifted_pair_off_the_pitch_point(check) -> None:
+    changes = [f"gear.{key}={value}" for key, value in SECOND.items()]
+    told = derived(check(PAIR, *changes))
+    expected = {
+        "gear.working_pressure_angle": 23.35107601,
+        "gear.base_helix_angle": 28.76138053,
+        "contact.radius": 0.007874713445,
+        "kinematics.entrainment_speed": 1.182142875,
+        "contact.length": 0.02737753343,
+        "load.mass": 0.3619119942,
+        "load.steady_force": 1.797597589,
+        "load.force_amplitudes": 6.228675645,
+    }
+    for key, value in expected.items():
+        assert told[key] == pytest.approx(value, rel=1e-9), key
+
+
+@pytest.mark.parametrize("temperature", OILS)
+def test_oil_at_its_temperature(temperature: int, check) -> None:
+    told = derived(check(PAIR, f"oil.temperature_celsius={temperature}"))
+    viscosity, pressure_viscosity = OILS[temperature]
+    assert told["lubricant.viscosity"] == pytest.approx(viscosity, rel=5e-9)
+    assert told["lubricant.pressure_viscosity"] == pytest.approx(pressure_viscosity, rel=3e-9)
+
+
+def test_kind_of_oil_and_its_own_coefficient(check) -> None:
+    for options, expected in (
+        (["oil.base=pao"], 1.25084897e-8),
+        (["oil.base=polyglycol"], 8.70226199e-9),
+        (["oil.pressure_viscosity=2e-8"], 2e-8),
+    ):
+        assert derived(check(PAIR, *options))["lubricant.pressure_viscosity"] == pytest.approx(
+            expected, rel=3e-9
+        )
+
+
+def test_orders_of_a_four_stroke_engine_share_a_base(check) -> None:
+    ended = check(PAIR, "shaft.orders=2, 0.5, 1.5", "shaft.accelerations=600, 60, 6")
+    assert derived(ended)["load.frequency"] == pytest.approx(0.5 * 800.0 / 60.0)
+    assert "! derived: load.force_orders = 4.0, 1.0, 3.0" in ended.stdout
+    # A shorter list says so.
+    ended = check(PAIR, "shaft.orders=2, 0.5")
+    assert_faults(
+        ended.stderr.splitlines(),
+        "pair.nml",
+        ["6: &shaft accelerations: as many values as orders has (2) are needed"],
+    )
+
+
+def test_a_gear_with_the_contact_of_a_known_motion(run, tmp_path: Path) -> None:
+    """The contact, force and play of the reference for two flanks, from equal spur gears."""
+    base_radius = 0.015 / math.tan(math.radians(20.0))
+    speed = 1.07 / 0.015 * 30.0 / math.pi
+    order = 26.7 * 60.0 / speed
+    mass = 0.45
+    (tmp_path / "known.nml").write_text(f"""
+&gear
+   teeth_1 = 30, teeth_2 = 30, normal_module = {2 * base_radius / 30 / math.cos(math.radians(20.0))!r}
+   face_width = 0.02, loose_inertia = {mass * base_radius**2!r}, drag_torque = {5.0 * base_radius!r}
+   backlash = 1e-4
+/
+&shaft
+   speed_rpm = {speed!r}, orders = {order!r}, {2 * order!r}, {3 * order!r}, phases = 0.0, 0.5, 1.1
+   accelerations = {7.9 / mass / base_radius!r}, {2.0 / mass / base_radius!r}, {0.8 / mass / base_radius!r}
+/
+&lubricant viscosity = 0.05, pressure_viscosity = 2e-8 /
+&film law = 'iso-viscous', model = 'reynolds' /
+&solver periods = 40, samples_per_period = 2048 /
+&spectrum periods = 4 /
+""")
+    ended = run("known.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    told = summary_of(tmp_path / "results" / "known.summary.nml")
+    assert (told["radius"], told["length"]) == pytest.approx((7.5e-3, 0.02))
+    assert (told["mass"], told["steady_force"], told["frequency"]) == pytest.approx((0.45, 5.0, 26.7))
+    assert told["force_amplitudes"] == pytest.approx([7.9, 2.0, 0.8])
+    assert told["harmonics"][:8] == pytest.approx(
+        [1.0544934, 2.0593625, 1.5235086, 0.8887504, 1.8208022, 2.0759337, 1.2894884, 0.4725849], abs=2e-7
+    )
+    # Python finds what follows where it looks for it.
+    result = package.read(tmp_path / "results" / "known.rattle")
+    assert result.frequency == pytest.approx(26.7)
+    assert result.input["load"]["force_orders"] == [1.0, 2.0, 3.0]
+
+
+KEYS = {
+    "gear.teeth_1": ("12", "13"),
+    "gear.normal_module": ("2.4e-3", "2.6e-3"),
+    "gear.pressure_angle_deg": ("18.0", "21.0"),
+    "gear.helix_angle_deg": ("0.0", "15.0"),
+    "gear.face_width": ("0.012", "0.02"),
+    "gear.centre_distance": ("0.0702", "0.0704"),
+    "gear.contact_position": ("-1e-3", "1e-3"),
+    "gear.contact_lines": ("1.5", "2.0"),
+    "gear.loose_inertia": ("1e-3", "2e-3"),
+    "gear.drag_torque": ("0.0", "-0.1"),
+    "gear.backlash": ("6e-5", "2e-4"),
+    "shaft.speed_rpm": ("700.0", "900.0"),
+    "oil.viscosity_40_cst": ("50.0", "60.0"),
+    "oil.viscosity_100_cst": ("8.0", "11.0"),
+    "oil.density_15": ("850.0", "900.0"),
+    "oil.temperature_celsius": ("-20.0", "80.0"),
+}
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_a_row_is_the_single_scene_with_that_value(key: str, run, tmp_path: Path) -> None:
+    base = PAIR.replace("backlash = 1e-4", "backlash = 1e-4, centre_distance = 0.0701")
+    base = base.replace("temperature_celsius = 40.0", "temperature_celsius = 60.0")
+    (tmp_path / "many.nml").write_text(
+        base
+        + f"&scene task = 'campaign' /\n&campaign vary = '{key}', values(:, 1) = {', '.join(KEYS[key])}\n"
+        "record = 'film_minimum', 'steady_film', 'natural_frequency' /\n"
+    )
+    ended = run("many.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    rows = package.read_campaign(tmp_path / "results" / "many.rattle")
+    (tmp_path / "one.nml").write_text(base)
+    for row, value in enumerate(KEYS[key]):
+        ended = run(
+            "--set",
+            f"{key}={value}",
+            "--set",
+            "spectrum.certify=.false.",
+            "--overwrite",
+            "one.nml",
+            cwd=tmp_path,
+        )
+        assert ended.returncode == 0, ended.stderr
+        told = summary_of(tmp_path / "results" / "one.summary.nml")
+        for name in ("steady_film", "natural_frequency", "film_minimum"):
+            assert rows[name][row] == told[name], name
+    assert rows["film_minimum"][0] != rows["film_minimum"][1]
+
+
+def test_a_sweep_over_the_speed_of_the_shaft(run, tmp_path: Path) -> None:
+    (tmp_path / "up.nml").write_text(
+        PAIR
+        + "&scene task = 'sweep' /\n"
+        + "&sweep key = 'speed_rpm', first = 700, last = 900, count = 3, turn = F /\n"
+    )
+    ended = run("up.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    rows = package.read(tmp_path / "results" / "up.rattle")
+    assert list(rows["speed_rpm"]) == [700.0, 800.0, 900.0]
+    assert len(set(rows["natural_frequency"])) == 3
+
+
+FAULTS = {
+    "&load mass = 1.0, frequency = 20.0 /": [
+        "13: &load mass: it follows from &gear; leave it out",
+        "13: &load frequency: it follows from &shaft; leave it out",
+    ],
+    "&lubricant viscosity = 0.1 /": ["13: &lubricant viscosity: it follows from &oil; leave it out"],
+    "&contact radius = 0.01 /": ["13: &contact radius: it follows from &gear; leave it out"],
+    "&kinematics rolling_speed = 2.0 /": [
+        "13: &kinematics rolling_speed: it follows from &gear; leave it out"
+    ],
+}
+
+
+@pytest.mark.parametrize("more", FAULTS)
+def test_what_follows_is_not_given(more: str, check) -> None:
+    ended = check(PAIR.rstrip("\n") + "\n\n\n" + more + "\n")
+    assert ended.returncode == 2
+    assert_faults(ended.stderr.splitlines(), "pair.nml", FAULTS[more])
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "fault"),
+    [
+        ("teeth_1 = 11, ", "", "&gear teeth_1: this key is required"),
+        (
+            "backlash = 1e-4",
+            "contact_position = -0.007",
+            "4: &gear contact_position: it lies beyond the line",
+        ),
+        (
+            "backlash = 1e-4",
+            "centre_distance = 0.06",
+            "4: &gear centre_distance: it must exceed the sum",
+        ),
+        (
+            "backlash = 1e-4",
+            "tooth_stiffness = 1.4e10",
+            "4: &gear tooth_stiffness: teeth that give",
+        ),
+        (
+            "drag_torque = 0.10, backlash = 1e-4",
+            "drag_torque = 0.0",
+            "4: &gear drag_torque: without a backlash",
+        ),
+        (
+            "&shaft speed_rpm = 800.0, orders = 2.0, accelerations = 600.0 /",
+            "",
+            "&shaft: this group is required",
+        ),
+        ("orders = 2.0", "orders = 2, 2", "6: &shaft orders: order 2.0 stands there twice"),
+        (
+            "viscosity_100_cst = 9.6",
+            "viscosity_100_cst = 60",
+            "7: &oil viscosity_100_cst: at 100 degC an oil is",
+        ),
+        ("viscosity_40_cst = 58.0, ", "", "&oil viscosity_40_cst: this key is required"),
+        (
+            "temperature_celsius = 40.0",
+            "temperature_celsius = -140",
+            "7: &oil temperature_celsius: the viscosity that",
+        ),
+        (
+            "orders = 2.0, accelerations = 600.0",
+            "orders = 1, 1.4142135, accelerations = 1, 1",
+            "&shaft orders: ",
+        ),
+    ],
+)
+def test_faults_of_a_drawing(old: str, new: str, fault: str, check) -> None:
+    assert old in PAIR
+    ended = check(PAIR.replace(old, new))
+    assert ended.returncode == 2
+    assert any(fault in line for line in ended.stderr.splitlines()), ended.stderr
+
+
+def test_warnings_that_an_engineer_expects(check) -> None:
+    assert "warning" not in check(PAIR).stdout
+    dragged = check(PAIR, "gear.drag_torque=0.4").stdout
+    assert "is larger than the inertia force of 6.673 N at most" in dragged
+    thin = check(PAIR, "oil.temperature_celsius=250").stdout
+    assert "(ASTM D341) is meant for 2 and more" in thin
