@@ -35,7 +35,7 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, k,
    integer(c_int), intent(in) :: m
    real(c_double), intent(out) :: harmonics(m)
    real(c_double), intent(out) :: ratios(3)
-   integer(c_int), intent(out) :: counts(4)
+   integer(c_int), intent(out) :: counts(5)
    type(rattle_verdict_t) :: verdict
    type(spectrum_choice_t) :: choice
 
@@ -50,5 +50,5 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, k,
    harmonics = verdict%lines%harmonics
    ratios = [verdict%lines%harmonic_distortion, verdict%lines%irregular_fraction, verdict%reversals_per_period]
    counts = [verdict%class, verdict%lines%line_count, merge(1, 0, verdict%lines%moving), &
-             merge(1, 0, verdict%lines%sampling_sufficient)]
+             merge(1, 0, verdict%lines%sampling_sufficient), verdict%lines%largest_forced]
 end subroutine wrap_classify

@@ -139,7 +139,7 @@ _MOTION_INPUT = """&scene
 /
 &load
    steady_force = 200.0
-   force_amplitude = 150.0
+   {force}
    frequency = 500.0
 /
 &film
@@ -186,17 +186,19 @@ def write_motion(
     extremes: Sequence[Sequence[float]] = (),
     coarse: bool = False,
     film_lines: dict[float, float] | None = None,
+    force: dict[int, float] | None = None,
 ) -> Path:
     """A made-up motion: `lines` maps f/f_exc to the amplitude of the acceleration [m/s2].
 
-    `film_lines` maps it to amplitudes of the film [um], beside the one that it has anyway.
+    `film_lines` maps it to amplitudes of the film [um], beside the one that it has anyway; `force` maps orders
+    of the force to amplitudes [N], without it there is a cosine.
     """
     samples = steps_per_period // stride
     phase = np.arange(periods * samples + 1) / samples
     angle = 2.0 * np.pi * phase
     data = {
         "time": phase / 500.0,
-        "applied_force": 200.0 + 150.0 * np.cos(angle),
+        "applied_force": 200.0 + sum(a * np.cos(n * angle) for n, a in (force or {1: 150.0}).items()),
         "film_thickness": 1e-6
         * (1.0 - 0.4 * np.cos(angle) + sum(a * np.cos(r * angle) for r, a in (film_lines or {}).items())),
         "acceleration": sum(a * np.cos(ratio * angle) for ratio, a in lines.items()),
@@ -205,6 +207,9 @@ def write_motion(
     text = _MOTION_INPUT.format(
         name=name or path.stem,
         law=law,
+        force=f"force_orders = {str([*force])[1:-1]}\n   force_amplitudes = {str([*force.values()])[1:-1]}"
+        if force
+        else "force_amplitude = 150.0",
         task=task,
         tolerance=tolerance,
         steps_per_period=steps_per_period,

@@ -33,6 +33,7 @@ def test_classify_agrees_with_numpy(name):
     harmonics = amplitude[PERIODS::PERIODS][: (PERIOD - 1) // 2]
     assert np.allclose(found["harmonics"], harmonics, atol=1e-12)
     assert np.allclose(kernels.lines(samples, PERIOD), harmonics, atol=1e-12)
+    assert found["reference_line"] == 1
     assert found["line_count"] == int((harmonics > 0.01 * harmonics[0]).sum())
     distortion = np.sqrt((harmonics[1:] ** 2).sum()) / harmonics[0]
     assert found["harmonic_distortion"] == pytest.approx(distortion, rel=1e-10)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -27,11 +28,13 @@ def draw_force(results: Sequence[Result], labels: Sequence[str], window: int | N
     figure = Figure(figsize=(style.WIDTH, 2.6))
     axes = figure.subplots()
     single = len(results) == 1
+    scale = _frequency_label(results)
+    last = max(LAST_FORCE_RATIO, 0.5 + max(map(_last_order, results)))
     largest = 0.0
     lines = style.run_lines([result.law for result in results])
     for position, (result, label, line) in enumerate(zip(results, labels, lines, strict=True)):
         ratio, amplitude = column_spectrum(result, "applied_force", window)
-        shown = ratio <= LAST_FORCE_RATIO
+        shown = ratio <= last
         shift = 0.06 * (position - 0.5 * (len(results) - 1))
         axes.vlines(
             ratio[shown] + shift, 0.0, amplitude[shown], label=label, linewidth=2.0, color=line["color"]
@@ -39,20 +42,23 @@ def draw_force(results: Sequence[Result], labels: Sequence[str], window: int | N
         largest = max(largest, float(amplitude[shown].max()))
         if single:
             _name_lines(axes, result, ratio[shown], amplitude[shown])
-    axes.set_xlim(-0.25, LAST_FORCE_RATIO)
+    axes.set_xlim(-0.25, last)
     axes.set_ylim(0.0, 1.12 * largest if largest > 0.0 else 1.0)
     axes.set_ylabel("Amplitude of $F$ [N]")
-    axes.set_xlabel(style.RATIO_LABEL if single else f"{style.RATIO_LABEL}; runs side by side")
+    axes.set_xlabel(scale if single else f"{scale}; runs side by side")
     style.name_runs(figure, axes, "Spectrum of the applied force", results, labels)
     return figure
 
 
 def _name_lines(axes: Axes, result: Result, ratio: np.ndarray, amplitude: np.ndarray) -> None:
-    """Say what the mean and the line of the excitation are."""
+    """Say what the mean and the largest line of the excitation are."""
     at_excitation = int(np.argmin(np.abs(ratio - 1.0)))
+    if _orders(result).size:
+        at_excitation = 1 + int(np.argmax(amplitude[1:]))
+    frequency = ratio[at_excitation] * result.frequency
     names = (
         (0, f"mean\n{amplitude[0]:.4g} N"),
-        (at_excitation, f"{amplitude[at_excitation]:.4g} N\nat {result.frequency:g} Hz"),
+        (at_excitation, f"{amplitude[at_excitation]:.4g} N\nat {frequency:g} Hz"),
     )
     for position, name in names:
         axes.annotate(
@@ -69,6 +75,7 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], window: 
     """Figure 10: a linear panel as in the paper, and a logarithmic one that shows every line that counts."""
     figure = Figure(figsize=(style.WIDTH, 4.6))
     linear, logarithmic = figure.subplots(2, 1, sharex=True)
+    scale = _frequency_label(results)
     summaries = [better_summary(result, window) for result in results]
     spectra = [
         harmonics_of(summary) if summary else column_spectrum(result, "acceleration", window)
@@ -76,10 +83,12 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], window: 
     ]
     largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
     if len(results) == 1:
-        _draw_single(figure, (linear, logarithmic), results[0], spectra[0])
-        verdict = _verdict_words(results[0], summaries[0], window)
-        linear.set_title(f"{style.title(SUBJECT, results[0], labels[0])}; {verdict}")
-        logarithmic.set_xlabel(style.RATIO_LABEL)
+        unknown = results[0].coarse and not summaries[0]
+        verdict = None if unknown else summaries[0] or classify(results[0], window)
+        _draw_single(figure, (linear, logarithmic), results[0], spectra[0], verdict)
+        words = _verdict_words(verdict, summaries[0])
+        linear.set_title(f"{style.title(SUBJECT, results[0], labels[0])}; {words}")
+        logarithmic.set_xlabel(scale)
     else:
         names = [
             f"{label}, by its summary" if summary else style.curve_label(result, label)
@@ -87,9 +96,9 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], window: 
         ]
         _draw_overlay((linear, logarithmic), names, spectra)
         linear.set_title(style.overlay_title(SUBJECT, results))
-        logarithmic.set_xlabel(f"{style.RATIO_LABEL}; runs side by side")
+        logarithmic.set_xlabel(f"{scale}; runs side by side")
         style.legend_below(figure, linear)
-    linear.set_xlim(0.0, _last_ratio(spectra))
+    linear.set_xlim(0.0, max(_last_ratio(spectra), 0.5 + max(map(_last_order, results))))
     linear.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
     logarithmic.set_ylim(linear.get_ylim())
     if largest > 0.0:
@@ -106,6 +115,7 @@ def _draw_single(
     panels: tuple[Axes, Axes],
     result: Result,
     spectrum: tuple[np.ndarray, np.ndarray],
+    verdict: Mapping[str, Any] | None,
 ) -> None:
     ratio, amplitude = spectrum
     periods = round(1.0 / ratio[1])
@@ -116,26 +126,35 @@ def _draw_single(
     threshold = thresholds(result)["line_threshold"]
     colour = style.law_colour(result.law)
     handles = {}
+    orders = _orders(result)
+    driven = harmonic & np.isin(ratio, orders)
     for axes in panels:
         axes.vlines(ratio[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
         handles[f"harmonics of {result.frequency:g} Hz"] = axes.vlines(
-            ratio[harmonic], 0.0, amplitude[harmonic], color=colour, linewidth=1.8
+            ratio[harmonic & ~driven], 0.0, amplitude[harmonic & ~driven], color=colour, linewidth=1.8
         )
+        if driven.any():
+            handles["at orders of the force"] = axes.vlines(
+                ratio[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, linewidth=1.8
+            )
     if between.any():
         handles["between the harmonics"] = panels[0].collections[0]
-    first = amplitude[periods]
-    # Under several orders lines are held against the largest forced one, which is not always the first.
-    if first > 0.0 and not forced(result):
-        handles[f"{100 * threshold:.3g} % of the first harmonic"] = panels[1].axhline(
-            threshold * first, color=style.FORCE_COLOUR, linewidth=0.9, linestyle=(0, (4, 2))
+    # Under several orders lines are held against the largest forced one, which a summary does not name.
+    order = (verdict or {}).get("reference_line") if orders.size else 1
+    if order and amplitude[order * periods] > 0.0:
+        name = "first harmonic" if order == 1 else f"line of order {order}"
+        handles[f"{100 * threshold:.3g} % of the {name}"] = panels[1].axhline(
+            threshold * amplitude[order * periods],
+            color=style.FORCE_COLOUR,
+            linewidth=0.9,
+            linestyle=(0, (4, 2)),
         )
     style.legend_below(figure, panels[0], labels=handles)
 
 
-def _verdict_words(result: Result, summary: Summary | None, window: int | None) -> str:
-    if result.coarse and not summary:
+def _verdict_words(verdict: Mapping[str, Any] | None, summary: Summary | None) -> str:
+    if not verdict:
         return f"{style.FEW_SAMPLES}\nThe lines are those of the samples, not of the motion"
-    verdict = summary or classify(result, window)
     bound = "at least " if verdict.get("line_count_is_bound") else ""
     words = f"{bound}{verdict['line_count']} lines, class {verdict['rattle_class']}"
     if not summary:
@@ -143,6 +162,32 @@ def _verdict_words(result: Result, summary: Summary | None, window: int | None) 
     more_samples = f"of {summary['samples_per_period']} samples a period"
     source = "integrals over the steps" if summary["lines_by_integrals"] else more_samples
     return f"{words}\nSeries of {style.FEW_SAMPLES}; lines of the summary, {source}"
+
+
+def _orders(result: Result) -> np.ndarray:
+    """Orders of the force that a picture shows; none for the cosine of the paper."""
+    force = forced(result)
+    if not force:
+        return np.zeros(0)
+    amplitudes = np.abs(force["force_amplitudes"])
+    return np.asarray(force["force_orders"])[amplitudes > FLOOR * amplitudes.max()]
+
+
+def _last_order(result: Result) -> float:
+    """The last order of a force; 0 of a cosine, which needs no room of its own."""
+    return float(_orders(result).max(initial=0))
+
+
+def _frequency_label(results: Sequence[Result]) -> str:
+    """The axis counts in orders where a force is given by them."""
+    if not any(_orders(result).size for result in results):
+        return style.RATIO_LABEL
+    bases = {result.frequency for result in results}
+    return (
+        f"Order, multiple of {max(bases):g} Hz"
+        if len(bases) == 1
+        else "Order, multiple of each base frequency"
+    )
 
 
 def _draw_overlay(

@@ -45,7 +45,8 @@ def classify(
     noise_floor [m/s2]: a motion whose rms times sqrt(2) does not exceed it is at rest. A motion at rest is
     quiet and has no ratios: these are nan then. orbit_period: periods of the force after which the motion is
     known to repeat, if that is known; with several, a motion that were irregular is subharmonic.
-    force_orders, force_amplitudes: of a force of several orders; lines there are no sign of rattle.
+    force_orders, force_amplitudes: of a force of several orders; lines there are no sign of rattle, and the
+    others are held against the largest of them, the reference line.
     """
     samples = finite_samples(acceleration, "acceleration")
     period = positive_count(samples_per_period, "samples_per_period")
@@ -79,6 +80,7 @@ def classify(
         "reversals_per_period": float(ratios[2]),
         "sampling_sufficient": bool(counts[3]),
         "harmonics": harmonics,
+        "reference_line": int(counts[4]),
     }
 
 
