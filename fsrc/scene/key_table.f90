@@ -258,6 +258,18 @@ module key_table
             'Phase of each order: A cos(2 pi order t speed_rpm/60 + phase); absent: all 0.', &
             sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
             computable=a_phase), &
+      key_t('shaft', 'signal', text_kind, '', '', any_number, '', of_motions, &
+            'CSV file, in the folder of this input, with one cycle of the motion of the shaft, uniformly sampled, instead of '// &
+            'orders, accelerations and phases.'), &
+      key_t('shaft', 'signal_column', text_kind, '', '', any_number, '', of_motions, &
+            'Name of the signal in the header of the file; absent: the only column that is no time or angle.'), &
+      key_t('shaft', 'signal_orders', integer_kind, '-', '', an_order, '', of_motions, &
+            'Harmonics of the cycle that are kept, from the first on; absent: those that hold all but 1e-6 of its power.'), &
+      key_t('shaft', 'signal_kind', text_kind, '', 'angular_acceleration', any_number, &
+            'angular_acceleration angular_speed angular_speed_rpm', of_motions, &
+            'What the signal is: rad/s2, rad/s or 1/min; a speed is differentiated at speed_rpm.'), &
+      key_t('shaft', 'cycle_revolutions', integer_kind, '-', '2', range_t(1.0_dp, .false., 1.0e4_dp, .false.), '', of_motions, &
+            'Revolutions of the shaft in a cycle of the signal: two of a four-stroke engine.'), &
       key_t('oil', 'viscosity_40_cst', real_kind, 'mm2/s', 'required', a_data_viscosity, '', '', &
             'Kinematic viscosity at 40 degC, of the data sheet.', &
             example='58.0', &

@@ -3,7 +3,6 @@
 module scene_reader
    use errors, only: fault_list_t
    use file_system, only: read_whole_file
-   use force_signal, only: take_signal
    use input_entry, only: numbers_text, value_text
    use input_key, only: name_limit, table_kind
    use key_table, only: keys, starts_group
@@ -14,6 +13,7 @@ module scene_reader
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
    use scene_types, only: forced_orders, output_t, scene_t, task_campaign, task_sweep
+   use signal_reader, only: take_signal
    use task_reader, only: read_campaign, read_points, read_sweep
    use text, only: integer_text, quoted
    implicit none(type, external)
@@ -79,7 +79,8 @@ contains
          call input%set_all(assignments, overrides(i)%source, .true., faults)
       end do
       allocate (scene%warnings(0))
-      call take_signal(input, scene%warnings, faults)
+      call take_signal(input, 'load', scene%warnings, faults)
+      call take_signal(input, 'shaft', scene%warnings, faults)
       if (is_input) call check_together(input, faults)
       call read_name(input, path, scene%name, faults)
       scene%task = input%choice('scene', 'task')

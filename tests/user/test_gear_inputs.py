@@ -315,3 +315,54 @@ def test_warnings_that_an_engineer_expects(check) -> None:
     assert "is larger than the inertia force of 6.673 N at most" in dragged
     thin = check(PAIR, "oil.temperature_celsius=250").stdout
     assert "(ASTM D341) is meant for 2 and more" in thin
+
+
+def cycle(kind: str) -> tuple[list[float], float]:
+    """One cycle of two revolutions at 800 1/min: orders 1.5 and 2 of a motion with phases; its mean."""
+    speed = 800.0 * math.pi / 30.0
+    parts = ((1.5, 120.0, 0.4), (2.0, 600.0, -1.0))
+    unit = {"angular_acceleration": 1.0, "angular_speed": 1.0, "angular_speed_rpm": 30.0 / math.pi}[kind]
+    if kind == "angular_acceleration":
+        terms, mean = [(order, a, phase) for order, a, phase in parts], 0.0
+    else:
+        terms = [(order, unit * a / (order * speed), phase - 0.5 * math.pi) for order, a, phase in parts]
+        mean = unit * speed
+    count = 180
+    samples = [
+        mean + sum(a * math.cos(4.0 * math.pi * order * i / count + phase) for order, a, phase in terms)
+        for i in range(count)
+    ]
+    return samples, mean
+
+
+@pytest.mark.parametrize("kind", ["angular_acceleration", "angular_speed", "angular_speed_rpm"])
+def test_a_measured_cycle_of_the_shaft_is_its_orders(kind: str, check, tmp_path: Path) -> None:
+    samples, _ = cycle(kind)
+    rows = "".join(f"{720.0 * i / len(samples)!r},{sample!r}\n" for i, sample in enumerate(samples))
+    (tmp_path / "cycle.csv").write_text("angle,shaft\n" + rows)
+    signal = f"signal = 'cycle.csv', signal_kind = '{kind}'"
+    ended = check(PAIR.replace("orders = 2.0, accelerations = 600.0", signal))
+    told = derived(ended)
+    assert told["load.frequency"] == pytest.approx(0.5 * 800.0 / 60.0)
+    orders = [
+        float(number) for number in re.search(r"load.force_amplitudes = (.*) N", ended.stdout)[1].split(",")
+    ]
+    newtons = 6.673367428 / 600.0
+    assert orders[2:4] == pytest.approx([120.0 * newtons, 600.0 * newtons], rel=2e-9)
+    assert max(orders[:2]) < 1e-9
+    phases = [
+        float(number) for number in re.search(r"load.force_phases = (.*) rad", ended.stdout)[1].split(",")
+    ]
+    assert math.cos(phases[2] - 0.4) == pytest.approx(1.0) and math.cos(phases[3] + 1.0) == pytest.approx(1.0)
+    # What is printed is an input of its own.
+    assert derived(check(ended.stdout))["load.force_amplitudes"] == told["load.force_amplitudes"]
+
+
+def test_faults_of_a_measured_cycle(check, tmp_path: Path) -> None:
+    both = PAIR.replace("orders = 2.0", "orders = 2.0, signal = 'cycle.csv'")
+    ended = check(both)
+    assert ended.returncode == 2 and "the signal gives the motion" in ended.stderr
+    ended = check(PAIR.replace("orders = 2.0, accelerations = 600.0", "signal = 'missing.csv'"))
+    assert ended.returncode == 2 and "missing.csv" in ended.stderr and "required" not in ended.stderr
+    ended = check(PAIR.replace("accelerations = 600.0", "accelerations = 600.0, cycle_revolutions = 2"))
+    assert "&shaft cycle_revolutions: this key is used only with signal" in ended.stderr

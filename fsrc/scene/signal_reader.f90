@@ -1,0 +1,169 @@
+!> &load signal and &shaft signal: one cycle of a force, or of the motion of the shaft, from a CSV file becomes orders, amplitudes
+!> and phases, as if the input gave them.
+module signal_reader
+   use constants, only: pi, two_pi
+   use csv_signal, only: read_csv_signal
+   use errors, only: fault_list_t
+   use fourier, only: trigonometric_interpolation
+   use key_table, only: find_key
+   use keys_in_use, only: in_use
+   use kinds, only: dp
+   use scene_input, only: scene_input_t
+   use scene_types, only: highest_order
+   use text, only: integer_text, printable, real_text, short_text
+   use word_list, only: word_t
+   implicit none(type, external)
+   private
+
+   character(*), parameter :: force_keys(5) = [character(17) :: 'force_orders', 'force_amplitudes', 'force_phases', &
+                                               'force_mean', 'force_amplitude'], &
+                              motion_keys(3) = [character(17) :: 'orders', 'accelerations', 'phases'], &
+                              signal_keys(5) = [character(17) :: 'signal', 'signal_column', 'signal_orders', 'signal_kind', &
+                                                'cycle_revolutions']
+   !> Codes of signal_kind, in the order of the key table.
+   integer, parameter :: kind_acceleration = 1, kind_speed = 2, kind_speed_rpm = 3
+
+   public :: take_signal
+
+contains
+
+   !> Put what the signal of a group gives into its keys, and the keys of the signal away.
+   subroutine take_signal(input, group, notes, faults)
+      !> Typed values
+      type(scene_input_t), intent(inout) :: input
+      !> 'load' or 'shaft'
+      character(*), intent(in) :: group
+      !> A line on what was made of the signal is appended
+      type(word_t), allocatable, intent(inout) :: notes(:)
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      character(len(force_keys)), allocatable :: shape_keys(:), keys(:)
+      real(dp), allocatable :: samples(:), orders(:), amplitudes(:), phases(:)
+      character(:), allocatable :: path, column, unit, fate, what
+      real(dp) :: mean, dropped
+      integer :: i, before, last
+
+      allocate (shape_keys(merge(size(force_keys), size(motion_keys), group == 'load')))
+      shape_keys(:3) = motion_keys
+      if (group == 'load') shape_keys = force_keys
+      what = trim(merge('the force ', 'the motion', group == 'load'))
+      keys = signal_keys(:merge(3, 5, group == 'load'))
+      if (.not. input%is_given(group, 'signal')) then
+         do i = 2, size(keys)
+            if (input%is_given(group, trim(keys(i)))) &
+               call input%add_fault(group, trim(keys(i)), 'this key is used only with signal; leave it out', faults)
+            input%entries(find_key(group, trim(keys(i))))%present = .false.
+         end do
+         return
+      end if
+      before = faults%count()
+      do i = 1, size(shape_keys)
+         if (input%is_given(group, trim(shape_keys(i)))) call input%add_fault(group, trim(shape_keys(i)), &
+            'the signal gives '//what//'; leave this key or the signal out', faults)
+      end do
+      if (.not. in_use(input, find_key(group, 'signal'))) return
+      ! Until the signal is read no rule is held against what it gives.
+      if (group == 'shaft') input%entries([(find_key(group, trim(shape_keys(i))), i=1, 2)])%given = .true.
+      if (group == 'shaft') input%entries([(find_key(group, trim(shape_keys(i))), i=1, 2)])%faulty = .true.
+      if (any([(input%is_faulty(group, trim(keys(i))), i=1, size(keys))])) return
+      path = input%word(group, 'signal')
+      if (path(1:1) /= '/') path = input%file(:index(input%file, '/', back=.true.))//path
+      call read_csv_signal(path, input%word(group, 'signal_column'), column, samples, faults)
+      if (faults%count() > before) return
+      call trigonometric_interpolation(samples, mean, amplitudes, phases)
+      orders = [(real(i, dp), i=1, size(amplitudes))]
+      unit = ' N'
+      fate = 'is added to steady_force'
+      if (group == 'shaft') call shaft_motion()
+      last = kept_orders()
+      dropped = dropped_share(last)
+      notes = [notes, note()]
+      call put(shape_keys(1), orders(:last))
+      call put(shape_keys(2), amplitudes(:last))
+      call put(shape_keys(3), phases(:last))
+      if (group == 'load') then
+         associate (entry => input%entries(find_key('load', 'force_mean')))
+            entry%given = .true.
+            entry%present = .true.
+            entry%number = mean
+         end associate
+      end if
+      do i = 1, size(keys)
+         associate (entry => input%entries(find_key(group, trim(keys(i)))))
+            entry%given = .false.
+            entry%present = .false.
+         end associate
+      end do
+
+   contains
+
+      !> From the signal of a shaft to its angular acceleration: a speed is differentiated, at the mean speed that the input gives.
+      subroutine shaft_motion()
+         real(dp) :: per_minute
+
+         per_minute = merge(two_pi/60.0_dp, 1.0_dp, input%choice('shaft', 'signal_kind') == kind_speed_rpm)
+         orders = orders/real(input%count('shaft', 'cycle_revolutions'), dp)
+         unit = ' rad/s2'
+         fate = 'is left out'
+         if (input%choice('shaft', 'signal_kind') == kind_acceleration) return
+         amplitudes = amplitudes*per_minute*orders*two_pi*input%number('shaft', 'speed_rpm')/60.0_dp
+         phases = phases + 0.5_dp*pi
+         unit = ' rad/s'
+         if (input%choice('shaft', 'signal_kind') == kind_speed_rpm) unit = ' 1/min'
+         fate = 'gives way to speed_rpm'
+      end subroutine shaft_motion
+
+      !> How many orders are kept: what was asked for, or what holds nearly all of the power.
+      integer function kept_orders()
+         real(dp), parameter :: most_dropped = 1.0e-6_dp
+
+         if (input%is_given(group, 'signal_orders')) then
+            kept_orders = min(input%count(group, 'signal_orders'), size(amplitudes))
+            return
+         end if
+         do kept_orders = 1, min(size(amplitudes), highest_order) - 1
+            if (dropped_share(kept_orders) <= most_dropped) return
+         end do
+      end function kept_orders
+
+      !> Share of the power of what oscillates that lies beyond an order [-].
+      real(dp) function dropped_share(kept)
+         integer, intent(in) :: kept
+
+         dropped_share = sum((amplitudes(kept + 1:)/maxval(amplitudes))**2)/sum((amplitudes/maxval(amplitudes))**2)
+      end function dropped_share
+
+      !> What was made of the signal.
+      type(word_t) function note()
+         note%text = 'signal '//printable(path, .false.)//", column '"//column//"': "//integer_text(size(samples))// &
+                 ' samples; orders '//order_text(1)//' to '//order_text(last)//' are kept, '// &
+                     short_text(100.0_dp*dropped, 2)//' % of its power is dropped; its mean of '//short_text(mean, 5)// &
+                     unit//' '//fate
+      end function note
+
+      pure function order_text(i) result(words)
+         integer, intent(in) :: i
+         character(:), allocatable :: words
+
+         words = real_text(orders(i))
+         if (words(max(1, len(words) - 1):) == '.0') words = words(:len(words) - 2)
+      end function order_text
+
+      !> Give a list its numbers, at the place of the signal.
+      subroutine put(name, numbers)
+         character(*), intent(in) :: name
+         real(dp), intent(in) :: numbers(:)
+
+         associate (entry => input%entries(find_key(group, name)), signal => input%entries(find_key(group, 'signal')))
+            entry%given = .true.
+            entry%present = .true.
+            entry%faulty = .false.
+            entry%file = signal%file
+            entry%line = signal%line
+            entry%numbers = numbers
+         end associate
+      end subroutine put
+
+   end subroutine take_signal
+
+end module signal_reader
