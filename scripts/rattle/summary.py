@@ -7,9 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from rattle.checksums import checksum
+from rattle.codes import QUANTITIES
 from rattle.namelist import NamelistError, parse
 
 Summary = Mapping[str, Any]
+# Words, with the unit, and what shows the number of a summary.
+Row = tuple[str, Callable[[Summary], str]]
 ABSENT = "-"
 CHECKSUM_MARK = b"! checksum "
 
@@ -41,10 +44,12 @@ def read_summary(path: str | Path) -> dict[str, Any]:
 
 
 def comparison_table(summaries: Sequence[Summary]) -> list[list[str]]:
-    """Rows of text, a column for each scene; the first row holds the scene names."""
+    """Rows of text, a column for each scene; the first row holds the scene names, and no row is empty."""
     rows = [["", *(str(summary["name"]).strip() for summary in summaries)]]
     for label, show in _ROWS:
-        rows.append([label, *(_cell(show, summary) for summary in summaries)])
+        cells = [_cell(show, summary) for summary in summaries]
+        if any(cell != ABSENT for cell in cells):
+            rows.append([label, *cells])
     return rows
 
 
@@ -57,41 +62,54 @@ def _cell(show: Callable[[Summary], str], summary: Summary) -> str:
         raise SummaryError(f"The summary of {summary['name']} holds a value of a wrong type.") from None
 
 
-def _text(key: str) -> Callable[[Summary], str]:
-    return lambda summary: str(summary[key]).strip()
+def _text(label: str, key: str) -> Row:
+    return label, lambda summary: str(summary[key]).strip()
 
 
-def _number(key: str, form: str, scale: float = 1.0) -> Callable[[Summary], str]:
-    return lambda summary: format(float(summary[key]) * scale, form)
+def _number(label: str, quantity: str, form: str) -> Row:
+    unit, scale = _shown_unit(quantity)
+    return label + unit, lambda summary: format(float(summary[quantity]) * scale, form)
 
 
-def _range(quantity: str, form: str, scale: float = 1.0) -> Callable[[Summary], str]:
-    low, high = _number(f"{quantity}_minimum", form, scale), _number(f"{quantity}_maximum", form, scale)
-    return lambda summary: f"{low(summary)} to {high(summary)}"
+def _range(label: str, quantity: str, form: str) -> Row:
+    (label, low), (_, high) = (_number(label, f"{quantity}_{end}", form) for end in ("minimum", "maximum"))
+    return label, lambda summary: f"{low(summary)} to {high(summary)}"
 
 
-def _law_fits(summary: Summary) -> str:
-    return "no" if summary["law_contradicted"] else "yes"
+def _flag(label: str, quantity: str, when_set: str, otherwise: str) -> Row:
+    return label, lambda summary: when_set if summary[quantity] else otherwise
 
 
-_ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
-    ("status", _text("status")),
-    ("film law", _text("law")),
-    ("film model", _text("model")),
-    ("film thickness [um]", _range("film", ".4f", 1e6)),
-    ("acceleration [m/s2]", _range("acceleration", ".3f")),
-    ("lines", _text("line_count")),
-    ("harmonic distortion", _number("harmonic_distortion", ".4f")),
-    ("irregular fraction", _number("irregular_fraction", ".1e")),
-    ("reversals a period", _number("reversals_per_period", "g")),
-    ("rattle class", _text("rattle_class")),
-    ("class stands", _text("certificate")),
-    ("error of the film", _number("film_error", ".1e")),
-    ("motion", _text("orbit_stability")),
-    ("film regime", _text("film_regime")),
-    ("law fits", _law_fits),
-    ("largest alpha p", _number("alpha_p_maximum", ".3g")),
-    ("natural frequency [Hz]", _number("natural_frequency", ".1f")),
-    ("damping ratio", _number("damping_ratio", ".4f")),
-    ("steady film [um]", _number("steady_film", ".4f", 1e6)),
+def _shown_unit(quantity: str) -> tuple[str, float]:
+    """The unit of the table of quantities, lengths in micrometres."""
+    unit = QUANTITIES[quantity].unit
+    return {"m": (" [um]", 1e6), "-": ("", 1.0)}.get(unit, (f" [{unit}]", 1.0))
+
+
+_ROWS: tuple[Row, ...] = (
+    _text("status", "status"),
+    _text("film law", "law"),
+    _text("film model", "model"),
+    _range("film thickness", "film", ".4f"),
+    _range("coast film", "coast_film", ".4f"),
+    _range("acceleration", "acceleration", ".3f"),
+    _number("acceleration rms", "acceleration_rms", ".3f"),
+    _number("film force rms", "film_force_rms", ".4g"),
+    _number("dissipated power", "dissipated_power", ".4g"),
+    _text("lines", "line_count"),
+    _number("harmonic distortion", "harmonic_distortion", ".4f"),
+    _number("irregular fraction", "irregular_fraction", ".1e"),
+    _number("reversals a period", "reversals_per_period", "g"),
+    _text("rattle class", "rattle_class"),
+    _flag("both flanks struck", "double_sided", "yes", "no"),
+    _text("class stands", "certificate"),
+    _number("error of the film", "film_error", ".1e"),
+    _text("motion", "orbit_stability"),
+    _text("film regime", "film_regime"),
+    _flag("law fits", "law_contradicted", "no", "yes"),
+    _flag("rigid teeth fit", "stiffness_matters", "no", "yes"),
+    _number("largest alpha p", "alpha_p_maximum", ".3g"),
+    _number("natural frequency", "natural_frequency", ".1f"),
+    _number("damping ratio", "damping_ratio", ".4f"),
+    _number("steady film", "steady_film", ".4f"),
 )

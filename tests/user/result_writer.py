@@ -190,8 +190,8 @@ def write_motion(
 ) -> Path:
     """A made-up motion: `lines` maps f/f_exc to the amplitude of the acceleration [m/s2].
 
-    `film_lines` maps it to amplitudes of the film [um], beside the one that it has anyway; `force` maps orders
-    of the force to amplitudes [N], without it there is a cosine.
+    `film_lines` maps it to amplitudes of the film [um], beside the one that it has anyway; `force` maps
+    orders of the force to amplitudes [N], without it there is a cosine.
     """
     samples = steps_per_period // stride
     phase = np.arange(periods * samples + 1) / samples

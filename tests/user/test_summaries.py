@@ -20,6 +20,12 @@ SUMMARY = {
     "film_maximum": "1.5e-6",
     "acceleration_minimum": "-52.1239",
     "acceleration_maximum": "290.75",
+    "acceleration_rms": "44.1071",
+    "film_force_rms": "212.4455",
+    "dissipated_power": "0.50282",
+    "coast_film_minimum": "3.25e-6",
+    "coast_film_maximum": "8.5e-6",
+    "double_sided": ".true.",
     "line_count": "30",
     "harmonic_distortion": "0.98761",
     "irregular_fraction": "1.5e-12",
@@ -30,6 +36,7 @@ SUMMARY = {
     "orbit_stability": "'stable'",
     "film_regime": "'piezo-viscous'",
     "law_contradicted": ".true.",
+    "stiffness_matters": ".true.",
     "alpha_p_maximum": "0.8261",
     "natural_frequency": "812.34",
     "damping_ratio": "0.12345",
@@ -42,6 +49,11 @@ SHOWN = {
     "film model": "published",
     "film thickness [um]": "0.5123 to 1.5000",
     "acceleration [m/s2]": "-52.124 to 290.750",
+    "acceleration rms [m/s2]": "44.107",
+    "film force rms [N]": "212.4",
+    "dissipated power [W]": "0.5028",
+    "coast film [um]": "3.2500 to 8.5000",
+    "both flanks struck": "yes",
     "lines": "30",
     "harmonic distortion": "0.9876",
     "irregular fraction": "1.5e-12",
@@ -52,6 +64,7 @@ SHOWN = {
     "motion": "stable",
     "film regime": "piezo-viscous",
     "law fits": "no",
+    "rigid teeth fit": "no",
     "largest alpha p": "0.826",
     "natural frequency [Hz]": "812.3",
     "damping ratio": "0.1235",
@@ -73,10 +86,10 @@ def test_every_row_shows_its_own_number_in_its_unit(tmp_path):
 
 
 def test_scenes_stand_side_by_side_and_what_is_unknown_is_a_dash(tmp_path):
-    first = write(tmp_path / "a.summary.nml", name="'a'")
+    first = write(tmp_path / "a.summary.nml", ("double_sided",), name="'a'")
     second = write(
         tmp_path / "b.summary.nml",
-        ("name", "film_maximum", "steady_film", "orbit_stability"),
+        ("name", "film_maximum", "steady_film", "orbit_stability", "double_sided"),
         law_contradicted=".false.",
     )
     done = call_script("compare.py", first, second, "--markdown")
@@ -88,6 +101,7 @@ def test_scenes_stand_side_by_side_and_what_is_unknown_is_a_dash(tmp_path):
     assert cells["steady film [um]"] == ["0.8889", "-"]
     assert cells["motion"] == ["stable", "-"]
     assert cells["law fits"] == ["no", "yes"]
+    assert "both flanks struck" not in cells
 
 
 @pytest.mark.parametrize(

@@ -35,6 +35,23 @@ def test_the_deflection_is_that_of_the_largest_load(groups, length, matters, run
     )
     assert summary["stiffness_matters"] == matters == (summary["deflection_share"] > 0.1)
     assert ("a steel tooth gives way by" in ended.stdout) == matters
+    # A campaign that records nothing else finds the same.
+    campaign = {
+        "vary": "'load.mass'",
+        "first": groups.get("load", {}).get("mass", "3.0"),
+        "last": "10.0",
+        "count": "2",
+        "record": "'deflection_share', 'stiffness_matters'",
+    }
+    solver = {"method": None, "steps_per_period": None, "periods": "20", "accuracy": "1e-8"}
+    changes = {"scene": {"task": "'campaign'"}, "solver": solver, "output": {"columns": None}}
+    settled = {"spectrum": SETTLED["spectrum"]}
+    (tmp_path / "campaign.nml").write_text(scene_text(**groups, **changes, **settled, campaign=campaign))
+    ended = run("campaign.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    rows = rattle.read(tmp_path / "results" / "campaign.rattle")
+    assert rows["deflection_share"][0] == pytest.approx(summary["deflection_share"], rel=0.05)
+    assert rows["stiffness_matters"][0] == matters
     checked = run("--check", "scene.nml", cwd=tmp_path).stdout
     assert ("! warning: at rest a steel tooth gives way by 1.8 times the film" in checked) == matters
     assert "! deflection share at the steady film" in checked
