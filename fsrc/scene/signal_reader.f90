@@ -75,6 +75,10 @@ contains
       unit = ' N'
       fate = 'is added to steady_force'
       if (group == 'shaft') call shaft_motion()
+      if (.not. maxval(amplitudes) > 0.0_dp) then
+         call faults%add(path, 0, '', '', 'it has too few samples to be differentiated')
+         return
+      end if
       last = kept_orders()
       dropped = dropped_share(last)
       notes = [notes, note()]
@@ -106,8 +110,12 @@ contains
          unit = ' rad/s2'
          fate = 'is left out'
          if (input%choice('shaft', 'signal_kind') == kind_acceleration) return
+         ! Without a mean speed the input has another fault.
+         if (.not. input%number('shaft', 'speed_rpm') > 0.0_dp) return
          amplitudes = amplitudes*per_minute*orders*two_pi*input%number('shaft', 'speed_rpm')/60.0_dp
          phases = phases + 0.5_dp*pi
+         ! Of the order at half the samples the signs alone are known, not its phase.
+         if (modulo(size(samples), 2) == 0) amplitudes(size(amplitudes)) = 0.0_dp
          unit = ' rad/s'
          if (input%choice('shaft', 'signal_kind') == kind_speed_rpm) unit = ' 1/min'
          fate = 'gives way to speed_rpm'

@@ -358,11 +358,28 @@ def test_a_measured_cycle_of_the_shaft_is_its_orders(kind: str, check, tmp_path:
     assert derived(check(ended.stdout))["load.force_amplitudes"] == told["load.force_amplitudes"]
 
 
+def test_the_highest_order_of_a_speed_has_no_derivative(check, tmp_path: Path) -> None:
+    """Samples of a speed that only alternate do not say when it is at its mean."""
+    rows = "".join(f"{800.0 + math.cos(math.pi * i / 4.0) + (-1.0) ** i!r}\n" for i in range(8))
+    (tmp_path / "cycle.csv").write_text("speed\n" + rows)
+    signal = "signal = 'cycle.csv', signal_kind = 'angular_speed_rpm', signal_orders = 4"
+    ended = check(PAIR.replace("orders = 2.0, accelerations = 600.0", signal))
+    assert ended.returncode == 0, ended.stderr
+    kept = re.search(r"^   accelerations = (.*)$", ended.stdout, re.M)[1].split(",")
+    assert float(kept[0]) > 1.0 and float(kept[3]) == 0.0
+
+
 def test_faults_of_a_measured_cycle(check, tmp_path: Path) -> None:
     both = PAIR.replace("orders = 2.0", "orders = 2.0, signal = 'cycle.csv'")
     ended = check(both)
     assert ended.returncode == 2 and "the signal gives the motion" in ended.stderr
     ended = check(PAIR.replace("orders = 2.0, accelerations = 600.0", "signal = 'missing.csv'"))
     assert ended.returncode == 2 and "missing.csv" in ended.stderr and "required" not in ended.stderr
+    (tmp_path / "cycle.csv").write_text("speed\n801\n799\n801\n799\n")
+    speed = "signal = 'cycle.csv', signal_kind = 'angular_speed_rpm'"
+    ended = check(PAIR.replace("orders = 2.0, accelerations = 600.0", speed))
+    assert ended.returncode == 2 and "it has too few samples to be differentiated" in ended.stderr
+    ended = check(PAIR.replace("speed_rpm = 800.0, orders = 2.0, accelerations = 600.0", speed))
+    assert ended.returncode == 2 and "&shaft speed_rpm: this key is required" in ended.stderr
     ended = check(PAIR.replace("accelerations = 600.0", "accelerations = 600.0, cycle_revolutions = 2"))
     assert "&shaft cycle_revolutions: this key is used only with signal" in ended.stderr
