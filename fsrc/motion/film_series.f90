@@ -5,19 +5,19 @@
 !> choice here; a choice that has forgotten it rejects the steps.
 module film_series
    use constants, only: pi
-   use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast
+   use film_law, only: kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, kernel_solved_fast
    use kinds, only: dp
-   use lane_block, only: lane_block_t
+   use lane_block, only: lane_block_t, slip_velocity
    use lane_force, only: force_derivatives, force_values, lane_phase_t, move_forces, turn_to
    use lane_functions, only: lanes
    use load_expansion, only: expand_load
    use load_pieces, only: exact_load, published_load
-   use problem, only: problem_t
+   use problem, only: has_two_flanks, problem_t
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
-   use taylor_iso_viscous, only: iso_viscous_series
+   use taylor_iso_viscous, only: iso_viscous_series, iso_viscous_series_of_two
    use taylor_piezo_viscous, only: piezo_viscous_series, reject_unresolved_growth
    use taylor_reynolds_piezo, only: reynolds_piezo_series
-   use taylor_rupture, only: reject_large_defect, rupture_order, rupture_series
+   use taylor_rupture, only: reject_large_defect, rupture_order, rupture_series, rupture_series_of_two
    use taylor_step_control, only: order
    implicit none(type, external)
    private
@@ -30,6 +30,8 @@ module film_series
       !> Code of the law
       integer :: kernel = 0
       logical :: exists = .false.
+      !> Whether it is that of a tooth between two flanks
+      logical :: two_flanks = .false.
       !> Whether its steps are checked against the equation of motion at their ends, where the next expansion begins
       logical :: checked_at_end = .false.
       !> Load that a series with rupture by (18) takes from module load_pieces
@@ -49,12 +51,13 @@ module film_series
 
 contains
 
-   !> The series of a film.
-   elemental type(film_series_t) function series_of(film) result(series)
-      type(film_t), intent(in) :: film
+   !> The series of a problem.
+   elemental type(film_series_t) function series_of(problem) result(series)
+      type(problem_t), intent(in) :: problem
 
-      series%kernel = film%kernel
-      select case (film%kernel)
+      series%kernel = problem%film%kernel
+      series%two_flanks = has_two_flanks(problem)
+      select case (problem%film%kernel)
       case (kernel_half_pi, kernel_piezo)
          series%exists = .true.
       case (kernel_solved_fast, kernel_reynolds_iso)
@@ -62,7 +65,7 @@ contains
          series%checked_at_end = .true.
          series%last_order = rupture_order
          series%share = 8.0_dp
-         if (film%kernel == kernel_solved_fast) series%pieces = published_load
+         if (problem%film%kernel == kernel_solved_fast) series%pieces = published_load
       case (kernel_reynolds_piezo)
          series%exists = .true.
          series%checked_at_end = .true.
@@ -73,16 +76,17 @@ contains
       case default
          series%exists = .false.
       end select
+      if (series%two_flanks) series%exists = any(series%kernel == [kernel_half_pi, kernel_solved_fast, kernel_reynolds_iso])
    end function series_of
 
-   !> Whether a film has a Taylor series that is good enough.
-   elemental logical function has_series(film, accuracy)
-      type(film_t), intent(in) :: film
+   !> Whether a problem has a Taylor series that is good enough.
+   elemental logical function has_series(problem, accuracy)
+      type(problem_t), intent(in) :: problem
       !> Relative accuracy of the film asked for [-]
       real(dp), intent(in) :: accuracy
       type(film_series_t) :: series
 
-      series = series_of(film)
+      series = series_of(problem)
       has_series = series%exists .and. accuracy >= series%best_accuracy
    end function has_series
 
@@ -102,7 +106,7 @@ contains
             block%damping(lane) = 2.0_dp*pi*film%squeeze/sqrt(film_scale)*problem%frequency/force_scale
             block%slip(lane) = block%damping(lane)
             if (.not. carried_on) &
-               block%momentum(lane, 0) = block%momentum(lane, 0) - block%slip(lane)/sqrt(block%film(lane, 0))
+               block%momentum(lane, 0) = block%momentum(lane, 0) - slip_velocity(block%film(lane, 0), lane, block)
          case (kernel_solved_fast)
             block%strength(lane) = film%rolling/film_scale/force_scale
             block%damping(lane) = film%squeeze_rate*velocity_scale/sqrt(film_scale)
@@ -126,6 +130,10 @@ contains
       real(dp) :: force(lanes, order)
 
       call force_derivatives(series%last_order, block%oscillation, force)
+      if (series%two_flanks) then
+         call expand_between_flanks(series, force, block)
+         return
+      end if
       select case (series%kernel)
       case (kernel_piezo)
          call piezo_viscous_series(block%strength, block%damping, block%static_load, force, block%film, &
@@ -135,16 +143,37 @@ contains
                                  block%momentum, block%damping_rate)
       case (kernel_reynolds_piezo)
          call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%static_load, force, block%film, &
-                                    block%momentum, block%damping_rate, block%piezo_expansion)
+                                    block%momentum, block%damping_rate, block%piezo_expansion(1))
       case (kernel_solved_fast, kernel_reynolds_iso)
          call rupture_series(series%pieces, block%strength, block%damping, block%static_load, force, block%film, &
-                             block%momentum, block%damping_rate, block%expansion)
+                             block%momentum, block%damping_rate, block%expansion(1))
       case default
          block%film(:, 1:) = 0.0_dp
          block%momentum(:, 1:) = 0.0_dp
          block%damping_rate = unfollowable_rate
       end select
    end subroutine expand_motion
+
+   !> The same between two flanks.
+   pure subroutine expand_between_flanks(series, force, block)
+      type(film_series_t), intent(in) :: series
+      !> Derivatives of the force that oscillates [-]
+      real(dp), intent(in) :: force(lanes, order)
+      type(lane_block_t), intent(inout) :: block
+
+      select case (series%kernel)
+      case (kernel_half_pi)
+         call iso_viscous_series_of_two(block%strength, block%damping, block%backlash, block%static_load, force, block%film, &
+                                        block%momentum, block%damping_rate)
+      case (kernel_solved_fast, kernel_reynolds_iso)
+         call rupture_series_of_two(series%pieces, block%strength, block%damping, block%backlash, block%static_load, force, &
+                                    block%film, block%momentum, block%damping_rate, block%expansion)
+      case default
+         block%film(:, 1:) = 0.0_dp
+         block%momentum(:, 1:) = 0.0_dp
+         block%damping_rate = unfollowable_rate
+      end select
+   end subroutine expand_between_flanks
 
    !> Reject the steps at whose end the series does not hold.
    pure subroutine check_ends(series, rise, block)
@@ -173,44 +202,80 @@ contains
       !> V' at the ends by the series [-]
       real(dp), intent(in) :: rise(lanes)
       type(lane_block_t), intent(inout) :: block
-      real(dp), dimension(lanes) :: phase, film, momentum
+      real(dp), dimension(lanes) :: phase, film, momentum, thinner, carried, largest, rate_of_damping
       type(lane_phase_t) :: circle
 
+      carried = 0.0_dp
+      largest = 0.0_dp
+      rate_of_damping = 0.0_dp
       phase = block%phase + block%step
       call turn_to(phase, circle)
       film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
       momentum = merge(block%next_momentum, block%momentum(:, 0), block%trust > 0.0_dp)
+      thinner = film
+      call load_at_end(series, 1, film, momentum, block, carried, largest, rate_of_damping)
+      if (series%two_flanks) then
+         thinner = min(film, block%backlash - film)
+         call load_at_end(series, 2, block%backlash - film, -momentum, block, carried, largest, rate_of_damping)
+      end if
+      call reject_large_defect(series%share, block%static_load + force_values(block%oscillation, circle), block%force, &
+                               block%accuracy, carried, largest, rate_of_damping, thinner, momentum, rise, block%trust)
+      call move_forces(circle, block%trust, block%oscillation)
+   end subroutine check_forces
+
+   !> Expand the load of one film at the ends of steps, and add it to what is carried.
+   pure subroutine load_at_end(series, flank, film, momentum, block, carried, largest, rate_of_damping)
+      type(film_series_t), intent(in) :: series
+      !> 1 drive, 2 coast, whose load is subtracted
+      integer, intent(in) :: flank
+      !> Of the film [-]
+      real(dp), intent(in) :: film(lanes)
+      real(dp), intent(in) :: momentum(lanes)
+      type(lane_block_t), intent(inout) :: block
+      !> Net load, sum of the loads of all films, -dV'/dV of the films so far [-]
+      real(dp), intent(inout) :: carried(lanes)
+      real(dp), intent(inout) :: largest(lanes)
+      real(dp), intent(inout) :: rate_of_damping(lanes)
+
       if (series%kernel == kernel_reynolds_piezo) then
-         associate (there => block%piezo_expansion)
+         associate (there => block%piezo_expansion(flank))
             call expand_reynolds_piezo(film, momentum, block%damping, block%pressing, there)
             block%trust = block%trust*there%inside
-            call reject(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, block%trust)
+            call add_load(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, carried, largest, rate_of_damping)
          end associate
       else
-         associate (there => block%expansion)
+         associate (there => block%expansion(flank))
             call expand_load(series%pieces, film, momentum, block%damping, there)
-            call reject(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, block%trust)
+            call add_load(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, carried, largest, rate_of_damping)
          end associate
       end if
-      call move_forces(circle, block%trust, block%oscillation)
 
    contains
 
-      !> Reject steps by the load of the film law at their ends.
-      pure subroutine reject(inverse_film, root, load, load_slope, trust)
+      !> Add a load and its damping rate.
+      pure subroutine add_load(inverse_film, root, group, slope, net, total, rate)
          !> p, r, Phi and dPhi/dA [-]
          real(dp), intent(in) :: inverse_film(lanes)
          real(dp), intent(in) :: root(lanes)
-         real(dp), intent(in) :: load(lanes)
-         real(dp), intent(in) :: load_slope(lanes)
-         !> 1 where the step is trusted, set to 0 where it is rejected
-         real(dp), intent(inout) :: trust(lanes)
+         real(dp), intent(in) :: group(lanes)
+         real(dp), intent(in) :: slope(lanes)
+         !> carried, largest and rate_of_damping
+         real(dp), intent(inout) :: net(lanes)
+         real(dp), intent(inout) :: total(lanes)
+         real(dp), intent(inout) :: rate(lanes)
+         real(dp) :: load, damping
+         integer :: l
 
-         call reject_large_defect(series%share, block%strength, block%damping, &
-                                  block%static_load + force_values(block%oscillation, circle), &
-                                  block%force, block%accuracy, inverse_film, root, load, load_slope, film, momentum, rise, trust)
-      end subroutine reject
+         !$omp simd private(load, damping)
+         do l = 1, lanes
+            load = block%strength(l)*inverse_film(l)*group(l)
+            damping = -block%strength(l)*inverse_film(l)*block%damping(l)*root(l)*slope(l)
+            net(l) = net(l) + merge(load, -load, flank == 1)
+            total(l) = total(l) + abs(load)
+            rate(l) = rate(l) + damping
+         end do
+      end subroutine add_load
 
-   end subroutine check_forces
+   end subroutine load_at_end
 
 end module film_series

@@ -27,13 +27,14 @@ contains
    pure subroutine take_series_step(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
-      real(dp) :: next_rise(lanes)
+      real(dp) :: next_rise(lanes), thinner(lanes)
       integer :: l
 
       if (.not. series%checked_at_end) call turn_to(block%phase, block%oscillation%phase)
       block%remaining = 1.0_dp - block%phase
       call expand_motion(series, block)
-      call lane_steps(series%last_order, series%share, block%accuracy, block%force, block%film, block%momentum, &
+      thinner = min(block%film(:, 0), block%backlash - block%film(:, 0))
+      call lane_steps(series%last_order, series%share, block%accuracy, block%force, thinner, block%film, block%momentum, &
                       block%damping_rate, block%remaining, block%limit, block%step)
       if (series%checked_at_end) then
          call evaluate_rupture_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum, next_rise)
@@ -44,6 +45,8 @@ contains
       do l = 1, lanes
          block%trust(l) = merge(1.0_dp, 0.0_dp, block%next_film(l) > smallest_film_ratio*block%film(l, 0)) &
             *merge(1.0_dp, 0.0_dp, block%next_film(l) < largest_film_ratio*block%film(l, 0)) &
+            *merge(1.0_dp, 0.0_dp, block%backlash(l) - block%next_film(l) &
+                   > smallest_film_ratio*(block%backlash(l) - block%film(l, 0))) &
             *merge(1.0_dp, 0.0_dp, abs(block%next_momentum(l)) < huge(1.0_dp)) &
             *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_series_rate)
       end do

@@ -43,7 +43,7 @@ module lane_block
       real(dp) :: phase(lanes), step(lanes), remaining(lanes), limit(lanes)
       !> State that the step leads to, and whether it is to be trusted (1) or not (0)
       real(dp) :: next_film(lanes), next_momentum(lanes), trust(lanes)
-      !> H' = V + slip/sqrt(H): 2 b in Lienard's form, 0 where V is H' itself
+      !> H' = V + slip (1/sqrt(H) - 1/sqrt(B - H)): 2 b in Lienard's form, 0 where V is H' itself
       real(dp) :: slip(lanes)
       !> Damping rate at the state [1/periods]
       real(dp) :: damping_rate(lanes)
@@ -55,11 +55,11 @@ module lane_block
       logical :: no_load(lanes)
       !> Steps of this period
       real(dp) :: period_steps(lanes)
-      !> Of films with rupture: the load expanded last
-      type(load_expansion_t) :: expansion
+      !> Of films with rupture: the load expanded last, of both flanks
+      type(load_expansion_t) :: expansion(2)
       !> Of the exact piezo-viscous film: b, where the pressure group is b H^(-3/2), and its load expanded last
       real(dp) :: pressing(lanes)
-      type(reynolds_piezo_expansion_t) :: piezo_expansion
+      type(reynolds_piezo_expansion_t) :: piezo_expansion(2)
       !> Force that oscillates, scaled
       type(lane_force_t) :: oscillation
    end type lane_block_t
@@ -70,7 +70,7 @@ module lane_block
    !> First step of a period by collocation [periods]
    real(dp), parameter :: first_step = 1.0_dp/64.0_dp
 
-   public :: place_block, load_problem, rest_lane, start_period, state_of_lane, start_status, lane_accuracy
+   public :: place_block, load_problem, rest_lane, start_period, state_of_lane, slip_velocity, start_status, lane_accuracy
 
 contains
 
@@ -201,8 +201,20 @@ contains
 
       state%film = block%film(lane, 0)*block%film_scale(lane)
       state%momentum = block%momentum(lane, 0)
-      state%velocity = (state%momentum + block%slip(lane)/sqrt(block%film(lane, 0)))*block%velocity_scale(lane)
+      state%velocity = (state%momentum + slip_velocity(block%film(lane, 0), lane, block))*block%velocity_scale(lane)
       state%carried_on = .true.
    end function state_of_lane
+
+   !> H' less V at some film.
+   pure real(dp) function slip_velocity(film, lane, block)
+      !> H [-]
+      real(dp), intent(in) :: film
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      slip_velocity = block%slip(lane)/sqrt(film)
+      if (block%backlash(lane) < huge(1.0_dp)) &
+         slip_velocity = slip_velocity - block%slip(lane)/sqrt(block%backlash(lane) - film)
+   end function slip_velocity
 
 end module lane_block

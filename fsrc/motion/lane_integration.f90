@@ -61,7 +61,7 @@ contains
 
       call place_block(room, run%block)
       run%by_series = by_series
-      if (size(queue) > 0) run%series = series_of(problems(queue(1))%film)
+      if (size(queue) > 0) run%series = series_of(problems(queue(1)))
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period

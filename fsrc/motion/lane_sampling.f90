@@ -78,7 +78,7 @@ contains
             do i = 1, together
                x(i) = real(samples%next(l) + min(i, due) - 1, dp)/number - block%phase(l)
             end do
-            call evaluate_lane(film_series, momentum_series, block%slip(l), x, film, velocity)
+            call evaluate_lane(film_series, momentum_series, block%slip(l), block%backlash(l), x, film, velocity)
             first = samples%written(l) + 1
             films(first:first + due - 1, samples%column(l)) = film(:due)*block%film_scale(l)
             velocities(first:first + due - 1, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
@@ -126,12 +126,13 @@ contains
    end function last_sample
 
    !> H and H' of one lane at several distances from its point of expansion.
-   pure subroutine evaluate_lane(film_series, momentum_series, slip, x, film, velocity)
+   pure subroutine evaluate_lane(film_series, momentum_series, slip, backlash, x, film, velocity)
       !> Series of H and V [-]
       real(dp), intent(in) :: film_series(0:order)
       real(dp), intent(in) :: momentum_series(0:order)
-      !> H' = V + slip/sqrt(H)
+      !> H' = V + slip (1/sqrt(H) - 1/sqrt(B - H)), and B, huge where there is one flank
       real(dp), intent(in) :: slip
+      real(dp), intent(in) :: backlash
       !> Distances [periods]
       real(dp), intent(in) :: x(together)
       !> H and H' there
@@ -152,6 +153,7 @@ contains
       do i = 1, together
          velocity(i) = velocity(i) + slip/sqrt(film(i))
       end do
+      if (backlash < huge(1.0_dp)) velocity = velocity - slip/sqrt(backlash - film)
    end subroutine evaluate_lane
 
 end module lane_sampling

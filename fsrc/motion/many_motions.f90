@@ -7,7 +7,7 @@ module many_motions
    use kinds, only: dp
    use lane_block, only: lane_accuracy, start_status
    use lane_integration, only: integrate_lanes
-   use problem, only: has_two_flanks, net_load, problem_t, static_load
+   use problem, only: has_two_flanks, net_load, problem_t, static_load, thinner_film
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_film_lost, status_not_converged
    use window_record, only: window_record_t
@@ -36,22 +36,23 @@ contains
       !> What the steps of the sampled periods tell, problem by problem; a motion that is carried on within them adds to it
       type(window_record_t), optional, intent(inout) :: records(:)
       type(motion_state_t), allocatable :: rest(:)
-      logical, allocatable :: explicit(:), left(:)
+      logical, allocatable :: explicit(:), left(:), alike(:)
       integer, allocatable :: number(:)
-      integer :: i, first, kernel
+      integer :: i, first
 
       allocate (rest, source=starts)
-      allocate (explicit(size(problems)), left(size(problems)), number(size(problems)))
+      allocate (explicit(size(problems)), left(size(problems)), alike(size(problems)), number(size(problems)))
       number(:) = [(i, i=1, size(problems))]
-      explicit(:) = has_series(problems%film, lane_accuracy(problems, request%accuracy)) .and. .not. starts%implicit &
-                    .and. .not. has_two_flanks(problems) .and. .not. outgrows_series(problems, starts)
+      explicit(:) = has_series(problems, lane_accuracy(problems, request%accuracy)) .and. .not. starts%implicit &
+                    .and. .not. outgrows_series(problems, starts)
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)
-         kernel = problems(first)%film%kernel
-         call integrate_lanes(.true., problems, starts, pack(number, left .and. problems%film%kernel == kernel), request, &
-                              films, velocities, endings, watches, records)
-         left(:) = left .and. problems%film%kernel /= kernel
+         alike(:) = problems%film%kernel == problems(first)%film%kernel &
+                    .and. (has_two_flanks(problems) .eqv. has_two_flanks(problems(first)))
+         call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), request, films, velocities, endings, &
+                              watches, records)
+         left(:) = left .and. .not. alike
       end do
 
       do i = 1, size(problems)
@@ -75,19 +76,20 @@ contains
       real(dp), parameter :: largest_growth = 1.0e8_dp
       !> What is thinner is no film, which is found at the first step [m]
       real(dp), parameter :: thinnest = 1.0e-30_dp
-      real(dp) :: load, load_by_film, load_by_velocity, rate
+      real(dp) :: load, load_by_film, load_by_velocity, rate, thinner
 
       outgrows_series = .false.
       ! A motion that is carried on goes on as it went; one that cannot start is not for this procedure to refuse.
       if (start%carried_on) return
       if (start_status(problem, start) /= status_complete) return
-      if (.not. start%film > thinnest) return
+      thinner = thinner_film(problem, start%film)
+      if (.not. thinner > thinnest) return
       call net_load(problem, start%film, start%velocity, load, load_by_film, load_by_velocity)
       load = load + abs(static_load(problem)) + largest_oscillation(problem%force)
       rate = largest_growth*problem%frequency
-      outgrows_series = abs(start%velocity) > rate*start%film .or. &
+      outgrows_series = abs(start%velocity) > rate*thinner .or. &
                         abs(load_by_velocity) > rate*problem%mass .or. abs(load_by_film) > rate**2*problem%mass .or. &
-                        load > rate**2*problem%mass*start%film
+                        load > rate**2*problem%mass*thinner
    end function outgrows_series
 
 end module many_motions

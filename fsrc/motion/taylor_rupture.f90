@@ -12,6 +12,9 @@
 !>
 !> and as z begins with the first power of x, T_i is needed up to order n - 1 - 2 i only: for n = 12 all of them together take
 !> as many products of coefficients as two products of whole series.
+!>
+!> Between two flanks the film of the coast flank is one of the same law, of thickness B - H and velocity -V, whose load is
+!> subtracted: its series are those of a film with the coefficients of B - H.
 module taylor_rupture
    use kinds, only: dp
    use lane_force, only: factor
@@ -32,7 +35,7 @@ module taylor_rupture
    integer, parameter :: last_pair = (rupture_order - 2)/2
    integer, parameter :: h = 1, v = 2, p = 3, r = 4, z = 5, square = 6, nest = 7, series = nest + last_pair
 
-   public :: rupture_series, evaluate_rupture_series, reject_large_defect
+   public :: rupture_series, rupture_series_of_two, evaluate_rupture_series, reject_large_defect
 
 contains
 
@@ -135,6 +138,115 @@ contains
       momentum(:, 1:rupture_order) = c(:, v, 1:)
    end subroutine rupture_series
 
+   !> The same between two flanks.
+   pure subroutine rupture_series_of_two(law, strength, rate, backlash, load, force, film, momentum, damping_rate, expansion)
+      !> Load, as module load_pieces numbers it
+      integer, intent(in) :: law
+      !> a [-]
+      real(dp), intent(in) :: strength(lanes)
+      !> c [periods]
+      real(dp), intent(in) :: rate(lanes)
+      !> B [-]
+      real(dp), intent(in) :: backlash(lanes)
+      !> q [-]
+      real(dp), intent(in) :: load(lanes)
+      !> Derivatives of the force that oscillates, by module lane_force [-]
+      real(dp), intent(in) :: force(lanes, order)
+      !> Series of H [-]; coefficient 0 is given
+      real(dp), intent(inout) :: film(lanes, 0:order)
+      !> Series of V [-]; coefficient 0 is given
+      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      !> -dV'/dV [1/periods]
+      real(dp), intent(out) :: damping_rate(lanes)
+      !> Films of the drive and the coast flank looked up last, those at the point of expansion afterwards
+      type(load_expansion_t), intent(inout) :: expansion(2)
+      !> Lane, series, flank, coefficient
+      real(dp) :: c(lanes, series, 2, 0:rupture_order)
+      real(dp), dimension(lanes, 2) :: half_root, unit_rate, carried
+      real(dp) :: of_p, of_r, of_z, of_square, of_nest, of_force
+      integer :: once, flank, k, j, i, l
+
+      c(:, h, 1, 0) = film(:, 0)
+      c(:, v, 1, 0) = momentum(:, 0)
+      c(:, h, 2, 0) = backlash - film(:, 0)
+      c(:, v, 2, 0) = -momentum(:, 0)
+      do flank = 1, 2
+         call expand_load(law, c(:, h, flank, 0), c(:, v, flank, 0), rate, expansion(flank))
+         !$omp simd
+         do l = 1, lanes
+            c(l, p, flank, 0) = expansion(flank)%inverse_film(l)
+            c(l, r, flank, 0) = expansion(flank)%root(l)
+            half_root(l, flank) = 0.5_dp*c(l, h, flank, 0)*c(l, r, flank, 0)
+            unit_rate(l, flank) = rate(l)*expansion(flank)%inverse_unit(l)
+            carried(l, flank) = c(l, p, flank, 0)*expansion(flank)%terms(l, 0)
+         end do
+         do i = 0, last_pair
+            c(:, nest + i, flank, 0) = expansion(flank)%terms(:, 2*i)
+         end do
+      end do
+      damping_rate = -strength*rate*(c(:, p, 1, 0)*c(:, r, 1, 0)*expansion(1)%load_slope &
+                                     + c(:, p, 2, 0)*c(:, r, 2, 0)*expansion(2)%load_slope)
+      c(:, h, 1, 1) = c(:, v, 1, 0)
+      c(:, v, 1, 1) = strength*(carried(:, 1) - carried(:, 2)) - load - force(:, 1)
+      c(:, h, 2, 1) = -c(:, h, 1, 1)
+      c(:, v, 2, 1) = -c(:, v, 1, 1)
+      do once = 1, 1
+         !GCC$ unroll 24
+         do k = 1, rupture_order - 1
+            do flank = 1, 2
+               !$omp simd private(of_p, of_r, of_z, of_square, of_nest, of_force)
+               do l = 1, lanes
+                  of_p = 0.0_dp
+                  of_z = 0.0_dp
+                  do j = 1, k - 1
+                     of_p = of_p + c(l, p, flank, k - j)*c(l, h, flank, j)
+                     of_z = of_z + c(l, r, flank, k - j)*c(l, v, flank, j)
+                  end do
+                  of_r = 0.0_dp
+                  of_square = 0.0_dp
+                  do j = 1, (k - 1)/2
+                     of_r = of_r + c(l, r, flank, j)*c(l, r, flank, k - j)
+                     of_square = of_square + c(l, z, flank, j)*c(l, z, flank, k - j)
+                  end do
+                  of_r = 2.0_dp*of_r
+                  of_square = 2.0_dp*of_square
+                  if (mod(k, 2) == 0) then
+                     of_r = of_r + c(l, r, flank, shiftr(k, 1))*c(l, r, flank, shiftr(k, 1))
+                     of_square = of_square + c(l, z, flank, shiftr(k, 1))*c(l, z, flank, shiftr(k, 1))
+                  end if
+                  c(l, p, flank, k) = -c(l, p, flank, 0)*(of_p + c(l, p, flank, 0)*c(l, h, flank, k))
+                  c(l, r, flank, k) = half_root(l, flank)*(c(l, p, flank, k) - of_r)
+                  c(l, z, flank, k) = unit_rate(l, flank) &
+                     *(of_z + c(l, r, flank, 0)*c(l, v, flank, k) + c(l, r, flank, k)*c(l, v, flank, 0))
+                  c(l, square, flank, k) = of_square
+                  !GCC$ unroll 8
+                  do i = min(last_pair, (rupture_order - 1 - k)/2), 0, -1
+                     of_nest = expansion(flank)%terms(l, 2*i + 1)*c(l, z, flank, k)
+                     do j = max(2, k - (rupture_order - 1 - 2*(i + 1))), merge(k, 0, i < last_pair)
+                        of_nest = of_nest + c(l, square, flank, j)*c(l, nest + i + 1, flank, k - j)
+                     end do
+                     c(l, nest + i, flank, k) = of_nest
+                  end do
+                  of_force = 0.0_dp
+                  do j = 0, k
+                     of_force = of_force + c(l, p, flank, k - j)*c(l, nest, flank, j)
+                  end do
+                  carried(l, flank) = of_force
+               end do
+            end do
+            !$omp simd
+            do l = 1, lanes
+               c(l, h, 1, k + 1) = inverse(k + 1)*c(l, v, 1, k)
+               c(l, v, 1, k + 1) = (inverse(k + 1)*strength(l))*(carried(l, 1) - carried(l, 2)) - factor(k + 1)*force(l, k + 1)
+               c(l, h, 2, k + 1) = -c(l, h, 1, k + 1)
+               c(l, v, 2, k + 1) = -c(l, v, 1, k + 1)
+            end do
+         end do
+      end do
+      film(:, 1:rupture_order) = c(:, h, 1, 1:)
+      momentum(:, 1:rupture_order) = c(:, v, 1, 1:)
+   end subroutine rupture_series_of_two
+
    !> Sums of the series of H, V and V', as evaluate_series takes them.
    pure subroutine evaluate_rupture_series(film, momentum, x, film_sum, momentum_sum, rise_sum)
       !> Series of H [-]
@@ -186,44 +298,37 @@ contains
    !> the sum of the forces is off there, is that of the first terms left out, so D x/(n + 1) estimates the local error of V; it
    !> must not exceed what the step control grants the last term, in the measure of module taylor_step_control at the end of the
    !> step, less the rounding of the forces.
-   pure subroutine reject_large_defect(error_share, strength, rate, load, force, accuracy, inverse_film, root, carried_load, &
-                                            load_slope, film, momentum, rise, trust)
+   pure subroutine reject_large_defect(error_share, load, force, accuracy, carried, largest, rate_of_damping, film, momentum, &
+                                       rise, trust)
       !> Share of the accuracy that a step may use up, over its length [1/periods]
       real(dp), intent(in) :: error_share
-      !> a [-]
-      real(dp), intent(in) :: strength(lanes)
-      !> c [periods]
-      real(dp), intent(in) :: rate(lanes)
       !> q + f cos(2 pi x) at the end of the step, and P = q + f [-]
       real(dp), intent(in) :: load(lanes)
       real(dp), intent(in) :: force(lanes)
       !> Relative accuracy of the film [-]
       real(dp), intent(in) :: accuracy(lanes)
-      !> p, r, Phi and dPhi/dA at the end of the step, by the film law [-]
-      real(dp), intent(in) :: inverse_film(lanes)
-      real(dp), intent(in) :: root(lanes)
-      real(dp), intent(in) :: carried_load(lanes)
-      real(dp), intent(in) :: load_slope(lanes)
-      !> H, V and V' there, by the series [-]
+      !> Net load at the end of the step, sum of the loads of all films, -dV'/dV, by the film law [-]
+      real(dp), intent(in) :: carried(lanes)
+      real(dp), intent(in) :: largest(lanes)
+      real(dp), intent(in) :: rate_of_damping(lanes)
+      !> The thinner film there, V and V', by the series [-]
       real(dp), intent(in) :: film(lanes)
       real(dp), intent(in) :: momentum(lanes)
       real(dp), intent(in) :: rise(lanes)
       !> 1 where the step is trusted, set to 0 where it is rejected
       real(dp), intent(inout) :: trust(lanes)
-      real(dp) :: carried, rate_of_damping, defect, square_film, granted
+      real(dp) :: defect, square_film, granted
       integer :: l
 
-      !$omp simd private(carried, rate_of_damping, defect, square_film, granted)
+      !$omp simd private(defect, square_film, granted)
       do l = 1, lanes
-         rate_of_damping = -strength(l)*inverse_film(l)*rate(l)*root(l)*load_slope(l)
-         carried = strength(l)*inverse_film(l)*carried_load(l)
-         defect = abs(carried - load(l) - rise(l)) &
-            - equation_rounding*(abs(carried) + force(l) + abs(rate_of_damping*momentum(l)))
+         defect = abs(carried(l) - load(l) - rise(l)) &
+            - equation_rounding*(largest(l) + force(l) + abs(rate_of_damping(l)*momentum(l)))
          ! 1 + H**2, and w (1 + H**2) times the accuracy.
          square_film = 1.0_dp + film(l)*film(l)
          granted = (most_defect*real(rupture_order + 1, dp))*error_share*film(l)*max(accuracy(l), rounding*square_film)
-         trust(l) = trust(l)*merge(1.0_dp, 0.0_dp, defect*square_film <= granted*(free_rate + rate_of_damping)) &
-            *merge(1.0_dp, 0.0_dp, defect*rate_of_damping*film(l) <= granted*load_error*force(l))
+         trust(l) = trust(l)*merge(1.0_dp, 0.0_dp, defect*square_film <= granted*(free_rate + rate_of_damping(l))) &
+            *merge(1.0_dp, 0.0_dp, defect*rate_of_damping(l)*film(l) <= granted*load_error*force(l))
       end do
    end subroutine reject_large_defect
 

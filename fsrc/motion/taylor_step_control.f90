@@ -48,7 +48,7 @@ contains
 
    !> Step of every lane. The last steps of a period are cut so that its end is hit, two of equal length
    !> rather than a long and a short one.
-   pure subroutine lane_steps(last_order, share, accuracy, force, film, momentum, damping_rate, &
+   pure subroutine lane_steps(last_order, share, accuracy, force, thinner, film, momentum, damping_rate, &
       remaining, limit, step)
       !> Order n of the series
       integer, intent(in) :: last_order
@@ -58,6 +58,8 @@ contains
       real(dp), intent(in) :: accuracy(lanes)
       !> P of the header [-]
       real(dp), intent(in) :: force(lanes)
+      !> The thinner one of the films of both flanks [-]
+      real(dp), intent(in) :: thinner(lanes)
       !> Series of H [-], order last
       real(dp), intent(in) :: film(lanes, 0:order)
       !> Series of V [-], order last
@@ -78,8 +80,8 @@ contains
       !$omp simd private(weight, level, last, next_to_last, reach, left, ends)
       do l = 1, lanes
          left = remaining(l)
-         weight = momentum_weight(film(l, 0), damping_rate(l), force(l))
-         level = coarse_log(share*max(accuracy(l)*film_weight(film(l, 0)), rounding*film(l, 0)))
+         weight = momentum_weight(thinner(l), damping_rate(l), force(l))
+         level = coarse_log(share*max(accuracy(l)*film_weight(thinner(l)), rounding*film(l, 0)))
          last = coarse_log(max(abs(film(l, last_order)), abs(momentum(l, last_order))*weight))
          next_to_last = coarse_log(max(abs(film(l, last_order - 1)), abs(momentum(l, last_order - 1))*weight))
          reach = min((level - last)*root, (level - next_to_last)*next_root, 0.0_dp)

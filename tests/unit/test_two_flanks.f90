@@ -1,11 +1,12 @@
 !> Tests of the tooth between two flanks: rest, references of independent codes, symmetry, the limit of one flank.
 module test_two_flanks
-   use checks, only: check_list_t
+   use checks, only: check_list_t, same_bits
    use controlled_engine, only: find_steady_motion, solve_window
-   use engine, only: ending_t, motion_state_t, start_of
+   use engine, only: ending_t, motion_state_t, request_t, start_of
    use film_law, only: film_load
    use fourier, only: amplitude_spectrum
    use kinds, only: dp
+   use many_motions, only: solve_motions
    use loudness, only: loudness_of_record, loudness_of_samples, loudness_t
    use node_extremes, only: seen_acceleration, seen_coast_load, seen_film, seen_load, seen_net_load
    use problem, only: film_at_rest, linearise, net_load, problem_of, problem_t, static_load
@@ -35,6 +36,7 @@ contains
       call test_reference_3(checks)
       call test_reference_4(checks)
       call test_mirror(checks)
+      call test_series(checks)
       call test_wide_backlash(checks)
    end subroutine run_two_flanks_tests
 
@@ -127,6 +129,8 @@ contains
          scene = canonical_between_flanks(law_piezo_viscous, model_published, rupture_half_pi)
       case (3)
          scene = canonical_between_flanks(law_iso_viscous, model_reynolds, rupture_half_pi)
+      case (5)
+         scene = canonical_between_flanks(law_iso_viscous, model_published, rupture_solved)
       case default
          scene = canonical_between_flanks(law_piezo_viscous, model_reynolds, rupture_half_pi)
          scene%lubricant%pressure_viscosity = 2.0e-9_dp
@@ -274,6 +278,41 @@ contains
       call solve_window(mirrored, start_of(mirrored), accuracy, 64, 5, 5, other_h, w, z, found, record)
       call checks%check(maxval(abs(other_h - (problem%backlash - h))) < 1.0e-7_dp*problem%backlash, 'mirror: of the mirrored force')
    end subroutine test_mirror
+
+   !> Taylor series and collocation follow the same motion; a motion has the same bits alone and beside those on one flank and of
+   !> other laws.
+   subroutine test_series(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer, parameter :: laws = 5, periods = 8, motions = 3*laws
+      real(dp), parameter :: asked = 1.0e-8_dp
+      type(problem_t) :: problems(motions)
+      type(motion_state_t) :: starts(motions)
+      type(request_t) :: request
+      type(ending_t) :: endings(motions)
+      real(dp), dimension(64, motions) :: h, w, implicit_h, implicit_w, alone_h, alone_w
+      integer :: i
+
+      request = request_t(accuracy=asked, periods=periods, samples_per_period=64, sampled_periods=1)
+      do i = 1, motions
+         problems(i) = problem_of(scene_of_law(modulo(i - 1, laws) + 1))
+         if (i > laws) problems(i)%force%cosine = problems(i)%force%cosine*(0.6_dp + 0.01_dp*real(i, dp))
+         if (i > 2*laws) problems(i)%backlash = huge(1.0_dp)
+      end do
+      starts = start_of(problems)
+      starts%implicit = .true.
+      call solve_motions(problems, starts, request, implicit_h, implicit_w, endings)
+      starts%implicit = .false.
+      call solve_motions(problems, starts, request, h, w, endings)
+      do i = 1, 2*laws
+         call checks%check(endings(i)%status == status_complete, 'series: solved')
+         if (any(modulo(i - 1, laws) + 1 == [1, 3, 5])) call checks%check(.not. endings(i)%implicit, 'series: by series')
+         call checks%check(maxval(abs(h(:, i) - implicit_h(:, i))) < 10.0_dp*asked*minval(h(:, i)), 'series: film of collocation')
+         call checks%check(maxval(abs(w(:, i) - implicit_w(:, i))) < 100.0_dp*asked*maxval(abs(w(:, i))), &
+                           'series: velocity of collocation')
+         call solve_motions(problems(i:i), starts(i:i), request, alone_h(:, i:i), alone_w(:, i:i), endings(i:i))
+         call checks%check(all(same_bits(alone_h(:, i), h(:, i)) .and. same_bits(alone_w(:, i), w(:, i))), 'series: the same alone')
+      end do
+   end subroutine test_series
 
    !> A backlash of a metre changes no more than the load of a coast film a metre thick, and a tenth of it ten times as much.
    subroutine test_wide_backlash(checks)
