@@ -39,7 +39,7 @@ contains
 
       before = faults%count()
       name = ''
-      allocate (samples(0), times(0), at(0))
+      allocate (names(0), samples(0), times(0), at(0))
       call text%open(path, lines, message)
       if (len(message) > 0) then
          call faults%add(path, 0, '', '', message)

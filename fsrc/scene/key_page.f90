@@ -69,7 +69,7 @@ contains
                                      '|---|---|---|---|---|---|'//end_of_line
          text = text//page_row(keys(i))
       end do
-      text = text//quantity_rows()//class_text()
+      text = text//gear_text()//quantity_rows()//class_text()
    end function page_text
 
    function page_row(key) result(text)
@@ -157,6 +157,69 @@ contains
          words = words//integer_text(code)//' '
       end do
    end function words_with_codes
+
+   !> How the data of a gear pair become a scene: the pair of loose_pair.nml by hand.
+   pure function gear_text() result(text)
+      character(:), allocatable :: text
+
+      text = end_of_line// &
+         '## From a gear to a scene'//end_of_line// &
+         end_of_line// &
+         '`&gear`, `&shaft` and `&oil` take what a drawing, an engine and a data sheet tell. What follows from '// &
+         'them is told by'//end_of_line// &
+         '`rattle --check` and stands in the summary; the keys that it replaces are refused. Gear 1 is on the '// &
+         'shaft and drives, gear 2'//end_of_line// &
+         'is loose. This is the pair of `loose_pair.nml` by hand, in SI units, angles in degrees; index t is the '// &
+         'transverse plane:'//end_of_line// &
+         end_of_line// &
+         '| what | by hand | `loose_pair.nml` |'//end_of_line// &
+         '|---|---|---|'//end_of_line// &
+         '| base radii | m_t = m_n/cos beta, tan alpha_t = tan alpha_n/cos beta, r_b = m_t z cos(alpha_t)/2 | '// &
+         '0.014510, 0.050124 |'//end_of_line// &
+         '| centre distance | `centre_distance`, or m_t (z_1 + z_2)/2 | 0.070003 |'//end_of_line// &
+         '| working pressure angle | cos alpha_wt = (r_b1 + r_b2)/a | 22.587 |'//end_of_line// &
+         '| base helix angle | sin beta_b = sin beta cos alpha_n | 27.065 |'//end_of_line// &
+         '| radii of curvature | rho_1 = r_b1 tan alpha_wt + xi, rho_2 = r_b2 tan alpha_wt - xi | 0.0060360, '// &
+         '0.020852 |'//end_of_line// &
+         '| `contact.radius` R | rho_1 rho_2/((rho_1 + rho_2) cos beta_b) | 0.0052565 |'//end_of_line// &
+         '| `contact.length` l | face width times lines in contact/cos beta_b | 0.017968 |'//end_of_line// &
+         '| speeds of the flanks | u_1 = omega_1 rho_1, u_2 = omega_1 (z_1/z_2) rho_2 | 0.50566, 0.50566 |'//end_of_line// &
+         '| `kinematics.entrainment_speed` U | (u_1 + u_2)/2 | 0.50566 |'//end_of_line// &
+         '| `load.mass` m | J_2/(r_b2 cos beta_b)^2 | 0.86081 |'//end_of_line// &
+         '| `load.steady_force` Q | T_d/(r_b2 cos beta_b) | 2.2404 |'//end_of_line// &
+         '| `load.force_amplitudes` | m cos(beta_b) r_b1 times each angular acceleration | 6.6734, 1.1122, 0.55611 '// &
+         '|'//end_of_line// &
+         '| `load.frequency` | greatest common divisor of the orders times n/60; the orders over it are '// &
+         '`load.force_orders` | 26.667; 1, 2, 3 |'//end_of_line// &
+         '| viscosity at T | log10 log10(nu + 0.7) is linear in log10(T + 273.15) through both data; rho = rho_15 '// &
+         '- 0.7 (T - 15) | 0.049445 |'//end_of_line// &
+         '| alpha at T | ISO/TR 15144-1 by the kind of oil; `oil.pressure_viscosity` overrides it | 1.7734e-8 |'//end_of_line// &
+         end_of_line// &
+         'What this takes for granted: the shaft is so heavy against the loose gear that its motion is given; the '// &
+         'contact stays at one'//end_of_line// &
+         'place of the line of action and has as many lines as `contact_lines` says; the drag torque is constant; '// &
+         'gravity does nothing'//end_of_line// &
+         'to a gear on its bearing (`load.gravity` is 0); oil is there and as warm as `temperature_celsius`. '// &
+         '`backlash` is measured along'//end_of_line// &
+         'the normal of the flanks: circumferential backlash at the reference circle times cos(alpha_t) '// &
+         'cos(beta_b). A cycle that was '// &
+         'measured takes the place'//end_of_line// &
+         'of the orders: `signal` names its CSV file. With `load.force_scale` campaigns vary all accelerations at '// &
+         'once.'//end_of_line// &
+         end_of_line// &
+         'Which film law? At rest the four films of this pair are 2.86 um (published iso-viscous), 0.23 um '// &
+         '(published piezo-viscous) and'//end_of_line// &
+         '4.89 and 4.90 um (exact, `model = ''reynolds''`, iso- and piezo-viscous). Where alpha p at the steady '// &
+         'film, told by `--check`,'//end_of_line// &
+         'is below 0.1, pressure hardly thickens the oil: both exact films are one, and `iso-viscous` with '// &
+         '`reynolds` is the law. The'//end_of_line// &
+         'published piezo-viscous film is no guide where the pressure is low: for this pair it is off by a factor of '// &
+         '20. From'//end_of_line// &
+         'alpha p = 0.1 to 1 take `piezo-viscous` with `reynolds`. From 1 on no film of rigid flanks is right: the '// &
+         'regime check says so'//end_of_line// &
+         'after the motion, and `stiffness_matters` says where teeth would give way. The published laws are there '// &
+         'for the paper''s scenes.'//end_of_line
+   end function gear_text
 
    !> How the class is found, and why the limits are what they are.
    pure function class_text() result(text)

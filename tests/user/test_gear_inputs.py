@@ -383,3 +383,16 @@ def test_faults_of_a_measured_cycle(check, tmp_path: Path) -> None:
     assert ended.returncode == 2 and "&shaft speed_rpm: this key is required" in ended.stderr
     ended = check(PAIR.replace("accelerations = 600.0", "accelerations = 600.0, cycle_revolutions = 2"))
     assert "&shaft cycle_revolutions: this key is used only with signal" in ended.stderr
+
+
+def test_the_page_works_the_ready_pair_through(run, repository: Path, tmp_path: Path) -> None:
+    """The numbers that the page of keys tells of loose_pair.nml are those of --check."""
+    told = derived(run("--check", repository / "input" / "loose_pair.nml", cwd=tmp_path))
+    page = (repository / "input" / "README.md").read_text()
+    rows = re.findall(r"^\| `(contact|kinematics|load)\.(\w+)`[^|]*\|[^|]*\| ([\d.]+)[^|]*\|$", page, re.M)
+    assert len(rows) == 7
+    for group, key, value in rows:
+        assert float(value) == pytest.approx(told[f"{group}.{key}"], rel=5e-5), key
+    for what, key in (("viscosity at T", "viscosity"), ("alpha at T", "pressure_viscosity")):
+        value = re.search(rf"^\| {what} .*\| (\S+) \|$", page, re.M)[1]
+        assert float(value) == pytest.approx(told[f"lubricant.{key}"], rel=5e-5)
