@@ -8,7 +8,7 @@ module campaign_certificate
    use kinds, only: dp
    use loudness, only: loudness_of_record
    use many_motions, only: solve_motions
-   use problem, only: accelerations_of_samples
+   use problem, only: accelerations_of_samples, state_size
    use rattle_class, only: note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success
@@ -42,7 +42,7 @@ contains
       type(window_record_t) :: records(1)
       type(rattle_verdict_t) :: own_verdict
       type(window_t) :: window
-      real(dp), allocatable :: films(:, :), velocities(:, :)
+      real(dp), allocatable :: states(:, :, :)
       integer :: samples
 
       certificate%exists = .true.
@@ -50,16 +50,16 @@ contains
       from_start%forecast = .false.
       samples = request%sampled_periods*scene%campaign%samples_per_period
       from_start%samples_per_period = scene%campaign%samples_per_period
-      allocate (films(samples, 1), velocities(samples, 1))
-      call solve_motions([resolved%problem], [start_of(resolved%problem)], from_start, films, velocities, endings, records=records)
+      allocate (states(samples, state_size(resolved%problem), 1))
+      call solve_motions([resolved%problem], [start_of(resolved%problem)], from_start, states, endings, &
+                         records=records)
       if (.not. is_success(endings(1)%status)) return
       samples = endings(1)%samples
       window%periods = samples/request%samples_per_period
       window%samples_per_period = request%samples_per_period
-      allocate (window%films, source=films(:samples, 1))
-      allocate (window%velocities, source=velocities(:samples, 1))
+      allocate (window%states, source=states(:samples, :, 1))
       allocate (window%accelerations(samples))
-      call accelerations_of_samples(resolved%problem, request%samples_per_period, window%films, window%velocities, &
+      call accelerations_of_samples(resolved%problem, request%samples_per_period, window%states, &
                                     window%accelerations)
       window%record = records(1)
       call judge_window(scene, resolved%problem, request%accuracy, resolved%noise_floor, window, own_verdict, error)

@@ -14,7 +14,7 @@ module solve_chunk
    use many_motions, only: solve_motions
    use memory_need, only: window_bytes
    use node_extremes, only: seen_pressure, seen_quantities
-   use problem, only: accelerations_of_samples, problem_t, thinner_film
+   use problem, only: accelerations_of_samples, problem_t, state_size, thinnest_film
    use rattle_class, only: classify_steps, note_orbit
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: need_count, needs_certificate, needs_coast_load_range, needs_deflection, needs_load_range, &
@@ -42,8 +42,8 @@ module solve_chunk
    !> Samples of a batch; kept from chunk to chunk, since the system takes its time to hand out fresh memory.
    type, public :: chunk_space_t
       private
-      !> h [m] and z' [m/s]: sample, scene
-      real(dp), allocatable :: films(:, :), velocities(:, :)
+      !> Sample, number of its state, scene
+      real(dp), allocatable :: states(:, :, :)
       !> z'' of one scene [m/s2]
       real(dp), allocatable :: accelerations(:)
       !> What the steps of the windows tell
@@ -169,11 +169,12 @@ contains
       end do
       call cost_order(costs, order)
       together = alike(requests(order(:solved)))
-      call provide_space(space, requests(order(:solved)), solved, merge(solved, 1, together), needed)
+      call provide_space(space, requests(order(:solved)), solved, merge(solved, 1, together), &
+                         max(2, maxval(state_size(resolved(order(:solved))%problem))), needed)
       if (together .and. solved > 0) then
          associate (problems => resolved(order(:solved))%problem)
-            call solve_motions(problems, start_of(problems), requests(order(1)), space%films(:, :solved), &
-                               space%velocities(:, :solved), endings(:solved), records=space%records(:solved))
+            call solve_motions(problems, start_of(problems), requests(order(1)), space%states(:, :, :solved), &
+                               endings(:solved), records=space%records(:solved))
          end associate
       end if
       coarse = .false.
@@ -184,7 +185,7 @@ contains
                call set_varied_keys(scene, positions, values(:, scene_number))
                associate (problem => resolved(scene_number)%problem)
                   if (.not. together) call solve_motions([problem], [start_of(problem)], requests(scene_number), &
-                                                         space%films(:, :1), space%velocities(:, :1), endings(i:i), &
+                                                         space%states(:, :, :1), endings(i:i), &
                                                          records=space%records(i:i))
                end associate
                call note_ending(resolved(scene_number), endings(i), space%judged)
@@ -245,7 +246,7 @@ contains
       type(request_t) :: request
       type(ending_t) :: ended(size(problems))
       integer :: periods(size(problems)), i
-      real(dp), allocatable :: films(:, :), velocities(:, :)
+      real(dp), allocatable :: states(:, :, :)
 
       periods = endings%samples/asked%samples_per_period
       request%accuracy = asked%accuracy
@@ -258,20 +259,22 @@ contains
          starts(i)%periods = request%periods - periods(i)
          windows(i) = integral_record(scene%spectrum)
       end do
-      allocate (films(request%periods, size(problems)), velocities(request%periods, size(problems)), source=0.0_dp)
-      call solve_motions(problems, starts, request, films, velocities, ended, records=windows)
+      allocate (states(request%periods, maxval(state_size(problems)), size(problems)), source=0.0_dp)
+      call solve_motions(problems, starts, request, states, ended, records=windows)
       do i = 1, size(problems)
          if (.not. is_success(ended(i)%status)) windows(i)%periods = 0
       end do
    end function integral_windows
 
    !> See that the samples and records of so many scenes have their place.
-   pure subroutine provide_space(space, requests, scenes, sampled, needed)
+   pure subroutine provide_space(space, requests, scenes, sampled, numbers, needed)
       type(chunk_space_t), intent(inout) :: space
       type(request_t), intent(in) :: requests(:)
       !> Scenes, and those whose samples are kept at a time
       integer, intent(in) :: scenes
       integer, intent(in) :: sampled
+      !> Of a state
+      integer, intent(in) :: numbers
       !> What the columns need
       logical, intent(in) :: needed(:)
       type(window_record_t) :: blank
@@ -286,11 +289,11 @@ contains
          space%records(i) = blank
       end do
       samples = max(1, maxval(requests%sampled_periods*requests%samples_per_period))
-      if (allocated(space%films)) then
-         if (size(space%films, 1) >= samples .and. size(space%films, 2) >= sampled) return
-         deallocate (space%films, space%velocities, space%accelerations)
+      if (allocated(space%states)) then
+         if (size(space%states, 1) >= samples .and. size(space%states, 2) >= numbers .and. size(space%states, 3) >= sampled) return
+         deallocate (space%states, space%accelerations)
       end if
-      allocate (space%films(samples, sampled), space%velocities(samples, sampled), space%accelerations(samples))
+      allocate (space%states(samples, numbers, sampled), space%accelerations(samples))
    end subroutine provide_space
 
    !> Whether all scenes of a batch ask for the same.
@@ -368,7 +371,7 @@ contains
       if (.not. (space%judged%judged .and. any(needed([needs_spectrum, needs_certificate])))) return
       associate (values => space%accelerations(:samples))
          call accelerations_of_samples(space%judged%resolved%problem, scene%campaign%samples_per_period, &
-                                       space%films(:samples, column), space%velocities(:samples, column), values)
+                                       space%states(:samples, :, column), values)
          call classify_window(scene, space%judged%resolved%problem, samples/scene%campaign%samples_per_period, values, &
                               space%records(place), space%judged%resolved%noise_floor, space%judged%rattle)
       end associate
@@ -390,7 +393,7 @@ contains
       judged%loudness = loudness_of_record(record, scene%load%frequency)
       associate (pressure => record%highest(seen_pressure))
          if (needed(needs_regime)) judged%regime = check_regime(judged%resolved%problem%film, pressure%value, &
-                                                                thinner_film(judged%resolved%problem, pressure%film))
+                                                                thinnest_film(judged%resolved%problem, pressure%state))
       end associate
       if (needed(needs_certificate)) call test_class(scene, judged%resolved, request_of(scene, needed), judged%rattle, &
                                                      judged%certificate, error)

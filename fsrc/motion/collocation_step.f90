@@ -42,9 +42,10 @@ module collocation_step
    !> Longest step [periods]
    real(dp), parameter :: longest_step = 0.25_dp
    !> Step over the one before, least and most, and the most for which the polynomial is carried on.
-   real(dp), parameter :: least_growth = 0.1_dp, most_growth = 4.0_dp, most_extrapolation = 2.0_dp
+   real(dp), parameter :: least_growth = 0.1_dp, most_growth = 4.0_dp
+   real(dp), parameter, public :: most_extrapolation = 2.0_dp
 
-   public :: take_collocation_step
+   public :: take_collocation_step, choose_steps, forces_of_stages, highest_terms, growth_of
 
 contains
 
@@ -167,7 +168,7 @@ contains
             error = max(error, between) &
                /min(allowed(block%film(l, 0), l, block), allowed(minval(film(l, :)), l, block), &
                     allowed(maxval(film(l, :)), l, block))
-            growth = max(least_growth, min(most_growth, 0.9_dp/sqrt(sqrt(sqrt(max(error, tiny(1.0_dp)))))))
+            growth = growth_of(error)
             if (.not. error <= 1.0_dp .or. &
                 min(minval(film(l, :)), block%backlash(l) - maxval(film(l, :))) <= 0.0_dp) block%trust(l) = 0.0_dp
          end if
@@ -182,6 +183,13 @@ contains
          end if
       end do
    end subroutine judge
+
+   !> Next step over this one, by an error in units of that allowed.
+   pure real(dp) function growth_of(error)
+      real(dp), intent(in) :: error
+
+      growth_of = max(least_growth, min(most_growth, 0.9_dp/sqrt(sqrt(sqrt(max(error, tiny(1.0_dp)))))))
+   end function growth_of
 
    !> Value at the start of the step, 2c - 1 = -1.
    pure real(dp) function at_start(polynomial)

@@ -5,12 +5,13 @@
 !> orbit that it is judged by.
 module controlled_engine
    use clock, only: wall_seconds
-   use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, request_t, sample_sink_t, start_of, status_of_stop
+   use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, numbers_of, request_t, sample_sink_t, &
+      start_of, status_of_stop
    use errors, only: error_t
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
-   use problem, only: acceleration_at, accelerations_of_samples, problem_t
+   use problem, only: acceleration_at, accelerations_of_samples, largest_state, problem_t, state_size
    use repetition, only: longest_orbit, orbit_watch_t
    use scene_status, only: is_success, status_complete, status_interrupted, status_steady
    use window_record, only: window_record_t
@@ -57,8 +58,8 @@ contains
          here = checkpoint%motion_state_t
       else
          here = start_of(problem)
-         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], [here%film], [here%velocity], &
-                        [acceleration_at(problem, here%film, here%velocity, 0.0_dp)], error)
+         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], reshape(numbers_of(here), [1, largest_state]), &
+                        [acceleration_at(problem, numbers_of(here), 0.0_dp)], error)
          if (allocated(error)) return
       end if
       periods = request%periods
@@ -94,9 +95,8 @@ contains
       reserved_periods = max(window, longest_orbit)
    end function reserved_periods
 
-   !> Films, velocities and accelerations of the last periods of a motion, what its steps tell, and how it ended.
-   subroutine solve_window(problem, start, accuracy, samples_per_period, periods, window, films, velocities, values, ending, &
-                           record)
+   !> States and accelerations of the last periods of a motion, what its steps tell, and how it ended.
+   subroutine solve_window(problem, start, accuracy, samples_per_period, periods, window, states, values, ending, record)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Where the motion starts
@@ -108,9 +108,8 @@ contains
       !> Periods to solve, and how many of the last are sampled
       integer, intent(in) :: periods
       integer, intent(in) :: window
-      !> h [m], z' [m/s], z'' [m/s2]
-      real(dp), allocatable, intent(out) :: films(:)
-      real(dp), allocatable, intent(out) :: velocities(:)
+      !> Sample, number of its state; and z'' [m/s2]
+      real(dp), allocatable, intent(out) :: states(:, :)
       real(dp), allocatable, intent(out) :: values(:)
       !> How it ended
       type(ending_t), intent(out) :: ending
@@ -119,17 +118,16 @@ contains
       type(request_t) :: request
       type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
-      real(dp), allocatable :: film_samples(:, :), velocity_samples(:, :)
+      real(dp), allocatable :: samples(:, :, :)
 
       request = request_t(accuracy=accuracy, periods=periods, samples_per_period=samples_per_period, sampled_periods=window)
-      allocate (film_samples(window*samples_per_period, 1), velocity_samples(window*samples_per_period, 1), source=start%film)
-      call solve_motions([problem], [start], request, film_samples, velocity_samples, endings, records=records)
+      allocate (samples(window*samples_per_period, state_size(problem), 1), source=start%film)
+      call solve_motions([problem], [start], request, samples, endings, records=records)
       ending = endings(1)
       record = records(1)
-      allocate (films, source=film_samples(:, 1))
-      allocate (velocities, source=velocity_samples(:, 1))
-      allocate (values(size(films)))
-      if (is_success(ending%status)) call accelerations_of_samples(problem, samples_per_period, films, velocities, values)
+      allocate (states, source=samples(:, :, 1))
+      allocate (values(size(states, 1)))
+      if (is_success(ending%status)) call accelerations_of_samples(problem, samples_per_period, states, values)
    end subroutine solve_window
 
    !> Solve until the motion repeats, without samples.
@@ -145,12 +143,12 @@ contains
       type(ending_t), intent(out) :: found
       type(request_t) :: request
       type(ending_t) :: endings(1)
-      real(dp), allocatable :: no_films(:, :), no_velocities(:, :)
+      real(dp), allocatable :: unused(:, :, :)
 
       request = request_t(accuracy=accuracy, periods=periods, until_steady=.true., samples_per_period=1, &
                           sampled_periods=reserved_periods(window))
-      allocate (no_films(request%sampled_periods, 1), no_velocities(request%sampled_periods, 1), source=0.0_dp)
-      call solve_motions([problem], [start_of(problem)], request, no_films, no_velocities, endings)
+      allocate (unused(request%sampled_periods, state_size(problem), 1), source=0.0_dp)
+      call solve_motions([problem], [start_of(problem)], request, unused, endings)
       found = endings(1)
    end subroutine find_steady_motion
 
@@ -169,7 +167,7 @@ contains
       type(request_t) :: block_request
       type(ending_t) :: endings(1), sampled
       type(orbit_watch_t) :: watches(1)
-      real(dp) :: no_films(0, 1), no_velocities(0, 1)
+      real(dp) :: none(0, 2, 1)
       integer :: last, block
 
       block_request = request_t(accuracy=request%accuracy, until_steady=.true.)
@@ -178,7 +176,7 @@ contains
       watches(1) = checkpoint%watch
       do while (here%periods < last .and. checkpoint%orbit == 0)
          block_request%periods = min(last, here%periods + block)
-         call solve_motions([problem], [here], block_request, no_films, no_velocities, endings, watches)
+         call solve_motions([problem], [here], block_request, none, endings, watches)
          ! Where the search ends is known only now: samples, if wanted, are made by solving the block again.
          if (request%all_samples) then
             call solve_sampled(problem, request, here, endings(1)%periods, sink, sampled, error=error)
@@ -220,7 +218,7 @@ contains
       type(request_t) :: block_request
       type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
-      real(dp) :: no_films(0, 1), no_velocities(0, 1)
+      real(dp) :: none(0, 2, 1)
       integer :: samples, sampled_from, last
 
       samples = request%samples_per_period
@@ -230,7 +228,7 @@ contains
       do while (here%periods < periods)
          if (here%periods < sampled_from) then
             block_request%periods = min(sampled_from, here%periods + block_periods)
-            call solve_motions([problem], [here], block_request, no_films, no_velocities, endings)
+            call solve_motions([problem], [here], block_request, none, endings)
          else
             last = min(periods, here%periods + sampled_block(request))
             ! A block ends where the window begins: from there the run can be carried on, and its steps are recorded.
@@ -283,25 +281,24 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(request_t) :: block_request
       type(ending_t) :: endings(1)
-      real(dp), allocatable :: films(:, :), velocities(:, :), values(:), force(:)
+      real(dp), allocatable :: states(:, :, :), values(:), force(:)
       integer :: samples, period, first_sample, last_sample
 
       samples = request%samples_per_period
       block_request = request_t(accuracy=request%accuracy, samples_per_period=samples, periods=last, &
                                 sampled_periods=last - here%periods)
-      allocate (films(block_request%sampled_periods*samples, 1), velocities(block_request%sampled_periods*samples, 1), &
-                source=0.0_dp)
+      allocate (states(block_request%sampled_periods*samples, state_size(problem), 1), source=0.0_dp)
       allocate (values(block_request%sampled_periods*samples), force(samples))
       call force_of_period(problem%force, force)
-      call solve_motions([problem], [here], block_request, films, velocities, endings, records=records)
+      call solve_motions([problem], [here], block_request, states, endings, records=records)
       found = endings(1)
-      call accelerations_of_samples(problem, samples, films(:found%samples, 1), velocities(:found%samples, 1), &
+      call accelerations_of_samples(problem, samples, states(:found%samples, :, 1), &
                                     values(:found%samples))
       do period = 1, found%samples/samples
          first_sample = (period - 1)*samples + 1
          last_sample = period*samples
          call sink%take(int(here%periods + period - 1, int64)*int(samples, int64) + 1_int64, force, &
-                        films(first_sample:last_sample, 1), velocities(first_sample:last_sample, 1), &
+                        states(first_sample:last_sample, :, 1), &
                         values(first_sample:last_sample), error)
          if (allocated(error)) return
       end do

@@ -4,7 +4,7 @@ module engine
    use clock, only: wall_seconds
    use errors, only: error_t
    use kinds, only: dp, int64
-   use problem, only: problem_t
+   use problem, only: has_elastic_teeth, largest_state, problem_t, start_springs
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_interrupted, status_time_limit
    use signals, only: caught_signal
@@ -47,6 +47,8 @@ module engine
       !> h [m], z' [m/s]
       real(dp) :: film = 0.0_dp
       real(dp) :: velocity = 0.0_dp
+      !> Of the teeth on both flanks, where they give [m]
+      real(dp) :: compression(2) = 0.0_dp
       !> Of the controlled engine: scaled momentum [-], whether it stands for the velocity, so that the motion goes on as if it had
       !> never stopped, and whether the motion goes on by the implicit method
       real(dp) :: momentum = 0.0_dp
@@ -107,17 +109,15 @@ module engine
 
    abstract interface
       !> Take consecutive samples; the initial state comes alone as step 0.
-      subroutine take_samples(self, first_step, force, film, velocity, acceleration, error)
+      subroutine take_samples(self, first_step, force, states, acceleration, error)
          import :: dp, error_t, int64, sample_sink_t
          class(sample_sink_t), intent(inout) :: self
          !> Step of the first sample
          integer(int64), intent(in) :: first_step
          !> Applied force F, one per sample [N]
          real(dp), intent(in) :: force(:)
-         !> Film thickness h [m]
-         real(dp), intent(in) :: film(:)
-         !> Film velocity z' [m/s]
-         real(dp), intent(in) :: velocity(:)
+         !> Sample, number of its state
+         real(dp), intent(in) :: states(:, :)
          !> Acceleration z'' [m/s2]
          real(dp), intent(in) :: acceleration(:)
          !> Set if the samples could not be kept
@@ -145,7 +145,7 @@ module engine
       end subroutine watch_period
    end interface
 
-   public :: start_of, status_of_stop
+   public :: start_of, numbers_of, status_of_stop
 
 contains
 
@@ -154,7 +154,17 @@ contains
       type(problem_t), intent(in) :: problem
 
       start_of = motion_state_t(film=problem%initial_film, velocity=problem%initial_velocity)
+      if (.not. (has_elastic_teeth(problem) .and. problem%initial_film > 0.0_dp)) return
+      call start_springs(problem, start_of%compression)
    end function start_of
+
+   !> The numbers of a state, in the order of module problem.
+   pure function numbers_of(state) result(numbers)
+      class(motion_state_t), intent(in) :: state
+      real(dp) :: numbers(largest_state)
+
+      numbers = [state%film, state%velocity, state%compression]
+   end function numbers_of
 
    !> Whether a motion may go on, status_complete, or must stop between two periods and why.
    integer function status_of_stop(request, started) result(status)

@@ -2,7 +2,7 @@
 module lane_advance
    use film_series, only: check_ends, expand_motion, film_series_t
    use kinds, only: dp
-   use lane_block, only: lane_block_t
+   use lane_block, only: lane_block_t, lost_film
    use lane_force, only: turn_to
    use lane_functions, only: lanes
    use taylor_rupture, only: evaluate_rupture_series
@@ -14,8 +14,8 @@ module lane_advance
    real(dp), parameter :: smallest_film_ratio = 1.0e-3_dp, largest_film_ratio = 1.0e3_dp
    !> Damping rate that no Taylor step follows [1/periods].
    real(dp), parameter, public :: largest_series_rate = 1.0e7_dp
-   !> Scaled film that counts as lost [-], and step that is too short to continue [periods].
-   real(dp), parameter, public :: lost_film = 1.0e-9_dp, shortest_step = 1.0e-14_dp
+   !> Step that is too short to continue [periods].
+   real(dp), parameter, public :: shortest_step = 1.0e-14_dp
 
    public :: take_series_step, advance
 
@@ -77,7 +77,8 @@ contains
          calm = merge(1.0_dp, 0.0_dp, block%remaining(l) > 0.0_dp) &
             *merge(1.0_dp, 0.0_dp, block%limit(l) > shortest_step) &
             *merge(1.0_dp, 0.0_dp, block%period_steps(l) <= most_steps) &
-            *merge(1.0_dp, 0.0_dp, min(block%film(l, 0), block%backlash(l) - block%film(l, 0)) > lost_film) &
+            *merge(1.0_dp, 0.0_dp, block%film(l, 0) > lost_film) &
+            *merge(1.0_dp, 0.0_dp, block%film(l, 0) < block%widest_film(l)) &
             *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_rate)
          quiet = quiet + calm
       end do

@@ -15,8 +15,8 @@ module lane_block
    use lane_functions, only: lanes
    use load_expansion, only: load_expansion_t
    use memory, only: allocate_lines
-   use problem, only: has_two_flanks, net_load, problem_t, reference_film, rest_film, settling_of, settling_t, static_load, &
-                      thinner_film
+   use problem, only: has_elastic_teeth, has_two_flanks, net_load, problem_t, reference_film, rest_film, settling_of, settling_t, &
+                      static_load, thinner_film
    use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
@@ -35,6 +35,14 @@ module lane_block
       real(dp) :: film_scale(lanes), velocity_scale(lanes), force_scale(lanes)
       !> Backlash, scaled; huge where there is one flank
       real(dp) :: backlash(lanes)
+      !> Film of the drive flank at which that of the coast flank counts as lost; huge where there is none, or where teeth give
+      real(dp) :: widest_film(lanes)
+      !> Of teeth that give: compliance, scaled; series of the compressions d_1 and d_2
+      real(dp) :: compliance(lanes), compression(lanes, 2, 0:order)
+      !> and of collocation, polynomials of both loads in the last step
+      real(dp) :: load_polynomial(lanes, stages, 2)
+      !> and the compressions that the step leads to
+      real(dp) :: next_compression(lanes, 2)
       !> Accuracy [-]
       real(dp) :: accuracy(lanes)
       !> Series of H and V; coefficients 0 are the state
@@ -70,6 +78,9 @@ module lane_block
    !> First step of a period by collocation [periods]
    real(dp), parameter :: first_step = 1.0_dp/64.0_dp
 
+   !> Scaled film that counts as lost [-]
+   real(dp), parameter, public :: lost_film = 1.0e-9_dp
+
    public :: place_block, load_problem, rest_lane, start_period, state_of_lane, slip_velocity, start_status, lane_accuracy
 
 contains
@@ -102,6 +113,11 @@ contains
 
       start_status = status_film_lost
       if (.not. (ieee_is_finite(start%film) .and. ieee_is_finite(start%velocity))) return
+      if (has_elastic_teeth(problem)) then
+         if (start%film <= 0.0_dp .or. .not. all(ieee_is_finite(start%compression))) return
+         start_status = merge(status_complete, status_overflow, maxval(abs(start%compression)) < overflow_load*problem%compliance)
+         return
+      end if
       if (thinner_film(problem, start%film) <= 0.0_dp) return
       call net_load(problem, start%film, start%velocity, load, load_by_film, load_by_velocity)
       start_status = merge(status_complete, status_overflow, abs(load) < overflow_load)
@@ -138,6 +154,8 @@ contains
       force_scale = problem%mass*film_scale*problem%frequency**2
       block%film_scale(lane) = film_scale
       if (has_two_flanks(problem)) block%backlash(lane) = problem%backlash/film_scale
+      if (has_two_flanks(problem) .and. .not. has_elastic_teeth(problem)) &
+         block%widest_film(lane) = block%backlash(lane) - lost_film
       block%velocity_scale(lane) = film_scale*problem%frequency
       block%force_scale(lane) = force_scale
       block%static_load(lane) = static_load(problem)/force_scale
@@ -148,6 +166,9 @@ contains
       block%film(lane, 0) = start%film/film_scale
       block%momentum(lane, 0) = start%velocity/block%velocity_scale(lane)
       if (start%carried_on) block%momentum(lane, 0) = start%momentum
+      block%compliance(lane) = problem%compliance*(force_scale/film_scale)
+      block%compression(lane, :, 0) = start%compression/film_scale
+      block%next_compression(lane, :) = 0.0_dp
       call start_period(lane, block)
    end subroutine load_problem
 
@@ -158,6 +179,7 @@ contains
 
       block%film_scale(lane) = 1.0_dp
       block%backlash(lane) = huge(1.0_dp)
+      block%widest_film(lane) = huge(1.0_dp)
       block%velocity_scale(lane) = 1.0_dp
       block%force_scale(lane) = 1.0_dp
       block%strength(lane) = 1.0_dp
@@ -172,6 +194,9 @@ contains
       block%momentum(lane, :) = 0.0_dp
       block%film(lane, 0) = 1.0_dp
       block%damping_rate(lane) = 0.0_dp
+      block%compliance(lane) = 0.0_dp
+      block%compression(lane, :, :) = 0.0_dp
+      block%next_compression(lane, :) = 0.0_dp
       call start_period(lane, block)
       ! Far from the end of a period, so that it never ends one.
       block%phase(lane) = -1.0e6_dp
@@ -201,6 +226,7 @@ contains
 
       state%film = block%film(lane, 0)*block%film_scale(lane)
       state%momentum = block%momentum(lane, 0)
+      state%compression = block%compression(lane, :, 0)*block%film_scale(lane)
       state%velocity = (state%momentum + slip_velocity(block%film(lane, 0), lane, block))*block%velocity_scale(lane)
       state%carried_on = .true.
    end function state_of_lane

@@ -9,16 +9,17 @@
 !> status_not_converged at the start of that period, for collocation to go on.
 module lane_integration
    use collocation_step, only: take_collocation_step
+   use elastic_step, only: advance_springs, take_elastic_step
    use engine, only: ending_t, motion_count_t, motion_state_t, request_t
    use film_series, only: series_of, set_coefficients
    use kinds, only: dp, int64
-   use lane_advance, only: advance, largest_series_rate, lost_film, shortest_step, take_series_step
-   use lane_block, only: load_problem, place_block, rest_lane, start_period, start_status, state_of_lane
+   use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step
+   use lane_block, only: load_problem, lost_film, place_block, rest_lane, start_period, start_status, state_of_lane
    use lane_functions, only: lanes
    use lane_repetition, only: find_repetition, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
-   use problem, only: problem_t
+   use problem, only: has_elastic_teeth, problem_t
    use repetition, only: orbit_watch_t, watch_from
    use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
@@ -35,7 +36,7 @@ module lane_integration
 contains
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
-   subroutine integrate_lanes(by_series, problems, starts, queue, request, films, velocities, endings, watches, records)
+   subroutine integrate_lanes(by_series, problems, starts, queue, request, states, endings, watches, records)
       !> Taylor series, else collocation
       logical, intent(in) :: by_series
       !> What moves, and where each motion starts
@@ -45,9 +46,8 @@ contains
       integer, intent(in) :: queue(:)
       !> What is asked for
       type(request_t), intent(in) :: request
-      !> Samples of h [m] and z' [m/s]: sample, scene
-      real(dp), contiguous, intent(inout) :: films(:, :)
-      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> Samples: sample, number of its state, scene
+      real(dp), contiguous, intent(inout) :: states(:, :, :)
       !> How the motions ended; on entry the steps they took before
       type(ending_t), intent(inout) :: endings(:)
       !> What the watchers of the scenes carried on have seen, kept up
@@ -62,6 +62,7 @@ contains
       call place_block(room, run%block)
       run%by_series = by_series
       if (size(queue) > 0) run%series = series_of(problems(queue(1)))
+      if (size(queue) > 0) run%elastic = has_elastic_teeth(problems(queue(1)))
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
@@ -73,12 +74,17 @@ contains
          if (by_series) then
             call take_series_step(run%series, run%block)
          else
-            call take_collocation_step(run%films, run%watches%scene > 0, run%block)
+            if (run%elastic) then
+               call take_elastic_step(run%films, run%watches%scene > 0, run%block)
+            else
+               call take_collocation_step(run%films, run%watches%scene > 0, run%block)
+            end if
          end if
          if (run%samples%sampled_lanes > 0) then
-            call take_samples(run%block, run%samples, films, velocities)
+            call take_samples(run%block, run%samples, states)
             if (present(records)) call take_lane_nodes(records, run)
          end if
+         if (run%elastic) call advance_springs(run%block)
          call advance(run%most_steps, run%largest_rate, run%block, events)
          if (events == 0) cycle
          do l = 1, lanes
@@ -87,7 +93,7 @@ contains
                cycle
             end if
             if (run%block%remaining(l) <= 0.0_dp) then
-               call end_period(l, problems, request, films, velocities, run, records)
+               call end_period(l, problems, request, states, run, records)
             else if (in_trouble(l, run) .and. run%watches(l)%departure%period > 0) then
                run%watches(l)%ending%count%steps = run%watches(l)%ending%count%steps + nint(run%block%period_steps(l), int64)
                call start_period(l, run%block)
@@ -135,7 +141,8 @@ contains
             watch%sample_from = max(0, request%periods - request%sampled_periods)
             watch%film = run%block%film(lane, 0)
             watch%momentum = run%block%momentum(lane, 0)
-            watch%states = watch_from(watch%film, watch%momentum)
+            watch%compression = run%block%compression(lane, :, 0)
+            watch%states = watch_from(watch%film, watch%momentum, watch%compression)
             watch%departure%period = 0
             watch%excursions = 0
             if (present(watches) .and. starts(scene)%carried_on) watch%states = watches(scene)
@@ -192,13 +199,12 @@ contains
    end function samples_before
 
    !> A period has ended: does the motion repeat, are samples due?
-   pure subroutine end_period(lane, problems, request, films, velocities, run, records)
+   pure subroutine end_period(lane, problems, request, states, run, records)
       !> Lane
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problems(:)
       type(request_t), intent(in) :: request
-      real(dp), contiguous, intent(inout) :: films(:, :)
-      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      real(dp), contiguous, intent(inout) :: states(:, :, :)
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
       type(motion_state_t) :: state
@@ -213,7 +219,8 @@ contains
          watch%period = watch%period + 1
          watch%film = block%film(lane, 0)
          watch%momentum = block%momentum(lane, 0)
-         call find_repetition(lane, problems(watch%scene), request, films, velocities, run)
+         watch%compression = block%compression(lane, :, 0)
+         call find_repetition(lane, problems(watch%scene), request, states, run)
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_period(lane, run, records)
       end associate
@@ -227,7 +234,7 @@ contains
 
       associate (watch => run%watches(lane), block => run%block)
          watch%ending%status = status_not_converged
-         if (min(block%film(lane, 0), block%backlash(lane) - block%film(lane, 0)) < lost_film) &
+         if (block%film(lane, 0) < lost_film .or. block%film(lane, 0) > block%widest_film(lane)) &
             watch%ending%status = status_film_lost
          if (block%no_load(lane)) watch%ending%status = run%films(lane)%status_without_load
          watch%phase = block%phase(lane)
@@ -237,6 +244,7 @@ contains
          run%nodes(lane)%pieces = 0
          block%film(lane, 0) = watch%film
          block%momentum(lane, 0) = watch%momentum
+         block%compression(lane, :, 0) = watch%compression
          watch%last_period = watch%period
       end associate
    end subroutine give_up
@@ -259,6 +267,7 @@ contains
          run%samples%written(l) = samples_before(run%watches(l), run%samples)
          run%block%film(l, 0) = run%watches(l)%film
          run%block%momentum(l, 0) = run%watches(l)%momentum
+         run%block%compression(l, :, 0) = run%watches(l)%compression
          call finish(l, problems, run, endings, watches)
       end do
       do i = run%taken + 1, size(queue)
@@ -313,7 +322,8 @@ contains
 
       in_trouble = .not. (run%block%limit(lane) > shortest_step &
          .and. run%block%period_steps(lane) <= run%most_steps &
-                          .and. min(run%block%film(lane, 0), run%block%backlash(lane) - run%block%film(lane, 0)) > lost_film &
+                          .and. run%block%film(lane, 0) > lost_film &
+                          .and. run%block%film(lane, 0) < run%block%widest_film(lane) &
                           .and. run%block%damping_rate(lane) < run%largest_rate)
    end function in_trouble
 

@@ -45,16 +45,15 @@ module lane_repetition
 contains
 
    !> Look for repetition at the end of a period.
-   pure subroutine find_repetition(lane, problem, request, films, velocities, run)
+   pure subroutine find_repetition(lane, problem, request, states, run)
       !> Lane
       integer, intent(in) :: lane
       !> What moves there
       type(problem_t), intent(in) :: problem
       !> What is asked for
       type(request_t), intent(in) :: request
-      !> Samples of h [m] and z' [m/s]: sample, scene
-      real(dp), contiguous, intent(inout) :: films(:, :)
-      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> Samples: sample, number of its state, scene
+      real(dp), contiguous, intent(inout) :: states(:, :, :)
       !> The block, its period counted and its state that of the period's end
       type(lane_run_t), intent(inout) :: run
       real(dp) :: weight, distance
@@ -66,18 +65,18 @@ contains
             weight = momentum_weight(min(watch%film, block%backlash(lane) - watch%film), block%damping_rate(lane), &
                                      block%force(lane))
             call note_state(watch%states, watch%film, watch%momentum, weight, settling_of_lane(lane, problem, run), &
-                            repetition_share*request%accuracy, orbit, distance, block%backlash(lane))
+                            repetition_share*request%accuracy, orbit, distance, block%backlash(lane), watch%compression)
             if (orbit > 0) then
                watch%ending%orbit = orbit
                watch%ending%distance = distance
                watch%ending%status = status_steady
                watch%sample_from = watch%period
                watch%last_period = watch%period + min(orbit, request%sampled_periods)
-            else if (request%forecast) then
+            else if (request%forecast .and. .not. run%elastic) then
                call look_ahead(weight, lane, run)
             end if
          else if (.not. (request%until_steady .or. request%every_period)) then
-            call skip_returns(lane, films, velocities, run)
+            call skip_returns(lane, states, run)
          end if
       end associate
    end subroutine find_repetition
@@ -98,24 +97,24 @@ contains
 
    !> Skip the periods in which the motion only returns to the state it is in, to the last bit: whole cycles up to where
    !> sampling begins, and at the end those whose samples are the ones of the cycle before. Their steps count like the others.
-   pure subroutine skip_returns(lane, films, velocities, run)
+   pure subroutine skip_returns(lane, states, run)
       !> Lane
       integer, intent(in) :: lane
-      real(dp), contiguous, intent(inout) :: films(:, :)
-      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      real(dp), contiguous, intent(inout) :: states(:, :, :)
       type(lane_run_t), intent(inout) :: run
       integer(int64) :: cycle_steps
       integer :: cycle_periods, cycles
 
       associate (watch => run%watches(lane))
-         call look_back(watch%past, watch%period, watch%film, watch%momentum, watch%ending%count%steps, cycle_periods, cycle_steps)
+         call look_back(watch%past, watch%period, [watch%film, watch%momentum, watch%compression], watch%ending%count%steps, &
+                        cycle_periods, cycle_steps)
          if (cycle_periods == 0) return
          cycles = 0
          if (watch%period < watch%sample_from) then
             cycles = (watch%sample_from - watch%period)/cycle_periods
          else if (watch%period - cycle_periods >= watch%sample_from) then
             cycles = (watch%last_period - watch%period)/cycle_periods
-            call repeat_samples(cycle_periods, cycles, lane, run%samples, films, velocities)
+            call repeat_samples(cycle_periods, cycles, lane, run%samples, states)
          end if
          if (cycles == 0) return
          watch%period = watch%period + cycles*cycle_periods

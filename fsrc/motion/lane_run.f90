@@ -26,8 +26,8 @@ module lane_run
       integer :: scene = 0
       !> Periods done, to be done, and from which on to sample
       integer :: period = 0, last_period = 0, sample_from = 0
-      !> Start of the present period: scaled film and momentum
-      real(dp) :: film = 0.0_dp, momentum = 0.0_dp
+      !> Start of the present period: scaled film, momentum and compressions
+      real(dp) :: film = 0.0_dp, momentum = 0.0_dp, compression(2) = 0.0_dp
       !> Looks for repetition, and for return to the last bit
       type(orbit_watch_t) :: states = orbit_watch_t()
       type(recurrence_t) :: past = recurrence_t()
@@ -41,8 +41,8 @@ module lane_run
 
    !> A block at work.
    type, public :: lane_run_t
-      !> Taylor series, else collocation; and whose series
-      logical :: by_series = .true.
+      !> Taylor series, else collocation; and whose series; and whether the teeth give
+      logical :: by_series = .true., elastic = .false.
       type(film_series_t) :: series
       !> Most steps in a period, and largest damping rate [1/periods]
       real(dp) :: most_steps = 0.0_dp, largest_rate = 0.0_dp

@@ -4,6 +4,7 @@ module lane_sampling
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
+   use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
    implicit none(type, external)
    private
@@ -52,16 +53,15 @@ contains
 
    !> Take the samples that lie within the present step of any lane, lane by lane: most of the time few lanes are
    !> being sampled, while all samples of one step share its series.
-   pure subroutine take_samples(block, samples, films, velocities)
+   pure subroutine take_samples(block, samples, states)
       !> The block, with series and steps
       type(lane_block_t), intent(in) :: block
       type(lane_samples_t), intent(inout) :: samples
-      !> h [m] and z' [m/s] of all scenes: sample, scene
-      real(dp), contiguous, intent(inout) :: films(:, :)
-      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> Of all scenes: sample, number of its state, scene
+      real(dp), contiguous, intent(inout) :: states(:, :, :)
       real(dp) :: x(together), film(together), velocity(together), film_series(0:order), momentum_series(0:order)
       real(dp) :: due_until, number
-      integer :: l, i, due, last, first
+      integer :: l, i, due, last, first, flank
 
       number = real(samples%per_period, dp)
       do l = 1, lanes
@@ -80,8 +80,14 @@ contains
             end do
             call evaluate_lane(film_series, momentum_series, block%slip(l), block%backlash(l), x, film, velocity)
             first = samples%written(l) + 1
-            films(first:first + due - 1, samples%column(l)) = film(:due)*block%film_scale(l)
-            velocities(first:first + due - 1, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
+            states(first:first + due - 1, of_film, samples%column(l)) = film(:due)*block%film_scale(l)
+            states(first:first + due - 1, of_velocity, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
+            do flank = 1, size(states, 2) - 2
+               film_series = block%compression(l, flank, :)
+               call evaluate_lane(film_series, momentum_series, 0.0_dp, x, film, velocity)
+               states(first:first + due - 1, of_velocity + flank, samples%column(l)) = film(:due)*block%film_scale(l)
+            end do
+            if (size(states, 2) > 2) film_series = block%film(l, :)
             samples%written(l) = samples%written(l) + due
             samples%next(l) = samples%next(l) + due
          end do
@@ -89,23 +95,21 @@ contains
    end subroutine take_samples
 
    !> Write the samples of the last periods once more, and again.
-   pure subroutine repeat_samples(cycle_periods, cycles, lane, samples, films, velocities)
+   pure subroutine repeat_samples(cycle_periods, cycles, lane, samples, states)
       !> The last periods that count
       integer, intent(in) :: cycle_periods
       !> How often
       integer, intent(in) :: cycles
       integer, intent(in) :: lane
       type(lane_samples_t), intent(inout) :: samples
-      !> h [m] and z' [m/s] of all scenes: sample, scene
-      real(dp), contiguous, intent(inout) :: films(:, :)
-      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> Of all scenes: sample, number of its state, scene
+      real(dp), contiguous, intent(inout) :: states(:, :, :)
       integer :: distance, i, column
 
       distance = cycle_periods*samples%per_period
       column = samples%column(lane)
       do i = samples%written(lane) + 1, samples%written(lane) + cycles*distance
-         films(i, column) = films(i - distance, column)
-         velocities(i, column) = velocities(i - distance, column)
+         states(i, :, column) = states(i - distance, :, column)
       end do
       samples%written(lane) = samples%written(lane) + cycles*distance
    end subroutine repeat_samples
@@ -149,6 +153,7 @@ contains
             velocity(i) = velocity(i)*x(i) + momentum_series(k)
          end do
       end do
+      if (.not. slip > 0.0_dp) return
       !$omp simd
       do i = 1, together
          velocity(i) = velocity(i) + slip/sqrt(film(i))

@@ -7,7 +7,7 @@ module many_motions
    use kinds, only: dp
    use lane_block, only: lane_accuracy, start_status
    use lane_integration, only: integrate_lanes
-   use problem, only: has_two_flanks, net_load, problem_t, static_load, thinner_film
+   use problem, only: has_elastic_teeth, has_two_flanks, net_load, problem_t, static_load, thinner_film
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_film_lost, status_not_converged
    use window_record, only: window_record_t
@@ -19,16 +19,15 @@ module many_motions
 contains
 
    !> Solve all problems. Their order decides only which share a block: those of like cost should be neighbours, the longest first.
-   subroutine solve_motions(problems, starts, request, films, velocities, endings, watches, records)
+   subroutine solve_motions(problems, starts, request, states, endings, watches, records)
       !> What moves
       type(problem_t), intent(in) :: problems(:)
       !> Where each motion starts
       type(motion_state_t), intent(in) :: starts(:)
       !> What is asked for
       type(request_t), intent(in) :: request
-      !> Samples of h [m] and z' [m/s]: sample, problem; at least sampled_periods*samples_per_period of a problem
-      real(dp), contiguous, intent(inout) :: films(:, :)
-      real(dp), contiguous, intent(inout) :: velocities(:, :)
+      !> Samples: sample, number of its state, problem; at least sampled_periods*samples_per_period of a problem
+      real(dp), contiguous, intent(inout) :: states(:, :, :)
       !> How the motions ended
       type(ending_t), intent(out) :: endings(:)
       !> What a search for repetition that is carried on looks back on, problem by problem; without it every search begins anew
@@ -44,14 +43,15 @@ contains
       allocate (explicit(size(problems)), left(size(problems)), alike(size(problems)), number(size(problems)))
       number(:) = [(i, i=1, size(problems))]
       explicit(:) = has_series(problems, lane_accuracy(problems, request%accuracy)) .and. .not. starts%implicit &
+                    .and. .not. has_elastic_teeth(problems) &
                     .and. .not. outgrows_series(problems, starts)
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)
          alike(:) = problems%film%kernel == problems(first)%film%kernel &
                     .and. (has_two_flanks(problems) .eqv. has_two_flanks(problems(first)))
-         call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), request, films, velocities, endings, &
-                              watches, records)
+         call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), request, states, endings, watches, &
+                              records)
          left(:) = left .and. .not. alike
       end do
 
@@ -63,8 +63,13 @@ contains
          if (left(i)) rest(i) = motion_state_t(periods=endings(i)%periods, film=endings(i)%film, velocity=endings(i)%velocity, &
                                                implicit=.true.)
       end do
-      if (any(left)) &
-         call integrate_lanes(.false., problems, rest, pack(number, left), request, films, velocities, endings, watches, records)
+      ! Teeth that give are followed by steps of their own.
+      do kernel = 0, 1
+         associate (these => left .and. (has_elastic_teeth(problems) .eqv. kernel == 1))
+            if (any(these)) &
+               call integrate_lanes(.false., problems, rest, pack(number, these), request, states, endings, watches, records)
+         end associate
+      end do
    end subroutine solve_motions
 
    !> Whether the coefficients of a series about the start of a motion, in powers of time in periods, would overflow.

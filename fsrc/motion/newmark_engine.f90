@@ -44,7 +44,7 @@ contains
 
       procedure(film_kernel), pointer :: kernel
       type(newmark_state_t) :: state
-      real(dp), allocatable :: force(:), films(:), velocities(:), accelerations(:)
+      real(dp), allocatable :: force(:), states_of_steps(:, :), accelerations(:)
       type(orbit_watch_t) :: states
       logical :: searching
       integer(int64) :: first_step
@@ -55,7 +55,7 @@ contains
       record%periods = 0
       kernel => kernel_of(problem%film)
       steps = request%samples_per_period
-      allocate (force(steps), films(steps), velocities(steps), accelerations(steps))
+      allocate (force(steps), states_of_steps(steps, 2), accelerations(steps))
       call force_of_period(problem%force, force)
 
       ! Without a film to start from there is none that carries the static load.
@@ -70,7 +70,8 @@ contains
          call start_motion(kernel, problem, state, ending%count, ending%status)
          ending%film = state%film
          if (ending%status /= status_complete) return
-         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], [state%film], [state%velocity], [state%acceleration], error)
+         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], reshape([state%film, state%velocity], [1, 2]), &
+                        [state%acceleration], error)
          if (allocated(error)) return
       end if
       ending%status = status_complete
@@ -88,9 +89,10 @@ contains
       do while (period < last_period)
          period = period + 1
          first_step = int(period - 1, int64)*int(steps, int64) + 1_int64
-         call advance_period(kernel, problem, request, force, state, ending%count, films, velocities, accelerations, done, &
+         call advance_period(kernel, problem, request, force, state, ending%count, states_of_steps(:, 1), &
+                             states_of_steps(:, 2), accelerations, done, &
                              ending%status)
-         call sink%take(first_step, force(:done), films(:done), velocities(:done), accelerations(:done), error)
+         call sink%take(first_step, force(:done), states_of_steps(:done, :), accelerations(:done), error)
          ending%film = state%film
          ending%velocity = state%velocity
          ending%time = real(first_step + int(done - 1, int64), dp)/(problem%frequency*real(steps, dp))

@@ -5,17 +5,19 @@
 !> parabola is renewed until it stands.
 module node_extremes
    use kinds, only: dp
-   use problem, only: acceleration_at, coast_loads, drive_loads, largest_pressures, net_loads, problem_t
+   use problem, only: acceleration_at, coast_films, coast_loads, drive_loads, gear_positions, largest_pressures, largest_state, &
+      net_loads, of_film, of_velocity, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    use value_range, only: range_of
    implicit none(type, external)
    private
 
    !> Quantities whose extremes are looked for: h [m], z' [m/s], z'' [m/s2], load of the drive film [N], largest pressure of the
-   !> exact films [Pa]; and where there are two flanks load of the coast film and net load [N].
+   !> exact films [Pa]; where there are two flanks load of the coast film and net load [N]; where teeth give film of the coast flank
+   !> and position of the gear [m].
    integer, parameter, public :: seen_film = 1, seen_velocity = 2, seen_acceleration = 3, seen_load = 4, seen_pressure = 5, &
-                                 seen_coast_load = 6, seen_net_load = 7
-   integer, parameter, public :: seen_quantities = 7
+                                 seen_coast_load = 6, seen_net_load = 7, seen_coast_film = 8, seen_position = 9
+   integer, parameter, public :: seen_quantities = 9
 
    !> How far above its nodes a smooth curve may rise within a piece, as a share of its range there.
    real(dp), parameter :: between = 0.06_dp
@@ -30,9 +32,8 @@ module node_extremes
    !> An extreme and the state there.
    type, public :: extreme_t
       real(dp) :: value = 0.0_dp
-      !> h [m] and z' [m/s]
-      real(dp) :: film = 0.0_dp
-      real(dp) :: velocity = 0.0_dp
+      !> Its numbers
+      real(dp) :: state(largest_state) = 0.0_dp
       !> When: periods since the window began, and phase
       integer :: period = 0
       real(dp) :: phase = 0.0_dp
@@ -44,7 +45,7 @@ module node_extremes
 contains
 
    !> Smallest and largest value of a quantity over some pieces, kept where they are beyond those found before.
-   pure subroutine find_extremes(problem, quantity, period, start, length, films, velocities, values, lowest, highest)
+   pure subroutine find_extremes(problem, quantity, period, start, length, states, values, lowest, highest)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: quantity
       !> Periods since the window began
@@ -52,9 +53,8 @@ contains
       !> Phase where each piece begins, and its length [periods]
       real(dp), intent(in) :: start(:)
       real(dp), intent(in) :: length(:)
-      !> h [m], z' [m/s] and the quantity at the nodes, eight a piece
-      real(dp), contiguous, intent(in) :: films(:)
-      real(dp), contiguous, intent(in) :: velocities(:)
+      !> State and quantity at the nodes, eight a piece
+      real(dp), intent(in) :: states(:, :)
       real(dp), contiguous, intent(in) :: values(:)
       !> Extremes found so far
       type(extreme_t), intent(inout) :: lowest
@@ -139,7 +139,8 @@ contains
          node = modulo(i - 1, nodes_per_piece) + 1
          x = [0.0_dp, node_place(node), 1.0_dp]
          y(2) = sign_of*values(i)
-         best = extreme_t(values(i), films(i), velocities(i), period, start(piece) + x(2)*length(piece), .true.)
+         best = extreme_t(value=values(i), period=period, phase=start(piece) + x(2)*length(piece), exists=.true.)
+         best%state(:size(states, 2)) = states(i, :)
          do j = 1, 3, 2
             if (node + j - 2 >= 1 .and. node + j - 2 <= nodes_per_piece) then
                x(j) = node_place(node + j - 2)
@@ -173,30 +174,36 @@ contains
       pure type(extreme_t) function at_place(piece, x)
          integer, intent(in) :: piece
          real(dp), intent(in) :: x
-         real(dp) :: value(1)
+         real(dp) :: value(1), here(1, size(states, 2))
          integer :: before
 
          before = nodes_per_piece*(piece - 1)
          at_place%exists = .true.
          at_place%period = period
          at_place%phase = start(piece) + x*length(piece)
-         call interpolate(films(before + 1:before + nodes_per_piece), velocities(before + 1:before + nodes_per_piece), x, &
-                          at_place%film, at_place%velocity)
+         associate (numbers => size(states, 2))
+            call interpolate(states(before + 1:before + nodes_per_piece, :), x, at_place%state(:numbers))
+            here(1, :) = at_place%state(:numbers)
+         end associate
          select case (quantity)
          case (seen_film)
-            value = at_place%film
+            value = at_place%state(of_film)
          case (seen_velocity)
-            value = at_place%velocity
+            value = at_place%state(of_velocity)
          case (seen_pressure)
-            call largest_pressures(problem, [at_place%film], [at_place%velocity], value)
+            call largest_pressures(problem, here, value)
          case (seen_acceleration)
-            value = acceleration_at(problem, at_place%film, at_place%velocity, min(1.0_dp, at_place%phase))
+            value = acceleration_at(problem, here(1, :), min(1.0_dp, at_place%phase))
          case (seen_coast_load)
-            call coast_loads(problem, [at_place%film], [at_place%velocity], value)
+            call coast_loads(problem, here, value)
          case (seen_net_load)
-            call net_loads(problem, [at_place%film], [at_place%velocity], value)
+            call net_loads(problem, here, value)
+         case (seen_coast_film)
+            value = coast_films(problem, here)
+         case (seen_position)
+            value = gear_positions(problem, here)
          case default
-            call drive_loads(problem, [at_place%film], [at_place%velocity], value)
+            call drive_loads(problem, here, value)
          end select
          at_place%value = value(1)
       end function at_place

@@ -62,6 +62,8 @@ module repetition
       integer :: newest = 0
       real(dp) :: film(0:kept - 1) = 0.0_dp
       real(dp) :: momentum(0:kept - 1) = 0.0_dp
+      !> Scaled compressions of teeth that give [-]
+      real(dp) :: compression(2, 0:kept - 1) = 0.0_dp
       !> Scaled backlash [-], told with every state; huge: there is one flank
       real(dp) :: backlash = huge(1.0_dp)
    end type orbit_watch_t
@@ -75,8 +77,8 @@ module repetition
    !> A state at the start of a period.
    type :: mark_t
       integer :: period = -1
-      !> Bits of H and V
-      integer(int64) :: film = 0_int64, momentum = 0_int64
+      !> Bits of H, V and the compressions
+      integer(int64) :: state(4) = 0_int64
       !> Steps up to there
       integer(int64) :: steps = 0_int64
    end type mark_t
@@ -92,15 +94,19 @@ module repetition
 contains
 
    !> Watcher of a motion that starts from a state.
-   pure type(orbit_watch_t) function watch_from(film, momentum)
+   pure type(orbit_watch_t) function watch_from(film, momentum, compression)
       !> Scaled film H [-]
       real(dp), intent(in) :: film
       !> Scaled momentum V [-]
       real(dp), intent(in) :: momentum
 
+      !> Scaled compressions, where teeth give [-]
+      real(dp), intent(in), optional :: compression(2)
+
       watch_from%count = 1
       watch_from%film(watch_from%newest) = film
       watch_from%momentum(watch_from%newest) = momentum
+      if (present(compression)) watch_from%compression(:, watch_from%newest) = compression
    end function watch_from
 
    !> Scaled film and momentum of some periods ago, at most `count` - 1 and `kept` - 1.
@@ -126,7 +132,8 @@ contains
    end function weight_of_film
 
    !> Take the state at the end of a period.
-   pure subroutine note_state(watch, film, momentum, momentum_weight, settling, tolerance, orbit, distance, backlash)
+   pure subroutine note_state(watch, film, momentum, momentum_weight, settling, tolerance, orbit, distance, &
+                              backlash, compression)
       !> Watcher of this motion
       type(orbit_watch_t), intent(inout) :: watch
       !> Scaled film H [-]
@@ -145,6 +152,8 @@ contains
       real(dp), intent(out) :: distance
       !> Scaled backlash, where there are two flanks [-]
       real(dp), intent(in), optional :: backlash
+      !> Scaled compressions, where teeth give [-]
+      real(dp), intent(in), optional :: compression(2)
       integer :: last, periods
 
       if (present(backlash)) watch%backlash = backlash
@@ -152,6 +161,7 @@ contains
       watch%newest = modulo(watch%newest + 1, kept)
       watch%film(watch%newest) = film
       watch%momentum(watch%newest) = momentum
+      if (present(compression)) watch%compression(:, watch%newest) = compression
       watch%count = watch%count + 1
       last = 1
       if (watch%count >= longer_from .and. modulo(watch%count, longer_every) == 0) last = longest_orbit
@@ -306,20 +316,18 @@ contains
 
       i = modulo(watch%newest - back_1, kept)
       j = modulo(watch%newest - back_2, kept)
-      apart = max(abs(watch%film(i) - watch%film(j)), abs(watch%momentum(i) &
-         - watch%momentum(j))*momentum_weight) &
-         /weight_of_film(watch, watch%film(i))
+      apart = max(abs(watch%film(i) - watch%film(j)), abs(watch%momentum(i) - watch%momentum(j))*momentum_weight, &
+                  maxval(abs(watch%compression(:, i) - watch%compression(:, j))))/weight_of_film(watch, watch%film(i))
    end function apart
 
    !> Compare the state at the start of a period with earlier ones, and keep it.
-   pure subroutine look_back(past, period, film, momentum, steps, cycle_periods, cycle_steps)
+   pure subroutine look_back(past, period, state, steps, cycle_periods, cycle_steps)
       !> What the motion looks back on
       type(recurrence_t), intent(inout) :: past
       !> Periods done
       integer, intent(in) :: period
-      !> Scaled film H and momentum V [-]
-      real(dp), intent(in) :: film
-      real(dp), intent(in) :: momentum
+      !> Scaled film H, momentum V and compressions [-]
+      real(dp), intent(in) :: state(4)
       !> Steps up to here
       integer(int64), intent(in) :: steps
       !> Periods since the motion was in this very state, 0: it is new
@@ -329,7 +337,7 @@ contains
       type(mark_t) :: here
       integer :: i, stays
 
-      here = mark_t(period, transfer(film, 0_int64), transfer(momentum, 0_int64), steps)
+      here = mark_t(period, transfer(state, here%state), steps)
       cycle_periods = 0
       cycle_steps = 0_int64
       do i = size(mark_periods), 1, -1
@@ -350,7 +358,7 @@ contains
       type(mark_t), intent(in) :: here
       type(mark_t), intent(in) :: mark
 
-      same_state = mark%period >= 0 .and. here%film == mark%film .and. here%momentum == mark%momentum
+      same_state = mark%period >= 0 .and. all(here%state == mark%state)
    end function same_state
 
 end module repetition

@@ -6,6 +6,7 @@
 module step_nodes
    use kinds, only: dp
    use lane_block, only: lane_block_t
+   use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
    implicit none(type, external)
    private
@@ -29,8 +30,8 @@ module step_nodes
       integer :: pieces = 0
       !> Phase where a piece begins, and its length [periods]
       real(dp), allocatable :: start(:), length(:)
-      !> h [m] and z' [m/s] at the nodes, eight a piece
-      real(dp), allocatable :: films(:), velocities(:)
+      !> States at the nodes, eight a piece: node, number of the state
+      real(dp), allocatable :: states(:, :)
    end type step_nodes_t
 
    public :: take_nodes, interpolate
@@ -48,13 +49,16 @@ contains
       type(step_nodes_t), intent(inout) :: nodes
       real(dp), dimension(nodes_per_piece) :: x, film, velocity, odd_film, odd_velocity
       real(dp) :: film_series(0:order), momentum_series(0:order), length
-      integer :: pieces, piece, before, i, k
+      real(dp) :: compression(nodes_per_piece)
+      integer :: pieces, piece, before, numbers, flank, i, k
 
       film_series = block%film(lane, :)
       momentum_series = block%momentum(lane, :)
       pieces = max(1, ceiling(block%step(lane)/longest_piece))
       length = block%step(lane)/real(pieces, dp)
-      call provide_room(nodes, nodes%pieces + pieces)
+      numbers = 2
+      if (block%compliance(lane) > 0.0_dp) numbers = merge(4, 3, block%backlash(lane) < huge(1.0_dp))
+      call provide_room(nodes, nodes%pieces + pieces, numbers)
       do piece = 1, pieces
          x = (real(piece - 1, dp) + node_place)*length
          ! Even and odd powers apart: four sums that do not wait for each other.
@@ -82,25 +86,42 @@ contains
          nodes%pieces = nodes%pieces + 1
          nodes%start(nodes%pieces) = block%phase(lane) + real(piece - 1, dp)*length
          nodes%length(nodes%pieces) = length
-         nodes%films(before + 1:before + nodes_per_piece) = film*block%film_scale(lane)
-         nodes%velocities(before + 1:before + nodes_per_piece) = velocity*block%velocity_scale(lane)
+         nodes%states(before + 1:before + nodes_per_piece, of_film) = film*block%film_scale(lane)
+         nodes%states(before + 1:before + nodes_per_piece, of_velocity) = velocity*block%velocity_scale(lane)
+         do flank = 1, numbers - 2
+            compression = 0.0_dp
+            do k = order, 0, -1
+               compression = compression*x + block%compression(lane, flank, k)
+            end do
+            nodes%states(before + 1:before + nodes_per_piece, of_velocity + flank) = compression*block%film_scale(lane)
+         end do
       end do
    end subroutine take_nodes
 
    !> See that so many pieces have their place.
-   pure subroutine provide_room(nodes, pieces)
+   pure subroutine provide_room(nodes, pieces, numbers)
       type(step_nodes_t), intent(inout) :: nodes
       integer, intent(in) :: pieces
-      integer :: room
+      !> Of a state
+      integer, intent(in) :: numbers
+      real(dp), allocatable :: longer(:, :)
+      integer :: room, filled
 
       room = 0
-      if (allocated(nodes%start)) room = size(nodes%start)
-      if (room >= pieces) return
+      filled = 0
+      if (allocated(nodes%states)) then
+         room = size(nodes%start)
+         filled = room
+         ! The lane has taken a motion of other states, of which nothing stands here yet.
+         if (size(nodes%states, 2) /= numbers) filled = 0
+      end if
+      if (room >= pieces .and. filled > 0) return
       room = max(first_room, pieces, 2*room)
       call extend(nodes%start, room)
       call extend(nodes%length, room)
-      call extend(nodes%films, nodes_per_piece*room)
-      call extend(nodes%velocities, nodes_per_piece*room)
+      allocate (longer(nodes_per_piece*room, numbers))
+      if (filled > 0) longer(:nodes_per_piece*filled, :) = nodes%states
+      call move_alloc(longer, nodes%states)
    end subroutine provide_room
 
    !> Lengthen an array.
@@ -114,29 +135,27 @@ contains
       call move_alloc(longer, numbers)
    end subroutine extend
 
-   !> Film and velocity within a piece, from those at its nodes.
-   pure subroutine interpolate(films, velocities, x, film, velocity)
-      !> h [m] and z' [m/s] at the nodes
-      real(dp), intent(in) :: films(nodes_per_piece)
-      real(dp), intent(in) :: velocities(nodes_per_piece)
+   !> State within a piece, from those at its nodes.
+   pure subroutine interpolate(states, x, state)
+      !> Node, number of the state
+      real(dp), intent(in) :: states(:, :)
       !> Place in the piece, from 0 to 1
       real(dp), intent(in) :: x
-      !> h [m] and z' [m/s] there
-      real(dp), intent(out) :: film
-      real(dp), intent(out) :: velocity
+      !> Its numbers there
+      real(dp), intent(out) :: state(:)
       real(dp) :: distance(nodes_per_piece), factor(nodes_per_piece)
-      integer :: nearest
+      integer :: nearest, number
 
       distance = x - node_place
       if (any(abs(distance) < epsilon(1.0_dp))) then
          nearest = minloc(abs(distance), dim=1)
-         film = films(nearest)
-         velocity = velocities(nearest)
+         state = states(nearest, :)
       else
          factor = barycentric/distance
          factor = factor/sum(factor)
-         film = sum(factor*films)
-         velocity = sum(factor*velocities)
+         do number = 1, size(state)
+            state(number) = sum(factor*states(:, number))
+         end do
       end if
    end subroutine interpolate
 

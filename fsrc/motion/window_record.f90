@@ -19,9 +19,10 @@ module window_record
    use force, only: forces_on_circle
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
-   use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_coast_load, seen_film, seen_load, &
-      seen_net_load, seen_pressure, seen_quantities, seen_velocity
-   use problem, only: coast_loads, drive_loads, has_two_flanks, largest_pressures, problem_t, static_load
+   use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, &
+      seen_load, seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
+   use problem, only: coast_films, coast_loads, drive_loads, gear_positions, has_elastic_teeth, has_two_flanks, &
+      largest_pressures, of_film, of_velocity, problem_t, static_load
    use step_nodes, only: node_place, node_weight, nodes_per_piece, step_nodes_t
    implicit none(type, external)
    private
@@ -105,8 +106,7 @@ contains
       do first = 1, nodes%pieces, block_pieces
          last = min(first + block_pieces - 1, nodes%pieces)
          call record_pieces(problem, nodes%start(first:last), nodes%length(first:last), &
-                            nodes%films(nodes_per_piece*(first - 1) + 1:nodes_per_piece*last), &
-                            nodes%velocities(nodes_per_piece*(first - 1) + 1:nodes_per_piece*last), record)
+                            nodes%states(nodes_per_piece*(first - 1) + 1:nodes_per_piece*last, :), record)
       end do
       nodes%pieces = 0
       if (record%multiples > 0) call add_coefficients(end_velocity - record%end_velocity, record)
@@ -133,21 +133,23 @@ contains
    end subroutine add_coefficients
 
    !> Add some pieces of steps.
-   pure subroutine record_pieces(problem, start, length, films, velocities, record)
+   pure subroutine record_pieces(problem, start, length, states, record)
       type(problem_t), intent(in) :: problem
       !> Phase where each begins, and its length [periods]
       real(dp), intent(in) :: start(:)
       real(dp), intent(in) :: length(:)
-      !> h [m] and z' [m/s] at the nodes
-      real(dp), contiguous, intent(in) :: films(:)
-      real(dp), contiguous, intent(in) :: velocities(:)
+      !> States at the nodes
+      real(dp), intent(in) :: states(:, :)
       type(window_record_t), intent(inout) :: record
+      real(dp), dimension(size(states, 1)) :: films, velocities
       real(dp), dimension(block_nodes) :: phases, weights, values, loads, coast, forces, cosine, sine
       real(dp) :: sum_of, size_of, square_of, film_work, force_work, work_size, period
       real(dp) :: static, beyond, cube_of, fourth_of, beyond_sum, beyond_square, beyond_power
       integer :: n, i, before
 
       n = size(films)
+      films = states(:, of_film)
+      velocities = states(:, of_velocity)
       do i = 1, size(start)
          before = nodes_per_piece*(i - 1)
          phases(before + 1:before + nodes_per_piece) = start(i) + node_place*length(i)
@@ -159,14 +161,16 @@ contains
       do i = 1, n, lanes
          call lane_cosine_sine(phases(i:i + lanes - 1), cosine(i:i + lanes - 1), sine(i:i + lanes - 1))
       end do
-      call drive_loads(problem, films, velocities, loads(:n))
+      call drive_loads(problem, states, loads(:n))
       call search(seen_load, loads(:n), record)
       if (has_two_flanks(problem)) then
-         call coast_loads(problem, films, velocities, coast(:n))
+         call coast_loads(problem, states, coast(:n))
          loads(:n) = loads(:n) - coast(:n)
          call search(seen_coast_load, coast(:n), record)
          call search(seen_net_load, loads(:n), record)
+         if (has_elastic_teeth(problem)) call search(seen_coast_film, coast_films(problem, states), record)
       end if
+      if (has_elastic_teeth(problem)) call search(seen_position, gear_positions(problem, states), record)
       call forces_on_circle(problem%force, cosine(:n), sine(:n), forces(:n))
       !$omp simd
       do i = 1, n
@@ -218,7 +222,7 @@ contains
       call search(seen_velocity, velocities, record)
       call search(seen_acceleration, values(:n), record)
       if (record%wants(seen_pressure)) then
-         call largest_pressures(problem, films, velocities, values(:n))
+         call largest_pressures(problem, states, values(:n))
          call search(seen_pressure, values(:n), record)
       end if
 
@@ -230,7 +234,7 @@ contains
          real(dp), contiguous, intent(in) :: numbers(:)
          type(window_record_t), intent(inout) :: record
 
-         if (record%wants(quantity)) call find_extremes(problem, quantity, record%periods, start, length, films, velocities, &
+         if (record%wants(quantity)) call find_extremes(problem, quantity, record%periods, start, length, states, &
                                                         numbers, record%lowest(quantity), record%highest(quantity))
       end subroutine search
 

@@ -12,36 +12,57 @@ module floquet
    !> Error of the multipliers themselves.
    real(dp), parameter :: tolerance = 1.0e-6_dp
 
+   interface
+      !> Eigenvalues of a general matrix (LAPACK).
+      pure subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+         import :: dp
+         character, intent(in) :: jobvl
+         character, intent(in) :: jobvr
+         integer, intent(in) :: n
+         integer, intent(in) :: lda
+         integer, intent(in) :: ldvl
+         integer, intent(in) :: ldvr
+         integer, intent(in) :: lwork
+         real(dp), intent(inout) :: a(lda, *)
+         real(dp), intent(out) :: wr(*)
+         real(dp), intent(out) :: wi(*)
+         real(dp), intent(out) :: vl(ldvl, *)
+         real(dp), intent(out) :: vr(ldvr, *)
+         real(dp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dgeev
+   end interface
+
    public :: floquet_multipliers, orbit_stability
 
 contains
 
-   !> Eigenvalues of the Jacobian of the period map, the larger first.
+   !> Eigenvalues of the Jacobian of the period map, the largest first.
    pure function floquet_multipliers(jacobian) result(multipliers)
-      !> d(film, velocity at the end)/d(film, velocity at the start), units of the states
-      real(dp), intent(in) :: jacobian(2, 2)
-      complex(dp) :: multipliers(2)
-      real(dp) :: half_trace, determinant, discriminant, larger
+      !> d(state at the end)/d(state at the start), numbers of like size
+      real(dp), intent(in) :: jacobian(:, :)
+      complex(dp) :: multipliers(size(jacobian, 1))
+      real(dp), dimension(size(jacobian, 1)) :: real_part, imaginary_part
+      real(dp) :: matrix(size(jacobian, 1), size(jacobian, 1)), work(8*size(jacobian, 1)), none(1, 1)
+      logical :: left(size(jacobian, 1))
+      integer :: n, i, largest, info
 
-      half_trace = 0.5_dp*(jacobian(1, 1) + jacobian(2, 2))
-      determinant = jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1)
-      discriminant = half_trace*half_trace - determinant
-      if (discriminant < 0.0_dp) then
-         multipliers(1) = cmplx(half_trace, sqrt(-discriminant), dp)
-         multipliers(2) = conjg(multipliers(1))
-      else
-         ! The smaller one from the product: the difference of the formula would cancel.
-         larger = half_trace + sign(sqrt(discriminant), half_trace)
-         multipliers(1) = cmplx(larger, 0.0_dp, dp)
-         multipliers(2) = (0.0_dp, 0.0_dp)
-         if (abs(larger) > tiny(1.0_dp)) multipliers(2) = cmplx(determinant/larger, 0.0_dp, dp)
-      end if
+      n = size(jacobian, 1)
+      matrix = jacobian
+      call dgeev('N', 'N', n, matrix, n, real_part, imaginary_part, none, 1, none, 1, work, size(work), info)
+      left = .true.
+      do i = 1, n
+         ! Of a complex pair the one with the positive imaginary part stands first, as in LAPACK.
+         largest = maxloc(hypot(real_part, imaginary_part), dim=1, mask=left)
+         left(largest) = .false.
+         multipliers(i) = cmplx(real_part(largest), imaginary_part(largest), dp)
+      end do
    end function floquet_multipliers
 
    !> Stability of a periodic motion by its multipliers.
    pure integer function orbit_stability(multipliers) result(code)
-      !> Larger one first
-      complex(dp), intent(in) :: multipliers(2)
+      !> Largest one first
+      complex(dp), intent(in) :: multipliers(:)
 
       code = orbit_stable
       if (abs(multipliers(1)) > 1.0_dp + tolerance) then

@@ -1,10 +1,10 @@
-!> The period map: film and velocity at the end of some periods of the force from those at their start.
+!> The period map: the state at the end of some periods of the force from that at their start.
 !> A motion that repeats is a fixed point of it.
 module period_map
-   use engine, only: ending_t, motion_state_t, request_t
+   use engine, only: ending_t, motion_state_t, numbers_of, request_t
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use problem, only: problem_t
+   use problem, only: largest_state, of_drive_compression, of_film, of_velocity, problem_t
    use scene_status, only: status_complete
    implicit none(type, external)
    private
@@ -13,34 +13,36 @@ module period_map
 
 contains
 
-   !> Images of states under the period map; neighbours are solved together, eight at a time.
-   subroutine map_states(problem, periods, accuracy, films, velocities, mapped)
+   !> Images of states under the period map; neighbours are solved together.
+   subroutine map_states(problem, periods, accuracy, states, mapped)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Periods of the force
       integer, intent(in) :: periods
       !> Relative accuracy of the film [-]
       real(dp), intent(in) :: accuracy
-      !> States, replaced by their images [m]
-      real(dp), intent(inout) :: films(:)
-      !> [m/s]
-      real(dp), intent(inout) :: velocities(:)
+      !> Number of a state, state; replaced by their images
+      real(dp), intent(inout) :: states(:, :)
       !> Whether every state could be followed to the end
       logical, intent(out) :: mapped
-      type(problem_t) :: problems(size(films))
-      type(motion_state_t) :: starts(size(films))
-      type(ending_t) :: endings(size(films))
-      real(dp) :: no_films(0, size(films)), no_velocities(0, size(films))
+      type(problem_t) :: problems(size(states, 2))
+      type(motion_state_t) :: starts(size(states, 2))
+      type(ending_t) :: endings(size(states, 2))
+      real(dp) :: none(0, 2, size(states, 2)), numbers(largest_state)
+      integer :: i
 
       problems = problem
-      starts%film = films
-      starts%velocity = velocities
-      no_films = 0.0_dp
-      no_velocities = 0.0_dp
-      call solve_motions(problems, starts, request_t(accuracy=accuracy, periods=periods), no_films, no_velocities, endings)
+      do i = 1, size(starts)
+         starts(i)%film = states(of_film, i)
+         starts(i)%velocity = states(of_velocity, i)
+         starts(i)%compression(:size(states, 1) - of_velocity) = states(of_drive_compression:, i)
+      end do
+      call solve_motions(problems, starts, request_t(accuracy=accuracy, periods=periods), none, endings)
       mapped = all(endings%status == status_complete)
-      films = endings%film
-      velocities = endings%velocity
+      do i = 1, size(endings)
+         numbers = numbers_of(endings(i))
+         states(:, i) = numbers(:size(states, 1))
+      end do
    end subroutine map_states
 
 end module period_map

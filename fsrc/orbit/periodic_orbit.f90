@@ -4,7 +4,10 @@ module periodic_orbit
    use floquet, only: floquet_multipliers, orbit_stability, orbit_unstable
    use kinds, only: dp
    use period_map, only: map_states
-   use problem, only: problem_t, thinner_film
+   use force, only: largest_oscillation
+   use problem, only: has_elastic_teeth, largest_state, of_drive_compression, of_velocity, problem_t, state_size, static_load, &
+                      thinnest_film
+   use scene_types, only: least_static_load
    implicit none(type, external)
    private
 
@@ -19,42 +22,57 @@ module periodic_orbit
    type, public :: periodic_orbit_t
       !> Period in periods of the force, 0: none was found
       integer :: period = 0
-      !> State at the start of a period of the force [m], [m/s]
-      real(dp) :: film = 0.0_dp
-      real(dp) :: velocity = 0.0_dp
+      !> Numbers of its state at the start of a period of the force
+      real(dp) :: state(largest_state) = 0.0_dp
       !> Distance of the state that the search began with, relative to the film [-]
       real(dp) :: distance = 0.0_dp
-      !> Floquet multipliers of one period of the motion [-]
-      complex(dp) :: multipliers(2) = (0.0_dp, 0.0_dp)
+      !> Floquet multipliers of one period of the motion, as many as a state has numbers [-]
+      complex(dp), allocatable :: multipliers(:)
    end type periodic_orbit_t
+
+   interface
+      !> Solve A X = B (LAPACK).
+      pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: dp
+         integer, intent(in) :: n
+         integer, intent(in) :: nrhs
+         integer, intent(in) :: lda
+         integer, intent(in) :: ldb
+         real(dp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: ipiv(*)
+         real(dp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dgesv
+   end interface
 
    public :: find_periodic_orbit, attracting_period
 
 contains
 
    !> Look for a periodic motion near a state; the shortest period that is near enough is taken.
-   function find_periodic_orbit(problem, film, velocity, nearness) result(orbit)
+   function find_periodic_orbit(problem, state, nearness) result(orbit)
       !> What moves
       type(problem_t), intent(in) :: problem
-      !> State at the start of a period of the force [m], [m/s]
-      real(dp), intent(in) :: film
-      real(dp), intent(in) :: velocity
+      !> State at the start of a period of the force
+      real(dp), intent(in) :: state(:)
       !> Distance at which a periodic motion is another one, relative to the film [-]
       real(dp), intent(in) :: nearness
       type(periodic_orbit_t) :: orbit
-      real(dp) :: films(1), velocities(1), scale
+      real(dp) :: images(state_size(problem), 1), scale(state_size(problem))
       integer :: period
       logical :: mapped
 
-      scale = 1.0_dp/(two_pi*problem%frequency)
-      films = film
-      velocities = velocity
+      scale = 1.0_dp
+      scale(of_velocity) = 1.0_dp/(two_pi*problem%frequency)
+      ! A stiff tooth is compressed by far less than its film: by what the forces compress it.
+      if (has_elastic_teeth(problem)) scale(of_drive_compression:) = max(1.0_dp, thinnest_film(problem, state)/ &
+         (problem%compliance*(abs(static_load(problem)) + largest_oscillation(problem%force) + least_static_load)))
+      images(:, 1) = state(:size(images, 1))
       do period = 1, longest_period
-         call map_states(problem, 1, map_accuracy, films, velocities, mapped)
+         call map_states(problem, 1, map_accuracy, images, mapped)
          if (.not. mapped) return
-         if (max(abs(films(1) - film), abs(velocities(1) - velocity)*scale) > &
-             nearness*thinner_film(problem, film)) cycle
-         orbit = newton(problem, period, film, velocity, scale)
+         if (maxval(abs(images(:, 1) - state(:size(images, 1)))*scale) > nearness*thinnest_film(problem, state)) cycle
+         orbit = newton(problem, period, state(:size(images, 1)), scale)
          if (orbit%period > 0 .and. orbit%distance <= nearness) return
       end do
       orbit = periodic_orbit_t()
@@ -71,44 +89,51 @@ contains
    end function attracting_period
 
    !> Fixed point of the map of some periods, and the multipliers there.
-   function newton(problem, period, film, velocity, scale) result(orbit)
+   function newton(problem, period, start, scale) result(orbit)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: period
-      real(dp), intent(in) :: film
-      real(dp), intent(in) :: velocity
-      !> Film that a velocity counts as [s]
-      real(dp), intent(in) :: scale
+      real(dp), intent(in) :: start(:)
+      !> Film that one of each number counts as
+      real(dp), intent(in) :: scale(:)
       type(periodic_orbit_t) :: orbit
-      real(dp) :: films(5), velocities(5), jacobian(2, 2), state(2), gap(2), change(2), h, w, determinant, thickness
-      integer :: step
+      real(dp), dimension(size(start)) :: state, change, step
+      real(dp) :: states(size(start), 0:2*size(start)), jacobian(size(start), size(start)), matrix(size(start), size(start)), &
+                  thickness
+      integer :: pass, i, n, pivots(size(start)), info
       logical :: mapped
 
-      state = [film, velocity]
-      do step = 1, most_newton_steps
-         thickness = min(state(1), problem%backlash - state(1))
-         h = difference_step*thickness
-         w = difference_step*thickness/scale
-         films = state(1) + [0.0_dp, h, -h, 0.0_dp, 0.0_dp]
-         velocities = state(2) + [0.0_dp, 0.0_dp, 0.0_dp, w, -w]
-         call map_states(problem, period, map_accuracy, films, velocities, mapped)
+      n = size(start)
+      state = start
+      do pass = 1, most_newton_steps
+         thickness = thinnest_film(problem, state)
+         step = difference_step*thickness/scale
+         states = spread(state, 2, 2*n + 1)
+         do i = 1, n
+            states(i, 2*i - 1) = state(i) + step(i)
+            states(i, 2*i) = state(i) - step(i)
+         end do
+         call map_states(problem, period, map_accuracy, states, mapped)
          if (.not. mapped) return
-         jacobian(:, 1) = [films(2) - films(3), velocities(2) - velocities(3)]/(2.0_dp*h)
-         jacobian(:, 2) = [films(4) - films(5), velocities(4) - velocities(5)]/(2.0_dp*w)
-         gap = [films(1), velocities(1)] - state
-         ! (1 - J) change = gap
-         determinant = (1.0_dp - jacobian(1, 1))*(1.0_dp - jacobian(2, 2)) - jacobian(1, 2)*jacobian(2, 1)
-         if (abs(determinant) < tiny(1.0_dp)) return
-         change(1) = ((1.0_dp - jacobian(2, 2))*gap(1) + jacobian(1, 2)*gap(2))/determinant
-         change(2) = (jacobian(2, 1)*gap(1) + (1.0_dp - jacobian(1, 1))*gap(2))/determinant
+         do i = 1, n
+            jacobian(:, i) = (states(:, 2*i - 1) - states(:, 2*i))/(2.0_dp*step(i))
+         end do
+         ! (1 - J) change = image - state, in units of the scale
+         change = (states(:, 0) - state)*scale
+         do i = 1, n
+            matrix(:, i) = -jacobian(:, i)*scale/scale(i)
+            matrix(i, i) = matrix(i, i) + 1.0_dp
+         end do
+         call dgesv(n, 1, matrix, n, pivots, change, n, info)
+         if (info /= 0) return
+         change = change/scale
          state = state + change
-         thickness = thinner_film(problem, state(1))
+         thickness = thinnest_film(problem, state)
          if (.not. thickness > 0.0_dp) return
-         if (max(abs(change(1)), abs(change(2))*scale) > converged*thickness) cycle
+         if (maxval(abs(change)*scale) > converged*thickness) cycle
          orbit%period = period
-         orbit%film = state(1)
-         orbit%velocity = state(2)
-         orbit%distance = max(abs(state(1) - film), abs(state(2) - velocity)*scale)/thickness
-         orbit%multipliers = floquet_multipliers(jacobian)
+         orbit%state(:n) = state
+         orbit%distance = maxval(abs(state - start)*scale)/thickness
+         orbit%multipliers = floquet_multipliers(jacobian*spread(scale, 2, n)/spread(scale, 1, n))
          return
       end do
    end function newton

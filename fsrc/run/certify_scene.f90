@@ -3,14 +3,14 @@
 !> multipliers.
 module certify_scene
    use certificate, only: certificate_t, closing_sentence, compare_windows, loudness_error, no_certificate
-   use engine, only: ending_t, motion_state_t, start_of
+   use engine, only: ending_t, motion_state_t, numbers_of, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
    use loudness, only: loudness_of_record, loudness_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use quantities, only: quantity_rattle_class, quantity_word
-   use problem, only: problem_t
+   use problem, only: of_film, problem_t
    use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
@@ -80,7 +80,7 @@ contains
          return
       end if
       if (present(orbit) .or. tight_verdict%class == class_irregular) then
-         found = find_periodic_orbit(resolved%problem, ending%film, ending%velocity, orbit_nearness)
+         found = find_periodic_orbit(resolved%problem, numbers_of(ending), orbit_nearness)
          call note_orbit(verdict, attracting_period(found))
          call note_orbit(tight_verdict, attracting_period(found))
       end if
@@ -100,7 +100,8 @@ contains
          if (allocated(error)) return
       end if
       associate (stride => tight%samples_per_period/window%samples_per_period)
-         call compare_windows(window%films, tight%films(stride::stride), extremes, extremes_of_record(tight%record), verdict, &
+         call compare_windows(window%states(:, of_film), tight%states(stride::stride, of_film), extremes, &
+                              extremes_of_record(tight%record), verdict, &
                               tight_verdict, unclosed, scene%spectrum, scene%spectrum%certificate_tolerance, accuracy, &
                               resolved%noise_floor_at(accuracy), certificate, resolved%problem%backlash)
       end associate

@@ -2,12 +2,12 @@
 !> by integrals over the steps where no number of samples would do.
 module fine_window
    use controlled_engine, only: solve_window
-   use engine, only: ending_t, motion_state_t, request_t
+   use engine, only: ending_t, motion_state_t, numbers_of, request_t
    use errors, only: error_t
    use kinds, only: dp
    use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
-   use problem, only: acceleration_at, problem_t
+   use problem, only: acceleration_at, problem_t, state_size
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use scene_status, only: is_success
    use scene_types, only: scene_t, spectrum_choice_t
@@ -30,8 +30,8 @@ module fine_window
       !> Whole periods, and samples of each
       integer :: periods = 0
       integer :: samples_per_period = 0
-      !> h [m], z' [m/s], z'' [m/s2]
-      real(dp), allocatable :: films(:), velocities(:), accelerations(:)
+      !> Sample, number of its state; and z'' [m/s2]
+      real(dp), allocatable :: states(:, :), accelerations(:)
       !> What the steps of the engine tell of it; no periods: the samples are all that is known
       type(window_record_t) :: record = window_record_t()
       !> Whether its lines are integrals over the steps
@@ -64,8 +64,8 @@ contains
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
 
-      call solve_window(problem, start, accuracy, window%samples_per_period, periods, window%periods, window%films, &
-                        window%velocities, window%accelerations, ending, window%record)
+      call solve_window(problem, start, accuracy, window%samples_per_period, periods, window%periods, window%states, &
+                        window%accelerations, ending, window%record)
       if (is_success(ending%status)) call judge_window(scene, problem, accuracy, noise_floor, window, verdict, error)
    end subroutine solve_whole_window
 
@@ -91,13 +91,13 @@ contains
 
       call classify_window(scene, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
       do while (.not. verdict%lines%sampling_sufficient .and. window%record%shortest_piece > least_piece)
-         if (2*window%samples_per_period > most_samples_per_period .or. 2*size(window%films) > most_samples) exit
-         call expect_window_memory(2*size(window%films), error)
+         if (2*window%samples_per_period > most_samples_per_period .or. 2*size(window%accelerations) > most_samples) exit
+         call expect_window_memory(2*size(window%accelerations), error)
          if (allocated(error)) return
          finer%periods = window%periods
          finer%samples_per_period = 2*window%samples_per_period
          call solve_window(problem, window%record%start, accuracy, finer%samples_per_period, finer%periods, finer%periods, &
-                           finer%films, finer%velocities, finer%accelerations, ending, finer%record)
+                           finer%states, finer%accelerations, ending, finer%record)
          if (.not. is_success(ending%status)) exit
          window = finer
          call classify_window(scene, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
@@ -123,12 +123,12 @@ contains
       type(request_t) :: request
       type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
-      real(dp) :: films(window%periods, 1), velocities(window%periods, 1)
+      real(dp) :: states(window%periods, state_size(problem), 1)
 
       records(1) = integral_record(scene%spectrum)
       request = request_t(accuracy=accuracy, periods=window%periods, sampled_periods=window%periods, samples_per_period=1, &
                           every_period=.true.)
-      call solve_motions([problem], [window%record%start], request, films, velocities, endings, records=records)
+      call solve_motions([problem], [window%record%start], request, states, endings, records=records)
       if (.not. is_success(endings(1)%status)) return
       call classify_steps(records(1), problem%frequency, scene%spectrum, noise_floor, verdict)
    end subroutine judge_by_integrals
@@ -184,7 +184,7 @@ contains
       integer :: n
 
       n = size(z)
-      start = acceleration_at(problem, record%start%film, record%start%velocity, 0.0_dp)
+      start = acceleration_at(problem, numbers_of(record%start), 0.0_dp)
       error_of_ends = (abs(z(n) - start) + abs((z(n) - z(n - 1)) - (z(1) - start)))/real(n, dp)
    end function error_of_ends
 
@@ -201,7 +201,7 @@ contains
       integer :: i
 
       count = real(size(z), dp)
-      start = acceleration_at(problem, record%start%film, record%start%velocity, 0.0_dp)
+      start = acceleration_at(problem, numbers_of(record%start), 0.0_dp)
       ! By the trapezium, which leaves no error where the motion is smooth and repeats.
       mean = -0.5_dp*(z(size(z)) - start)
       power = -0.5_dp*(z(size(z))**2 - start**2)

@@ -7,7 +7,7 @@ module judge_scene
    use judged_scene, only: judged_scene_t
    use loudness, only: loudness_of_record, loudness_of_samples
    use node_extremes, only: seen_pressure
-   use problem, only: thinner_film
+   use problem, only: of_velocity, thinnest_film
    use rattle_class, only: note_orbit
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
@@ -53,9 +53,8 @@ contains
       judged%judged = is_success(judged%status)
       if (.not. judged%judged) return
       window%samples_per_period = scene%solver%samples_per_period()
-      window%periods = size(recorder%films)/window%samples_per_period
-      allocate (window%films, source=recorder%films)
-      allocate (window%velocities, source=recorder%velocities)
+      window%periods = size(recorder%accelerations)/window%samples_per_period
+      allocate (window%states, source=recorder%states)
       allocate (window%accelerations, source=recorder%accelerations)
       window%record = record
       call classify_window(scene, judged%resolved%problem, window%periods, window%accelerations, window%record, &
@@ -78,14 +77,14 @@ contains
          judged%extremes = extremes_of_record(record)
          judged%loudness = loudness_of_record(record, scene%load%frequency)
       else
-         judged%extremes = extremes_of_samples(judged%resolved%problem, window%films, window%velocities, &
+         judged%extremes = extremes_of_samples(judged%resolved%problem, window%states, &
                                                window%accelerations)
-         judged%loudness = loudness_of_samples(judged%resolved%problem, window%samples_per_period, window%velocities, &
+         judged%loudness = loudness_of_samples(judged%resolved%problem, window%samples_per_period, window%states(:, of_velocity), &
                                                window%accelerations)
       end if
       associate (pressure => judged%extremes%highest(seen_pressure))
          judged%regime = check_regime(judged%resolved%problem%film, pressure%value, &
-                                      thinner_film(judged%resolved%problem, pressure%film))
+                                      thinnest_film(judged%resolved%problem, pressure%state))
       end associate
       if (scene%spectrum%certify) call certify(scene, judged%resolved, judged%periods, window, judged%extremes, &
                                                judged%loudness, judged%rattle, judged%certificate, error, judged%orbit)

@@ -247,6 +247,7 @@ contains
       real(dp), allocatable :: list(:)
       !> Most numbers of a list
       integer, parameter :: most = 40
+      integer :: i
 
       allocate (list(0))
       if (.not. judged%judged) return
@@ -257,8 +258,8 @@ contains
          if (allocated(judged%certificate%harmonic_errors)) &
             list = judged%certificate%harmonic_errors(:min(most, size(judged%certificate%harmonic_errors)))
       case (quantity_floquet_multipliers)
-         if (judged%orbit%period > 0) list = [judged%orbit%multipliers(1)%re, judged%orbit%multipliers(1)%im, &
-                                              judged%orbit%multipliers(2)%re, judged%orbit%multipliers(2)%im]
+         if (judged%orbit%period > 0) list = [(judged%orbit%multipliers(i)%re, judged%orbit%multipliers(i)%im, &
+                                               i=1, size(judged%orbit%multipliers))]
       case default
          continue
       end select

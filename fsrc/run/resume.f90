@@ -56,11 +56,11 @@ contains
       character(column_unit_bytes), allocatable :: units(:)
       real(dp), allocatable :: row(:, :)
 
-      allocate (names, source=column_names())
+      allocate (names, source=column_names(scene%contact%stiffness > 0.0_dp))
       allocate (units(size(names)), row(size(names), 1))
       units(:) = '-'
       units(:size(state_units)) = state_units
-      row(:, 1) = row_of(state)
+      row(:, 1) = row_of(state, scene%contact%stiffness > 0.0_dp)
       call writer%open(state_path(scene), scene%resolved_input, names, units, 1_int64, .false., error)
       if (.not. allocated(error)) call writer%write_rows(row, error)
       if (.not. allocated(error)) call writer%close(error)
@@ -81,7 +81,7 @@ contains
 
       kept = state_of_path(state_path(scene))
       if (kept%bytes == 0_int64) return
-      allocate (names, source=column_names())
+      allocate (names, source=column_names(scene%contact%stiffness > 0.0_dp))
       allocate (row(size(names), 1))
       call open_earlier(scene, state_path(scene), reader, error)
       if (.not. allocated(error) .and. .not. equal_names(reader%names, names)) &
@@ -152,7 +152,9 @@ contains
    end function latest_start
 
    !> Columns of a state.
-   pure function column_names() result(names)
+   pure function column_names(elastic) result(names)
+      !> Whether the teeth give: then compressions stand at the end
+      logical, intent(in) :: elastic
       character(column_name_bytes), allocatable :: names(:)
       type(orbit_watch_t) :: watch
       integer :: i, fixed, watched
@@ -164,6 +166,12 @@ contains
       do i = 1, watched
          names(fixed + i) = 'watch_film_'//integer_text(i)
          names(fixed + watched + i) = 'watch_momentum_'//integer_text(i)
+      end do
+      if (.not. elastic) return
+      names = [character(column_name_bytes) :: names, 'drive_compression', 'coast_compression']
+      do i = 1, watched
+         names = [character(column_name_bytes) :: names, 'watch_drive_compression_'//integer_text(i), &
+                  'watch_coast_compression_'//integer_text(i)]
       end do
    end function column_names
 
@@ -177,8 +185,10 @@ contains
    end function equal_names
 
    !> A state as a row; see `state_of`.
-   pure function row_of(state) result(row)
+   pure function row_of(state, elastic) result(row)
       type(checkpoint_t), intent(in) :: state
+      !> Whether the teeth give
+      logical, intent(in) :: elastic
       real(dp), allocatable :: row(:)
 
       associate (watch => state%watch)
@@ -186,6 +196,7 @@ contains
                 merge(1.0_dp, 0.0_dp, state%implicit), real(state%count%steps, dp), real(state%count%evaluations, dp), &
                 real(state%count%cuts, dp), real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), watch%film, &
                 watch%momentum]
+         if (elastic) row = [row, state%compression, watch%compression]
       end associate
    end function row_of
 
@@ -212,6 +223,10 @@ contains
       state%watch%film(:) = row(place + 1:place + size(state%watch%film))
       place = place + size(state%watch%film)
       state%watch%momentum(:) = row(place + 1:place + size(state%watch%momentum))
+      place = place + size(state%watch%momentum)
+      if (size(row) == place) return
+      state%compression = row(place + 1:place + 2)
+      state%watch%compression(:, :) = reshape(row(place + 3:), shape(state%watch%compression))
    end function state_of
 
 end module resume

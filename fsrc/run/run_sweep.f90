@@ -5,7 +5,7 @@ module run_sweep
    use clock, only: wall_seconds
    use controlled_engine, only: find_steady_motion
    use derived_scene, only: derive
-   use engine, only: ending_t, start_of
+   use engine, only: ending_t, motion_state_t, numbers_of, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use finished_files, only: place_files
@@ -187,6 +187,7 @@ contains
       type(judged_scene_t), intent(out) :: judged
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
+      type(motion_state_t) :: start
       type(ending_t) :: ending, window_ending
       type(window_t) :: window
 
@@ -209,10 +210,12 @@ contains
          velocity = ending%velocity
          problem%initial_film = film
          problem%initial_velocity = velocity
+         start = start_of(problem)
+         start%compression = ending%compression
          window%periods = scene%spectrum%periods
          if (ending%orbit > 0) window%periods = ending%orbit
          window%samples_per_period = scene%solver%samples_per_period()
-         call solve_whole_window(scene, problem, start_of(problem), scene%solver%accuracy, window%periods, &
+         call solve_whole_window(scene, problem, start, scene%solver%accuracy, window%periods, &
                                  judged%resolved%noise_floor, window, judged%rattle, window_ending, error)
       end associate
       if (allocated(error)) return
@@ -222,7 +225,7 @@ contains
          return
       end if
       judged%repeats_after = ending%orbit
-      judged%orbit = find_periodic_orbit(judged%resolved%problem, film, velocity, orbit_nearness)
+      judged%orbit = find_periodic_orbit(judged%resolved%problem, numbers_of(ending), orbit_nearness)
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
       judged%extremes = extremes_of_record(window%record)
       judged%loudness = loudness_of_record(window%record, scene%load%frequency)

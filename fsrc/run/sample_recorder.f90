@@ -6,11 +6,12 @@ module sample_recorder
    use force, only: force_at
    use kinds, only: dp, int64
    use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_velocity
-   use problem, only: acceleration_at, coast_loads, has_two_flanks, problem_t
+   use problem, only: acceleration_at, coast_films, coast_loads, gear_positions, has_two_flanks, largest_state, of_film, &
+                      of_velocity, problem_t, state_size
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use scene_types, only: column_acceleration, column_applied_force, column_coast_load, column_coast_film, &
-                          column_film_thickness, column_names, column_squeeze_velocity, column_time, column_units, scene_t
+      column_film_thickness, column_gear_position, column_names, column_squeeze_velocity, column_time, column_units, scene_t
    use signals, only: caught_signal
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -19,8 +20,8 @@ module sample_recorder
    !> Recorder of a motion.
    type, extends(sample_sink_t), public :: sample_recorder_t
       private
-      !> Samples of the window [m], [m/s], [m/s2]
-      real(dp), allocatable, public :: films(:), velocities(:), accelerations(:)
+      !> Samples of the window: sample, number of its state; and z'' [m/s2]
+      real(dp), allocatable, public :: states(:, :), accelerations(:)
       integer(int64) :: window_start = huge(1_int64)
       real(dp) :: steps_per_second = 0.0_dp, gravity = 0.0_dp
       type(problem_t) :: problem
@@ -115,22 +116,20 @@ contains
       !> How many samples it has
       integer, intent(in) :: samples
 
-      if (allocated(self%films)) deallocate (self%films, self%velocities, self%accelerations)
-      allocate (self%films(samples), self%velocities(samples), self%accelerations(samples))
+      if (allocated(self%states)) deallocate (self%states, self%accelerations)
+      allocate (self%states(samples, state_size(self%problem)), self%accelerations(samples))
       self%window_start = first_step
    end subroutine begin_window
 
    !> Keep what belongs to the window, write what belongs to the series.
-   subroutine take_samples(self, first_step, force, film, velocity, acceleration, error)
+   subroutine take_samples(self, first_step, force, states, acceleration, error)
       class(sample_recorder_t), intent(inout) :: self
       !> Step of the first sample
       integer(int64), intent(in) :: first_step
       !> Applied force F [N]
       real(dp), intent(in) :: force(:)
-      !> Film thickness h [m]
-      real(dp), intent(in) :: film(:)
-      !> Film velocity z' [m/s]
-      real(dp), intent(in) :: velocity(:)
+      !> Sample, number of its state
+      real(dp), intent(in) :: states(:, :)
       !> Acceleration z'' [m/s2]
       real(dp), intent(in) :: acceleration(:)
       !> Set if the series could not be written
@@ -139,41 +138,38 @@ contains
 
       if (first_step >= self%window_start) then
          place = int(first_step - self%window_start) + 1
-         self%films(place:place + size(film) - 1) = film
-         self%velocities(place:place + size(film) - 1) = velocity
-         self%accelerations(place:place + size(film) - 1) = acceleration
+         self%states(place:place + size(force) - 1, :) = states(:, :size(self%states, 2))
+         self%accelerations(place:place + size(force) - 1) = acceleration
       end if
-      if (self%series) call write_series(self, first_step, force, film, velocity, acceleration, error)
+      if (self%series) call write_series(self, first_step, force, states, acceleration, error)
    end subroutine take_samples
 
    !> Every stride-th step as a row of the chosen columns.
-   subroutine write_series(self, first_step, force, film, velocity, acceleration, error)
+   subroutine write_series(self, first_step, force, states, acceleration, error)
       class(sample_recorder_t), intent(inout) :: self
       integer(int64), intent(in) :: first_step
       real(dp), intent(in) :: force(:)
-      real(dp), intent(in) :: film(:)
-      real(dp), intent(in) :: velocity(:)
+      real(dp), intent(in) :: states(:, :)
       real(dp), intent(in) :: acceleration(:)
       type(error_t), allocatable, intent(out) :: error
       real(dp), allocatable :: times(:)
       integer :: first, i, last
 
       first = 1 + int(modulo(-first_step, int(self%stride, int64)))
-      last = (size(film) - first)/self%stride + 1
-      if (first > size(film)) return
+      last = (size(force) - first)/self%stride + 1
+      if (first > size(force)) return
       times = [(real(first_step + first - 1 + (i - 1)*self%stride, dp)/self%steps_per_second, i=1, last)]
-      call fill_rows(self, times, force(first::self%stride), film(first::self%stride), velocity(first::self%stride), &
+      call fill_rows(self, times, force(first::self%stride), states(first::self%stride, :), &
                      acceleration(first::self%stride), self%rows)
       call self%writer%write_rows(self%rows(:, :last), error)
    end subroutine write_series
 
    !> Rows of the chosen columns.
-   pure subroutine fill_rows(self, times, force, film, velocity, acceleration, rows)
+   pure subroutine fill_rows(self, times, force, states, acceleration, rows)
       class(sample_recorder_t), intent(in) :: self
       real(dp), intent(in) :: times(:)
       real(dp), intent(in) :: force(:)
-      real(dp), intent(in) :: film(:)
-      real(dp), intent(in) :: velocity(:)
+      real(dp), intent(in) :: states(:, :)
       real(dp), intent(in) :: acceleration(:)
       real(dp), intent(inout) :: rows(:, :)
       real(dp) :: coast(size(times))
@@ -187,21 +183,23 @@ contains
          case (column_applied_force)
             rows(column, :last) = force
          case (column_film_thickness)
-            rows(column, :last) = film
+            rows(column, :last) = states(:, of_film)
          case (column_squeeze_velocity)
-            rows(column, :last) = velocity
+            rows(column, :last) = states(:, of_velocity)
          case (column_acceleration)
             rows(column, :last) = acceleration
          case (column_coast_film)
-            rows(column, :last) = self%problem%backlash - film
+            rows(column, :last) = coast_films(self%problem, states)
+         case (column_gear_position)
+            rows(column, :last) = gear_positions(self%problem, states)
          case (column_coast_load)
-            call coast_loads(self%problem, film, velocity, rows(column, :last))
+            call coast_loads(self%problem, states, rows(column, :last))
          case default
             ! Load of the drive film: the net load, read off the equation of motion (1), which the sample fulfils, and what the
             ! coast film carries.
             rows(column, :last) = self%problem%mass*(acceleration + self%gravity) + force
             if (.not. has_two_flanks(self%problem)) cycle
-            call coast_loads(self%problem, film, velocity, coast)
+            call coast_loads(self%problem, states, coast)
             rows(column, :last) = rows(column, :last) + coast
          end select
       end do
@@ -218,7 +216,7 @@ contains
       !> Whether the samples are too few for the motion
       logical, intent(in) :: coarse
       type(extreme_t) :: found(6), kept(6)
-      real(dp) :: rows(size(self%columns), 6), phases(6)
+      real(dp) :: rows(size(self%columns), 6), phases(6), states(6, largest_state), accelerations(6)
       integer :: n, next
 
       if (.not. self%series) return
@@ -236,9 +234,12 @@ contains
       end do
       if (n == 0) return
       phases(:n) = min(1.0_dp, kept(:n)%phase)
+      do next = 1, n
+         states(next, :) = kept(next)%state
+         accelerations(next) = acceleration_at(self%problem, kept(next)%state, phases(next))
+      end do
       call fill_rows(self, (real(first_period + kept(:n)%period, dp) + kept(:n)%phase)/self%problem%frequency, &
-                     force_at(self%problem%force, phases(:n)), kept(:n)%film, kept(:n)%velocity, &
-                     acceleration_at(self%problem, kept(:n)%film, kept(:n)%velocity, phases(:n)), rows)
+                     force_at(self%problem%force, phases(:n)), states(:n, :), accelerations(:n), rows)
       call self%writer%write_extremes(rows(:, :n))
    end subroutine add_extremes
 

@@ -426,7 +426,8 @@ module key_table
       key_t('output', 'series', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &
             'Whether the time series is written to NAME.rattle.'), &
       key_t('output', 'columns', list_kind, '', 'time applied_force film_thickness acceleration', any_number, &
-            'time applied_force film_thickness squeeze_velocity acceleration film_load coast_film coast_load', &
+            'time applied_force film_thickness squeeze_velocity acceleration film_load coast_film coast_load '// &
+            'gear_position', &
             'scene.task=motion', &
             'Columns of the time series, any of these, in this order; those of the coast flank with contact.backlash only.'), &
       key_t('output', 'stride', integer_kind, '-', '1', at_least_1, '', 'scene.task=motion', &

@@ -36,13 +36,13 @@ module scene_types
    integer, parameter, public :: predictor_extrapolated = 1, predictor_previous = 2
 
    !> Columns that a time series can hold, in the order of their codes.
-   character(*), parameter, public :: column_names(8) = [character(16) :: 'time', 'applied_force', 'film_thickness', &
+   character(*), parameter, public :: column_names(9) = [character(16) :: 'time', 'applied_force', 'film_thickness', &
                                                          'squeeze_velocity', 'acceleration', 'film_load', &
-                                                         'coast_film', 'coast_load']
-   character(*), parameter, public :: column_units(8) = [character(4) :: 's', 'N', 'm', 'm/s', 'm/s2', 'N', 'm', 'N']
+                                                         'coast_film', 'coast_load', 'gear_position']
+   character(*), parameter, public :: column_units(9) = [character(4) :: 's', 'N', 'm', 'm/s', 'm/s2', 'N', 'm', 'N', 'm']
    integer, parameter, public :: column_time = 1, column_applied_force = 2, column_film_thickness = 3, &
                                  column_squeeze_velocity = 4, column_acceleration = 5, column_film_load = 6, &
-                                 column_coast_film = 7, column_coast_load = 8
+                                 column_coast_film = 7, column_coast_load = 8, column_gear_position = 9
 
    !> &contact
    type, public :: contact_t

@@ -2,9 +2,10 @@
 !> the samples where each is a step of its own (Newmark's method).
 module window_extremes
    use kinds, only: dp
-   use node_extremes, only: extreme_t, seen_acceleration, seen_coast_load, seen_film, seen_load, seen_net_load, &
-      seen_pressure, seen_quantities, seen_velocity
-   use problem, only: coast_loads, drive_loads, has_two_flanks, largest_pressures, net_loads, problem_t
+   use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
+      seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
+   use problem, only: coast_films, coast_loads, drive_loads, gear_positions, has_elastic_teeth, has_two_flanks, &
+      largest_pressures, net_loads, of_film, of_velocity, problem_t
    use value_range, only: range_of
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -33,55 +34,64 @@ contains
    end function extremes_of_record
 
    !> Extremes of samples.
-   pure function extremes_of_samples(problem, films, velocities, accelerations) result(extremes)
+   pure function extremes_of_samples(problem, states, accelerations) result(extremes)
       type(problem_t), intent(in) :: problem
-      !> h [m], z' [m/s], z'' [m/s2]
-      real(dp), intent(in) :: films(:)
-      real(dp), intent(in) :: velocities(:)
+      !> Sample, number of its state
+      real(dp), intent(in) :: states(:, :)
+      !> z'' [m/s2]
       real(dp), intent(in) :: accelerations(:)
       type(window_extremes_t) :: extremes
       real(dp) :: values(block)
       integer :: first, last
 
-      do first = 1, size(films), block
-         last = min(first + block - 1, size(films))
-         associate (h => films(first:last), w => velocities(first:last), part => values(:last - first + 1))
-            call note(h, w, h, extremes%lowest(seen_film), extremes%highest(seen_film))
-            call note(h, w, w, extremes%lowest(seen_velocity), extremes%highest(seen_velocity))
-            call note(h, w, accelerations(first:last), extremes%lowest(seen_acceleration), extremes%highest(seen_acceleration))
-            call drive_loads(problem, h, w, part)
-            call note(h, w, part, extremes%lowest(seen_load), extremes%highest(seen_load))
-            call largest_pressures(problem, h, w, part)
-            call note(h, w, part, extremes%lowest(seen_pressure), extremes%highest(seen_pressure))
+      do first = 1, size(states, 1), block
+         last = min(first + block - 1, size(states, 1))
+         associate (here => states(first:last, :), part => values(:last - first + 1))
+            call note(seen_film, here(:, of_film))
+            call note(seen_velocity, here(:, of_velocity))
+            call note(seen_acceleration, accelerations(first:last))
+            call drive_loads(problem, here, part)
+            call note(seen_load, part)
+            call largest_pressures(problem, here, part)
+            call note(seen_pressure, part)
+            if (has_elastic_teeth(problem)) call note(seen_position, gear_positions(problem, here))
             if (.not. has_two_flanks(problem)) cycle
-            call coast_loads(problem, h, w, part)
-            call note(h, w, part, extremes%lowest(seen_coast_load), extremes%highest(seen_coast_load))
-            call net_loads(problem, h, w, part)
-            call note(h, w, part, extremes%lowest(seen_net_load), extremes%highest(seen_net_load))
+            call coast_loads(problem, here, part)
+            call note(seen_coast_load, part)
+            call net_loads(problem, here, part)
+            call note(seen_net_load, part)
+            if (has_elastic_teeth(problem)) call note(seen_coast_film, coast_films(problem, here))
          end associate
       end do
+
+   contains
+
+      !> Take the extremes of a quantity over these samples.
+      pure subroutine note(quantity, numbers)
+         !> Code of node_extremes
+         integer, intent(in) :: quantity
+         real(dp), intent(in) :: numbers(:)
+         real(dp) :: smallest, largest
+
+         call range_of(numbers, smallest, largest)
+         associate (lowest => extremes%lowest(quantity), highest => extremes%highest(quantity))
+            if (.not. lowest%exists .or. smallest < lowest%value) &
+               call place(findloc(numbers <= smallest, .true., dim=1), smallest, lowest)
+            if (.not. highest%exists .or. largest > highest%value) &
+               call place(findloc(numbers >= largest, .true., dim=1), largest, highest)
+         end associate
+      end subroutine note
+
+      !> An extreme at one of these samples.
+      pure subroutine place(sample, value, extreme)
+         integer, intent(in) :: sample
+         real(dp), intent(in) :: value
+         type(extreme_t), intent(inout) :: extreme
+
+         extreme = extreme_t(value=value, exists=.true.)
+         extreme%state(:size(states, 2)) = states(first + sample - 1, :)
+      end subroutine place
+
    end function extremes_of_samples
-
-   !> Take the extremes of a quantity over some samples.
-   pure subroutine note(films, velocities, numbers, lowest, highest)
-      real(dp), intent(in) :: films(:)
-      real(dp), intent(in) :: velocities(:)
-      !> The quantity
-      real(dp), intent(in) :: numbers(:)
-      type(extreme_t), intent(inout) :: lowest
-      type(extreme_t), intent(inout) :: highest
-      real(dp) :: smallest, largest
-      integer :: i
-
-      call range_of(numbers, smallest, largest)
-      if (.not. lowest%exists .or. smallest < lowest%value) then
-         i = findloc(numbers <= smallest, .true., dim=1)
-         lowest = extreme_t(value=smallest, film=films(i), velocity=velocities(i), exists=.true.)
-      end if
-      if (.not. highest%exists .or. largest > highest%value) then
-         i = findloc(numbers >= largest, .true., dim=1)
-         highest = extreme_t(value=largest, film=films(i), velocity=velocities(i), exists=.true.)
-      end if
-   end subroutine note
 
 end module window_extremes

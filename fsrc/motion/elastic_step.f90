@@ -1,0 +1,353 @@
+!> Implicit steps by collocation for teeth that give, lane by lane: any film law, any stiffness, one flank or two.
+!>
+!> A spring stands between the gear and each film. Within a step of length s the loads W_1 and W_2 are polynomials in c = 0..1
+!> through their values at the seven nodes of Radau. They move the gear, the springs follow them, and the films are what gear and
+!> springs leave,
+!>
+!>     A_i = W_1i - W_2i - F(x + c_i s) ,     V_i = V + s sum(once_ij A_j) ,     Z_i - Z = c_i s V + s**2 sum(twice_ij A_j) ,
+!>     H_1i = H_1 + (Z_i - Z) + kappa W_1i - D_1 ,     H_1i' = V_i + sum(slope_ij (kappa W_1j - D_1))/s ,
+!>
+!> for the coast film with the signs of Z and V turned. The film law at each node, W(H_i, H_i') = W_i, is solved for the loads by
+!> Newton's method with its slopes. Nothing here grows with the stiffness: at kappa = 0 these are the equations of module
+!> collocation_step, and no film law has to be solved for its velocity.
+!>
+!> The error is that of module collocation_step, of the polynomial of the acceleration; a load that is off moves its film by
+!> kappa as well, and so counts the first coefficient of its polynomial that is left out.
+module elastic_step
+   use collocation_newton, only: allowed
+   use collocation_step, only: choose_steps, forces_of_stages, growth_of, highest_terms, most_extrapolation
+   use film_law, only: film_load, film_t, overflow_load
+   use kinds, only: dp
+   use lane_block, only: lane_block_t
+   use lane_functions, only: lanes
+   use radau_nodes, only: node, once, power, slope, stages, start_alone, twice
+   use taylor_step_control, only: free_rate
+   implicit none(type, external)
+   private
+
+   !> Newton passes before the step is given up
+   integer, parameter :: most_passes = 12
+   !> Share of the accuracy at which the passes end, and for the last coefficient of a polynomial and the first one left out
+   real(dp), parameter :: pass_share = 1.0e-2_dp, last_share = 40.0_dp, next_share = 2.0_dp
+   !> Corrections that fall by less than this in a pass, after some, lead nowhere
+   real(dp), parameter :: slowest_fall = 0.9_dp
+
+   !> A step under way: values at the nodes, of one or two flanks [-].
+   type :: trial_t
+      integer :: flanks = 1
+      !> Loads W, films H, film velocities H'
+      real(dp) :: load(stages, 2) = 0.0_dp, film(stages, 2) = 0.0_dp, velocity(stages, 2) = 0.0_dp
+      !> A, and of the gear V and Z - Z at the start
+      real(dp) :: acceleration(stages) = 0.0_dp, momentum(stages) = 0.0_dp, way(stages) = 0.0_dp
+   end type trial_t
+
+   !> Signs of the gear's motion in the films
+   real(dp), parameter :: sign_of(2) = [1.0_dp, -1.0_dp]
+
+   public :: take_elastic_step, advance_springs
+
+contains
+
+   !> Try one step in every lane that has a scene.
+   pure subroutine take_elastic_step(films, occupied, block)
+      !> Film laws
+      type(film_t), intent(in) :: films(lanes)
+      !> Lanes with a scene
+      logical, intent(in) :: occupied(lanes)
+      !> The block; leaves the state that the step leads to, whether it is to be trusted, and series for the samples
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: force(lanes, stages)
+      type(trial_t) :: trial
+      integer :: l
+
+      call choose_steps(block)
+      call forces_of_stages(block, force)
+      block%next_film = block%film(:, 0)
+      block%next_momentum = block%momentum(:, 0)
+      block%trust = 0.0_dp
+      do l = 1, lanes
+         if (.not. occupied(l)) cycle
+         trial%flanks = merge(2, 1, block%backlash(l) < huge(1.0_dp))
+         call first_loads(l, block, trial%flanks, trial%load)
+         call solve(films(l), l, force(l, :), block, trial)
+         call judge(l, trial, block)
+      end do
+   end subroutine take_elastic_step
+
+   !> Advance the springs of all lanes whose step is accepted.
+   pure subroutine advance_springs(block)
+      type(lane_block_t), intent(inout) :: block
+      integer :: l
+
+      do l = 1, lanes
+         if (block%trust(l) > 0.0_dp) block%compression(l, :, 0) = block%next_compression(l, :)
+      end do
+   end subroutine advance_springs
+
+   !> First iterate: the polynomials of the step before, or the loads at its end where they would be carried too far.
+   pure subroutine first_loads(lane, block, flanks, load)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      integer, intent(in) :: flanks
+      real(dp), intent(inout) :: load(stages, 2)
+      real(dp) :: place
+      integer :: flank, i, j
+
+      do flank = 1, flanks
+         if (block%last_step(lane) > 0.0_dp .and. block%step(lane) < most_extrapolation*block%last_step(lane)) then
+            do i = 1, stages
+               place = 1.0_dp + 2.0_dp*block%step(lane)/block%last_step(lane)*node(i)
+               load(i, flank) = 0.0_dp
+               do j = stages, 1, -1
+                  load(i, flank) = load(i, flank)*place + block%load_polynomial(lane, j, flank)
+               end do
+            end do
+         else
+            load(:, flank) = block%compression(lane, flank, 0)/block%compliance(lane)
+         end if
+      end do
+   end subroutine first_loads
+
+   !> Newton's method for the loads.
+   pure subroutine solve(film_law, lane, force, block, trial)
+      type(film_t), intent(in) :: film_law
+      integer, intent(in) :: lane
+      !> F at the nodes [-]
+      real(dp), intent(in) :: force(stages)
+      type(lane_block_t), intent(inout) :: block
+      type(trial_t), intent(inout) :: trial
+      real(dp) :: matrix(2*stages, 2*stages), right(2*stages), change, last_change, ratio, reach
+      integer :: pass, n, flank
+      logical :: found
+
+      n = stages*trial%flanks
+      last_change = huge(1.0_dp)
+      ! What an error of one in the loads moves the films by
+      reach = max(block%step(lane)*min(block%step(lane), 1.0_dp/free_rate), block%compliance(lane))
+      do pass = 1, most_passes
+         call states(lane, force, block, trial)
+         call equations(film_law, lane, block, trial, matrix(:n, :n), right(:n), found)
+         if (.not. found) return
+         call eliminate(matrix(:n, :n), right(:n))
+         do flank = 1, trial%flanks
+            trial%load(:, flank) = trial%load(:, flank) + right(stages*(flank - 1) + 1:stages*flank)
+         end do
+         change = maxval(abs(right(:n)))
+         ratio = merge(1.0_dp, min(1.0_dp, change/last_change), pass == 1)
+         if (change*reach*ratio <= pass_share*allowed_here(lane, block, trial)) then
+            call states(lane, force, block, trial)
+            if (minval(trial%film(:, :trial%flanks)) > 0.0_dp) block%trust(lane) = 1.0_dp
+            return
+         end if
+         if (.not. abs(change) < huge(1.0_dp)) return
+         if (pass > 4 .and. change > slowest_fall*last_change) return
+         last_change = change
+      end do
+   end subroutine solve
+
+   !> Gear and films that follow from the loads.
+   pure subroutine states(lane, force, block, trial)
+      integer, intent(in) :: lane
+      real(dp), intent(in) :: force(stages)
+      type(lane_block_t), intent(in) :: block
+      type(trial_t), intent(inout) :: trial
+      real(dp) :: yielded(stages), start
+      integer :: flank
+
+      associate (s => block%step(lane), kappa => block%compliance(lane))
+         trial%acceleration = trial%load(:, 1) - force
+         if (trial%flanks == 2) trial%acceleration = trial%acceleration - trial%load(:, 2)
+         trial%momentum = block%momentum(lane, 0) + s*matmul(once, trial%acceleration)
+         trial%way = s*(node*block%momentum(lane, 0) + s*matmul(twice, trial%acceleration))
+         do flank = 1, trial%flanks
+            start = block%film(lane, 0)
+            if (flank == 2) start = block%backlash(lane) - block%film(lane, 0) + sum(block%compression(lane, :, 0))
+            yielded = kappa*trial%load(:, flank) - block%compression(lane, flank, 0)
+            trial%film(:, flank) = start + (sign_of(flank)*trial%way + yielded)
+            trial%velocity(:, flank) = sign_of(flank)*trial%momentum + matmul(slope, yielded)/s
+         end do
+      end associate
+   end subroutine states
+
+   !> Newton's equations; none where a film has no thickness or no load.
+   pure subroutine equations(film_law, lane, block, trial, matrix, right, found)
+      type(film_t), intent(in) :: film_law
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(inout) :: block
+      type(trial_t), intent(in) :: trial
+      real(dp), intent(out) :: matrix(:, :)
+      real(dp), intent(out) :: right(:)
+      logical, intent(out) :: found
+      real(dp) :: load, by_film, by_velocity, turn
+      integer :: row, flank, other, i
+
+      associate (s => block%step(lane), kappa => block%compliance(lane))
+         do flank = 1, trial%flanks
+            do i = 1, stages
+               row = stages*(flank - 1) + i
+               found = trial%film(i, flank) > 0.0_dp
+               if (.not. found) return
+               call film_load(film_law, trial%film(i, flank)*block%film_scale(lane), &
+                              trial%velocity(i, flank)*block%velocity_scale(lane), load, by_film, by_velocity)
+               block%no_load(lane) = .not. abs(load) < overflow_load
+               found = .not. block%no_load(lane)
+               if (.not. found) return
+               load = load/block%force_scale(lane)
+               by_film = by_film*(block%film_scale(lane)/block%force_scale(lane))
+               by_velocity = by_velocity*(block%velocity_scale(lane)/block%force_scale(lane))
+               right(row) = load - trial%load(i, flank)
+               do other = 1, trial%flanks
+                  turn = sign_of(flank)*sign_of(other)
+                  matrix(row, stages*(other - 1) + 1:stages*other) = &
+                     -(turn*s)*(by_film*s*twice(i, :) + by_velocity*once(i, :))
+               end do
+               associate (own => matrix(row, stages*(flank - 1) + 1:stages*flank))
+                  own = own - (by_velocity*kappa/s)*slope(i, :)
+               end associate
+               matrix(row, row) = matrix(row, row) + (1.0_dp - by_film*kappa)
+            end do
+         end do
+      end associate
+   end subroutine equations
+
+   !> Solve linear equations; the solution replaces the right-hand side. Rows are exchanged for the largest pivot.
+   pure subroutine eliminate(matrix, right)
+      real(dp), intent(inout) :: matrix(:, :)
+      real(dp), intent(inout) :: right(:)
+      real(dp) :: row(size(right)), factor
+      integer :: n, i, largest
+
+      do n = 1, size(right)
+         largest = n - 1 + maxloc(abs(matrix(n:, n)), dim=1)
+         if (largest /= n) then
+            row = matrix(n, :)
+            matrix(n, :) = matrix(largest, :)
+            matrix(largest, :) = row
+            factor = right(n)
+            right(n) = right(largest)
+            right(largest) = factor
+         end if
+         matrix(n, n) = 1.0_dp/matrix(n, n)
+         do i = n + 1, size(right)
+            factor = matrix(i, n)*matrix(n, n)
+            matrix(i, n + 1:) = matrix(i, n + 1:) - factor*matrix(n, n + 1:)
+            right(i) = right(i) - factor*right(n)
+         end do
+      end do
+      do n = size(right), 1, -1
+         right(n) = (right(n) - dot_product(matrix(n, n + 1:), right(n + 1:)))*matrix(n, n)
+      end do
+   end subroutine eliminate
+
+   !> Error that the accuracy allows to the thinnest of the films of a step [-].
+   pure real(dp) function allowed_here(lane, block, trial)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      type(trial_t), intent(in) :: trial
+      integer :: flank
+
+      allowed_here = huge(1.0_dp)
+      do flank = 1, trial%flanks
+         associate (films => trial%film(:, flank))
+            allowed_here = min(allowed_here, allowed_thickness(minval(films), lane, block), &
+                               allowed_thickness(maxval(films), lane, block))
+         end associate
+      end do
+   end function allowed_here
+
+   !> Error that the accuracy allows to one film [-].
+   pure real(dp) function allowed_thickness(film, lane, block)
+      real(dp), intent(in) :: film
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      allowed_thickness = huge(1.0_dp)
+      if (film > 0.0_dp) allowed_thickness = allowed(film, lane, block)
+   end function allowed_thickness
+
+   !> Error of the step, whether it stands, and the next one; series of film, momentum and compressions for the samples.
+   pure subroutine judge(lane, trial, block)
+      integer, intent(in) :: lane
+      type(trial_t), intent(in) :: trial
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: polynomial(stages, 0:2), top, next, error
+      integer :: flank
+
+      error = huge(1.0_dp)
+      if (block%trust(lane) > 0.0_dp) then
+         associate (s => block%step(lane), kappa => block%compliance(lane))
+            polynomial(:, 0) = matmul(power, trial%acceleration)
+            call highest_terms(polynomial(:, 0), top, next)
+            error = max(top/last_share, next/next_share)*s*max(s/real(4*stages**2, dp), 1.0_dp/(free_rate*real(2*stages, dp)))
+            do flank = 1, trial%flanks
+               polynomial(:, flank) = matmul(power, trial%load(:, flank))
+               call highest_terms(polynomial(:, flank), top, next)
+               error = max(error, max(top/last_share, next)*kappa)
+            end do
+            error = error/allowed_here(lane, block, trial)
+         end associate
+         if (.not. error <= 1.0_dp) block%trust(lane) = 0.0_dp
+      end if
+      block%proposed(lane) = growth_of(error)*block%step(lane)
+      if (.not. block%trust(lane) > 0.0_dp) return
+      block%next_film(lane) = trial%film(stages, 1)
+      block%next_momentum(lane) = trial%momentum(stages)
+      block%next_compression(lane, :trial%flanks) = block%compliance(lane)*trial%load(stages, :trial%flanks)
+      block%polynomial(lane, :) = polynomial(:, 0)
+      block%load_polynomial(lane, :, :trial%flanks) = polynomial(:, 1:trial%flanks)
+      block%last_step(lane) = block%step(lane)
+      block%damping_rate(lane) = 0.0_dp
+      call series_of_step(lane, trial%flanks, block)
+   end subroutine judge
+
+   !> Power series of film, momentum and compressions about the start of the step.
+   pure subroutine series_of_step(lane, flanks, block)
+      integer, intent(in) :: lane
+      integer, intent(in) :: flanks
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: shifted(0:stages), scale, gap
+      integer :: flank, j
+
+      block%film(lane, 1:) = 0.0_dp
+      block%momentum(lane, 1:) = 0.0_dp
+      block%compression(lane, :, 1:) = 0.0_dp
+      associate (s => block%step(lane))
+         shifted = powers_of_place(block%polynomial(lane, :))
+         block%film(lane, 1) = block%momentum(lane, 0)
+         scale = 1.0_dp
+         do j = 0, stages - 1
+            block%momentum(lane, j + 1) = shifted(j)*scale/real(j + 1, dp)
+            block%film(lane, j + 2) = block%momentum(lane, j + 1)/real(j + 2, dp)
+            scale = scale/s
+         end do
+         do flank = 1, flanks
+            ! The polynomial through the loads at the nodes misses the one at the start; one that is there alone makes up for it.
+            shifted = block%compliance(lane)*powers_of_place(block%load_polynomial(lane, :, flank))
+            gap = block%compression(lane, flank, 0) - shifted(0)
+            shifted = shifted + gap*start_alone
+            scale = 1.0_dp
+            do j = 1, stages
+               scale = scale/s
+               block%compression(lane, flank, j) = shifted(j)*scale
+            end do
+            if (flank == 1) block%film(lane, 1:stages) = block%film(lane, 1:stages) + block%compression(lane, 1, 1:stages)
+         end do
+      end associate
+   end subroutine series_of_step
+
+   !> From coefficients of the powers of 2c - 1 to those of the powers of c: Horner's scheme on polynomials.
+   pure function powers_of_place(polynomial) result(shifted)
+      real(dp), intent(in) :: polynomial(stages)
+      real(dp) :: shifted(0:stages)
+      integer :: i, j
+
+      shifted = 0.0_dp
+      do i = stages, 1, -1
+         do j = stages - 1, 1, -1
+            shifted(j) = 2.0_dp*shifted(j - 1) - shifted(j)
+         end do
+         shifted(0) = polynomial(i) - shifted(0)
+      end do
+   end function powers_of_place
+
+end module elastic_step
