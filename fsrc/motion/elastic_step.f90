@@ -41,6 +41,9 @@ module elastic_step
       real(dp) :: acceleration(stages) = 0.0_dp, momentum(stages) = 0.0_dp, way(stages) = 0.0_dp
    end type trial_t
 
+   !> Logarithms are taken of loads above this [-]; a correction leaves at least this share of the load of a film that never pulls
+   real(dp), parameter :: least_load = 1.0e-100_dp, least_ratio = 0.1_dp
+
    !> Signs of the gear's motion in the films
    real(dp), parameter :: sign_of(2) = [1.0_dp, -1.0_dp]
 
@@ -68,7 +71,7 @@ contains
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          trial%flanks = merge(2, 1, block%backlash(l) < huge(1.0_dp))
-         call first_loads(l, block, trial%flanks, trial%load)
+         call first_loads(l, block, never_pulls(films(l)), trial%flanks, trial%load)
          call solve(films(l), l, force(l, :), block, trial)
          call judge(l, trial, block)
       end do
@@ -85,9 +88,11 @@ contains
    end subroutine advance_springs
 
    !> First iterate: the polynomials of the step before, or the loads at its end where they would be carried too far.
-   pure subroutine first_loads(lane, block, flanks, load)
+   pure subroutine first_loads(lane, block, positive, flanks, load)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
+      !> Whether the films carry positive loads only
+      logical, intent(in) :: positive
       integer, intent(in) :: flanks
       real(dp), intent(inout) :: load(stages, 2)
       real(dp) :: place
@@ -105,6 +110,9 @@ contains
          else
             load(:, flank) = block%compression(lane, flank, 0)/block%compliance(lane)
          end if
+         ! Between nodes a polynomial may fall below what a film that never pulls can carry.
+         if (.not. positive) cycle
+         where (.not. load(:, flank) > 0.0_dp) load(:, flank) = block%compression(lane, flank, 0)/block%compliance(lane)
       end do
    end subroutine first_loads
 
@@ -130,7 +138,10 @@ contains
          if (.not. found) return
          call eliminate(matrix(:n, :n), right(:n))
          do flank = 1, trial%flanks
-            trial%load(:, flank) = trial%load(:, flank) + right(stages*(flank - 1) + 1:stages*flank)
+            associate (load => trial%load(:, flank), correction => right(stages*(flank - 1) + 1:stages*flank))
+               if (never_pulls(film_law)) correction = max(correction, (least_ratio - 1.0_dp)*load)
+               load = load + correction
+            end associate
          end do
          change = maxval(abs(right(:n)))
          ratio = merge(1.0_dp, min(1.0_dp, change/last_change), pass == 1)
@@ -178,7 +189,7 @@ contains
       real(dp), intent(out) :: matrix(:, :)
       real(dp), intent(out) :: right(:)
       logical, intent(out) :: found
-      real(dp) :: load, by_film, by_velocity, turn
+      real(dp) :: load, by_film, by_velocity, turn, ratio
       integer :: row, flank, other, i
 
       associate (s => block%step(lane), kappa => block%compliance(lane))
@@ -196,19 +207,35 @@ contains
                by_film = by_film*(block%film_scale(lane)/block%force_scale(lane))
                by_velocity = by_velocity*(block%velocity_scale(lane)/block%force_scale(lane))
                right(row) = load - trial%load(i, flank)
+               if (never_pulls(film_law) .and. load > least_load .and. trial%load(i, flank) > least_load) then
+                  ratio = trial%load(i, flank)/load
+                  ! The load of the exact films grows straight with a fast approach: there its own equation is the better one.
+                  if (ratio > 1.0_dp .or. .not. film_law%exact) then
+                     right(row) = -trial%load(i, flank)*log(ratio)
+                     by_film = by_film*ratio
+                     by_velocity = by_velocity*ratio
+                  end if
+               end if
                do other = 1, trial%flanks
                   turn = sign_of(flank)*sign_of(other)
                   matrix(row, stages*(other - 1) + 1:stages*other) = &
                      -(turn*s)*(by_film*s*twice(i, :) + by_velocity*once(i, :))
                end do
-               associate (own => matrix(row, stages*(flank - 1) + 1:stages*flank))
-                  own = own - (by_velocity*kappa/s)*slope(i, :)
-               end associate
+               matrix(row, stages*(flank - 1) + 1:stages*flank) = matrix(row, stages*(flank - 1) + 1:stages*flank) &
+                                                                  - (by_velocity*kappa/s)*slope(i, :)
                matrix(row, row) = matrix(row, row) + (1.0_dp - by_film*kappa)
             end do
          end do
       end associate
    end subroutine equations
+
+   !> Whether a film carries positive loads only, down to nothing: then W(H, H') = W is solved as an equation of the logarithms of
+   !> both sides, which is what keeps Newton's method from going too far where the load falls by powers of ten.
+   pure logical function never_pulls(film_law)
+      type(film_t), intent(in) :: film_law
+
+      never_pulls = film_law%exact .or. film_law%pressure_thickens
+   end function never_pulls
 
    !> Solve linear equations; the solution replaces the right-hand side. Rows are exchanged for the largest pivot.
    pure subroutine eliminate(matrix, right)

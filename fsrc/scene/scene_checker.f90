@@ -128,10 +128,10 @@ contains
       character(:), allocatable :: first
       integer :: i, dot
 
-      if (input%is_given('contact', 'stiffness')) &
-         call input%add_fault('contact', 'stiffness', 'teeth that give are not solved yet', faults)
-      if (input%is_given('gear', 'tooth_stiffness')) &
-         call input%add_fault('gear', 'tooth_stiffness', 'teeth that give are not solved yet', faults)
+      if ((input%is_given('contact', 'stiffness') .or. input%is_given('gear', 'tooth_stiffness')) .and. &
+          input%word('solver', 'method') == 'newmark' .and. input%word('solver', 'iteration') == 'successive') &
+         call input%add_fault('solver', 'iteration', 'the successive iteration of the paper has rigid teeth; take newton, or '// &
+                              'leave contact.stiffness out', faults)
       call input%put_numbers(scene)
       allocate (broken, source=broken_rules(scene))
       do i = 1, size(broken)
