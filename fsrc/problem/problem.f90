@@ -53,9 +53,9 @@ module problem
       real(dp) :: rate = huge(1.0_dp)
    end type settling_t
 
-   public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, static_load, film_at_rest, rest_film, reference_film, &
-             thinner_film, thinnest_film, start_springs, linearise, settling_of, net_load, net_loads, drive_loads, coast_loads, &
-             coast_films, gear_positions, largest_pressures, acceleration_at, accelerations_of_samples
+   public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, static_load, film_at_rest, rest_film, loads_at_rest, &
+             reference_film, thinner_film, thinnest_film, start_springs, linearise, settling_of, net_load, net_loads, &
+             drive_loads, coast_loads, coast_films, gear_positions, largest_pressures, acceleration_at, accelerations_of_samples
 
 contains
 

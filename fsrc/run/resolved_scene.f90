@@ -5,7 +5,8 @@ module resolved_scene
    use film_pressure, only: pressure_scale
    use force, only: largest_oscillation
    use kinds, only: dp
-   use problem, only: film_at_rest, has_two_flanks, linearise, problem_of, problem_t, thinner_film
+   use linear_motion, only: natural_motion
+   use problem, only: film_at_rest, has_elastic_teeth, has_two_flanks, linearise, problem_of, problem_t, thinner_film
    use regime, only: steel_tooth
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
@@ -63,6 +64,8 @@ contains
          call linearise(problem, resolved%steady_film, stiffness, damping)
          resolved%natural_frequency = sqrt(stiffness/mass)/two_pi
          resolved%damping_ratio = damping/(2.0_dp*sqrt(stiffness*mass))
+         if (has_elastic_teeth(problem)) &
+            call natural_motion(problem, resolved%natural_frequency, resolved%damping_ratio)
          thinner = thinner_film(problem, resolved%steady_film)
          force = static_load
          if (has_two_flanks(problem)) force = max(abs(static_load) + largest_oscillation(problem%force), least_static_load)

@@ -1,0 +1,53 @@
+!> Eigenvalues of small matrices, by LAPACK.
+module matrix_values
+   use kinds, only: dp
+   implicit none(type, external)
+   private
+
+   interface
+      !> Eigenvalues of a general matrix.
+      pure subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+         import :: dp
+         character, intent(in) :: jobvl
+         character, intent(in) :: jobvr
+         integer, intent(in) :: n
+         integer, intent(in) :: lda
+         integer, intent(in) :: ldvl
+         integer, intent(in) :: ldvr
+         integer, intent(in) :: lwork
+         real(dp), intent(inout) :: a(lda, *)
+         real(dp), intent(out) :: wr(*)
+         real(dp), intent(out) :: wi(*)
+         real(dp), intent(out) :: vl(ldvl, *)
+         real(dp), intent(out) :: vr(ldvr, *)
+         real(dp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dgeev
+   end interface
+
+   public :: eigenvalues
+
+contains
+
+   !> Eigenvalues of a matrix, the largest first; of a complex pair the one with the positive imaginary part.
+   pure function eigenvalues(matrix) result(values)
+      !> Square, of numbers of like size
+      real(dp), intent(in) :: matrix(:, :)
+      complex(dp) :: values(size(matrix, 1))
+      real(dp), dimension(size(matrix, 1)) :: real_part, imaginary_part
+      real(dp) :: copy(size(matrix, 1), size(matrix, 1)), work(8*size(matrix, 1)), none(1, 1)
+      logical :: left(size(matrix, 1))
+      integer :: n, i, largest, info
+
+      n = size(matrix, 1)
+      copy = matrix
+      call dgeev('N', 'N', n, copy, n, real_part, imaginary_part, none, 1, none, 1, work, size(work), info)
+      left = .true.
+      do i = 1, n
+         largest = maxloc(hypot(real_part, imaginary_part), dim=1, mask=left)
+         left(largest) = .false.
+         values(i) = cmplx(real_part(largest), imaginary_part(largest), dp)
+      end do
+   end function eigenvalues
+
+end module matrix_values
