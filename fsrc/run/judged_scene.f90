@@ -6,7 +6,8 @@ module judged_scene
    use floquet, only: orbit_stability
    use kinds, only: dp
    use loudness, only: loudness_t
-   use node_extremes, only: extreme_t, seen_acceleration, seen_coast_load, seen_film, seen_load, seen_net_load, seen_velocity
+   use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
+      seen_net_load, seen_position, seen_velocity
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
@@ -15,16 +16,16 @@ module judged_scene
       quantity_deflection, quantity_deflection_share, quantity_dissipated_energy, quantity_dissipated_power, &
       quantity_double_sided, quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, &
       quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
-      quantity_first_harmonic, quantity_floquet_modulus, quantity_floquet_multipliers, quantity_harmonic_distortion, &
-      quantity_harmonic_distortion_is_bound, quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, &
-      quantity_iterations_per_step, quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, &
-      quantity_lines_by_integrals, quantity_load_maximum, quantity_load_minimum, quantity_loudness_error, quantity_model_limit, &
-      quantity_natural_frequency, quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, &
-      quantity_pressure_maximum, quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, &
-      quantity_sampling_sufficient, quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, &
-      quantity_steps_cut, quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, &
-      quantity_window_periods
-   use problem, only: has_two_flanks, thinner_film
+      quantity_gear_position_maximum, quantity_gear_position_minimum, quantity_first_harmonic, quantity_floquet_modulus, &
+      quantity_floquet_multipliers, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
+      quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, quantity_iterations_per_step, &
+      quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, quantity_lines_by_integrals, &
+      quantity_load_maximum, quantity_load_minimum, quantity_loudness_error, quantity_model_limit, quantity_natural_frequency, &
+      quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, quantity_pressure_maximum, &
+      quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, quantity_sampling_sufficient, &
+      quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, quantity_steps_cut, &
+      quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, quantity_window_periods
+   use problem, only: coast_films, has_elastic_teeth, has_two_flanks, largest_state, of_film, thinner_film
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit
    use regime_check, only: model_limit, regime_verdict_t
@@ -144,12 +145,18 @@ contains
          case (quantity_dissipated_power)
             value = judged%loudness%dissipated_energy*judged%resolved%problem%frequency
          case (quantity_model_limit)
-            value = real(model_limit(min(lowest(seen_film)%value, thinner_film(problem, highest(seen_film)%value)), &
+            value = real(model_limit(thinnest_seen(judged), &
                                      highest(seen_film)%value, problem%film%radius), dp)
          case (quantity_coast_film_minimum)
             if (has_two_flanks(problem)) value = problem%backlash - highest(seen_film)%value
+            if (has_two_flanks(problem) .and. has_elastic_teeth(problem)) value = lowest(seen_coast_film)%value
          case (quantity_coast_film_maximum)
             if (has_two_flanks(problem)) value = problem%backlash - lowest(seen_film)%value
+            if (has_two_flanks(problem) .and. has_elastic_teeth(problem)) value = highest(seen_coast_film)%value
+         case (quantity_gear_position_minimum)
+            if (has_elastic_teeth(problem)) value = lowest(seen_position)%value
+         case (quantity_gear_position_maximum)
+            if (has_elastic_teeth(problem)) value = highest(seen_position)%value
          case (quantity_coast_load_maximum)
             if (has_two_flanks(problem)) value = highest(seen_coast_load)%value
          case (quantity_double_sided)
@@ -200,14 +207,30 @@ contains
       end associate
    end function window_value
 
+   !> Smallest film of both flanks over the window [m].
+   pure real(dp) function thinnest_seen(judged) result(film)
+      type(judged_scene_t), intent(in) :: judged
+
+      associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest, problem => judged%resolved%problem)
+         if (has_two_flanks(problem) .and. has_elastic_teeth(problem)) then
+            film = min(lowest(seen_film)%value, lowest(seen_coast_film)%value)
+         else
+            film = min(lowest(seen_film)%value, thinner_film(problem, highest(seen_film)%value))
+         end if
+      end associate
+   end function thinnest_seen
+
    !> By which share of the film a tooth gives way under the largest load of it, at the flank where that is more [-].
    pure real(dp) function deflection_share(judged) result(share)
       type(judged_scene_t), intent(in) :: judged
+      real(dp) :: coast(1)
 
       associate (highest => judged%extremes%highest, resolved => judged%resolved)
-         share = highest(seen_load)%value/highest(seen_load)%film
-         if (has_two_flanks(resolved%problem)) share = &
-            max(share, highest(seen_coast_load)%value/(resolved%problem%backlash - highest(seen_coast_load)%film))
+         share = highest(seen_load)%value/highest(seen_load)%state(of_film)
+         if (has_two_flanks(resolved%problem)) then
+            coast = coast_films(resolved%problem, reshape(highest(seen_coast_load)%state, [1, largest_state]))
+            share = max(share, highest(seen_coast_load)%value/coast(1))
+         end if
          share = resolved%tooth_compliance*share
       end associate
    end function deflection_share

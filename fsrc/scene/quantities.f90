@@ -13,8 +13,8 @@ module quantities
    !> node_extremes.
    integer, parameter :: needs_nothing = 0, needs_film_range = 1, needs_velocity_range = 2, needs_acceleration_range = 3, &
                                  needs_load_range = 4, needs_regime = 5, needs_coast_load_range = 6, needs_net_load_range = 7, &
-                                 needs_deflection = 8, needs_spectrum = 9, needs_certificate = 10, &
-                                 need_count = 10
+                                 needs_coast_film_range = 8, needs_position_range = 9, needs_deflection = 10, &
+                                 needs_spectrum = 11, needs_certificate = 12, need_count = 12
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_lines = 3, part_class = 4, part_errors = 5, &
@@ -27,7 +27,8 @@ module quantities
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
          quantity_acceleration_rms, quantity_crest_factor, quantity_acceleration_kurtosis, quantity_film_force_rms, &
          quantity_dissipated_energy, quantity_dissipated_power, quantity_coast_film_minimum, quantity_coast_film_maximum, &
-         quantity_coast_load_maximum, quantity_double_sided, quantity_model_limit, quantity_reversals_per_period, &
+         quantity_coast_load_maximum, quantity_double_sided, quantity_gear_position_minimum, quantity_gear_position_maximum, &
+         quantity_model_limit, quantity_reversals_per_period, &
          quantity_harmonics, quantity_first_harmonic, quantity_line_count, quantity_line_count_is_bound, &
          quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, &
          quantity_sampling_sufficient, quantity_rattle_class, quantity_certified, quantity_film_error, &
@@ -117,10 +118,10 @@ module quantities
       quantity_t(quantity_dissipated_power, 'dissipated_power', 'W', a_number, part_window, needs_nothing, &
          'summary sweep campaign log', &
          'dissipated_energy times the frequency of the force.', digits=4), &
-      quantity_t(quantity_coast_film_minimum, 'coast_film_minimum', 'm', a_number, part_window, needs_film_range, &
+      quantity_t(quantity_coast_film_minimum, 'coast_film_minimum', 'm', a_number, part_window, needs_coast_film_range, &
          'summary flanks campaign', &
          'Smallest film of the coast flank over the window, where there is a backlash.'), &
-      quantity_t(quantity_coast_film_maximum, 'coast_film_maximum', 'm', a_number, part_window, needs_film_range, &
+      quantity_t(quantity_coast_film_maximum, 'coast_film_maximum', 'm', a_number, part_window, needs_coast_film_range, &
          'summary campaign', &
          'Largest film of the coast flank over the window.'), &
       quantity_t(quantity_coast_load_maximum, 'coast_load_maximum', 'N', a_number, part_window, needs_coast_load_range, &
@@ -129,6 +130,12 @@ module quantities
       quantity_t(quantity_double_sided, 'double_sided', '-', a_flag, part_window, needs_net_load_range, &
          'summary flanks campaign log', &
          'Whether the coast film carries more than the drive film at some time of the window: the tooth strikes both flanks.'), &
+      quantity_t(quantity_gear_position_minimum, 'gear_position_minimum', 'm', a_number, part_window, needs_position_range, &
+         'summary campaign', &
+         'Smallest gap that the gear leaves over the window, its teeth taken as unloaded: the film less what they give.'), &
+      quantity_t(quantity_gear_position_maximum, 'gear_position_maximum', 'm', a_number, part_window, needs_position_range, &
+         'summary campaign', &
+         'Largest gap that the gear leaves over the window.'), &
       quantity_t(quantity_model_limit, 'model_limit', '-', a_code, part_window, needs_film_range, 'summary sweep campaign', &
          'Where the motion leaves what the model can mean.', &
          'within|too_wide|too_narrow|too_wide_and_narrow'), &
