@@ -1,24 +1,16 @@
-!> Newmark's average acceleration method for m z'' = W(h, z') - F(t) - m g, eq (1), with the iteration
-!> within a step that (36) ends:
-!>
-!>    h_i  = h_(i-1) + dt z'_(i-1) + dt^2/4 (z''_(i-1) + z''_i)
-!>    z'_i = z'_(i-1) + dt/2 (z''_(i-1) + z''_i)
-!>
-!> A pass evaluates the film at the present iterate. `successive`: its load gives z''_i, as in the paper.
-!> `newton`: the load is linearised about the iterate, which gives z''_i from one linear equation.
+!> Motion by Newmark's method (module newmark_step): start, the steps of a period, and the cuts of those that fail.
 module newmark
    use engine, only: motion_count_t, request_t
    use film_law, only: film_kernel, overflow_load
    use force, only: force_at
    use kinds, only: dp, int64
-   use problem, only: net_load, problem_t, thinner_film
-   use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
+   use newmark_step, only: newmark_state_t, take_step
+   use problem, only: has_elastic_teeth, net_load, of_drive_compression, of_film, of_velocity, problem_t, start_springs
+   use scene_status, only: status_complete, status_interrupted, status_not_converged
    use signals, only: must_stop
    implicit none(type, external)
    private
 
-   !> A step in which the film loses more than this factor, or goes to zero and below, is cut in two.
-   real(dp), parameter, public :: smallest_film_ratio = 1.0e-3_dp
    !> Cuts within a cut: a step of 2^-30 of the grid's that still fails will not succeed.
    integer, parameter :: deepest_cut = 30
    !> Cuts of one step of the grid: a motion that needs more needs another method.
@@ -26,16 +18,6 @@ module newmark
 
    !> Evaluations after which a period looks whether it must end
    integer(int64), parameter :: evaluations_between_looks = 65536_int64
-
-   !> State of the motion.
-   type, public :: newmark_state_t
-      !> Film thickness h [m]
-      real(dp) :: film = 0.0_dp
-      !> z' [m/s]
-      real(dp) :: velocity = 0.0_dp
-      !> z'' [m/s2]
-      real(dp) :: acceleration = 0.0_dp
-   end type newmark_state_t
 
    public :: start_motion, advance_period
 
@@ -60,12 +42,17 @@ contains
       state%film = problem%initial_film
       state%velocity = problem%initial_velocity
       status = merge(status_complete, problem%film%status_without_load, load < overflow_load)
-      if (status == status_complete) &
-         state%acceleration = (load - problem%weight - force_at(problem%force, 0.0_dp))/problem%mass
+      if (status /= status_complete) return
+      if (has_elastic_teeth(problem)) then
+         call start_springs(problem, state%compression)
+         state%film_velocity = [state%velocity, -state%velocity]
+         load = (state%compression(1) - state%compression(2))/problem%compliance
+      end if
+      state%acceleration = (load - problem%weight - force_at(problem%force, 0.0_dp))/problem%mass
    end subroutine start_motion
 
    !> Advance one period of the force. On failure the state is that before the failing step.
-   subroutine advance_period(kernel, problem, request, force, state, count, films, velocities, accelerations, done, status)
+   subroutine advance_period(kernel, problem, request, force, state, count, states, accelerations, done, status)
       !> Kernel of the film
       procedure(film_kernel) :: kernel
       !> What moves
@@ -78,9 +65,8 @@ contains
       type(newmark_state_t), intent(inout) :: state
       !> Cost, counted up
       type(motion_count_t), intent(inout) :: count
-      !> Samples at the end of every step: h [m], z' [m/s], z'' [m/s2]
-      real(dp), contiguous, intent(out) :: films(:)
-      real(dp), contiguous, intent(out) :: velocities(:)
+      !> At the end of every step: sample, number of its state; and z'' [m/s2]
+      real(dp), intent(out) :: states(:, :)
       real(dp), contiguous, intent(out) :: accelerations(:)
       !> Steps that succeeded
       integer, intent(out) :: done
@@ -102,11 +88,7 @@ contains
                exit
             end if
          end if
-         if (request%by_newton) then
-            call newton_step(kernel, problem, request, time_step, force(i), state, next, passes, status)
-         else
-            call successive_step(kernel, problem, request, time_step, force(i), state, next, passes, status)
-         end if
+         call take_step(kernel, problem, request, time_step, force(i), state, next, passes, status)
          count%evaluations = count%evaluations + int(passes, int64)
          if (status /= status_complete) then
             call cut_step(kernel, problem, request, time_step, real(i - 1, dp)/real(size(force), dp), &
@@ -114,8 +96,9 @@ contains
             if (status /= status_complete) exit
          end if
          state = next
-         films(i) = state%film
-         velocities(i) = state%velocity
+         states(i, of_film) = state%film
+         states(i, of_velocity) = state%velocity
+         if (size(states, 2) > of_velocity) states(i, of_drive_compression:) = state%compression(:size(states, 2) - of_velocity)
          accelerations(i) = state%acceleration
       end do
       done = i - 1
@@ -155,11 +138,7 @@ contains
       do part = 1, 2
          end_phase = phase + 0.5_dp*real(part, dp)*phase_step
          force = force_at(problem%force, end_phase)
-         if (request%by_newton) then
-            call newton_step(kernel, problem, request, half, force, from, next, passes, status)
-         else
-            call successive_step(kernel, problem, request, half, force, from, next, passes, status)
-         end if
+         call take_step(kernel, problem, request, half, force, from, next, passes, status)
          count%evaluations = count%evaluations + int(passes, int64)
          if (status /= status_complete) call cut_step(kernel, problem, request, half, end_phase - 0.5_dp*phase_step, &
                                                       0.5_dp*phase_step, depth + 1, last_cut, from, next, count, status)
@@ -167,116 +146,5 @@ contains
          from = next
       end do
    end subroutine cut_step
-
-   !> One step, each pass one evaluation of load and slopes and one linear equation for z''.
-   pure subroutine newton_step(kernel, problem, request, time_step, force, state, next, passes, status)
-      procedure(film_kernel) :: kernel
-      type(problem_t), intent(in) :: problem
-      type(request_t), intent(in) :: request
-      !> Step [s]
-      real(dp), intent(in) :: time_step
-      !> Applied force at its end [N]
-      real(dp), intent(in) :: force
-      type(newmark_state_t), intent(in) :: state
-      !> State at its end
-      type(newmark_state_t), intent(out) :: next
-      integer, intent(out) :: passes
-      integer, intent(out) :: status
-      real(dp) :: load, load_by_film, load_by_velocity, known_film, known_velocity, old_film, film_weight, velocity_weight, &
-                  smallest_film
-
-      call begin_step(request, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
-      smallest_film = smallest_film_ratio*thinner_film(problem, state%film)
-      status = status_film_lost
-      passes = 0
-      if (thinner_film(problem, next%film) <= smallest_film) return
-      do passes = 1, request%iteration_limit
-         call net_load(problem, next%film, next%velocity, load, load_by_film, load_by_velocity, kernel)
-         if (.not. load < overflow_load) then
-            status = problem%film%status_without_load
-            return
-         end if
-         next%acceleration = (load + load_by_film*(known_film - next%film) + &
-                              load_by_velocity*(known_velocity - next%velocity) - force - problem%weight)/ &
-                             (problem%mass - load_by_film*film_weight - load_by_velocity*velocity_weight)
-         old_film = next%film
-         next%film = known_film + film_weight*next%acceleration
-         next%velocity = known_velocity + velocity_weight*next%acceleration
-         if (thinner_film(problem, next%film) <= smallest_film) return
-         if (abs(next%film - old_film) < request%tolerance) then
-            status = status_complete
-            return
-         end if
-      end do
-      passes = request%iteration_limit
-      status = status_not_converged
-   end subroutine newton_step
-
-   !> One step of the paper's iteration: z'' of a pass is that of the equation of motion at the iterate.
-   pure subroutine successive_step(kernel, problem, request, time_step, force, state, next, passes, status)
-      procedure(film_kernel) :: kernel
-      type(problem_t), intent(in) :: problem
-      type(request_t), intent(in) :: request
-      !> Step [s]
-      real(dp), intent(in) :: time_step
-      !> Applied force at its end [N]
-      real(dp), intent(in) :: force
-      type(newmark_state_t), intent(in) :: state
-      !> State at its end
-      type(newmark_state_t), intent(out) :: next
-      integer, intent(out) :: passes
-      integer, intent(out) :: status
-      real(dp) :: load, load_by_film, load_by_velocity, known_film, known_velocity, old_film, film_weight, velocity_weight, &
-                  smallest_film
-
-      call begin_step(request, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
-      smallest_film = smallest_film_ratio*thinner_film(problem, state%film)
-      status = status_film_lost
-      passes = 0
-      if (thinner_film(problem, next%film) <= smallest_film) return
-      do passes = 1, request%iteration_limit
-         call net_load(problem, next%film, next%velocity, load, load_by_film, load_by_velocity, kernel)
-         if (.not. load < overflow_load) then
-            status = problem%film%status_without_load
-            return
-         end if
-         next%acceleration = (load - force - problem%weight)/problem%mass
-         old_film = next%film
-         next%film = known_film + film_weight*next%acceleration
-         next%velocity = known_velocity + velocity_weight*next%acceleration
-         if (thinner_film(problem, next%film) <= smallest_film) return
-         if (abs(next%film - old_film) < request%tolerance) then
-            status = status_complete
-            return
-         end if
-      end do
-      passes = request%iteration_limit
-      status = status_not_converged
-   end subroutine successive_step
-
-   !> Known part of Newmark's formulas and the first iterate.
-   pure subroutine begin_step(request, time_step, state, first, known_film, known_velocity, film_weight, velocity_weight)
-      type(request_t), intent(in) :: request
-      real(dp), intent(in) :: time_step
-      type(newmark_state_t), intent(in) :: state
-      !> First iterate
-      type(newmark_state_t), intent(out) :: first
-      !> h and z' at the end of the step were z'' zero there
-      real(dp), intent(out) :: known_film
-      real(dp), intent(out) :: known_velocity
-      !> Factors of z'' at the end of the step: dt^2/4 and dt/2
-      real(dp), intent(out) :: film_weight
-      real(dp), intent(out) :: velocity_weight
-
-      velocity_weight = 0.5_dp*time_step
-      film_weight = velocity_weight*velocity_weight
-      known_film = state%film + time_step*state%velocity + film_weight*state%acceleration
-      known_velocity = state%velocity + velocity_weight*state%acceleration
-      first = state
-      if (request%extrapolate) then
-         first%film = known_film + film_weight*state%acceleration
-         first%velocity = known_velocity + velocity_weight*state%acceleration
-      end if
-   end subroutine begin_step
 
 end module newmark

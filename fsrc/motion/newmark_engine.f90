@@ -7,8 +7,9 @@ module newmark_engine
    use film_law, only: film_kernel, kernel_of
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
-   use newmark, only: advance_period, newmark_state_t, start_motion
-   use problem, only: has_two_flanks, problem_t, rest_film, settling_of, thinner_film
+   use newmark, only: advance_period, start_motion
+   use newmark_step, only: newmark_state_t
+   use problem, only: has_two_flanks, largest_state, problem_t, rest_film, settling_of, state_size, thinner_film
    use repetition, only: note_state, orbit_watch_t
    use scene_status, only: status_complete, status_steady
    use window_record, only: window_record_t
@@ -55,14 +56,15 @@ contains
       record%periods = 0
       kernel => kernel_of(problem%film)
       steps = request%samples_per_period
-      allocate (force(steps), states_of_steps(steps, 2), accelerations(steps))
+      allocate (force(steps), states_of_steps(steps, state_size(problem)), accelerations(steps))
       call force_of_period(problem%force, force)
 
       ! Without a film to start from there is none that carries the static load.
       ending%status = problem%film%status_without_load
       if (.not. (associated(kernel) .and. problem%initial_film > 0.0_dp)) return
       if (checkpoint%periods > 0) then
-         state = newmark_state_t(checkpoint%film, checkpoint%velocity, checkpoint%acceleration)
+         state = newmark_state_t(checkpoint%film, checkpoint%velocity, checkpoint%acceleration, checkpoint%compression, &
+                                 checkpoint%film_velocity)
          ending%count = checkpoint%count
          ending%periods = checkpoint%periods
          states = checkpoint%watch
@@ -70,8 +72,8 @@ contains
          call start_motion(kernel, problem, state, ending%count, ending%status)
          ending%film = state%film
          if (ending%status /= status_complete) return
-         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], reshape([state%film, state%velocity], [1, 2]), &
-                        [state%acceleration], error)
+         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], &
+                        reshape([state%film, state%velocity, state%compression], [1, largest_state]), [state%acceleration], error)
          if (allocated(error)) return
       end if
       ending%status = status_complete
@@ -89,12 +91,13 @@ contains
       do while (period < last_period)
          period = period + 1
          first_step = int(period - 1, int64)*int(steps, int64) + 1_int64
-         call advance_period(kernel, problem, request, force, state, ending%count, states_of_steps(:, 1), &
-                             states_of_steps(:, 2), accelerations, done, &
+         call advance_period(kernel, problem, request, force, state, ending%count, states_of_steps, &
+                             accelerations, done, &
                              ending%status)
          call sink%take(first_step, force(:done), states_of_steps(:done, :), accelerations(:done), error)
          ending%film = state%film
          ending%velocity = state%velocity
+         ending%compression = state%compression
          ending%time = real(first_step + int(done - 1, int64), dp)/(problem%frequency*real(steps, dp))
          if (allocated(error) .or. ending%status /= status_complete) return
          ending%periods = period
@@ -109,6 +112,7 @@ contains
          end if
          if (period <= last_period - window) &
             checkpoint = checkpoint_t(periods=period, film=state%film, velocity=state%velocity, acceleration=state%acceleration, &
+                                      compression=state%compression, film_velocity=state%film_velocity, &
                                       watch=states, orbit=ending%orbit, count=ending%count)
          call watcher%period_done(period, last_period)
          if (period == last_period) exit
@@ -135,7 +139,7 @@ contains
       if (has_two_flanks(problem)) backlash = problem%backlash/unit
       call note_state(states, state%film/unit, state%velocity/(unit*problem%frequency), &
                       1.0_dp/two_pi, settling_of(problem, state%film, rest_film(problem)), repetition_tolerance, orbit, distance, &
-                      backlash)
+                      backlash, state%compression/unit)
       if (orbit > periods_left) orbit = 0
    end subroutine look_back
 

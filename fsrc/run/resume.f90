@@ -168,7 +168,8 @@ contains
          names(fixed + watched + i) = 'watch_momentum_'//integer_text(i)
       end do
       if (.not. elastic) return
-      names = [character(column_name_bytes) :: names, 'drive_compression', 'coast_compression']
+      names = [character(column_name_bytes) :: names, 'drive_compression', 'coast_compression', 'drive_film_velocity', &
+               'coast_film_velocity']
       do i = 1, watched
          names = [character(column_name_bytes) :: names, 'watch_drive_compression_'//integer_text(i), &
                   'watch_coast_compression_'//integer_text(i)]
@@ -196,7 +197,7 @@ contains
                 merge(1.0_dp, 0.0_dp, state%implicit), real(state%count%steps, dp), real(state%count%evaluations, dp), &
                 real(state%count%cuts, dp), real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), watch%film, &
                 watch%momentum]
-         if (elastic) row = [row, state%compression, watch%compression]
+         if (elastic) row = [row, state%compression, state%film_velocity, watch%compression]
       end associate
    end function row_of
 
@@ -226,7 +227,8 @@ contains
       place = place + size(state%watch%momentum)
       if (size(row) == place) return
       state%compression = row(place + 1:place + 2)
-      state%watch%compression(:, :) = reshape(row(place + 3:), shape(state%watch%compression))
+      state%film_velocity = row(place + 3:place + 4)
+      state%watch%compression(:, :) = reshape(row(place + 5:), shape(state%watch%compression))
    end function state_of
 
 end module resume
