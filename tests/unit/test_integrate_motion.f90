@@ -8,7 +8,7 @@ module test_integrate_motion
    use force, only: cosine_force, force_of_period
    use kinds, only: dp
    use newmark, only: advance_period, newmark_state_t, start_motion
-   use problem, only: problem_of, problem_t
+   use problem, only: of_film, of_velocity, problem_of, problem_t
    use sample_recorder, only: sample_recorder_t
    use scene_status, only: status_complete, status_no_rigid_film, status_not_converged, status_overflow
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t
@@ -56,8 +56,8 @@ contains
       call run_window(scene, recorder, ending)
       response%status = ending%status
       if (ending%status /= status_complete) return
-      response%extremes = [minval(recorder%films), maxval(recorder%films), minval(recorder%accelerations), &
-         maxval(recorder%accelerations)]
+      response%extremes = [minval(recorder%states(:, of_film)), maxval(recorder%states(:, of_film)), &
+                             minval(recorder%accelerations), maxval(recorder%accelerations)]
       call find_lines(recorder%accelerations, 1, [.true.], 0.01_dp, 1.0e-10_dp, response%lines)
       response%harmonics = response%lines%harmonics(:6)
    end subroutine respond
@@ -258,14 +258,14 @@ contains
       call checks%check(watcher%told == 7 .and. watcher%done == 7 .and. watcher%all == 7, &
          'bookkeeping: periods told')
       call checks%check_close(ending%time*600.0_dp, 7.0_dp, 8.0_dp*epsilon(1.0_dp), 'bookkeeping: time')
-      call checks%check(size(recorder%films) == 512, 'bookkeeping: size of the window')
-      call checks%check_close(recorder%films(512), ending%film, 0.0_dp, &
+      call checks%check(size(recorder%states, 1) == 512, 'bookkeeping: size of the window')
+      call checks%check_close(recorder%states(512, of_film), ending%film, 0.0_dp, &
          'bookkeeping: the window ends with the run')
       film = new_film(scene)
       call force_of_period(cosine_force(199.2_dp, 205.7_dp), force)
       residual = 0.0_dp
       do i = 1, 512
-         call film_load(film, recorder%films(i), recorder%velocities(i), load, slope_h, slope_w)
+         call film_load(film, recorder%states(i, of_film), recorder%states(i, of_velocity), load, slope_h, slope_w)
          residual = max(residual, abs(load - force(1 + modulo(i - 1, 256)) - 3.0_dp*9.80665_dp - &
             3.0_dp*recorder%accelerations(i)))
       end do

@@ -11,7 +11,7 @@ module test_lane_motions
    use lane_block, only: lane_block_t
    use lane_functions, only: lane_count => lanes
    use many_motions, only: solve_motions
-   use problem, only: accelerations_of_samples, problem_of, problem_t
+   use problem, only: accelerations_of_samples, of_film, problem_of, problem_t
    use radau_nodes, only: stages
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_steady
@@ -31,7 +31,8 @@ module test_lane_motions
    !> Some motions.
    type :: motions_t
       type(ending_t), allocatable :: endings(:)
-      real(dp), allocatable :: films(:, :), velocities(:, :)
+      !> Sample, number of its state, motion
+      real(dp), allocatable :: states(:, :, :)
    end type motions_t
 
    public :: run_lane_motions_tests
@@ -94,10 +95,9 @@ contains
       type(request_t), intent(in) :: request  !> What is asked for
       type(motions_t) :: motions
 
-      allocate (motions%films(request%sampled_periods*request%samples_per_period, size(lanes)), source=0.0_dp)
-      allocate (motions%velocities, source=motions%films)
+      allocate (motions%states(request%sampled_periods*request%samples_per_period, 2, size(lanes)), source=0.0_dp)
       allocate (motions%endings(size(lanes)))
-      call solve_motions(lanes, starts, request, motions%films, motions%velocities, motions%endings)
+      call solve_motions(lanes, starts, request, motions%states, motions%endings)
    end function motions_of
 
    !> Lines and extreme films of the last of 60 periods, by Taylor series where there are some, and by
@@ -141,15 +141,15 @@ contains
          law = 1 + modulo(i - 1, size(kernels))
          call checks%check(motions%endings(i)%status == status_complete .and. &
                            motions%endings(i)%samples == samples, trim(names(law))//': ended well')
-         call accelerations_of_samples(lanes(i), samples, motions%films(:, i), motions%velocities(:, i), values)
+         call accelerations_of_samples(lanes(i), samples, motions%states(:, :, i), values)
          call find_lines(values, 1, [.true.], 0.01_dp, 1.0e-10_dp, lines)
          call checks%check_close(maxval(abs(lines%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, &
                                  1.0e-6_dp, &
                                  trim(names(law))//': harmonics')
          call checks%check(lines%line_count == line_counts(law), trim(names(law))//': number of lines')
-         call checks%check_close(least(motions%films(:, i))/extremes(1, law), 1.0_dp, 3.0e-6_dp, &
+         call checks%check_close(least(motions%states(:, of_film, i))/extremes(1, law), 1.0_dp, 3.0e-6_dp, &
                                  trim(names(law))//': thinnest film')
-         call checks%check_close(-least(-motions%films(:, i))/extremes(2, law), 1.0_dp, 3.0e-6_dp, &
+         call checks%check_close(-least(-motions%states(:, of_film, i))/extremes(2, law), 1.0_dp, 3.0e-6_dp, &
                                  trim(names(law))//': thickest film')
       end do
    end subroutine test_canonical
@@ -206,18 +206,18 @@ contains
       type(motion_state_t) :: starts(2*size(kernels))
       type(ending_t) :: whole(2*size(kernels)), piece(1)
       type(orbit_watch_t) :: watches(1)
-      real(dp) :: films(0, 2*size(kernels)), velocities(0, 2*size(kernels))
+      real(dp) :: none(0, 2, 2*size(kernels))
       integer :: i
 
       lanes(:size(kernels)) = all_lanes()
       lanes(size(kernels) + 1:) = lanes(:size(kernels))
       starts = start_of(lanes)
       starts(size(kernels) + 1:)%implicit = .true.
-      call solve_motions(lanes, starts, request_t(periods=most_periods, until_steady=.true.), films, velocities, whole)
+      call solve_motions(lanes, starts, request_t(periods=most_periods, until_steady=.true.), none, whole)
       do i = 1, size(lanes)
          do while (starts(i)%periods < most_periods)
             call solve_motions(lanes(i:i), starts(i:i), request_t(periods=starts(i)%periods + 1, until_steady=.true.), &
-                               films(:, i:i), velocities(:, i:i), piece, watches)
+                               none(:, :, i:i), piece, watches)
             starts(i) = piece(1)%motion_state_t
             if (piece(1)%orbit > 0) exit
          end do
@@ -252,7 +252,7 @@ contains
             call checks%check(ending%distance <= 1.0e-8_dp .and. ending%samples == 64, trim(names(i))// &
                               ': distance')
          end associate
-         error = maxval(abs(steady%films(:, i)/whole%films(:, i) - 1.0_dp))
+         error = maxval(abs(steady%states(:, of_film, i)/whole%states(:, of_film, i) - 1.0_dp))
          call checks%check_close(error, 0.0_dp, 3.0e-8_dp, trim(names(i))//': steady motion')
       end do
    end subroutine test_steady
@@ -370,7 +370,7 @@ contains
          collocation = motions_of(lanes(:1), starts(:1), request)
          request%accuracy = 1.0e-4_dp*accuracy
          taylor = motions_of(lanes(2:), starts(2:), request)
-         error = maxval(abs(collocation%films/taylor%films - 1.0_dp))
+         error = maxval(abs(collocation%states(:, of_film, :)/taylor%states(:, of_film, :) - 1.0_dp))
          call checks%check(all([collocation%endings%status, taylor%endings%status] == status_complete), 'overshooting: solved')
          call checks%check(error < accuracy, 'overshooting: the film')
       end do
@@ -416,8 +416,7 @@ contains
       type(motions_t), intent(in) :: others  !> Other motions
       integer, intent(in) :: j               !> The one of them
 
-      same = all(same_bits(some%films(:, i), others%films(:, j))) .and. &
-             all(same_bits(some%velocities(:, i), others%velocities(:, j))) .and. &
+      same = all(same_bits(some%states(:, :, i), others%states(:, :, j))) .and. &
              same_bits(some%endings(i)%film, others%endings(j)%film) .and. &
              same_bits(some%endings(i)%momentum, others%endings(j)%momentum) .and. &
              some%endings(i)%status == others%endings(j)%status .and. &

@@ -8,7 +8,7 @@ module test_loudness
    use force, only: force_of_period
    use kinds, only: dp
    use loudness, only: loudness_of_record, loudness_of_samples, loudness_t
-   use problem, only: problem_of, problem_t, static_load
+   use problem, only: of_film, of_velocity, problem_of, problem_t, static_load
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
                           rupture_solver_fast, rupture_solver_successive, scene_t
    use window_record, only: window_record_t
@@ -49,19 +49,19 @@ contains
    end function scene_of
 
    !> Solve and hand out the last periods.
-   subroutine solve(problem, implicit, periods, window, films, velocities, accelerations, record)
+   subroutine solve(problem, implicit, periods, window, states, accelerations, record)
       type(problem_t), intent(in) :: problem           !> What moves
       logical, intent(in) :: implicit                  !> By collocation
       integer, intent(in) :: periods                   !> To solve
       integer, intent(in) :: window                    !> Of them judged
-      real(dp), allocatable, intent(out) :: films(:), velocities(:), accelerations(:)  !> Samples
+      real(dp), allocatable, intent(out) :: states(:, :), accelerations(:)  !> Samples
       type(window_record_t), intent(out) :: record     !> What the steps tell
       type(motion_state_t) :: start
       type(ending_t) :: ending
 
       start = start_of(problem)
       start%implicit = implicit
-      call solve_window(problem, start, 1.0e-10_dp, samples, periods, window, films, velocities, accelerations, ending, record)
+      call solve_window(problem, start, 1.0e-10_dp, samples, periods, window, states, accelerations, ending, record)
    end subroutine solve
 
    !> Values of an independent solver, to the digits given, and its largest acceleration.
@@ -70,10 +70,10 @@ contains
       type(problem_t) :: problem
       type(window_record_t) :: record
       type(loudness_t) :: found
-      real(dp), allocatable :: films(:), velocities(:), accelerations(:)
+      real(dp), allocatable :: states(:, :), accelerations(:)
 
       problem = problem_of(scene_of(1))
-      call solve(problem, .false., 60, 1, films, velocities, accelerations, record)
+      call solve(problem, .false., 60, 1, states, accelerations, record)
       found = loudness_of_record(record, problem%frequency)
       call checks%check_close(found%acceleration_rms, 21.323978_dp, 0.6e-6_dp, 'reference: rms of the acceleration')
       call checks%check_close(found%acceleration_kurtosis, 4.67967_dp, 0.6e-5_dp, 'reference: kurtosis of the acceleration')
@@ -89,7 +89,7 @@ contains
       type(problem_t) :: problem
       type(window_record_t) :: record
       type(loudness_t) :: by_steps, by_samples
-      real(dp), allocatable :: films(:), velocities(:), accelerations(:)
+      real(dp), allocatable :: states(:, :), accelerations(:)
       real(dp) :: force(samples), work
       integer :: law, implicit
 
@@ -97,11 +97,11 @@ contains
          problem = problem_of(scene_of(law))
          call force_of_period(problem%force, force)
          do implicit = 0, 1
-            call solve(problem, implicit == 1, 120, 1, films, velocities, accelerations, record)
+            call solve(problem, implicit == 1, 120, 1, states, accelerations, record)
             by_steps = loudness_of_record(record, problem%frequency)
-            by_samples = loudness_of_samples(problem, samples, velocities, accelerations)
+            by_samples = loudness_of_samples(problem, samples, states(:, of_velocity), accelerations)
             associate (name => trim(names(law))//trim(merge(', implicit', '          ', implicit == 1)))
-               work = -sum(force*velocities)/(real(samples, dp)*problem%frequency)
+               work = -sum(force*states(:, of_velocity))/(real(samples, dp)*problem%frequency)
                call checks%check(work > 1.0e-6_dp, name//': the force works')
                call checks%check_close(by_steps%dissipated_energy/work, 1.0_dp, 1.0e-8_dp, name//': energy and work')
                call checks%check_close(by_samples%dissipated_energy/work, 1.0_dp, 1.0e-8_dp, name//': energy by samples')
@@ -123,17 +123,17 @@ contains
       type(problem_t) :: problem
       type(window_record_t) :: record
       type(loudness_t) :: found
-      real(dp), allocatable :: films(:), velocities(:), accelerations(:)
+      real(dp), allocatable :: states(:, :), accelerations(:)
       real(dp) :: work, mean, variance
 
       problem = problem_of(scene_of(1))
       problem%initial_film = 1.5_dp*problem%initial_film
       problem%initial_velocity = -2.0e-3_dp
-      call solve(problem, .false., 2, 2, films, velocities, accelerations, record)
+      call solve(problem, .false., 2, 2, states, accelerations, record)
       found = loudness_of_record(record, problem%frequency)
-      work = -record%force_work + static_load(problem)*(films(2*samples) - record%start%film) &
-             - 0.5_dp*problem%mass*(velocities(2*samples)**2 - record%start%velocity**2)
-      call checks%check(abs(films(2*samples)/record%start%film - 1.0_dp) > 0.1_dp, 'unclosed: the film has changed')
+      work = -record%force_work + static_load(problem)*(states(2*samples, of_film) - record%start%film) &
+             - 0.5_dp*problem%mass*(states(2*samples, of_velocity)**2 - record%start%velocity**2)
+      call checks%check(abs(states(2*samples, of_film)/record%start%film - 1.0_dp) > 0.1_dp, 'unclosed: the film has changed')
       call checks%check_close(2.0_dp*found%dissipated_energy/work, 1.0_dp, 1.0e-8_dp, 'unclosed: energy of the window')
       mean = sum(accelerations)/(2.0_dp*real(samples, dp))
       variance = sum((accelerations - mean)**2)/(2.0_dp*real(samples, dp))

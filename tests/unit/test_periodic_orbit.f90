@@ -7,7 +7,7 @@ module test_periodic_orbit
    use many_motions, only: solve_motions
    use period_map, only: map_states
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
-   use problem, only: problem_of, problem_t
+   use problem, only: of_film, of_velocity, problem_of, problem_t
    use scene_types, only: law_iso_viscous, scene_t
    implicit none(type, external)
    private
@@ -47,10 +47,10 @@ contains
       integer, intent(in) :: periods           !> Periods
       type(ending_t) :: ending
       type(ending_t) :: endings(1)
-      real(dp) :: none(0, 1)
+      real(dp) :: none(0, 2, 1)
 
       none = 0.0_dp
-      call solve_motions([lane], [start_of(lane)], request_t(accuracy=1.0e-12_dp, periods=periods), none, none, endings)
+      call solve_motions([lane], [start_of(lane)], request_t(accuracy=1.0e-12_dp, periods=periods), none, endings)
       ending = endings(1)
    end function settled
 
@@ -72,12 +72,12 @@ contains
       do i = 1, size(shares, 2)
          film = true%film*(1.0_dp + shares(1, i))
          velocity = true%velocity + scale*shares(2, i)
-         orbit = find_periodic_orbit(lane, film, velocity, 0.02_dp)
+         orbit = find_periodic_orbit(lane, [film, velocity], 0.02_dp)
          call checks%check(orbit%period == 1, 'off the orbit: found')
-         call checks%check_close(orbit%film/true%film, 1.0_dp, 1.0e-9_dp, 'off the orbit: its film')
-         call checks%check_close((orbit%velocity - true%velocity)/scale, 0.0_dp, 1.0e-9_dp, 'off the orbit: its velocity')
+         call checks%check_close(orbit%state(of_film)/true%film, 1.0_dp, 1.0e-9_dp, 'off the orbit: its film')
+         call checks%check_close((orbit%state(of_velocity) - true%velocity)/scale, 0.0_dp, 1.0e-9_dp, 'off the orbit: its velocity')
          call checks%check_close(orbit%distance, maxval(abs(shares(:, i))), 1.0e-8_dp, 'off the orbit: how far')
-         orbit = find_periodic_orbit(lane, film, velocity, 0.0045_dp)
+         orbit = find_periodic_orbit(lane, [film, velocity], 0.0045_dp)
          call checks%check(orbit%period == 0, 'off the orbit: too far away')
       end do
    end subroutine test_off_the_orbit
@@ -93,10 +93,10 @@ contains
       lane = lane_of(100.0_dp, 1.905_dp)
       lane%frequency = 6.0e5_dp
       true = settled(lane, 5000)
-      orbit = find_periodic_orbit(lane, 1.05_dp*true%film, true%velocity, 0.06_dp)
+      orbit = find_periodic_orbit(lane, [1.05_dp*true%film, true%velocity], 0.06_dp)
       call checks%check(orbit%period == 1, 'slow return: found within the nearness')
       call checks%check_close(orbit%distance, 0.05_dp, 1.0e-8_dp, 'slow return: how far')
-      orbit = find_periodic_orbit(lane, 1.05_dp*true%film, true%velocity, 0.04_dp)
+      orbit = find_periodic_orbit(lane, [1.05_dp*true%film, true%velocity], 0.04_dp)
       call checks%check(orbit%period == 0, 'slow return: too far away')
    end subroutine test_slow_return
 
@@ -106,21 +106,22 @@ contains
       type(problem_t) :: lane
       type(ending_t) :: true
       type(periodic_orbit_t) :: orbit
-      real(dp) :: trace(2), step, film_step, velocity_step, films(4), velocities(4)
+      real(dp) :: trace(2), step, film_step, velocity_step, states(2, 4)
       integer :: i
       logical :: mapped
 
       lane = lane_of(100.0_dp, 8.0_dp)
       true = settled(lane, 200)
-      orbit = find_periodic_orbit(lane, 1.001_dp*true%film, true%velocity, 0.02_dp)
+      orbit = find_periodic_orbit(lane, [1.001_dp*true%film, true%velocity], 0.02_dp)
       do i = 1, 2
          step = 5.0e-4_dp*real(i, dp)
          film_step = step*true%film
          velocity_step = film_step*2.0_dp*acos(-1.0_dp)*lane%frequency
-         films = true%film + [film_step, -film_step, 0.0_dp, 0.0_dp]
-         velocities = true%velocity + [0.0_dp, 0.0_dp, velocity_step, -velocity_step]
-         call map_states(lane, 1, 1.0e-12_dp, films, velocities, mapped)
-         trace(i) = (films(1) - films(2))/(2.0_dp*film_step) + (velocities(3) - velocities(4))/(2.0_dp*velocity_step)
+         states(of_film, :) = true%film + [film_step, -film_step, 0.0_dp, 0.0_dp]
+         states(of_velocity, :) = true%velocity + [0.0_dp, 0.0_dp, velocity_step, -velocity_step]
+         call map_states(lane, 1, 1.0e-12_dp, states, mapped)
+         trace(i) = (states(of_film, 1) - states(of_film, 2))/(2.0_dp*film_step) + &
+                    (states(of_velocity, 3) - states(of_velocity, 4))/(2.0_dp*velocity_step)
       end do
       call checks%check(orbit%period == 1 .and. mapped, 'multipliers: found')
       call checks%check_close(real(sum(orbit%multipliers), dp), (4.0_dp*trace(1) - trace(2))/3.0_dp, 2.0e-8_dp, &
@@ -141,9 +142,9 @@ contains
       do i = 1, size(periods)
          lane = lane_of(amplitudes(i), speeds(i))
          true = settled(lane, 800)
-         orbit = find_periodic_orbit(lane, true%film*(1.0_dp + 1.0e-5_dp), true%velocity, 1.0e-3_dp)
+         orbit = find_periodic_orbit(lane, [true%film*(1.0_dp + 1.0e-5_dp), true%velocity], 1.0e-3_dp)
          call checks%check(orbit%period == periods(i) .and. attracting_period(orbit) == periods(i), 'periods: its own')
-         call checks%check_close(orbit%film/true%film, 1.0_dp, 1.0e-7_dp, 'periods: its film')
+         call checks%check_close(orbit%state(of_film)/true%film, 1.0_dp, 1.0e-7_dp, 'periods: its film')
       end do
    end subroutine test_periods
 

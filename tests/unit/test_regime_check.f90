@@ -5,7 +5,7 @@ module test_regime_check
    use film_law, only: film_t, new_film, steady_film
    use kinds, only: dp
    use node_extremes, only: seen_pressure
-   use problem, only: problem_t
+   use problem, only: of_film, problem_t
    use regime, only: film_elastohydrodynamic, film_iso_viscous, film_piezo_viscous
    use regime_check, only: check_regime, regime_sentence, regime_verdict_t, steady_alpha_p
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, scene_t
@@ -53,9 +53,9 @@ contains
 
       type(window_extremes_t) :: extremes
 
-      extremes = extremes_of_samples(problem_t(film=film), films, velocities, velocities)
+      extremes = extremes_of_samples(problem_t(film=film), reshape([films, velocities], [size(films), 2]), velocities)
       associate (pressure => extremes%highest(seen_pressure))
-         verdict = check_regime(film, pressure%value, pressure%film)
+         verdict = check_regime(film, pressure%value, pressure%state(of_film))
       end associate
    end function regime_of
 

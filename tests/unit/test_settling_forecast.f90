@@ -6,7 +6,7 @@ module test_settling_forecast
    use kinds, only: dp
    use lane_repetition, only: forecast_rest
    use many_motions, only: solve_motions
-   use problem, only: problem_of, problem_t, settling_t
+   use problem, only: of_film, problem_of, problem_t, settling_t
    use repetition, only: note_state, orbit_watch_t, watch_from
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, scene_t
@@ -113,7 +113,7 @@ contains
       type(problem_t) :: lanes(4)
       type(request_t) :: request
       type(ending_t) :: plain(4), ahead(4)
-      real(dp) :: films(8*samples, 4), others(8*samples, 4), velocities(8*samples, 4)
+      real(dp), dimension(8*samples, 2, 4) :: states, others
       integer :: i
 
       do i = 1, 4
@@ -124,14 +124,14 @@ contains
       request%samples_per_period = samples
       request%sampled_periods = 8
       request%until_steady = .true.
-      call solve_motions(lanes, start_of(lanes), request, films, velocities, plain)
+      call solve_motions(lanes, start_of(lanes), request, states, plain)
       request%forecast = .true.
-      call solve_motions(lanes, start_of(lanes), request, others, velocities, ahead)
+      call solve_motions(lanes, start_of(lanes), request, others, ahead)
       call checks%check(all(plain%status == status_steady .and. ahead%status == status_steady), 'both are steady')
       call checks%check(all(plain%orbit == 1 .and. ahead%orbit == 1), 'both have the period of the force')
       ! Each is within 0.3 accuracies of the orbit, where its steps are accurate; two steps differ by their errors.
-      call checks%check_close(maxval(abs(films(:samples, :)/others(:samples, :) - 1.0_dp)), 0.0_dp, 4.0_dp*accuracy, &
-                              'the same motion')
+      call checks%check_close(maxval(abs(states(:samples, of_film, :)/others(:samples, of_film, :) - 1.0_dp)), 0.0_dp, &
+                              4.0_dp*accuracy, 'the same motion')
       call checks%check(sum(ahead%periods) < 0.6*sum(plain%periods), 'sooner')
    end subroutine test_motions
 
@@ -143,7 +143,7 @@ contains
       type(problem_t) :: lanes(scenes)
       type(request_t) :: request
       type(ending_t) :: plain(scenes), ahead(scenes)
-      real(dp) :: films(8*samples, scenes), others(8*samples, scenes), velocities(8*samples, scenes)
+      real(dp), dimension(8*samples, 2, scenes) :: states, others
       logical :: unsettled(scenes)
       integer :: i
 
@@ -154,17 +154,17 @@ contains
       request%samples_per_period = samples
       request%sampled_periods = 8
       request%until_steady = .true.
-      films = 0.0_dp
+      states = 0.0_dp
       others = 0.0_dp
-      call solve_motions(lanes, start_of(lanes), request, films, velocities, plain)
+      call solve_motions(lanes, start_of(lanes), request, states, plain)
       request%forecast = .true.
-      call solve_motions(lanes, start_of(lanes), request, others, velocities, ahead)
+      call solve_motions(lanes, start_of(lanes), request, others, ahead)
       unsettled = ahead%status == status_complete
       ! Which of them these are is left to rounding, for the motions are irregular.
       call checks%check(count(unsettled .and. ahead%count%steps > plain%count%steps) > 0, 'failed forecasts: there are some')
       call checks%check(all(plain%status == status_complete .or. .not. unsettled), 'failed forecasts: none would have settled')
       call checks%check(all(plain%periods == ahead%periods .or. .not. unsettled), 'failed forecasts: the periods of the motion')
-      call checks%check(all(maxval(abs(films - others), dim=1) <= 0.0_dp .or. .not. unsettled), &
+      call checks%check(all(maxval(abs(states(:, of_film, :) - others(:, of_film, :)), dim=1) <= 0.0_dp .or. .not. unsettled), &
                         'failed forecasts: the same motion to the last bit')
    end subroutine test_failed_excursions
 

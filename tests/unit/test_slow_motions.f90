@@ -137,13 +137,13 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(problem_t) :: lane
       type(ending_t) :: steady(1), long(1)
-      real(dp) :: none(0, 1), film, away
+      real(dp) :: none(0, 2, 1), film, away
 
       none = 0.0_dp
       lane = lane_of(scene, velocity)
       call solve_motions([lane], [start_of(lane)], request_t(accuracy=accuracy, periods=periods, until_steady=.true.), none, &
-                         none, steady)
-      call solve_motions([lane], [start_of(lane)], request_t(accuracy=0.01_dp*accuracy, periods=periods), none, none, long)
+                         steady)
+      call solve_motions([lane], [start_of(lane)], request_t(accuracy=0.01_dp*accuracy, periods=periods), none, long)
       call checks%check(steady(1)%status == status_steady .and. long(1)%status == status_complete, name//': found steady')
       call checks%check(steady(1)%orbit == 1 .and. steady(1)%distance <= accuracy, name//': its bound')
       call checks%check_close(steady(1)%film/long(1)%film, 1.0_dp, accuracy, name//': where a long run ends')

@@ -71,22 +71,21 @@ contains
       type(motion_state_t) :: starts(scenes)
       type(request_t) :: request
       type(ending_t) :: endings(scenes)
-      real(dp) :: films(64, scenes), velocities(64, scenes)
+      real(dp) :: states(64, 2, scenes)
 
       scene = canonical_scene(law_iso_viscous, 64)
       lanes = problem_of(scene)
       starts = start_of(lanes)
       starts(15:)%implicit = .true.
       request = request_t(accuracy=1.0e-6_dp, periods=3, samples_per_period=64, sampled_periods=1)
-      films = 0.0_dp
-      velocities = 0.0_dp
+      states = 0.0_dp
       call end_time()
-      call solve_motions(lanes, starts, request, films, velocities, endings)
+      call solve_motions(lanes, starts, request, states, endings)
       call lift_time_limit()
       call checks%check(all(endings%status == status_interrupted), 'motions: interrupted')
       call checks%check(all(endings%periods == 0 .and. endings%samples == 0), 'motions: nothing solved')
       call checks%check(all(same_bits(endings%film, lanes%initial_film)), 'motions: where they began')
-      call solve_motions(lanes, starts, request, films, velocities, endings)
+      call solve_motions(lanes, starts, request, states, endings)
       call checks%check(all(endings%status == status_complete .and. endings%periods == 3), 'motions: solved in the end')
    end subroutine test_motions
 

@@ -16,7 +16,7 @@ module test_taylor_lanes
       whole_below
    use lane_rows, only: interleave_rows
    use many_motions, only: solve_motions
-   use problem, only: accelerations_of_samples, problem_t
+   use problem, only: accelerations_of_samples, of_film, of_velocity, problem_t
    use published_iso_viscous, only: rolling_coefficient, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, squeeze_exponent_rate
    use reynolds_load, only: pressure_rate, squeeze_rate
@@ -109,17 +109,16 @@ contains
       logical, optional, intent(in) :: implicit
       type(motion_state_t) :: start
       type(ending_t) :: endings(1)
-      real(dp) :: film_table(sampled*per_period, 1), velocity_table(sampled*per_period, 1)
+      real(dp) :: states(sampled*per_period, 2, 1)
 
-      film_table = 0.0_dp
+      states = 0.0_dp
       start = start_of(scene)
       if (present(implicit)) start%implicit = implicit
       call solve_motions([scene], [start], request_t(accuracy=accuracy, periods=periods, &
          samples_per_period=per_period, &
-                                                 sampled_periods=sampled), film_table, velocity_table, &
-                                                    endings)
+                                                 sampled_periods=sampled), states, endings)
       ending = endings(1)
-      films = film_table(:, 1)
+      films = states(:, of_film, 1)
    end subroutine films_of
 
    !> Exponential, cosine and sine, coarse logarithm.
@@ -300,8 +299,7 @@ contains
       logical :: implicit(count)
       type(ending_t) :: endings(count), alone(1)
       type(request_t) :: request
-      real(dp) :: films(periods*per_period, count), velocities(periods*per_period, count)
-      real(dp) :: film(periods*per_period, 1), velocity(periods*per_period, 1)
+      real(dp) :: states(periods*per_period, 2, count), own_states(periods*per_period, 2, 1)
       integer :: i, shift
       logical :: equal
 
@@ -320,16 +318,13 @@ contains
          mixed = cshift(scenes, shift)
          starts = start_of(mixed)
          starts%implicit = cshift(implicit, shift)
-         films = 0.0_dp
-         velocities = 0.0_dp
-         call solve_motions(mixed, starts, request, films, velocities, endings)
+         states = 0.0_dp
+         call solve_motions(mixed, starts, request, states, endings)
          equal = .true.
          do i = 1, count, 4
-            film = 0.0_dp
-            velocity = 0.0_dp
-            call solve_motions(mixed(i:i), starts(i:i), request, film, velocity, alone)
-            equal = equal .and. all(same_bits(film(:, 1), films(:, i))) .and. all(same_bits(velocity(:, 1), &
-               velocities(:, i))) &
+            own_states = 0.0_dp
+            call solve_motions(mixed(i:i), starts(i:i), request, own_states, alone)
+            equal = equal .and. all(same_bits(own_states(:, :, 1), states(:, :, i))) &
                .and. same_bits(alone(1)%momentum, endings(i)%momentum) .and. alone(1)%count%steps == endings(i)%count%steps
          end do
          call checks%check(equal, 'equal bits alone and in company')
@@ -344,7 +339,7 @@ contains
       type(request_t) :: request
       real(dp), allocatable :: exact(:)
       type(ending_t) :: ending
-      real(dp) :: films(8*16, 4), velocities(8*16, 4)
+      real(dp) :: states(8*16, 2, 4)
 
       scenes(1) = scene_of(kernel_half_pi, 1.9_dp, 1.0_dp)
       scenes(2) = scene_of(kernel_piezo, 1.9_dp, 0.0_dp)
@@ -360,9 +355,8 @@ contains
       scenes(4) = scene_of(kernel_piezo, 0.05_dp, 3.0_dp)
       request = request_t(accuracy=1.0e-8_dp, periods=300, samples_per_period=16, sampled_periods=8, &
          until_steady=.true.)
-      films = 0.0_dp
-      velocities = 0.0_dp
-      call solve_motions(scenes, start_of(scenes), request, films, velocities, endings)
+      states = 0.0_dp
+      call solve_motions(scenes, start_of(scenes), request, states, endings)
       call checks%check(all(endings(1:3)%status == status_steady), 'motions that repeat are found')
       call checks%check(all(endings(1:3)%orbit == [1, 1, 2]), 'they repeat after 1, 1, 2 periods')
       call checks%check(all(endings(1:3)%distance < 1.0e-8_dp), 'their distance is below the accuracy')
@@ -370,10 +364,10 @@ contains
       call checks%check(all(endings%samples == [16, 16, 32, 128]), 'one orbit is sampled')
       call checks%check(endings(4)%status == status_complete, 'a film that rises slowly does not repeat')
       call films_of(scenes(1), 1.0e-10_dp, 300, 1, 16, exact, ending)
-      call checks%check_close(maxval(abs(films(:16, 1)/exact - 1.0_dp)), 0.0_dp, 2.0e-8_dp, &
+      call checks%check_close(maxval(abs(states(:16, of_film, 1)/exact - 1.0_dp)), 0.0_dp, 2.0e-8_dp, &
          'orbit of the whole run')
       call films_of(scenes(3), 1.0e-10_dp, 300 + modulo(endings(3)%periods, 2), 2, 16, exact, ending)
-      call checks%check_close(maxval(abs(films(:32, 3)/exact - 1.0_dp)), 0.0_dp, 5.0e-8_dp, &
+      call checks%check_close(maxval(abs(states(:32, of_film, 3)/exact - 1.0_dp)), 0.0_dp, 5.0e-8_dp, &
          'orbit of two periods')
    end subroutine test_repetition
 
@@ -384,26 +378,25 @@ contains
       type(motion_state_t) :: start
       type(ending_t) :: long(1), first(1), second(1)
       type(request_t) :: request
-      real(dp) :: films(12*8, 1), velocities(12*8, 1), whole(12*8, 1)
+      real(dp), dimension(12*8, 2, 1) :: states, whole
       integer :: method
 
       do method = 1, 2
          scene = scene_of(kernel_half_pi, 1.9_dp, 2.0_dp)
          start = start_of(scene)
          start%implicit = method == 2
-         films = 0.0_dp
-         velocities = 0.0_dp
+         states = 0.0_dp
          request = request_t(accuracy=1.0e-6_dp, periods=30, samples_per_period=8, sampled_periods=12)
-         call solve_motions([scene], [start], request, films, velocities, long)
-         whole = films
+         call solve_motions([scene], [start], request, states, long)
+         whole = states
          request%periods = 13
          request%sampled_periods = 0
-         call solve_motions([scene], [start], request, films, velocities, first)
+         call solve_motions([scene], [start], request, states, first)
          request%periods = 30
          request%sampled_periods = 12
-         films = 0.0_dp
-         call solve_motions([scene], [first(1)%motion_state_t], request, films, velocities, second)
-         call checks%check(all(same_bits(films, whole)) .and. same_bits(long(1)%momentum, second(1)%momentum), &
+         states = 0.0_dp
+         call solve_motions([scene], [first(1)%motion_state_t], request, states, second)
+         call checks%check(all(same_bits(states, whole)) .and. same_bits(long(1)%momentum, second(1)%momentum), &
             'carried on, bit for bit')
       end do
    end subroutine test_carrying_on
@@ -413,22 +406,21 @@ contains
       type(check_list_t), intent(inout) :: checks
       type(problem_t) :: scenes(4)
       type(ending_t) :: endings(4)
-      real(dp) :: films(4, 4), velocities(4, 4), values(4)
+      real(dp) :: states(4, 2, 4), values(4)
 
-      films = 1.0_dp
-      velocities = 0.0_dp
+      states(:, of_film, :) = 1.0_dp
+      states(:, of_velocity, :) = 0.0_dp
       scenes = scene_of(kernel_piezo, 1.9_dp, 1.0_dp)
       scenes(1)%initial_film = -1.0e-9_dp
       scenes(2)%initial_film = ieee_value(1.0_dp, ieee_quiet_nan)
       scenes(3)%initial_velocity = -2.0_dp
       call solve_motions(scenes, start_of(scenes), request_t(accuracy=1.0e-6_dp, periods=2, samples_per_period=4, &
-         sampled_periods=1), &
-                         films, velocities, endings)
+         sampled_periods=1), states, endings)
       call checks%check(all(endings%status == [status_film_lost, status_film_lost, status_overflow, &
          status_complete]), &
                         'statuses of scenes that cannot start')
       call checks%check(all(endings%samples == [0, 0, 0, 4]), 'samples of scenes that cannot start')
-      call accelerations_of_samples(scenes(4), 4, [first_film], [0.0_dp], values(:1))
+      call accelerations_of_samples(scenes(4), 4, reshape([first_film, 0.0_dp], [1, 2]), values(:1))
       call checks%check_close(values(1), 0.0_dp, 1.0e-9_dp, 'balance at a quarter of a period')
    end subroutine test_failures
 
@@ -439,7 +431,7 @@ contains
       type(ending_t) :: endings(1)
       type(lane_block_t), pointer :: block
       real(dp), allocatable, target :: room(:)
-      real(dp) :: films(4, 1), velocities(4, 1)
+      real(dp) :: states(4, 2, 1)
       integer :: l
 
       scene = scene_of(kernel_half_pi, 1.9_dp, 1.0_dp)
@@ -456,7 +448,7 @@ contains
       call check_ends(series_of(scene), [(0.0_dp, l=1, lanes)], block)
       call checks%check(all(block%trust <= 0.0_dp), 'unknown law: ends rejected')
       call solve_motions([scene], start_of([scene]), request_t(accuracy=1.0e-6_dp, periods=2, samples_per_period=4, &
-                                                               sampled_periods=1), films, velocities, endings)
+                                                               sampled_periods=1), states, endings)
       call checks%check(endings(1)%status == status_overflow .and. endings(1)%periods == 0, 'unknown law: no motion')
    end subroutine test_unknown_law
 

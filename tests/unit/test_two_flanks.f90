@@ -9,7 +9,7 @@ module test_two_flanks
    use many_motions, only: solve_motions
    use loudness, only: loudness_of_record, loudness_of_samples, loudness_t
    use node_extremes, only: seen_acceleration, seen_coast_load, seen_film, seen_load, seen_net_load
-   use problem, only: film_at_rest, linearise, net_load, problem_of, problem_t, static_load
+   use problem, only: film_at_rest, linearise, net_load, of_film, of_velocity, problem_of, problem_t, static_load
    use scene_status, only: is_success, status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
                           scene_t
@@ -221,14 +221,15 @@ contains
       type(ending_t) :: found
       type(window_record_t) :: record
       type(loudness_t) :: told
-      real(dp), allocatable :: h(:), w(:), z(:), amplitudes(:)
+      real(dp), allocatable :: states(:, :), z(:), amplitudes(:)
 
       call find_steady_motion(problem, accuracy, periods, 1, found)
       call checks%check(is_success(found%status) .and. found%orbit == 1, name//': repeats after one period')
-      call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, h, w, z, found, record)
+      call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
       call checks%check(found%status == status_complete, name//': solved')
       if (found%status /= status_complete) return
-      call checks%check(maxval(abs([minval(h), maxval(h)] - films)) < agreement*films(2), name//': film')
+      call checks%check(maxval(abs([minval(states(:, of_film)), maxval(states(:, of_film))] - films)) < agreement*films(2), &
+                        name//': film')
       call checks%check(maxval(abs([minval(z), maxval(z)] - accelerations)) < agreement*maxval(abs(accelerations)), &
                         name//': acceleration')
       call amplitude_spectrum(z, amplitudes)
@@ -244,7 +245,7 @@ contains
       call checks%check_close(told%film_force_rms/loudness%film_force_rms, 1.0_dp, 1.0e-6_dp, name//': net film force')
       call checks%check_close(told%dissipated_energy/loudness%dissipated_energy, 1.0_dp, 1.0e-6_dp, name//': dissipated energy')
       ! The impacts of R4 need twice as many samples.
-      told = loudness_of_samples(problem, samples, w, z)
+      told = loudness_of_samples(problem, samples, states(:, of_velocity), z)
       call checks%check_close(told%film_force_rms/loudness%film_force_rms, 1.0_dp, 2.0e-4_dp, name//': net film force by samples')
       call checks%check_close(told%dissipated_energy/loudness%dissipated_energy, 1.0_dp, 2.0e-4_dp, name//': energy by samples')
       call checks%check(energy_gap(record, problem%mass) < 1.0e-7_dp, name//': energy closes')
@@ -257,15 +258,15 @@ contains
       type(problem_t) :: problem, mirrored
       type(ending_t) :: found
       type(window_record_t) :: record
-      real(dp), allocatable :: h(:), w(:), z(:), other_h(:)
+      real(dp), allocatable :: states(:, :), z(:), other_states(:, :)
 
       scene = canonical_between_flanks(law_piezo_viscous, model_published, rupture_half_pi)
       scene%load%steady_force = 0.0_dp
       problem = problem_of(scene)
       call find_steady_motion(problem, accuracy, 400, 1, found)
-      call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, h, w, z, found, record)
-      call checks%check(maxval(abs(cshift(h, samples/2) - (problem%backlash - h))) < 1.0e-7_dp*problem%backlash, &
-                        'mirror: its own image half a period later')
+      call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
+      call checks%check(maxval(abs(cshift(states(:, of_film), samples/2) - (problem%backlash - states(:, of_film)))) &
+                        < 1.0e-7_dp*problem%backlash, 'mirror: its own image half a period later')
       ! A motion under the mirrored force is the mirrored motion.
       scene%load%steady_force = 20.0_dp
       problem = problem_of(scene)
@@ -274,9 +275,10 @@ contains
       scene%load%force_amplitudes = [scene%load%force_amplitude]
       scene%load%force_phases = [acos(-1.0_dp)]
       mirrored = problem_of(scene)
-      call solve_window(problem, start_of(problem), accuracy, 64, 5, 5, h, w, z, found, record)
-      call solve_window(mirrored, start_of(mirrored), accuracy, 64, 5, 5, other_h, w, z, found, record)
-      call checks%check(maxval(abs(other_h - (problem%backlash - h))) < 1.0e-7_dp*problem%backlash, 'mirror: of the mirrored force')
+      call solve_window(problem, start_of(problem), accuracy, 64, 5, 5, states, z, found, record)
+      call solve_window(mirrored, start_of(mirrored), accuracy, 64, 5, 5, other_states, z, found, record)
+      call checks%check(maxval(abs(other_states(:, of_film) - (problem%backlash - states(:, of_film)))) &
+                        < 1.0e-7_dp*problem%backlash, 'mirror: of the mirrored force')
    end subroutine test_mirror
 
    !> Taylor series and collocation follow the same motion; a motion has the same bits alone and beside those on one flank and of
@@ -320,19 +322,20 @@ contains
       type(problem_t) :: problem
       type(ending_t) :: ending
       type(window_record_t) :: record
-      real(dp), allocatable :: h(:), w(:), z(:), wide_h(:), narrower_h(:)
+      real(dp), allocatable :: states(:, :), z(:), wide(:, :), narrower(:, :)
       real(dp) :: differences(2), by_one
 
       problem = problem_of(canonical_between_flanks(law_iso_viscous, model_reynolds, rupture_half_pi))
       problem%force%steady = 199.2_dp
       problem%backlash = huge(1.0_dp)
       problem%initial_film = 1.0e-6_dp
-      call solve_window(problem, start_of(problem), 1.0e-11_dp, 64, 3, 3, h, w, z, ending, record)
+      call solve_window(problem, start_of(problem), 1.0e-11_dp, 64, 3, 3, states, z, ending, record)
       problem%backlash = 1.0_dp
-      call solve_window(problem, start_of(problem), 1.0e-11_dp, 64, 3, 3, wide_h, w, z, ending, record)
+      call solve_window(problem, start_of(problem), 1.0e-11_dp, 64, 3, 3, wide, z, ending, record)
       problem%backlash = 0.1_dp
-      call solve_window(problem, start_of(problem), 1.0e-11_dp, 64, 3, 3, narrower_h, w, z, ending, record)
-      differences = [maxval(abs(wide_h/h - 1.0_dp)), maxval(abs(narrower_h/h - 1.0_dp))]
+      call solve_window(problem, start_of(problem), 1.0e-11_dp, 64, 3, 3, narrower, z, ending, record)
+      differences = [maxval(abs(wide(:, of_film)/states(:, of_film) - 1.0_dp)), &
+                     maxval(abs(narrower(:, of_film)/states(:, of_film) - 1.0_dp))]
       ! The coast film carries 1.8e-6 of the static load; a tooth in flight answers some twenty times as much.
       problem%backlash = 1.0_dp
       by_one = film_at_rest(problem, 199.2_dp)

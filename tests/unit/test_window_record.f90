@@ -9,7 +9,7 @@ module test_window_record
    use many_motions, only: solve_motions
    use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
                             seen_velocity
-   use problem, only: accelerations_of_samples, problem_of, problem_t
+   use problem, only: accelerations_of_samples, of_film, of_velocity, problem_of, problem_t
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use scene_status, only: status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t, spectrum_choice_t
@@ -46,7 +46,7 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
-      real(dp) :: film, velocity
+      real(dp) :: state(2)
       integer :: k, i
 
       do k = 0, 15
@@ -55,14 +55,14 @@ contains
       call checks%check(abs(sum(node_weight*node_place**16) - 1.0_dp/17.0_dp) > 1.0e-10_dp, 'nodes: not of the next one')
       do k = 0, nodes_per_piece - 1
          do i = 0, 10
-            call interpolate(node_place**k, -node_place**k, 0.1_dp*real(i, dp), film, velocity)
-            call checks%check_close(film, (0.1_dp*real(i, dp))**k, 8.0_dp*rounding, 'nodes: a power between them')
-            call checks%check_close(velocity, -film, 0.0_dp, 'nodes: the velocity like the film')
+            call interpolate(reshape([node_place**k, -node_place**k], [nodes_per_piece, 2]), 0.1_dp*real(i, dp), state)
+            call checks%check_close(state(of_film), (0.1_dp*real(i, dp))**k, 8.0_dp*rounding, 'nodes: a power between them')
+            call checks%check_close(state(of_velocity), -state(of_film), 0.0_dp, 'nodes: the velocity like the film')
          end do
       end do
-      call interpolate(node_place**3, node_place, node_place(2), film, velocity)
-      call checks%check_close(film, node_place(2)**3, 0.0_dp, 'nodes: at a node')
-      call checks%check_close(velocity, node_place(2), 0.0_dp, 'nodes: velocity at a node')
+      call interpolate(reshape([node_place**3, node_place], [nodes_per_piece, 2]), node_place(2), state)
+      call checks%check_close(state(of_film), node_place(2)**3, 0.0_dp, 'nodes: at a node')
+      call checks%check_close(state(of_velocity), node_place(2), 0.0_dp, 'nodes: velocity at a node')
    end subroutine test_nodes
 
    !> A peak is found wherever it lies in its piece, also between the last node and the end.
@@ -73,21 +73,23 @@ contains
       real(dp), parameter :: nearest = 1.0e-4_dp
       type(problem_t) :: scene
       type(extreme_t) :: lowest, highest
-      real(dp) :: peak, velocities(nodes_per_piece), films(nodes_per_piece)
+      real(dp) :: peak, velocities(nodes_per_piece), states(nodes_per_piece, 2)
       integer :: i
 
-      films = 1.0_dp
+      states(:, of_film) = 1.0_dp
       do i = 0, places
          peak = nearest + (1.0_dp - 2.0_dp*nearest)*real(i, dp)/real(places, dp)
          ! Not a parabola, which three nodes would know.
          velocities = cos(0.5_dp*(node_place - peak)) + 0.01_dp*(node_place - peak)**3
          lowest = extreme_t()
          highest = extreme_t()
-         call find_extremes(scene, seen_velocity, 0, [0.0_dp], [1.0_dp], films, velocities, velocities, lowest, highest)
+         states(:, of_velocity) = velocities
+         call find_extremes(scene, seen_velocity, 0, [0.0_dp], [1.0_dp], states, velocities, lowest, highest)
          call checks%check_close(highest%value, 1.0_dp, 1.0e-11_dp, 'a peak between nodes')
          lowest = extreme_t()
          highest = extreme_t()
-         call find_extremes(scene, seen_velocity, 0, [0.0_dp], [1.0_dp], films, -velocities, -velocities, lowest, highest)
+         states(:, of_velocity) = -velocities
+         call find_extremes(scene, seen_velocity, 0, [0.0_dp], [1.0_dp], states, -velocities, lowest, highest)
          call checks%check_close(lowest%value, -1.0_dp, 1.0e-11_dp, 'a trough between nodes')
       end do
    end subroutine test_peaks
@@ -127,19 +129,19 @@ contains
       type(window_extremes_t) :: extremes
       type(rattle_verdict_t) :: by_samples, by_steps
       type(spectrum_choice_t) :: choice
-      real(dp), allocatable :: films(:, :), velocities(:, :), accelerations(:)
+      real(dp), allocatable :: states(:, :, :), accelerations(:)
       real(dp) :: size_of
       integer :: quantity
 
       lane = problem_of(scene)
       start = start_of(lane)
       start%implicit = implicit
-      allocate (films(window*fine, 1), velocities(window*fine, 1), accelerations(window*fine))
+      allocate (states(window*fine, 2, 1), accelerations(window*fine))
       call solve_motions([lane], [start], request_t(accuracy=accuracy, periods=30, samples_per_period=fine, &
-         sampled_periods=window), films, velocities, endings, records=records)
+         sampled_periods=window), states, endings, records=records)
       call checks%check(endings(1)%status == status_complete .and. records(1)%periods == window, name//': recorded')
-      call accelerations_of_samples(lane, fine, films(:, 1), velocities(:, 1), accelerations)
-      extremes = extremes_of_samples(lane, films(:, 1), velocities(:, 1), accelerations)
+      call accelerations_of_samples(lane, fine, states(:, :, 1), accelerations)
+      extremes = extremes_of_samples(lane, states(:, :, 1), accelerations)
       do quantity = 1, seen_quantities
          size_of = extremes%highest(quantity)%value - extremes%lowest(quantity)%value
          ! Samples fall short of the extreme, by (pi 100/fine)**2/2 of the range for a hundred lines.
@@ -158,7 +160,7 @@ contains
       choice%periods = window
       integrals(1) = integral_record(choice)
       call solve_motions([lane], [start], request_t(accuracy=accuracy, periods=30, samples_per_period=1, &
-         sampled_periods=window, every_period=.true.), films, velocities, endings, records=integrals)
+         sampled_periods=window, every_period=.true.), states, endings, records=integrals)
       call classify(accelerations, choice, 1.0e-9_dp, by_samples)
       call classify_steps(integrals(1), lane%frequency, choice, 1.0e-9_dp, by_steps)
       ! The accelerations of samples follow from the film law, which the steps obey to a hundred times their accuracy.
@@ -183,17 +185,17 @@ contains
       type(problem_t) :: lane
       type(ending_t) :: endings(1)
       type(window_record_t) :: whole(1), parts(1)
-      real(dp) :: films(4, 1), velocities(4, 1)
+      real(dp) :: states(4, 2, 1)
       integer :: quantity
 
       scene = canonical_scene(law_iso_viscous, 512)
       lane = problem_of(scene)
       call solve_motions([lane], [start_of(lane)], request_t(accuracy=accuracy, periods=4, samples_per_period=1, &
-         sampled_periods=4), films, velocities, endings, records=whole)
+         sampled_periods=4), states, endings, records=whole)
       call solve_motions([lane], [start_of(lane)], request_t(accuracy=accuracy, periods=3, samples_per_period=1, &
-         sampled_periods=3), films, velocities, endings, records=parts)
+         sampled_periods=3), states, endings, records=parts)
       call solve_motions([lane], [endings(1)%motion_state_t], request_t(accuracy=accuracy, periods=4, samples_per_period=1, &
-         sampled_periods=1), films, velocities, endings, records=parts)
+         sampled_periods=1), states, endings, records=parts)
       call checks%check(parts(1)%periods == 4, 'parts: all periods')
       do quantity = 1, seen_quantities
          call checks%check(same_bits(parts(1)%highest(quantity)%value, whole(1)%highest(quantity)%value) .and. &
@@ -216,7 +218,7 @@ contains
       type(window_record_t) :: records(1)
       type(rattle_verdict_t) :: verdict
       type(spectrum_choice_t) :: choice
-      real(dp) :: films(8, 1), velocities(8, 1)
+      real(dp) :: states(8, 2, 1)
 
       scene = canonical_scene(law_iso_viscous, 512)
       scene%load%force_amplitude = 700.0_dp
@@ -227,7 +229,7 @@ contains
       records(1)%wants = .true.
       call solve_motions([lane], [start_of(lane)], request_t(accuracy=1.0e-8_dp, periods=40, samples_per_period=1, &
          sampled_periods=8, &
-         every_period=.true.), films, velocities, endings, records=records)
+         every_period=.true.), states, endings, records=records)
       call classify_steps(records(1), lane%frequency, choice, 1.0e-9_dp, verdict)
       call checks%check_close(verdict%lines%harmonics(1), 290.754_dp, 1.0e-3_dp, 'impact: first harmonic')
       call checks%check_close(verdict%lines%harmonics(2), 152.365_dp, 1.0e-3_dp, 'impact: second harmonic')
@@ -252,13 +254,13 @@ contains
       type(problem_t) :: lane
       type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
-      real(dp) :: films(100, 1), velocities(100, 1)
+      real(dp) :: states(100, 2, 1)
 
       scene = canonical_scene(law_iso_viscous, 512)
       lane = problem_of(scene)
       call solve_motions([lane], [start_of(lane)], request_t(accuracy=accuracy, periods=400, samples_per_period=1, &
          sampled_periods=100), &
-         films, velocities, endings, records=records)
+         states, endings, records=records)
       call checks%check(endings(1)%samples == 100 .and. records(1)%periods > 0 .and. records(1)%periods < 100, &
          'returning: fewer periods recorded than sampled')
       call checks%check(momentum_gap(records(1), lane%frequency) < 1.0e-8_dp .and. energy_gap(records(1), lane%mass) < 1.0e-8_dp, &
@@ -285,19 +287,20 @@ contains
       do i = 1, pieces
          phases(nodes_per_piece*(i - 1) + 1:nodes_per_piece*i) = nodes%start(i) + node_place*nodes%length(i)
       end do
-      nodes%films = [(1.0e-6_dp, i=1, size(phases))]
+      allocate (nodes%states(size(phases), 2))
+      nodes%states(:, of_film) = 1.0e-6_dp
       do multiples = 3, 8
          record = window_record_t(multiples=multiples)
          call start_record(motion_state_t(film=1.0e-6_dp), record)
          nodes%pieces = pieces
-         nodes%velocities = phases
+         nodes%states(:, of_velocity) = phases
          call record_period(lane, 1.0_dp, nodes, record)
          call checks%check(abs(record%line_sums(0) - 1.0_dp) < rounding, 'coefficients: mean of a ramp')
          call checks%check(all(abs(record%line_sums(1:)) < rounding), 'coefficients: of a ramp')
          do k = 1, multiples
             call start_record(motion_state_t(film=1.0e-6_dp), record)
             nodes%pieces = pieces
-            nodes%velocities = sin(two_pi*real(k, dp)*phases) + 2.0_dp*cos(two_pi*real(k, dp)*phases)
+            nodes%states(:, of_velocity) = sin(two_pi*real(k, dp)*phases) + 2.0_dp*cos(two_pi*real(k, dp)*phases)
             call record_period(lane, 0.0_dp, nodes, record)
             do n = 0, multiples
                expected = merge(cmplx(0.5_dp, 1.0_dp, dp)*two_pi*real(k, dp), (0.0_dp, 0.0_dp), n == k)
