@@ -9,7 +9,7 @@ program bench_engine
    use engine, only: ending_t, request_t, start_of
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use problem, only: problem_of, problem_t
+   use problem, only: of_film, problem_of, problem_t
    use scene_status, only: is_success, status_name
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
    use version, only: program_version
@@ -21,7 +21,7 @@ program bench_engine
    type(problem_t) :: lanes(copies)
    type(ending_t) :: endings(copies)
    type(request_t) :: request
-   real(dp), allocatable :: films(:, :), velocities(:, :)
+   real(dp), allocatable :: states(:, :, :)
    character(512) :: engine, path, word
    real(dp) :: accuracy, started, finished, best
    integer :: i, repetition, repetitions, rows
@@ -42,7 +42,7 @@ program bench_engine
    request%sampled_periods = sampled
    request%until_steady = engine == 'taylor-steady'
    request%every_period = engine == 'taylor-every-period'
-   allocate (films(sampled*points, copies), velocities(sampled*points, copies), source=0.0_dp)
+   allocate (states(sampled*points, 2, copies), source=0.0_dp)
 
    call solve()
    if (.not. all(is_success(endings%status))) then
@@ -67,13 +67,13 @@ program bench_engine
    ! A motion that stopped once it repeated goes on as its orbit does.
    rows = endings(1)%samples
    do i = 1, sampled*points
-      print '(es24.16)', films(1 + modulo(i - 1 - sampled*points + rows*sampled*points, rows), 1)/scene%film%initial_film
+      print '(es24.16)', states(1 + modulo(i - 1 - sampled*points + rows*sampled*points, rows), of_film, 1)/scene%film%initial_film
    end do
 
 contains
 
    subroutine solve()
-      call solve_motions(lanes, start_of(lanes), request, films, velocities, endings)
+      call solve_motions(lanes, start_of(lanes), request, states, endings)
    end subroutine solve
 
    !> Scene in SI units from lines of `key value`.

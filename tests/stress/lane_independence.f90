@@ -102,11 +102,11 @@ contains
       type(motion_state_t), allocatable :: starts(:)
       type(ending_t), allocatable :: endings(:)
       type(request_t) :: request
-      real(dp), allocatable :: films(:, :), velocities(:, :)
+      !> Sample, number of its state, scene
+      real(dp), allocatable :: states(:, :, :)
       integer :: place
 
-      allocate (films(sampled*samples, size(members)), velocities(sampled*samples, size(members)), &
-                source=0.0_dp)
+      allocate (states(sampled*samples, 2, size(members)), source=0.0_dp)
       allocate (endings(size(members)))
       problems = drawn(members)%resolved%problem
       starts = start_of(problems)
@@ -116,11 +116,10 @@ contains
       request%sampled_periods = sampled
       request%samples_per_period = samples
       request%until_steady = engine == 3
-      call solve_motions(problems, starts, request, films, velocities, endings)
+      call solve_motions(problems, starts, request, states, endings)
       do place = 1, size(members)
          associate (ending => endings(place))
-            bits(:, place) = [transfer(films(:, place), [1_int64]), transfer(velocities(:, place), &
-               [1_int64]), &
+            bits(:, place) = [transfer(states(:, :, place), [1_int64]), &
                               transfer([ending%film, ending%velocity, ending%momentum], [1_int64]), &
                               int([ending%status, ending%periods], int64), ending%count%steps]
          end associate

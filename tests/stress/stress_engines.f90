@@ -3,6 +3,7 @@ module stress_engines
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use kinds, only: dp
    use many_motions, only: solve_motions
+   use problem, only: of_film, of_velocity
    use random_scenes, only: drawn_scene_t, group_t
    use scene_types, only: method_taylor, scene_t, until_periods, until_steady
    use stress_outcomes, only: judge_controlled, outcome_t
@@ -32,7 +33,7 @@ contains
       type(request_t) :: request
       type(ending_t) :: endings(size(drawn))
       type(motion_state_t) :: starts(size(drawn))
-      real(dp), dimension(comparisons, size(drawn)) :: films, velocities
+      real(dp) :: states(comparisons, 2, size(drawn))
       integer :: i
 
       starts = start_of(drawn%resolved%problem)
@@ -42,11 +43,11 @@ contains
       request%sampled_periods = compared_periods
       request%samples_per_period = compared_samples
       request%until_steady = engine == 3
-      films = -1.0_dp
-      velocities = 0.0_dp
-      call solve_motions(drawn%resolved%problem, starts, request, films, velocities, endings)
+      states(:, of_film, :) = -1.0_dp
+      states(:, of_velocity, :) = 0.0_dp
+      call solve_motions(drawn%resolved%problem, starts, request, states, endings)
       do i = 1, size(drawn)
-         results(i) = judge_controlled(references(i), group%periods, group%accuracy, films(:, i), endings(i))
+         results(i) = judge_controlled(references(i), group%periods, group%accuracy, states(:, of_film, i), endings(i))
       end do
    end subroutine run_engine
 

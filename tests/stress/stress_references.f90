@@ -9,7 +9,7 @@ module stress_references
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use problem, only: problem_t, static_load
+   use problem, only: of_film, problem_t, static_load
    use random_scenes, only: drawn_scene_t, group_t
    use scene_status, only: is_success
    implicit none(type, external)
@@ -149,21 +149,23 @@ contains
       type(ending_t), intent(inout) :: endings(:)
       type(request_t) :: request
       type(motion_state_t) :: rest(size(starts))
-      real(dp), allocatable :: velocities(:, :)
+      real(dp), allocatable :: states(:, :, :)
       integer :: i
 
-      allocate (velocities, mold=films)
+      allocate (states(size(films, 1), 2, size(films, 2)), source=0.0_dp)
+      states(:, of_film, :) = films
       rest = starts
       request%accuracy = accuracy
       request%samples_per_period = compared_samples
       if (.not. all(starts%carried_on)) then
          request%periods = periods - compared_periods
-         call solve_motions(problems, starts, request, films, velocities, middle)
+         call solve_motions(problems, starts, request, states, middle)
          rest = middle%motion_state_t
       end if
       request%periods = periods
       request%sampled_periods = compared_periods
-      call solve_motions(problems, rest, request, films, velocities, endings)
+      call solve_motions(problems, rest, request, states, endings)
+      films = states(:, of_film, :)
       do i = 1, size(starts)
          if (.not. is_success(middle(i)%status)) endings(i)%status = middle(i)%status
       end do
