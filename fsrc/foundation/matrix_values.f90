@@ -35,13 +35,13 @@ contains
       real(dp), intent(in) :: matrix(:, :)
       complex(dp) :: values(size(matrix, 1))
       real(dp), dimension(size(matrix, 1)) :: real_part, imaginary_part
-      real(dp) :: copy(size(matrix, 1), size(matrix, 1)), work(8*size(matrix, 1)), none(1, 1)
+      real(dp) :: copy(size(matrix, 1), size(matrix, 1)), work(8*size(matrix, 1)), no_left(1, 1), no_right(1, 1)
       logical :: left(size(matrix, 1))
       integer :: n, i, largest, info
 
       n = size(matrix, 1)
       copy = matrix
-      call dgeev('N', 'N', n, copy, n, real_part, imaginary_part, none, 1, none, 1, work, size(work), info)
+      call dgeev('N', 'N', n, copy, n, real_part, imaginary_part, no_left, 1, no_right, 1, work, size(work), info)
       left = .true.
       do i = 1, n
          largest = maxloc(hypot(real_part, imaginary_part), dim=1, mask=left)
