@@ -188,8 +188,9 @@ contains
             high = middle
          end if
       end do
-      ! The bracket may have closed upon the largest load that films of the law carry, and not upon the backlash.
-      if (abs(excess) > missed*(problem%backlash + thick)) then
+      ! The bracket may have closed upon the largest load that films of the law carry, or where none carries the load at all, and
+      ! not upon the backlash.
+      if (.not. thin > 0.0_dp .or. abs(excess) > missed*(problem%backlash + thick)) then
          smaller = 0.0_dp
          larger = 0.0_dp
       end if
