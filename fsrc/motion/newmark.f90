@@ -5,7 +5,7 @@ module newmark
    use force, only: force_at
    use kinds, only: dp, int64
    use newmark_step, only: newmark_state_t, take_step
-   use problem, only: has_elastic_teeth, net_load, of_drive_compression, of_film, of_velocity, problem_t, start_springs
+   use problem, only: has_elastic_teeth, net_load, problem_t, start_springs
    use scene_status, only: status_complete, status_interrupted, status_not_converged
    use signals, only: must_stop
    implicit none(type, external)
@@ -19,7 +19,7 @@ module newmark
    !> Evaluations after which a period looks whether it must end
    integer(int64), parameter :: evaluations_between_looks = 65536_int64
 
-   public :: start_motion, advance_period
+   public :: newmark_state_t, start_motion, advance_period
 
 contains
 
@@ -52,7 +52,8 @@ contains
    end subroutine start_motion
 
    !> Advance one period of the force. On failure the state is that before the failing step.
-   subroutine advance_period(kernel, problem, request, force, state, count, states, accelerations, done, status)
+   subroutine advance_period(kernel, problem, request, force, state, count, films, velocities, accelerations, done, status, &
+                             compressions)
       !> Kernel of the film
       procedure(film_kernel) :: kernel
       !> What moves
@@ -65,13 +66,16 @@ contains
       type(newmark_state_t), intent(inout) :: state
       !> Cost, counted up
       type(motion_count_t), intent(inout) :: count
-      !> At the end of every step: sample, number of its state; and z'' [m/s2]
-      real(dp), intent(out) :: states(:, :)
+      !> Samples at the end of every step: h [m], z' [m/s], z'' [m/s2]
+      real(dp), contiguous, intent(out) :: films(:)
+      real(dp), contiguous, intent(out) :: velocities(:)
       real(dp), contiguous, intent(out) :: accelerations(:)
       !> Steps that succeeded
       integer, intent(out) :: done
       !> Status of scene_status
       integer, intent(out) :: status
+      !> Compressions of the springs of one or two flanks, where teeth give: step, flank [m]
+      real(dp), intent(out), optional :: compressions(:, :)
       type(newmark_state_t) :: next
       real(dp) :: time_step
       integer(int64) :: next_look
@@ -96,9 +100,9 @@ contains
             if (status /= status_complete) exit
          end if
          state = next
-         states(i, of_film) = state%film
-         states(i, of_velocity) = state%velocity
-         if (size(states, 2) > of_velocity) states(i, of_drive_compression:) = state%compression(:size(states, 2) - of_velocity)
+         films(i) = state%film
+         velocities(i) = state%velocity
+         if (present(compressions)) compressions(i, :) = state%compression(:size(compressions, 2))
          accelerations(i) = state%acceleration
       end do
       done = i - 1

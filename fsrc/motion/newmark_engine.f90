@@ -9,7 +9,8 @@ module newmark_engine
    use kinds, only: dp, int64
    use newmark, only: advance_period, start_motion
    use newmark_step, only: newmark_state_t
-   use problem, only: has_two_flanks, largest_state, problem_t, rest_film, settling_of, state_size, thinner_film
+   use problem, only: has_two_flanks, largest_state, of_drive_compression, of_film, of_velocity, problem_t, rest_film, &
+      settling_of, state_size, thinner_film
    use repetition, only: note_state, orbit_watch_t
    use scene_status, only: status_complete, status_steady
    use window_record, only: window_record_t
@@ -91,9 +92,9 @@ contains
       do while (period < last_period)
          period = period + 1
          first_step = int(period - 1, int64)*int(steps, int64) + 1_int64
-         call advance_period(kernel, problem, request, force, state, ending%count, states_of_steps, &
-                             accelerations, done, &
-                             ending%status)
+         call advance_period(kernel, problem, request, force, state, ending%count, states_of_steps(:, of_film), &
+                             states_of_steps(:, of_velocity), accelerations, done, ending%status, &
+                             states_of_steps(:, of_drive_compression:))
          call sink%take(first_step, force(:done), states_of_steps(:done, :), accelerations(:done), error)
          ending%film = state%film
          ending%velocity = state%velocity

@@ -143,7 +143,7 @@ contains
       real(dp), intent(in) :: x
       !> Its numbers there
       real(dp), intent(out) :: state(:)
-      real(dp) :: distance(nodes_per_piece), factor(nodes_per_piece)
+      real(dp), dimension(nodes_per_piece) :: distance, factor, values
       integer :: nearest, number
 
       distance = x - node_place
@@ -154,7 +154,8 @@ contains
          factor = barycentric/distance
          factor = factor/sum(factor)
          do number = 1, size(state)
-            state(number) = sum(factor*states(:, number))
+            values = states(:, number)
+            state(number) = sum(factor*values)
          end do
       end if
    end subroutine interpolate

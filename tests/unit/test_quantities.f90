@@ -123,6 +123,7 @@ contains
       scene = canonical_scene(law_iso_viscous, 512)
       scene%load%force_amplitude = 100.0_dp
       scene%contact%backlash = 1.0e-4_dp
+      scene%contact%stiffness = 1.0e9_dp
       scene%solver%method = method_taylor
       scene%solver%until = until_steady
       scene%solver%kept_per_period = 512
