@@ -239,7 +239,7 @@ contains
       type(lane_block_t), intent(in) :: block
 
       slip_velocity = block%slip(lane)/sqrt(film)
-      if (block%backlash(lane) < huge(1.0_dp)) &
+      if (block%slip(lane) > 0.0_dp .and. block%backlash(lane) < huge(1.0_dp)) &
          slip_velocity = slip_velocity - block%slip(lane)/sqrt(block%backlash(lane) - film)
    end function slip_velocity
 

@@ -84,7 +84,7 @@ contains
             states(first:first + due - 1, of_velocity, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
             do flank = 1, size(states, 2) - 2
                film_series = block%compression(l, flank, :)
-               call evaluate_lane(film_series, momentum_series, 0.0_dp, x, film, velocity)
+               call evaluate_lane(film_series, momentum_series, 0.0_dp, huge(1.0_dp), x, film, velocity)
                states(first:first + due - 1, of_velocity + flank, samples%column(l)) = film(:due)*block%film_scale(l)
             end do
             if (size(states, 2) > 2) film_series = block%film(l, :)

@@ -64,11 +64,10 @@ contains
                                                implicit=.true.)
       end do
       ! Teeth that give are followed by steps of their own.
-      do kernel = 0, 1
-         associate (these => left .and. (has_elastic_teeth(problems) .eqv. kernel == 1))
-            if (any(these)) &
-               call integrate_lanes(.false., problems, rest, pack(number, these), request, states, endings, watches, records)
-         end associate
+      do i = 0, 1
+         alike(:) = left .and. (has_elastic_teeth(problems) .eqv. i == 1)
+         if (any(alike)) &
+            call integrate_lanes(.false., problems, rest, pack(number, alike), request, states, endings, watches, records)
       end do
    end subroutine solve_motions
 

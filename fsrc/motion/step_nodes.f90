@@ -81,7 +81,8 @@ contains
             velocity(i) = velocity(i)*(x(i)*x(i)) + (odd_velocity(i)*x(i) + momentum_series(0))
             velocity(i) = velocity(i) + block%slip(lane)/sqrt(film(i))
          end do
-         if (block%backlash(lane) < huge(1.0_dp)) velocity = velocity - block%slip(lane)/sqrt(block%backlash(lane) - film)
+         if (block%slip(lane) > 0.0_dp .and. block%backlash(lane) < huge(1.0_dp)) &
+            velocity = velocity - block%slip(lane)/sqrt(block%backlash(lane) - film)
          before = nodes_per_piece*nodes%pieces
          nodes%pieces = nodes%pieces + 1
          nodes%start(nodes%pieces) = block%phase(lane) + real(piece - 1, dp)*length
