@@ -291,7 +291,7 @@ contains
       type(motion_state_t) :: starts(motions)
       type(request_t) :: request
       type(ending_t) :: endings(motions)
-      real(dp), dimension(64, motions) :: h, w, implicit_h, implicit_w, alone_h, alone_w
+      real(dp), dimension(64, 2, motions) :: by_series, by_collocation, alone
       integer :: i
 
       request = request_t(accuracy=asked, periods=periods, samples_per_period=64, sampled_periods=1)
@@ -302,17 +302,20 @@ contains
       end do
       starts = start_of(problems)
       starts%implicit = .true.
-      call solve_motions(problems, starts, request, implicit_h, implicit_w, endings)
+      call solve_motions(problems, starts, request, by_collocation, endings)
       starts%implicit = .false.
-      call solve_motions(problems, starts, request, h, w, endings)
+      call solve_motions(problems, starts, request, by_series, endings)
       do i = 1, 2*laws
          call checks%check(endings(i)%status == status_complete, 'series: solved')
          if (any(modulo(i - 1, laws) + 1 == [1, 3, 5])) call checks%check(.not. endings(i)%implicit, 'series: by series')
-         call checks%check(maxval(abs(h(:, i) - implicit_h(:, i))) < 10.0_dp*asked*minval(h(:, i)), 'series: film of collocation')
-         call checks%check(maxval(abs(w(:, i) - implicit_w(:, i))) < 100.0_dp*asked*maxval(abs(w(:, i))), &
-                           'series: velocity of collocation')
-         call solve_motions(problems(i:i), starts(i:i), request, alone_h(:, i:i), alone_w(:, i:i), endings(i:i))
-         call checks%check(all(same_bits(alone_h(:, i), h(:, i)) .and. same_bits(alone_w(:, i), w(:, i))), 'series: the same alone')
+         associate (h => by_series(:, of_film, i), w => by_series(:, 2, i))
+            call checks%check(maxval(abs(h - by_collocation(:, of_film, i))) < 10.0_dp*asked*minval(h), &
+                              'series: film of collocation')
+            call checks%check(maxval(abs(w - by_collocation(:, 2, i))) < 100.0_dp*asked*maxval(abs(w)), &
+                              'series: velocity of collocation')
+         end associate
+         call solve_motions(problems(i:i), starts(i:i), request, alone(:, :, i:i), endings(i:i))
+         call checks%check(all(same_bits(alone(:, :, i), by_series(:, :, i))), 'series: the same alone')
       end do
    end subroutine test_series
 
