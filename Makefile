@@ -288,7 +288,7 @@ pages: $(BUILD)/rattle
 # A sample of the stress study: a silent failure fails it.
 stress-sample: $(BUILD)/stress_summaries $(BUILD)/stress_scenes
 	@echo 'stress, a sample'
-	@$(BUILD)/stress_summaries --scenes 120 --campaigns 1
+	@$(BUILD)/stress_summaries --first 20 --scenes 100 --campaigns 1
 	@$(BUILD)/stress_scenes --scenes 300 --csv $(BUILD)/stress_sample.csv
 
 # --- style -------------------------------------------------------------------------------------------
