@@ -15,8 +15,8 @@ module film_series
    use problem, only: has_two_flanks, problem_t
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
    use taylor_iso_viscous, only: iso_viscous_series, iso_viscous_series_of_two
-   use taylor_piezo_viscous, only: piezo_viscous_series, reject_unresolved_growth
-   use taylor_reynolds_piezo, only: reynolds_piezo_series
+   use taylor_piezo_viscous, only: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
+   use taylor_reynolds_piezo, only: reynolds_piezo_series, reynolds_piezo_series_of_two
    use taylor_rupture, only: reject_large_defect, rupture_order, rupture_series, rupture_series_of_two
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -76,7 +76,6 @@ contains
       case default
          series%exists = .false.
       end select
-      if (series%two_flanks) series%exists = any(series%kernel == [kernel_half_pi, kernel_solved_fast, kernel_reynolds_iso])
    end function series_of
 
    !> Whether a problem has a Taylor series that is good enough.
@@ -168,6 +167,12 @@ contains
       case (kernel_solved_fast, kernel_reynolds_iso)
          call rupture_series_of_two(series%pieces, block%strength, block%damping, block%backlash, block%static_load, force, &
                                     block%film, block%momentum, block%damping_rate, block%expansion)
+      case (kernel_piezo)
+         call piezo_viscous_series_of_two(block%strength, block%damping, block%backlash, block%static_load, force, block%film, &
+                                          block%momentum, block%damping_rate)
+      case (kernel_reynolds_piezo)
+         call reynolds_piezo_series_of_two(block%strength, block%damping, block%pressing, block%backlash, block%static_load, &
+                                           force, block%film, block%momentum, block%damping_rate, block%piezo_expansion)
       case default
          block%film(:, 1:) = 0.0_dp
          block%momentum(:, 1:) = 0.0_dp
@@ -188,6 +193,10 @@ contains
       case (kernel_piezo)
          call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, block%film, block%momentum, &
                                        block%next_film, block%next_momentum, block%trust)
+         if (series%two_flanks) &
+            call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, &
+                                          block%backlash - block%film(:, 0), -block%momentum(:, 0), &
+                                          block%backlash - block%next_film, -block%next_momentum, block%trust)
       case (kernel_solved_fast, kernel_reynolds_iso, kernel_reynolds_piezo)
          call check_forces(series, rise, block)
       case default

@@ -14,6 +14,9 @@
 !>     (k+1) H_(k+1) = V_k                     y_k = (V_k - sum of H_j y_(k-j), j = 1..k)/H_0
 !>     (k+1) V_(k+1) = S_k - q - f cos_k       g_k = -7/2 y_k - c (k+1) V_(k+1)
 !>                                             (k+1) S_(k+1) = sum of g_j S_(k-j), j = 0..k
+!>
+!> Between two flanks the load of the coast film, of thickness B - H and velocity -V, is subtracted from S; its series follow in
+!> the same way with H_k and V_k of the other sign.
 module taylor_piezo_viscous
    use kinds, only: dp
    use lane_force, only: factor
@@ -30,7 +33,7 @@ module taylor_piezo_viscous
    !> its damping rate, which is told as it is, keeps the series from being used.
    real(dp), parameter :: largest_rate = 1.0e14_dp
 
-   public :: piezo_viscous_series, reject_unresolved_growth
+   public :: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
 
 contains
 
@@ -101,6 +104,80 @@ contains
          momentum(l, order) = inverse(order)*s(l, order - 1) - factor(order)*force(l, order)
       end do
    end subroutine piezo_viscous_series
+
+   !> The same between two flanks.
+   pure subroutine piezo_viscous_series_of_two(strength, rate, backlash, load, force, film, momentum, damping_rate)
+      !> a [-]
+      real(dp), intent(in) :: strength(lanes)
+      !> c [periods]
+      real(dp), intent(in) :: rate(lanes)
+      !> B [-]
+      real(dp), intent(in) :: backlash(lanes)
+      !> q [-]
+      real(dp), intent(in) :: load(lanes)
+      !> Derivatives of the force that oscillates, by module lane_force [-]
+      real(dp), intent(in) :: force(lanes, order)
+      !> Series of H [-]; coefficient 0 is given
+      real(dp), intent(inout) :: film(lanes, 0:order)
+      !> Series of V [-]; coefficient 0 is given
+      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      !> -dV'/dV = c times both loads [1/periods]
+      real(dp), intent(out) :: damping_rate(lanes)
+      !> Sign of H_k and V_k for the drive and the coast film
+      real(dp), parameter :: turned(2) = [1.0_dp, -1.0_dp]
+      real(dp), dimension(lanes, 0:order, 2) :: y, g, s
+      real(dp) :: growth(lanes), inverse_film(lanes), turned_inverse(lanes, 2), turned_rate(lanes, 2), flank_rate, product
+      integer :: k, j, l, flank
+
+      damping_rate = 0.0_dp
+      do flank = 1, 2
+         turned_rate(:, flank) = turned(flank)*rate
+         call lane_exponential(-turned_rate(:, flank)*momentum(:, 0), growth)
+         inverse_film = 1.0_dp/merge(film(:, 0), backlash - film(:, 0), flank == 1)
+         turned_inverse(:, flank) = turned(flank)*inverse_film
+         !$omp simd private(flank_rate)
+         do l = 1, lanes
+            s(l, 0, flank) = strength(l)*growth(l)*inverse_film(l)*inverse_film(l)*inverse_film(l)*sqrt(inverse_film(l))
+            flank_rate = rate(l)*s(l, 0, flank)
+            damping_rate(l) = damping_rate(l) + flank_rate
+            s(l, 0, flank) = merge(s(l, 0, flank), 1.0_dp, flank_rate < largest_rate)
+         end do
+      end do
+      film(:, 1) = momentum(:, 0)
+      momentum(:, 1) = (s(:, 0, 1) - s(:, 0, 2)) - load - force(:, 1)
+      do flank = 1, 2
+         y(:, 0, flank) = turned_inverse(:, flank)*momentum(:, 0)
+         g(:, 0, flank) = -3.5_dp*y(:, 0, flank) - turned_rate(:, flank)*momentum(:, 1)
+         s(:, 1, flank) = s(:, 0, flank)*g(:, 0, flank)
+      end do
+      !GCC$ unroll 24
+      do k = 2, order - 1
+         !$omp simd
+         do l = 1, lanes
+            film(l, k) = inverse(k)*momentum(l, k - 1)
+            momentum(l, k) = inverse(k)*(s(l, k - 1, 1) - s(l, k - 1, 2)) - factor(k)*force(l, k)
+         end do
+         !GCC$ unroll 2
+         do flank = 1, 2
+            !$omp simd private(product)
+            do l = 1, lanes
+               product = momentum(l, k - 1)
+               do j = 1, k - 1
+                  product = product - film(l, k - j)*y(l, j - 1, flank)
+               end do
+               y(l, k - 1, flank) = turned_inverse(l, flank)*product
+               g(l, k - 1, flank) = -3.5_dp*y(l, k - 1, flank) - (real(k, dp)*turned_rate(l, flank))*momentum(l, k)
+               product = 0.0_dp
+               do j = 0, k - 1
+                  product = product + s(l, k - 1 - j, flank)*g(l, j, flank)
+               end do
+               s(l, k, flank) = inverse(k)*product
+            end do
+         end do
+      end do
+      film(:, order) = inverse(order)*momentum(:, order - 1)
+      momentum(:, order) = inverse(order)*(s(:, order - 1, 1) - s(:, order - 1, 2)) - factor(order)*force(:, order)
+   end subroutine piezo_viscous_series_of_two
 
    !> Reject steps in which the load grows by more than the series resolves. While the tooth moves away, the load falls below
    !> exp(-100) times the forces, and its coefficients vanish beside theirs. When the tooth comes back, the load grows by the same

@@ -12,6 +12,8 @@
 !>
 !> All these sums share the powers of z, series of their own, each the product of two lower ones. As z and y begin with the
 !> first power of x, F_j is needed up to order n - 1 - j only.
+!>
+!> Between two flanks the load of the coast film, of thickness B - H and velocity -V, is subtracted; its series are those of a film.
 module taylor_reynolds_piezo
    use kinds, only: dp
    use lane_force, only: factor
@@ -31,7 +33,7 @@ module taylor_reynolds_piezo
    integer, parameter :: h = 1, v = 2, p = 3, r = 4, group = 5, s = 6, peak = 7, tail = 8, &
                          z = tail + highest_sigma_power + 1, series = z + highest_group_power(0) - 1
 
-   public :: reynolds_piezo_series
+   public :: reynolds_piezo_series, reynolds_piezo_series_of_two
 
 contains
 
@@ -177,5 +179,164 @@ contains
          momentum(before + 1:before + half_block, 1:rupture_order) = c(:, v, 1:)
       end do
    end subroutine reynolds_piezo_series
+
+   !> The same between two flanks.
+   pure subroutine reynolds_piezo_series_of_two(strength, rate, pressing, backlash, load, force, film, momentum, damping_rate, &
+                                                expansion)
+      !> a [-]
+      real(dp), intent(in) :: strength(lanes)
+      !> c [periods]
+      real(dp), intent(in) :: rate(lanes)
+      !> b [-]
+      real(dp), intent(in) :: pressing(lanes)
+      !> B [-]
+      real(dp), intent(in) :: backlash(lanes)
+      !> q [-]
+      real(dp), intent(in) :: load(lanes)
+      !> Derivatives of the force that oscillates, by module lane_force [-]
+      real(dp), intent(in) :: force(lanes, order)
+      !> Series of H [-]; coefficient 0 is given
+      real(dp), intent(inout) :: film(lanes, 0:order)
+      !> Series of V [-]; coefficient 0 is given
+      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      !> -dV'/dV [1/periods]; huge where there is no expansion
+      real(dp), intent(out) :: damping_rate(lanes)
+      !> Films of the drive and the coast flank looked up last, those at the point of expansion afterwards
+      type(reynolds_piezo_expansion_t), intent(inout) :: expansion(2)
+      !> Lane, series, flank, coefficient
+      real(dp) :: c(half_block, series, 2, 0:rupture_order)
+      real(dp), dimension(half_block, 2) :: half_root, unit_rate, sigma_slope, carried
+      !> What z, s and V' take from V, max p* and Psi of the same order
+      real(dp), dimension(half_block, 2) :: z_by_momentum, sigma_by_peak
+      real(dp) :: of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force
+      integer :: before, flank, low, high, k, i, j, m, l
+
+      call expand_reynolds_piezo(film(:, 0), momentum(:, 0), rate, pressing, expansion(1))
+      call expand_reynolds_piezo(backlash - film(:, 0), -momentum(:, 0), rate, pressing, expansion(2))
+      damping_rate = merge(-strength*rate*(expansion(1)%inverse_film*expansion(1)%root*expansion(1)%load_slope &
+                                           + expansion(2)%inverse_film*expansion(2)%root*expansion(2)%load_slope), &
+                           no_expansion, expansion(1)%inside*expansion(2)%inside > 0.0_dp)
+      do before = 0, lanes - 1, half_block
+         do flank = 1, 2
+            !$omp simd
+            do l = 1, half_block
+               c(l, h, flank, 0) = expansion(flank)%film(before + l)
+               c(l, v, flank, 0) = expansion(flank)%momentum(before + l)
+               c(l, p, flank, 0) = expansion(flank)%inverse_film(before + l)
+               c(l, r, flank, 0) = expansion(flank)%root(before + l)
+               c(l, group, flank, 0) = expansion(flank)%pressure_group(before + l)
+               c(l, peak, flank, 0) = expansion(flank)%peak(before + l, 0)
+               half_root(l, flank) = 0.5_dp*c(l, h, flank, 0)*c(l, r, flank, 0)
+               sigma_slope(l, flank) = -0.5_dp/expansion(flank)%sigma(before + l)
+               unit_rate(l, flank) = rate(before + l)*expansion(flank)%inverse_unit(before + l)
+               z_by_momentum(l, flank) = unit_rate(l, flank)*c(l, r, flank, 0)
+               sigma_by_peak(l, flank) = sigma_slope(l, flank)*c(l, group, flank, 0)
+               carried(l, flank) = c(l, p, flank, 0)*expansion(flank)%terms(before + l, 0)
+            end do
+            do j = 0, highest_sigma_power
+               c(:, tail + j, flank, 0) = expansion(flank)%terms(before + 1:before + half_block, first_term(j))
+            end do
+         end do
+         !$omp simd
+         do l = 1, half_block
+            c(l, v, 1, 1) = strength(before + l)*(carried(l, 1) - carried(l, 2)) - load(before + l) - force(before + l, 1)
+            c(l, v, 2, 1) = -c(l, v, 1, 1)
+         end do
+         !GCC$ unroll 24
+         do k = 1, rupture_order - 1
+            do flank = 1, 2
+               !$omp simd private(low, high, of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force)
+               do l = 1, half_block
+                  c(l, h, flank, k) = inverse(k)*c(l, v, flank, k - 1)
+                  of_p = 0.0_dp
+                  do j = 1, k - 1
+                     of_p = of_p + c(l, p, flank, k - j)*c(l, h, flank, j)
+                  end do
+                  c(l, p, flank, k) = -c(l, p, flank, 0)*(of_p + c(l, p, flank, 0)*c(l, h, flank, k))
+                  of_r = 0.0_dp
+                  do j = 1, (k - 1)/2
+                     of_r = of_r + c(l, r, flank, j)*c(l, r, flank, k - j)
+                  end do
+                  of_r = 2.0_dp*of_r
+                  if (mod(k, 2) == 0) of_r = of_r + c(l, r, flank, shiftr(k, 1))*c(l, r, flank, shiftr(k, 1))
+                  c(l, r, flank, k) = half_root(l, flank)*(c(l, p, flank, k) - of_r)
+                  of_group = 0.0_dp
+                  of_z = 0.0_dp
+                  do j = 1, k - 1
+                     of_group = of_group + c(l, r, flank, k - j)*c(l, p, flank, j)
+                     of_z = of_z + c(l, r, flank, k - j)*c(l, v, flank, j)
+                  end do
+                  c(l, group, flank, k) = pressing(before + l) &
+                     *(of_group + c(l, r, flank, 0)*c(l, p, flank, k) + c(l, r, flank, k)*c(l, p, flank, 0))
+                  c(l, z, flank, k) = unit_rate(l, flank)*(of_z + c(l, r, flank, k)*c(l, v, flank, 0))
+                  !GCC$ unroll 24
+                  do i = min(highest_group_power(0), k), 2, -1
+                     ! Squares, and products of neighbours
+                     low = z - 1 + i/2
+                     high = z - 1 + (i + 1)/2
+                     of_power = 0.0_dp
+                     do j = i/2, merge((k - 1)/2, k - (i + 1)/2, low == high)
+                        of_power = of_power + c(l, low, flank, j)*c(l, high, flank, k - j)
+                     end do
+                     if (low == high) of_power = 2.0_dp*of_power
+                     if (low == high .and. mod(k, 2) == 0) &
+                        of_power = of_power + c(l, low, flank, shiftr(k, 1))*c(l, low, flank, shiftr(k, 1))
+                     c(l, z + i - 1, flank, k) = of_power
+                  end do
+                  of_peak = 0.0_dp
+                  do i = min(highest_peak_power, k), 2, -1
+                     of_peak = of_peak + expansion(flank)%peak(before + l, i)*c(l, z + i - 1, flank, k)
+                  end do
+                  of_s = 0.0_dp
+                  do j = (k - 1)/2, 1, -1
+                     of_s = of_s + c(l, s, flank, j)*c(l, s, flank, k - j)
+                  end do
+                  of_s = 2.0_dp*of_s
+                  if (mod(k, 2) == 0) of_s = of_s + c(l, s, flank, shiftr(k, 1))*c(l, s, flank, shiftr(k, 1))
+                  do j = 0, k - 1
+                     of_s = of_s + c(l, group, flank, k - j)*c(l, peak, flank, j)
+                  end do
+                  !GCC$ unroll 8
+                  do j = min(highest_sigma_power - 1, rupture_order - 1 - k), 0, -1
+                     of_tail = 0.0_dp
+                     do i = min(highest_group_power(j), k), 2, -1
+                        of_tail = of_tail + expansion(flank)%terms(before + l, first_term(j) + i)*c(l, z + i - 1, flank, k)
+                     end do
+                     do m = 2, merge(k - 1, 0, j + 1 < highest_sigma_power)
+                        of_tail = of_tail + c(l, s, flank, m)*c(l, tail + j + 1, flank, k - m)
+                     end do
+                     if (k > 1 .and. j + 1 < highest_sigma_power) &
+                        of_tail = of_tail + c(l, s, flank, 1)*c(l, tail + j + 1, flank, k - 1)
+                     c(l, tail + j, flank, k) = of_tail
+                  end do
+                  of_force = c(l, p, flank, k)*c(l, tail, flank, 0)
+                  do j = 1, k - 1
+                     of_force = of_force + c(l, p, flank, k - j)*c(l, tail, flank, j)
+                  end do
+                  ! The chain
+                  c(l, z, flank, k) = c(l, z, flank, k) + z_by_momentum(l, flank)*c(l, v, flank, k)
+                  c(l, peak, flank, k) = of_peak + expansion(flank)%peak(before + l, 1)*c(l, z, flank, k)
+                  c(l, s, flank, k) = sigma_slope(l, flank)*of_s + sigma_by_peak(l, flank)*c(l, peak, flank, k)
+                  !GCC$ unroll 8
+                  do j = 0, min(highest_sigma_power - 1, rupture_order - 1 - k)
+                     c(l, tail + j, flank, k) = (c(l, tail + j, flank, k) &
+                                                 + expansion(flank)%terms(before + l, first_term(j) + 1)*c(l, z, flank, k)) &
+                        + c(l, s, flank, k)*c(l, tail + j + 1, flank, 0)
+                  end do
+                  carried(l, flank) = of_force + c(l, p, flank, 0)*c(l, tail, flank, k)
+               end do
+            end do
+            !$omp simd
+            do l = 1, half_block
+               c(l, v, 1, k + 1) = (inverse(k + 1)*strength(before + l))*(carried(l, 1) - carried(l, 2)) &
+                  - factor(k + 1)*force(before + l, k + 1)
+               c(l, v, 2, k + 1) = -c(l, v, 1, k + 1)
+            end do
+         end do
+         c(:, h, 1, rupture_order) = inverse(rupture_order)*c(:, v, 1, rupture_order - 1)
+         film(before + 1:before + half_block, 1:rupture_order) = c(:, h, 1, 1:)
+         momentum(before + 1:before + half_block, 1:rupture_order) = c(:, v, 1, 1:)
+      end do
+   end subroutine reynolds_piezo_series_of_two
 
 end module taylor_reynolds_piezo
