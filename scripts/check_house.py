@@ -76,7 +76,7 @@ def counts() -> Iterator[tuple[str, int, int]]:
     yield "files that name a film law below scene", sum(map(names_law, fortran)), 2
     yield "files of scene and campaign that a varied key touches", sum(map(names_key, fortran)), 2
     yield "Fortran lines without generated tables", lines, 27500
-    yield "Python files in scripts", len(list(Path("scripts").rglob("*.py"))), 69
+    yield "Python files in scripts", len(list(Path("scripts").rglob("*.py"))), 70
     yield "README lines", len(readme.splitlines()), 172
     yield "README words", len(readme.split()), 1800
 

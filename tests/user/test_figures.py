@@ -52,17 +52,6 @@ def test_same_results_give_the_same_bytes(iso, piezo, tmp_path):
         assert first.read_bytes() == (outputs[1] / first.name).read_bytes(), first.name
 
 
-def test_settings_of_the_user_do_not_matter(iso, tmp_path):
-    (tmp_path / "matplotlibrc").write_text("axes.edgecolor: red\nxtick.major.size: 12\n")
-    first, second = tmp_path / "first", tmp_path / "second"
-    assert call_script("plot.py", "motion", iso, "--figures", 6, "--output", first).returncode == 0
-    settings = {"MATPLOTLIBRC": str(tmp_path / "matplotlibrc")}
-    assert (
-        call_script("plot.py", "motion", iso, "--figures", 6, "--output", second, **settings).returncode == 0
-    )
-    assert (first / "figure_06_idle.png").read_bytes() == (second / "figure_06_idle.png").read_bytes()
-
-
 def test_only_the_figures_asked_for_are_drawn(iso, piezo, tmp_path):
     output = tmp_path / "figures"
     done = call_script(

@@ -12,6 +12,9 @@ from rattle.figures import style
 from rattle.result import TIME, Result
 
 FILM = "film_thickness"
+SHORT_IMPACT = 0.02  # of a period, at half the height of the peak; a shorter one has a panel of its own
+AROUND = 4.0  # widths before and behind the peak that this panel shows
+FEWEST_POINTS = 4  # of the impact in the series; fewer would not show it
 SAME_FILMS = 1e-4  # of their range; a smaller difference is thinner than the line that shows it
 
 
@@ -40,8 +43,9 @@ def draw_film_and_force(results: Sequence[Result], labels: Sequence[str], period
 
 def draw_acceleration(results: Sequence[Result], labels: Sequence[str], periods: int) -> Figure:
     """Figures 8 and 9: acceleration of the film surface of one run, or of several in one picture."""
-    figure = Figure(figsize=(style.WIDTH, 3.0))
-    axes = figure.subplots()
+    near = impact(results[0], periods) if len(results) == 1 else None
+    figure = Figure(figsize=(style.WIDTH, 5.2 if near else 3.0))
+    axes, *below = figure.subplots(2 if near else 1, 1, squeeze=False)[:, 0]
     axes.axhline(0.0, color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
     lines = style.run_lines([result.law for result in results])
     for result, label, line in zip(results, labels, lines, strict=True):
@@ -53,7 +57,38 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], periods:
     axes.set_xlabel(time_label(results, periods))
     note = coarse_words(results[0], "acceleration", periods, "m/s$^2$")
     style.name_runs(figure, axes, "Acceleration of the film surface", results, labels, note)
+    if near:
+        _draw_impact(axes, below[0], near)
     return figure
+
+
+def impact(result: Result, periods: int) -> tuple[float, float] | None:
+    """Start and end [ms] of the largest impact with its surroundings, where it is too short to be seen."""
+    time, values = last_periods(result, "acceleration", periods)
+    sizes = np.abs(values)
+    low = np.flatnonzero(sizes < 0.5 * sizes.max())
+    if low.size < 2:
+        return None
+    whole = slice(low[0], low[-1] + 1)  # an impact at either end is cut
+    peak = low[0] + int(np.argmax(sizes[whole]))
+    before, after = low[low < peak], low[low > peak]
+    if not before.size or not after.size:
+        return None
+    width = time[after[0]] - time[before[-1]]
+    near = time[peak] - AROUND * width, time[peak] + AROUND * width
+    short = 1e-3 * width * result.frequency < SHORT_IMPACT
+    return near if short and after[0] - before[-1] > FEWEST_POINTS else None
+
+
+def _draw_impact(axes: Axes, below: Axes, near: tuple[float, float]) -> None:
+    """The curve of the upper panel around its largest impact, as wide as the panel."""
+    curve = axes.lines[1]  # the first is the rule at zero
+    below.axhline(0.0, color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
+    below.plot(*curve.get_data(), color=curve.get_color(), marker=".", markersize=2.0)
+    below.set_xlim(near)
+    below.set_ylabel(style.ACCELERATION_LABEL)
+    below.set_xlabel("The largest impact, on the same axis of time [ms]")
+    axes.axvspan(*near, color=style.PERIOD_COLOUR, alpha=0.6, linewidth=0, zorder=0)
 
 
 def last_periods(

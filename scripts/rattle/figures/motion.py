@@ -34,10 +34,11 @@ OVERLAYS = {
 
 @dataclass(frozen=True)
 class Extent:
-    """How much of a run is shown: `periods` of its histories, `window` periods behind its spectra."""
+    """What is shown: `periods` of histories, `window` periods behind spectra, as in `view`."""
 
     periods: int
     window: int | None
+    view: spectra.View = spectra.PLAIN
 
 
 def add_options(parser: ArgumentParser) -> None:
@@ -50,6 +51,21 @@ def add_options(parser: ArgumentParser) -> None:
         help="the figures to draw, all by default",
     )
     style.add_extent(parser, 4)
+    parser.add_argument(
+        "--frequency",
+        choices=tuple(spectra.FREQUENCY_LABELS),
+        default="ratio",
+        help="what spectra are drawn over: multiples of the force's frequency (ratio), Hz, orders of a shaft",
+    )
+    parser.add_argument(
+        "--shaft-speed", type=command.positive_number, metavar="RPM", help="speed [1/min] that orders count"
+    )
+    parser.add_argument(
+        "--level",
+        choices=("linear", "db"),
+        default="linear",
+        help="amplitudes of the acceleration linear and logarithmic, or as levels in dB re 1e-6 m/s2",
+    )
     parser.add_argument("--overlay", action="store_true", help="draw all results in the same figures")
 
 
@@ -58,10 +74,14 @@ def run(options: Namespace) -> None:
     for result in results:
         result.require_task("motion")
         command.note_open(result)
+    if (options.frequency == "order") != (options.shaft_speed is not None):
+        raise command.CommandError("--frequency order and --shaft-speed belong together.")
+    view = spectra.View(options.frequency, options.shaft_speed, options.level == "db")
+    extent = Extent(options.periods, options.window, view)
     make = overlay_figures if options.overlay else single_figures
     drawn = 0
     with style.house_style():
-        for stem, figure in make(results, options.figures, Extent(options.periods, options.window)):
+        for stem, figure in make(results, options.figures, extent):
             drawn += 1
             for path in style.save(figure, options, stem):
                 print(path)
@@ -102,7 +122,7 @@ def _draw(number: int, results: Sequence[Result], labels: Sequence[str], extent:
     if number == 6:
         return histories.draw_film_and_force(results, labels, extent.periods)
     if number == 7:
-        return spectra.draw_force(results, labels, extent.window)
+        return spectra.draw_force(results, labels, extent.window, extent.view)
     if number in (8, 9):
         return histories.draw_acceleration(results, labels, extent.periods)
-    return spectra.draw_acceleration(results, labels, extent.window)
+    return spectra.draw_acceleration(results, labels, extent.window, extent.view)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from rattle.figures import style
 from rattle.result import Result, ResultError
@@ -21,14 +23,41 @@ FLOOR = 1e-5  # of the largest line; below it the logarithmic panel ends
 GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-integer lines
 SMALLEST_LAST_RATIO = 10.0
 LARGEST_LAST_RATIO = 40.0
+FREQUENCY_LABELS = {
+    "ratio": style.RATIO_LABEL,
+    "hz": r"Frequency [Hz]",
+    "order": "Order of the shaft [-]",
+}
+REFERENCE = 1e-6  # m/s2, of levels
+LEVEL_LABEL = r"Level of the amplitude of $\ddot{z}$" "\n" r"[dB re 10$^{-6}$ m/s$^2$]"
 
 
-def draw_force(results: Sequence[Result], labels: Sequence[str], window: int | None) -> Figure:
+@dataclass(frozen=True)
+class View:
+    """Over what spectra are shown ('order': of a shaft, its speed in 1/min), and whether as levels."""
+
+    frequency: str = "ratio"
+    shaft_speed: float | None = None
+    decibels: bool = False
+
+    def factor(self, result: Result) -> float:
+        """What multiples of the frequency of the force are multiplied by."""
+        if self.frequency == "ratio":
+            return 1.0
+        return result.frequency / (1.0 if self.frequency == "hz" else self.shaft_speed / 60.0)
+
+
+PLAIN = View()
+
+
+def draw_force(
+    results: Sequence[Result], labels: Sequence[str], window: int | None, view: View = PLAIN
+) -> Figure:
     """Figure 7: lines of the force of one run, or of several side by side."""
     figure = Figure(figsize=(style.WIDTH, 2.6))
     axes = figure.subplots()
     single = len(results) == 1
-    scale = _frequency_label(results)
+    scale = _frequency_label(results, view)
     last = max(LAST_FORCE_RATIO, 0.5 + max(map(_last_order, results)))
     largest = 0.0
     lines = style.run_lines([result.law for result in results])
@@ -36,13 +65,14 @@ def draw_force(results: Sequence[Result], labels: Sequence[str], window: int | N
         ratio, amplitude = column_spectrum(result, "applied_force", window)
         shown = ratio <= last
         shift = 0.06 * (position - 0.5 * (len(results) - 1))
-        axes.vlines(
-            ratio[shown] + shift, 0.0, amplitude[shown], label=label, linewidth=2.0, color=line["color"]
-        )
+        place = view.factor(result) * (ratio[shown] + shift)
+        look = {"linewidth": 2.0, "color": line["color"]}
+        axes.vlines(place, 0.0, amplitude[shown], label=label, **look)
         largest = max(largest, float(amplitude[shown].max()))
         if single:
-            _name_lines(axes, result, ratio[shown], amplitude[shown])
-    axes.set_xlim(-0.25, last)
+            _name_lines(axes, result, place, ratio[shown], amplitude[shown])
+    widest = max(map(view.factor, results))
+    axes.set_xlim(-0.25 * widest, last * widest)
     axes.set_ylim(0.0, 1.12 * largest if largest > 0.0 else 1.0)
     axes.set_ylabel("Amplitude of $F$ [N]")
     axes.set_xlabel(scale if single else f"{scale}; runs side by side")
@@ -50,7 +80,9 @@ def draw_force(results: Sequence[Result], labels: Sequence[str], window: int | N
     return figure
 
 
-def _name_lines(axes: Axes, result: Result, ratio: np.ndarray, amplitude: np.ndarray) -> None:
+def _name_lines(
+    axes: Axes, result: Result, place: np.ndarray, ratio: np.ndarray, amplitude: np.ndarray
+) -> None:
     """Say what the mean and the largest line of the excitation are."""
     at_excitation = int(np.argmin(np.abs(ratio - 1.0)))
     if _orders(result).size:
@@ -63,7 +95,7 @@ def _name_lines(axes: Axes, result: Result, ratio: np.ndarray, amplitude: np.nda
     for position, name in names:
         axes.annotate(
             name,
-            (ratio[position], amplitude[position]),
+            (place[position], amplitude[position]),
             xytext=(4, 0),
             textcoords="offset points",
             verticalalignment="top",
@@ -71,53 +103,74 @@ def _name_lines(axes: Axes, result: Result, ratio: np.ndarray, amplitude: np.nda
         )
 
 
-def draw_acceleration(results: Sequence[Result], labels: Sequence[str], window: int | None) -> Figure:
-    """Figure 10: a linear panel as in the paper, and a logarithmic one that shows every line that counts."""
-    figure = Figure(figsize=(style.WIDTH, 4.6))
-    linear, logarithmic = figure.subplots(2, 1, sharex=True)
-    scale = _frequency_label(results)
+def draw_acceleration(
+    results: Sequence[Result], labels: Sequence[str], window: int | None, view: View = PLAIN
+) -> Figure:
+    """Figure 10: a linear panel as in the paper, and a logarithmic one that shows every line that counts.
+
+    As levels there is the logarithmic one only.
+    """
+    figure = Figure(figsize=(style.WIDTH, 3.0 if view.decibels else 4.6))
+    panels = list(figure.subplots(1 if view.decibels else 2, 1, sharex=True, squeeze=False)[:, 0])
+    first, last = panels[0], panels[-1]
+    scale = _frequency_label(results, view)
     summaries = [better_summary(result, window) for result in results]
     spectra = [
         harmonics_of(summary) if summary else column_spectrum(result, "acceleration", window)
         for result, summary in zip(results, summaries, strict=True)
     ]
     largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
+    factors = [view.factor(result) for result in results]
     if len(results) == 1:
         unknown = results[0].coarse and not summaries[0]
         verdict = None if unknown else summaries[0] or classify(results[0], window)
-        _draw_single(figure, (linear, logarithmic), results[0], spectra[0], verdict)
+        _draw_single(figure, panels, results[0], spectra[0], verdict, factors[0])
         words = _verdict_words(verdict, summaries[0])
-        linear.set_title(f"{style.title(SUBJECT, results[0], labels[0])}; {words}")
-        logarithmic.set_xlabel(scale)
+        first.set_title(f"{style.title(SUBJECT, results[0], labels[0])}; {words}")
+        last.set_xlabel(scale)
     else:
         names = [
             f"{label}, by its summary" if summary else style.curve_label(result, label)
             for result, summary, label in zip(results, summaries, labels, strict=True)
         ]
-        _draw_overlay((linear, logarithmic), names, spectra)
-        linear.set_title(style.overlay_title(SUBJECT, results))
-        logarithmic.set_xlabel(f"{scale}; runs side by side")
-        style.legend_below(figure, linear)
-    linear.set_xlim(0.0, max(_last_ratio(spectra), 0.5 + max(map(_last_order, results))))
-    linear.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
-    logarithmic.set_ylim(linear.get_ylim())
+        handles = _draw_overlay(panels, names, spectra, factors)
+        first.set_title(style.overlay_title(SUBJECT, results))
+        last.set_xlabel(f"{scale}; runs side by side")
+        style.legend_below(figure, first, labels=handles)
+    end = max(_last_ratio(spectra), 0.5 + max(map(_last_order, results)))
+    first.set_xlim(0.0, end * max(factors))
+    first.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
+    last.set_ylim(first.get_ylim())
     if largest > 0.0:
-        logarithmic.set_yscale("log")
-        logarithmic.set_ylim(FLOOR * largest, 3.0 * largest)
-    for axes in (linear, logarithmic):
+        last.set_yscale("log")
+        last.set_ylim(FLOOR * largest, 3.0 * largest)
+    for axes in panels:
         axes.set_ylabel(style.AMPLITUDE_LABEL)
+    if view.decibels and largest > 0.0:
+        _show_levels(last)
     figure.align_ylabels()
     return figure
 
 
+def _show_levels(axes: Axes) -> None:
+    """Name the amplitudes of a logarithmic axis by their levels."""
+    low, high = (20.0 * math.log10(end / REFERENCE) for end in axes.get_ylim())
+    levels = np.arange(20.0 * math.ceil(low / 20.0), high, 20.0)
+    axes.set_yticks(REFERENCE * 10.0 ** (levels / 20.0), [f"{level:.0f}" for level in levels])
+    axes.set_yticks([], minor=True)
+    axes.set_ylabel(LEVEL_LABEL)
+
+
 def _draw_single(
     figure: Figure,
-    panels: tuple[Axes, Axes],
+    panels: Sequence[Axes],
     result: Result,
     spectrum: tuple[np.ndarray, np.ndarray],
     verdict: Mapping[str, Any] | None,
+    factor: float,
 ) -> None:
     ratio, amplitude = spectrum
+    place = factor * ratio
     periods = round(1.0 / ratio[1])
     harmonic = np.arange(amplitude.size) % periods == 0
     harmonic[0] = False
@@ -129,13 +182,13 @@ def _draw_single(
     orders = _orders(result)
     driven = harmonic & np.isin(ratio, orders)
     for axes in panels:
-        axes.vlines(ratio[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
+        axes.vlines(place[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
         handles[f"harmonics of {result.frequency:g} Hz"] = axes.vlines(
-            ratio[harmonic & ~driven], 0.0, amplitude[harmonic & ~driven], color=colour, linewidth=1.8
+            place[harmonic & ~driven], 0.0, amplitude[harmonic & ~driven], color=colour, linewidth=1.8
         )
         if driven.any():
             handles["at orders of the force"] = axes.vlines(
-                ratio[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, linewidth=1.8
+                place[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, linewidth=1.8
             )
     if between.any():
         handles["between the harmonics"] = panels[0].collections[0]
@@ -143,7 +196,7 @@ def _draw_single(
     order = (verdict or {}).get("reference_line") if orders.size else 1
     if order and amplitude[order * periods] > 0.0:
         name = "first harmonic" if order == 1 else f"line of order {order}"
-        handles[f"{100 * threshold:.3g} % of the {name}"] = panels[1].axhline(
+        handles[f"{100 * threshold:.3g} % of the {name}"] = panels[-1].axhline(
             threshold * amplitude[order * periods],
             color=style.FORCE_COLOUR,
             linewidth=0.9,
@@ -178,8 +231,10 @@ def _last_order(result: Result) -> float:
     return float(_orders(result).max(initial=0))
 
 
-def _frequency_label(results: Sequence[Result]) -> str:
-    """The axis counts in orders where a force is given by them."""
+def _frequency_label(results: Sequence[Result], view: View) -> str:
+    """The axis counts in orders where a force is given by them, if nothing else was asked for."""
+    if view.frequency != "ratio":
+        return FREQUENCY_LABELS[view.frequency]
     if not any(_orders(result).size for result in results):
         return style.RATIO_LABEL
     bases = {result.frequency for result in results}
@@ -191,18 +246,28 @@ def _frequency_label(results: Sequence[Result]) -> str:
 
 
 def _draw_overlay(
-    panels: tuple[Axes, Axes],
+    panels: Sequence[Axes],
     labels: Sequence[str],
     spectra: Sequence[tuple[np.ndarray, np.ndarray]],
-) -> None:
+    factors: Sequence[float],
+) -> dict[str, object]:
+    """Lines side by side, each run with a mark of its own on those that can be seen; returns its legend."""
     spacing = min(0.16, GROUP_WIDTH / len(spectra))
-    for axes in panels:
-        for position, ((ratio, amplitude), label) in enumerate(zip(spectra, labels, strict=True)):
-            line = style.run_line(position)
-            shift = spacing * (position - 0.5 * (len(spectra) - 1))
-            axes.vlines(
-                ratio[1:] + shift, 0.0, amplitude[1:], color=line["color"], linewidth=1.3, label=label
-            )
+    largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
+    handles: dict[str, object] = {}
+    for position, ((ratio, amplitude), label, factor) in enumerate(
+        zip(spectra, labels, factors, strict=True)
+    ):
+        look = {"color": style.run_line(position)["color"], "linewidth": 1.3}
+        mark = {"marker": style.RUN_MARKS[position], "markersize": 2.6}
+        place = factor * (ratio + spacing * (position - 0.5 * (len(spectra) - 1)))
+        seen = np.flatnonzero(amplitude > FLOOR * largest)
+        seen = seen[seen > 0]
+        for axes in panels:
+            axes.vlines(place[1:], 0.0, amplitude[1:], label=label, **look)
+            axes.plot(place[seen], amplitude[seen], linestyle="", color=look["color"], **mark)
+        handles[label] = Line2D([], [], **look, **mark)
+    return handles
 
 
 def _last_ratio(spectra: Sequence[tuple[np.ndarray, np.ndarray]]) -> float:

@@ -1,4 +1,4 @@
-"""The look and the words that all figures share, whatever the user's own matplotlib settings are."""
+"""The look and the words that all figures share."""
 
 from __future__ import annotations
 
@@ -14,12 +14,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rattle.command import CommandError, positive
+from rattle.figures.fit import fit
 from rattle.result import Result
 
 # The palette of Okabe and Ito, which colour-blind readers can tell apart.
 LAW_COLOURS = {"iso-viscous": "#0072B2", "piezo-viscous": "#D55E00"}
 RUN_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
 RUN_DASHES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (5, 1.5, 1.2, 1.5)))
+RUN_MARKS = ("o", "s", "^", "D", "v", "P", "X")
 FORCE_COLOUR = "#4D4D4D"
 FAINT_COLOUR = "#9A9A9A"
 PERIOD_COLOUR = "#D5D5D5"
@@ -58,15 +60,28 @@ _SETTINGS = {
     "svg.hashsalt": "rattle",
     "pdf.fonttype": 42,
 }
+_SIZES = ("axes.titlesize", "axes.labelsize", "xtick.labelsize", "ytick.labelsize", "legend.fontsize")
 
 
 @contextmanager
-def house_style() -> Iterator[None]:
-    """Matplotlib's own defaults with the settings of this module."""
+def house_style(*, own: bool = True) -> Iterator[None]:
+    """The settings of this module over Matplotlib's; the user's matplotlibrc over both, if wanted."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_SETTINGS)
+        if own:
+            matplotlib.rcParams.update(own_settings())
         yield
+
+
+def own_settings() -> dict[str, object]:
+    """What the user's matplotlibrc sets; with a size of type also the sizes here that follow from it."""
+    path = Path(matplotlib.matplotlib_fname())
+    if Path(matplotlib.get_data_path()) in path.parents:
+        return {}
+    found = dict(matplotlib.rc_params_from_file(path, fail_on_error=False, use_default_template=False))
+    factor = float(found.get("font.size", _SETTINGS["font.size"])) / _SETTINGS["font.size"]
+    return {name: factor * _SETTINGS[name] for name in _SIZES} | found
 
 
 def run_line(position: int) -> dict[str, object]:
@@ -115,8 +130,7 @@ def add_extent(parser: ArgumentParser, periods: int) -> None:
 
 def save(figure: Figure, options: Namespace, stem: str) -> list[Path]:
     """Write a figure as the common options of plot.py say, without dates: equal data give equal bytes."""
-    if options.width:
-        figure.set_size_inches(figure.get_size_inches() * options.width / figure.get_figwidth())
+    fit(figure, options)
     paths = [options.output / f"{stem}.{name}" for name in options.format]
     try:
         options.output.mkdir(parents=True, exist_ok=True)

@@ -216,7 +216,7 @@ def ranges(rows: Sequence[tuple[str, str, str, np.ndarray]]) -> str:
 def drawing(draw: Callable[[], Figure], caption: str, salt: str) -> str:
     """A figure with its caption, or the sentence that says why it cannot be drawn."""
     try:
-        with style.house_style(), matplotlib.rc_context({"svg.hashsalt": salt}):
+        with style.house_style(own=False), matplotlib.rc_context({"svg.hashsalt": salt}):
             stream = StringIO()
             draw().savefig(stream, format="svg", dpi=160, metadata={"Date": None})
     except (ResultError, CommandError) as fault:
