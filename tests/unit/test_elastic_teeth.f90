@@ -1,0 +1,285 @@
+!> Tests of teeth that give: references of independent codes, the limit of stiff teeth, small motions, order of Newmark's method.
+module test_elastic_teeth
+   use canonical_scenes, only: canonical_scene
+   use checks, only: check_list_t
+   use controlled_engine, only: find_steady_motion, solve_window
+   use engine, only: ending_t, motion_count_t, numbers_of, request_t, start_of
+   use film_law, only: film_load, kernel_of
+   use force, only: force_of_period
+   use fourier, only: amplitude_spectrum
+   use kinds, only: dp
+   use linear_motion, only: natural_motion
+   use newmark, only: advance_period, newmark_state_t, start_motion
+   use node_extremes, only: seen_coast_film, seen_coast_load, seen_load, seen_position
+   use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
+   use problem, only: film_at_rest, gear_positions, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, &
+      problem_t, static_load
+   use scene_status, only: is_success, status_complete
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
+   use window_record, only: energy_gap, window_record_t
+   implicit none(type, external)
+   private
+
+   !> Samples of a period of the references, accuracy of the engine, agreement with them.
+   integer, parameter :: samples = 2048
+   real(dp), parameter :: accuracy = 1.0e-9_dp, agreement = 1.0e-6_dp
+
+   public :: run_elastic_teeth_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_elastic_teeth_tests(checks)
+      type(check_list_t), intent(inout) :: checks
+
+      call checks%start('elastic_teeth')
+      call compare(checks, 'S1', canonical(law_iso_viscous, model_reynolds, 1.0e8_dp), [-8.0451176e-06_dp, 1.7592233e-05_dp], &
+                   [4.4165721e-07_dp, 1.7791013e-05_dp], [-137.09369_dp, 273.10504_dp], [13.1545_dp, 851.6997_dp], &
+                   [179.1303_dp, 65.92906_dp, 27.95162_dp, 8.087156_dp, 4.063589_dp, 3.244983_dp])
+      call compare(checks, 'S2', canonical(law_iso_viscous, model_reynolds, 3.0e8_dp), [-4.3164787e-06_dp, 2.3549764e-05_dp], &
+                   [2.8681202e-07_dp, 2.3599900e-05_dp], [-138.54144_dp, 447.15241_dp], [10.3895_dp, 1393.8812_dp], &
+                   [188.5199_dp, 101.95991_dp, 73.45934_dp, 48.29567_dp, 28.61970_dp, 15.09713_dp])
+      call compare(checks, 'S3', canonical(law_iso_viscous, model_published, 1.0e9_dp), [-7.2750257e-07_dp, 3.7120931e-06_dp], &
+                   [2.5271515e-07_dp, 3.7657064e-06_dp], [-115.71702_dp, 196.88632_dp], [35.6678_dp, 1024.6143_dp], &
+                   [25.04402_dp, 38.72661_dp, 48.19850_dp, 46.01152_dp, 31.18127_dp, 17.62888_dp])
+      call compare(checks, 'S4', canonical(law_piezo_viscous, model_published, 3.0e8_dp), [-1.6181008e-06_dp, 2.6993669e-06_dp], &
+                   [7.6277243e-07_dp, 2.7210544e-06_dp], [-63.473246_dp, 100.396692_dp], [2.1309_dp, 733.9331_dp], &
+                   [21.23886_dp, 55.53131_dp, 31.68247_dp, 1.048872_dp, 1.427171_dp, 1.322506_dp])
+      call compare(checks, 'S5', between_flanks(), [1.6215028e-06_dp, 9.5334473e-05_dp], [2.0209873e-06_dp, 9.5342724e-05_dp], &
+                   [-15.810873_dp, 34.772748_dp], [0.3820_dp, 22.4316_dp], &
+                   [1.0586044_dp, 2.0625726_dp, 1.5370627_dp, 0.8834755_dp, 1.8064580_dp, 2.0901589_dp], &
+                   [4.8281494e-06_dp, 9.8386477e-05_dp], [0.3564_dp, 8.8322_dp])
+      call test_rest(checks)
+      call test_small_motions(checks)
+      call test_stiff_teeth(checks)
+      call test_newmark(checks)
+      call test_no_company(checks)
+   end subroutine run_elastic_teeth_tests
+
+   !> The canonical scene, steady under Q + m g, on teeth that give.
+   type(problem_t) function canonical(law, model, stiffness)
+      integer, intent(in) :: law
+      integer, intent(in) :: model
+      !> k [N/m]
+      real(dp), intent(in) :: stiffness
+      type(scene_t) :: scene
+
+      scene = canonical_scene(law, 256)
+      scene%film%model = model
+      scene%film%initial_film = 0.0_dp
+      scene%load%steady_force = 199.2_dp
+      scene%load%gravity = 9.80665_dp
+      scene%contact%stiffness = stiffness
+      canonical = problem_of(scene)
+   end function canonical
+
+   !> Case R1 with 5e7 N/m on both flanks.
+   type(problem_t) function between_flanks() result(problem)
+      type(scene_t) :: scene
+
+      scene = canonical_scene(law_iso_viscous, 256)
+      scene%contact%radius = 7.5e-3_dp
+      scene%contact%length = 0.02_dp
+      scene%contact%backlash = 1.0e-4_dp
+      scene%contact%stiffness = 5.0e7_dp
+      scene%lubricant%viscosity = 0.05_dp
+      scene%kinematics%entrainment_speed = 1.07_dp
+      scene%load%mass = 0.45_dp
+      scene%load%gravity = 0.0_dp
+      scene%load%frequency = 26.7_dp
+      scene%load%steady_force = 5.0_dp
+      scene%load%force_orders = [1, 2, 3]
+      scene%load%force_amplitudes = [7.9_dp, 2.0_dp, 0.8_dp]
+      scene%load%force_phases = [0.0_dp, 0.5_dp, 1.1_dp]
+      scene%film%model = model_reynolds
+      scene%film%initial_film = 0.0_dp
+      problem = problem_of(scene)
+   end function between_flanks
+
+   !> Compare one period of a steady motion with a reference.
+   subroutine compare(checks, name, problem, positions, films, accelerations, loads, harmonics, coast_films, coast_loads)
+      type(check_list_t), intent(inout) :: checks
+      character(*), intent(in) :: name
+      type(problem_t), intent(in) :: problem
+      !> Smallest and largest of the samples: z [m], h_1 [m], z'' [m/s2], W_1 [N]
+      real(dp), intent(in) :: positions(2)
+      real(dp), intent(in) :: films(2)
+      real(dp), intent(in) :: accelerations(2)
+      real(dp), intent(in) :: loads(2)
+      !> Of z'' [m/s2]
+      real(dp), intent(in) :: harmonics(:)
+      !> Of the coast flank: h_2 [m], W_2 [N]
+      real(dp), intent(in), optional :: coast_films(2)
+      real(dp), intent(in), optional :: coast_loads(2)
+      type(ending_t) :: found
+      type(window_record_t) :: record
+      type(periodic_orbit_t) :: orbit
+      real(dp), allocatable :: states(:, :), z(:), amplitudes(:)
+
+      call find_steady_motion(problem, accuracy, 400, 1, found)
+      call checks%check(is_success(found%status) .and. found%orbit == 1, name//': repeats after one period')
+      call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
+      call checks%check(found%status == status_complete, name//': solved')
+      if (found%status /= status_complete) return
+      call near([minval(states(:, of_film)), maxval(states(:, of_film))], films, agreement, 'film')
+      associate (gear => gear_positions(problem, states))
+         call near([minval(gear), maxval(gear)], positions, agreement, 'position')
+      end associate
+      call near([minval(z), maxval(z)], accelerations, agreement, 'acceleration')
+      associate (load => states(:, of_drive_compression)/problem%compliance)
+         ! The loads are printed with four digits behind the point.
+         call near([minval(load), maxval(load)], loads, agreement + 1.0e-4_dp/loads(2), 'load')
+      end associate
+      call amplitude_spectrum(z, amplitudes)
+      call near(amplitudes(1:size(harmonics)), harmonics, agreement, 'harmonics')
+      ! An impact between two samples is a little sharper than at one of them.
+      call near([record%lowest(seen_position)%value, record%highest(seen_position)%value], positions, 1.0e-4_dp, 'extremes')
+      call near([record%highest(seen_load)%value], loads(2:), 1.0e-3_dp, 'largest load')
+      if (present(coast_films)) then
+         call near([record%lowest(seen_coast_film)%value, record%highest(seen_coast_film)%value], coast_films, 1.0e-4_dp, &
+                   'coast film')
+         call near([record%highest(seen_coast_load)%value], coast_loads(2:), 1.0e-3_dp, 'largest load of the coast film')
+      end if
+      call checks%check(energy_gap(record, problem%mass) < 1.0e-7_dp, name//': energy closes')
+      orbit = find_periodic_orbit(problem, numbers_of(found), 0.02_dp)
+      call checks%check(orbit%period == 1, name//': a periodic orbit')
+      if (orbit%period == 1) call checks%check(size(orbit%multipliers) == merge(4, 3, present(coast_films)) .and. &
+                                               abs(orbit%multipliers(1)) < 1.0_dp, name//': as many multipliers as states')
+
+   contains
+
+      !> Numbers agree, in parts of the largest.
+      subroutine near(numbers, expected, tolerance, what)
+         real(dp), intent(in) :: numbers(:)
+         real(dp), intent(in) :: expected(:)
+         real(dp), intent(in) :: tolerance
+         character(*), intent(in) :: what
+
+         call checks%check(maxval(abs(numbers - expected)) < tolerance*maxval(abs(expected)), name//': '//what)
+      end subroutine near
+
+   end subroutine compare
+
+   !> At rest films and springs fill the backlash, and the start stands still.
+   subroutine test_rest(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(problem_t) :: problem
+      real(dp) :: drive, coast, load, by_film, by_velocity, gap, start(4)
+
+      problem = between_flanks()
+      call loads_at_rest(problem, static_load(problem), drive, coast)
+      call checks%check_close(drive - coast, 5.0_dp, 1.0e-13_dp, 'rest: static load')
+      start = numbers_of(start_of(problem))
+      call checks%check_close(start(3)/(problem%compliance*drive), 1.0_dp, 1.0e-12_dp, 'rest: spring of the drive flank')
+      call checks%check_close(start(4)/(problem%compliance*coast), 1.0_dp, 1.0e-9_dp, 'rest: spring of the coast flank')
+      gap = problem%backlash - start(1) + start(3) + start(4)
+      call film_load(problem%film, gap, 0.0_dp, load, by_film, by_velocity)
+      call checks%check_close(load/coast, 1.0_dp, 1.0e-9_dp, 'rest: film of the coast flank')
+   end subroutine test_rest
+
+   !> Natural frequencies and damping ratios of the cubic, and that of stiff teeth.
+   subroutine test_small_motions(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp) :: frequency, ratio
+
+      call natural_motion(canonical(law_iso_viscous, model_reynolds, 3.0e8_dp), frequency, ratio)
+      call checks%check_close(frequency, 948.37_dp, 0.005_dp, 'natural frequency of 3e8 N/m')
+      call checks%check_close(ratio, 0.1896_dp, 5.0e-5_dp, 'damping ratio')
+      call natural_motion(canonical(law_iso_viscous, model_reynolds, 1.0e8_dp), frequency, ratio)
+      call checks%check_close(frequency, 725.63_dp, 0.005_dp, 'natural frequency of 1e8 N/m')
+      call checks%check_close(ratio, 0.0847_dp, 6.0e-5_dp, 'damping ratio')
+      call natural_motion(canonical(law_iso_viscous, model_reynolds, 1.0e14_dp), frequency, ratio)
+      call checks%check_close(frequency, 1114.5_dp, 0.05_dp, 'natural frequency of stiff teeth')
+      call checks%check_close(ratio, 0.3454_dp, 5.0e-4_dp, 'damping ratio')
+   end subroutine test_small_motions
+
+   !> Teeth of 1e15 N/m are rigid, and the difference falls as one over the stiffness.
+   subroutine test_stiff_teeth(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(problem_t) :: problem
+      type(ending_t) :: ending
+      type(window_record_t) :: record
+      real(dp), allocatable :: rigid(:, :), stiff(:, :), z(:)
+      real(dp) :: difference(2)
+      integer :: law, i
+
+      do law = law_iso_viscous, law_piezo_viscous
+         problem = canonical(law, model_published, 1.0e15_dp)
+         problem%compliance = 0.0_dp
+         call solve_window(problem, start_of(problem), 1.0e-10_dp, 256, 3, 3, rigid, z, ending, record)
+         do i = 1, 2
+            problem%compliance = 1.0e-14_dp*0.1_dp**(i - 1)
+            call solve_window(problem, start_of(problem), 1.0e-10_dp, 256, 3, 3, stiff, z, ending, record)
+            difference(i) = maxval(abs(stiff(:, of_film) - rigid(:, of_film)))/maxval(rigid(:, of_film))
+         end do
+         call checks%check(difference(2) < 2.0e-6_dp, 'stiff teeth are rigid')
+         call checks%check_close(difference(1)/difference(2), 10.0_dp, 0.1_dp, 'the difference falls as 1/k')
+      end do
+   end subroutine test_stiff_teeth
+
+   !> Newmark's method is of the second order, for gear and films.
+   subroutine test_newmark(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(problem_t) :: problem
+      type(ending_t) :: ending
+      type(window_record_t) :: record
+      real(dp), allocatable :: exact(:, :), z(:)
+      real(dp) :: errors(2), end_film
+      integer :: kind, i
+
+      do kind = 1, 3
+         select case (kind)
+         case (1)
+            problem = canonical(law_iso_viscous, model_reynolds, 3.0e8_dp)
+         case (2)
+            problem = canonical(law_piezo_viscous, model_published, 3.0e8_dp)
+         case default
+            problem = between_flanks()
+         end select
+         call solve_window(problem, start_of(problem), 1.0e-11_dp, 64, 1, 1, exact, z, ending, record)
+         do i = 1, 2
+            call one_period(2048*i, end_film)
+            errors(i) = abs(end_film - exact(64, of_film))
+         end do
+         call checks%check(errors(1)/errors(2) > 3.6_dp .and. errors(1)/errors(2) < 4.4_dp, 'newmark: second order')
+      end do
+
+   contains
+
+      !> Film at the end of the first period.
+      subroutine one_period(steps, film)
+         integer, intent(in) :: steps
+         real(dp), intent(out) :: film
+         type(newmark_state_t) :: state
+         type(motion_count_t) :: count
+         real(dp), dimension(steps) :: force, films, velocities, accelerations
+         integer :: done, status
+
+         call force_of_period(problem%force, force)
+         call start_motion(kernel_of(problem%film), problem, state, count, status)
+         call advance_period(kernel_of(problem%film), problem, request_t(tolerance=1.0e-16_dp, iteration_limit=100), force, state, &
+                             count, films, velocities, accelerations, done, status)
+         call checks%check(status == status_complete, 'newmark: solved')
+         film = state%film
+      end subroutine one_period
+
+   end subroutine test_newmark
+
+   !> A window carried on from its middle is the same to the last bit.
+   subroutine test_no_company(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(problem_t) :: problem
+      type(ending_t) :: half, whole, ending
+      type(window_record_t) :: record
+      real(dp), allocatable :: states(:, :), rest(:, :), z(:)
+
+      problem = between_flanks()
+      call solve_window(problem, start_of(problem), 1.0e-7_dp, 64, 6, 3, states, z, whole, record)
+      call solve_window(problem, start_of(problem), 1.0e-7_dp, 64, 3, 1, rest, z, half, record)
+      call solve_window(problem, half%motion_state_t, 1.0e-7_dp, 64, 6, 3, rest, z, ending, record)
+      call checks%check(all(abs(states - rest) <= 0.0_dp), 'carried on: the same bits')
+      call checks%check(abs(ending%velocity - whole%velocity) <= 0.0_dp, 'carried on: the same end')
+      call checks%check(size(states, 2) == 4 .and. of_velocity == 2, 'states of four numbers')
+   end subroutine test_no_company
+
+end module test_elastic_teeth
