@@ -83,7 +83,8 @@ module film_law
       end subroutine film_kernel
    end interface
 
-   public :: new_film, contact_radius, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, squeeze_velocity, &
+   public :: new_film, with_exact_film, contact_radius, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, &
+             squeeze_velocity, &
              law_words, film_kernel
 
 contains
@@ -124,6 +125,15 @@ contains
          end select
       end associate
    end function new_film
+
+   !> The same scene with the exact iso-viscous film.
+   pure type(scene_t) function with_exact_film(scene)
+      type(scene_t), intent(in) :: scene
+
+      with_exact_film = scene
+      with_exact_film%film%law = law_iso_viscous
+      with_exact_film%film%model = model_reynolds
+   end function with_exact_film
 
    !> Code of the law that the group &film chooses, 0 where it is not known.
    pure integer function kernel_of_choice(choice) result(kernel)

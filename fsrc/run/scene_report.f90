@@ -2,7 +2,7 @@
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use certificate, only: certificate_word
-   use film_law, only: film_load, law_words
+   use film_law, only: film_load, law_words, with_exact_film
    use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp
    use log_file, only: log_magic, log_t
@@ -12,9 +12,9 @@ module scene_report
    use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_deflection_share, &
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
                          quantity_t, quantity_table, quantity_word
-   use regime, only: deflection_limit
+   use regime, only: deflection_limit, iso_viscous_limit, rigid_limit
    use regime_check, only: model_limit, model_limit_sentence, regime_sentence, within_model
-   use resolved_scene, only: resolved_scene_t
+   use resolved_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: method_newmark, model_reynolds, scene_t, speed_mean, task_film
    use text, only: integer_text, short_text
@@ -167,11 +167,31 @@ contains
                           resolved%problem%film%radius)
       if (resolved%problem%initial_film > 0.0_dp .and. limit /= within_model) &
          lines = lines//'! warning: at rest '//model_limit_sentence(limit)//' (model_limit)'//end_of_line
+      if (scene%gear%given) lines = lines//law_advice(scene)
       warning = stiffness_warning(scene, 'at rest', share)
       if (len(warning) > 0) lines = lines//'! '//warning//end_of_line
       lines = lines//'! A, B and alpha p are those of the exact film with u = '//short_text(resolved%problem%film%speed, 6)// &
               ' m/s, '//speed_meaning(scene)
    end function resolved_lines
+
+   !> Which film law the film of a gear pair at rest asks for, by the exact pressure there.
+   pure function law_advice(scene) result(line)
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: line
+      type(resolved_scene_t) :: exact
+
+      exact = resolve(with_exact_film(scene))
+      line = '! exact film at rest                   '//short_text(exact%steady_film, 4)//' m, alpha p '// &
+             short_text(exact%alpha_p, 3)//': '
+      if (exact%alpha_p < iso_viscous_limit) then
+         line = line//'pressure hardly thickens the oil, iso-viscous with model = reynolds fits'
+      else if (exact%alpha_p < rigid_limit) then
+         line = line//'pressure thickens the oil, piezo-viscous with model = reynolds fits'
+      else
+         line = line//'no film of rigid flanks fits'
+      end if
+      line = line//new_line('a')
+   end function law_advice
 
    !> How the scene ended and what it amounts to.
    subroutine report_ending(log, scene, judged, solve_seconds)

@@ -396,3 +396,17 @@ def test_the_page_works_the_ready_pair_through(run, repository: Path, tmp_path: 
     for what, key in (("viscosity at T", "viscosity"), ("alpha at T", "pressure_viscosity")):
         value = re.search(rf"^\| {what} .*\| (\S+) \|$", page, re.M)[1]
         assert float(value) == pytest.approx(told[f"lubricant.{key}"], rel=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("settings", "advice"),
+    [
+        ([], "iso-viscous with model = reynolds fits"),
+        (["film.model=published", "film.law=piezo-viscous"], "iso-viscous with model = reynolds fits"),
+        (["gear.drag_torque=1.4"], "piezo-viscous with model = reynolds fits"),
+        (["gear.drag_torque=60.0"], "no film of rigid flanks fits"),
+    ],
+)
+def test_check_advises_a_film_law(settings: list[str], advice: str, check) -> None:
+    line = next(line for line in check(PAIR, *settings).stdout.splitlines() if "exact film at rest" in line)
+    assert line.endswith(advice)
