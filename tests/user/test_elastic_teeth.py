@@ -1,0 +1,83 @@
+"""Teeth that give, as a user describes them: one key more, resumed, swept, in campaigns, by both methods."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from outcomes import summary_of
+
+import rattle
+
+# Reference S5: case R1 of two flanks with 5e7 N/m on both of them, computed by independent code.
+S5 = """
+&contact radius = 7.5e-3, length = 0.02, backlash = 1.0e-4, stiffness = 5.0e7 /
+&lubricant viscosity = 0.05, pressure_viscosity = 2.0e-8 /
+&kinematics rolling_speed = 2.14 /
+&load
+   mass = 0.45, steady_force = 5.0, gravity = 0.0, frequency = 26.7
+   force_orders = 1, 2, 3, force_amplitudes = 7.9, 2.0, 0.8, force_phases = 0.0, 0.5, 1.1
+/
+&film law = 'iso-viscous', model = 'reynolds' /
+&solver periods = 30, samples_per_period = 512 /
+&spectrum periods = 4 /
+&output columns = 'time', 'film_thickness', 'acceleration', 'film_load', 'coast_film', 'coast_load', 'gear_position' /
+"""
+NEWMARK = "method = 'newmark', steps_per_period = 4096, periods = 12"
+
+
+def test_gear_films_and_loads_are_those_of_the_reference(run, tmp_path: Path) -> None:
+    (tmp_path / "teeth.nml").write_text(S5)
+    ended = run("teeth.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    told = summary_of(tmp_path / "results" / "teeth.summary.nml")
+    assert told["gear_position_maximum"] == pytest.approx(9.5334473e-05, rel=1e-5)
+    assert told["coast_film_minimum"] == pytest.approx(4.8281494e-06, rel=1e-4)
+    assert told["coast_load_maximum"] == pytest.approx(8.8322, rel=2e-4)
+    assert told["double_sided"] is True and told["certificate"] == "certified"
+    assert len(told["floquet_multipliers"]) == 8
+    result = rattle.read(tmp_path / "results" / "teeth.rattle")
+    compression = np.array(result["film_thickness"]) - np.array(result["gear_position"])
+    assert np.array(result["film_load"]) == pytest.approx(5.0e7 * compression, rel=1e-9, abs=1e-9)
+
+
+def test_newmark_tells_the_same(run, tmp_path: Path) -> None:
+    text = S5.replace("periods = 30, samples_per_period = 512", NEWMARK)
+    (tmp_path / "teeth.nml").write_text(text)
+    assert run("teeth.nml", cwd=tmp_path).returncode == 0
+    told = summary_of(tmp_path / "results" / "teeth.summary.nml")
+    assert told["gear_position_maximum"] == pytest.approx(9.5334473e-05, rel=1e-5)
+    assert told["coast_film_minimum"] == pytest.approx(4.8281494e-06, rel=1e-4)
+    (tmp_path / "teeth.nml").write_text(text.replace("4096", "4096, iteration = 'successive'"))
+    refused = run("--check", "teeth.nml", cwd=tmp_path)
+    assert refused.returncode == 2 and "rigid teeth" in refused.stderr
+
+
+@pytest.mark.parametrize("solver", ["", NEWMARK])
+def test_a_resumed_run_is_the_whole_one(solver: str, run, tmp_path: Path) -> None:
+    text = S5.replace("periods = 30, samples_per_period = 512", solver or "periods = 30, samples_per_period = 512")
+    periods = "12" if solver else "30"
+    (tmp_path / "teeth.nml").write_text(text.replace(f"periods = {periods}", "periods = 8"))
+    assert run("teeth.nml", cwd=tmp_path).returncode == 0
+    (tmp_path / "teeth.nml").write_text(text)
+    assert run("teeth.nml", "--resume", cwd=tmp_path).returncode == 0
+    assert run("teeth.nml", "--output", "whole", cwd=tmp_path).returncode == 0
+    resumed, whole = (rattle.read(tmp_path / place / "teeth.rattle") for place in ("results", "whole"))
+    for name in ("film_thickness", "acceleration", "coast_load", "gear_position"):
+        assert np.array_equal(np.array(resumed[name]), np.array(whole[name]))
+
+
+def test_a_campaign_over_the_stiffness_has_the_same_rows_in_any_company(run, tmp_path: Path) -> None:
+    campaign = S5.replace("&film", "&scene task = 'campaign' /\n&film").replace(
+        S5[S5.index("&output") :],
+        "&campaign vary = 'contact.stiffness', 'contact.backlash', scale = 'logarithmic', 'logarithmic', "
+        "first = 1e7, 2e-5, last = 1e10, 2e-4, count = 5, 3, "
+        "record = 'rattle_class', 'film_minimum', 'double_sided', 'gear_position_maximum', 'film_force_rms' /\n",
+    )
+    (tmp_path / "teeth.nml").write_text(campaign)
+    for threads, place in (("1", "one"), ("2", "two")):
+        ended = run("teeth.nml", "--output", place, "--threads", threads, cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+    one, two = ((tmp_path / place / "teeth.rattle").read_bytes() for place in ("one", "two"))
+    assert one == two
