@@ -19,16 +19,15 @@ module silent_motion
 
 contains
 
-   subroutine forget(self, first_step, force, film, velocity, acceleration, error)
+   subroutine forget(self, first_step, force, states, acceleration, error)
       class(no_sink_t), intent(inout) :: self
       integer(int64), intent(in) :: first_step
       real(dp), intent(in) :: force(:)
-      real(dp), intent(in) :: film(:)
-      real(dp), intent(in) :: velocity(:)
+      real(dp), intent(in) :: states(:, :)
       real(dp), intent(in) :: acceleration(:)
       type(error_t), allocatable, intent(out) :: error
 
-      if (.false.) print *, same_type_as(self, self), first_step, force, film, velocity, acceleration, allocated(error)
+      if (.false.) print *, same_type_as(self, self), first_step, force, states, acceleration, allocated(error)
    end subroutine forget
 
    subroutine forget_window(self, first_step, samples)
