@@ -192,6 +192,7 @@ contains
       real(dp) :: load, by_film, by_velocity, turn, ratio
       integer :: row, flank, other, i
 
+      found = .false.
       associate (s => block%step(lane), kappa => block%compliance(lane))
          do flank = 1, trial%flanks
             do i = 1, stages
