@@ -11,8 +11,9 @@ module test_quantities
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: find_key
    use kinds, only: dp, int64
-   use quantities, only: a_list, a_number, quantities_told_in, quantity_certified, quantity_periods_solved, quantity_status, &
-                         quantity_table, quantity_word
+   use problem, only: has_elastic_teeth
+   use quantities, only: a_list, a_number, quantities_told_in, quantity_certified, quantity_gear_position_maximum, &
+                         quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, quantity_word
    use resolved_scene, only: request_of, resolve
    use run_sweep, only: solve_value
    use sample_recorder, only: sample_recorder_t
@@ -30,19 +31,29 @@ contains
    !> Runs every test of this topic.
    subroutine run_quantities_tests(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('quantities')
+      call test_words(checks)
+      call test_scene(0.0_dp, checks)
+      call test_scene(2.0e8_dp, checks)
+   end subroutine run_quantities_tests
+
+   !> All quantities of a scene.
+   subroutine test_scene(stiffness, checks)
+      real(dp), intent(in) :: stiffness            !> Of its teeth [N/m], 0: rigid
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(judged_scene_t) :: single, swept
       type(scene_t) :: scene
       real(dp), allocatable :: row(:)
 
-      call checks%start('quantities')
-      call test_words(checks)
       scene = steady_scene()
+      scene%contact%stiffness = stiffness
       call solve_single(scene, single)
       call test_every_value(single, checks)
       call solve_swept(scene, swept)
       call solve_row(scene, row)
       call test_same_values(single, swept, row, checks)
-   end subroutine run_quantities_tests
+   end subroutine test_scene
 
    !> Words of codes, the first and the last.
    subroutine test_words(checks)
@@ -52,7 +63,7 @@ contains
       call checks%check(quantity_word(quantity_status, 9) == 'invalid', 'last word')
    end subroutine test_words
 
-   !> Every quantity of a scene that has all of them is known.
+   !> Every quantity that a scene has is known; of rigid teeth no position of the gear is told, which the film is.
    subroutine test_every_value(single, checks)
       type(judged_scene_t), intent(in) :: single  !> A steady, certified scene
       type(check_list_t), intent(inout) :: checks  !> Collects the results
@@ -61,6 +72,9 @@ contains
       do i = 1, size(quantity_table)
          if (quantity_table(i)%kind == a_list) then
             call checks%check(size(quantity_list(i, single)) > 0, trim(quantity_table(i)%name)//' has numbers')
+         else if (any(i == [quantity_gear_position_minimum, quantity_gear_position_maximum]) .and. &
+                  .not. has_elastic_teeth(single%resolved%problem)) then
+            call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid teeth')
          else
             call checks%check(.not. ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' has a value')
          end if
@@ -110,7 +124,11 @@ contains
          own = quantity_value(quantity, single)
          room = 0.0_dp
          if (quantity_table(quantity)%kind == a_number) room = 1.0e-5_dp*abs(own) + 1.0e-9_dp
-         call checks%check(abs(value - own) <= room, trim(quantity_table(quantity)%name)//' '//place)
+         if (ieee_is_nan(own) .or. ieee_is_nan(value)) then
+            call checks%check(ieee_is_nan(own) .and. ieee_is_nan(value), trim(quantity_table(quantity)%name)//' '//place)
+         else
+            call checks%check(abs(value - own) <= room, trim(quantity_table(quantity)%name)//' '//place)
+         end if
       end subroutine check_same
 
    end subroutine test_same_values
@@ -123,7 +141,6 @@ contains
       scene = canonical_scene(law_iso_viscous, 512)
       scene%load%force_amplitude = 100.0_dp
       scene%contact%backlash = 1.0e-4_dp
-      scene%contact%stiffness = 1.0e9_dp
       scene%solver%method = method_taylor
       scene%solver%until = until_steady
       scene%solver%kept_per_period = 512
