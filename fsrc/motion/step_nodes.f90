@@ -4,7 +4,7 @@
 !> exact to rounding, and interpolation between its nodes is closer than the accuracy of the step. A step is cut into equal
 !> pieces of eight nodes each where oscillations shorter than it are to be integrated.
 module step_nodes
-   use kinds, only: dp
+   use kinds, only: dp, int64
    use lane_block, only: lane_block_t
    use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
@@ -144,7 +144,8 @@ contains
       real(dp), intent(in) :: x
       !> Its numbers there
       real(dp), intent(out) :: state(:)
-      real(dp), dimension(nodes_per_piece) :: distance, factor, values
+      real(dp), dimension(nodes_per_piece) :: distance, factor
+      integer(int64) :: bits(nodes_per_piece)
       integer :: nearest, number
 
       distance = x - node_place
@@ -155,8 +156,9 @@ contains
          factor = barycentric/distance
          factor = factor/sum(factor)
          do number = 1, size(state)
-            values = states(:, number)
-            state(number) = sum(factor*values)
+            ! Bits of the products: no compiler is to fuse them with their sum, one way here and another there.
+            bits = transfer(factor*states(:, number), bits)
+            state(number) = sum(transfer(bits, factor))
          end do
       end if
    end subroutine interpolate
