@@ -77,7 +77,7 @@ def counts() -> Iterator[tuple[str, int, int]]:
     yield "files of scene and campaign that a varied key touches", sum(map(names_key, fortran)), 2
     yield "Fortran lines without generated tables", lines, 29500
     yield "Python files in scripts", len(list(Path("scripts").rglob("*.py"))), 70
-    yield "README lines", len(readme.splitlines()), 172
+    yield "README lines", len(readme.splitlines()), 176
     yield "README words", len(readme.split()), 1800
 
 

@@ -50,7 +50,7 @@ contains
             matrix(own, own) = -(stiffness(flank) + 1.0_dp/problem%compliance)/(damping(flank)*rate)
          end associate
       end do
-      values = eigenvalues(matrix(:n, :n))*rate
+      values = eigenvalues(matrix(:n, :n))*cmplx(rate, 0.0_dp, dp)
       i = minloc(-values%re/abs(values), dim=1, mask=abs(values%im) > 0.0_dp)
       if (i > 0) then
          natural_frequency = abs(values(i))/two_pi
