@@ -7,20 +7,21 @@
 !>     A_i = W_1i - W_2i - F(x + c_i s) ,     V_i = V + s sum(once_ij A_j) ,     Z_i - Z = c_i s V + s**2 sum(twice_ij A_j) ,
 !>     H_1i = H_1 + (Z_i - Z) + kappa W_1i - D_1 ,     H_1i' = V_i + sum(slope_ij (kappa W_1j - D_1))/s ,
 !>
-!> for the coast film with the signs of Z and V turned. The film law at each node, W(H_i, H_i') = W_i, is solved for the loads by
-!> Newton's method with its slopes. Nothing here grows with the stiffness: at kappa = 0 these are the equations of module
-!> collocation_step, and no film law has to be solved for its velocity.
+!> for the coast film with the signs of Z and V turned. The film law at each node is solved for the loads by Newton's method with
+!> its slopes: as W(H_i, H_i') = W_i, or where a film never pulls as H_i' = w(H_i, W_i). Nothing here grows with the stiffness: at
+!> kappa = 0 these are the equations of module collocation_step.
 !>
 !> The error is that of module collocation_step, of the polynomial of the acceleration; a load that is off moves its film by
 !> kappa as well, and so counts the first coefficient of its polynomial that is left out.
 module elastic_step
    use collocation_newton, only: allowed
    use collocation_step, only: choose_steps, forces_of_stages, growth_of, highest_terms, most_extrapolation
-   use film_law, only: film_load, film_t, overflow_load
+   use film_law, only: film_load, film_t, overflow_load, squeeze_velocity
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
    use radau_nodes, only: node, once, power, slope, stages, start_alone, twice
+   use squeeze_of_load, only: load_carried, load_too_large
    use taylor_step_control, only: free_rate
    implicit none(type, external)
    private
@@ -41,8 +42,8 @@ module elastic_step
       real(dp) :: acceleration(stages) = 0.0_dp, momentum(stages) = 0.0_dp, way(stages) = 0.0_dp
    end type trial_t
 
-   !> Logarithms are taken of loads above this [-]; a correction leaves at least this share of the load of a film that never pulls
-   real(dp), parameter :: least_load = 1.0e-100_dp, least_ratio = 0.1_dp
+   !> A correction leaves at least this share of the load of a film that never pulls
+   real(dp), parameter :: least_ratio = 0.1_dp
 
    !> Signs of the gear's motion in the films
    real(dp), parameter :: sign_of(2) = [1.0_dp, -1.0_dp]
@@ -126,7 +127,7 @@ contains
       type(trial_t), intent(inout) :: trial
       real(dp) :: matrix(2*stages, 2*stages), right(2*stages), change, last_change, ratio, reach
       integer :: pass, n, flank
-      logical :: found
+      logical :: found, stalled
 
       n = stages*trial%flanks
       last_change = huge(1.0_dp)
@@ -145,13 +146,15 @@ contains
          end do
          change = maxval(abs(right(:n)))
          ratio = merge(1.0_dp, min(1.0_dp, change/last_change), pass == 1)
-         if (change*reach*ratio <= pass_share*allowed_here(lane, block, trial)) then
+         ! Corrections that fall no more are rounding, which a short step magnifies: within the accuracy they are accepted.
+         stalled = pass > 4 .and. change > slowest_fall*last_change
+         if (change*reach*ratio <= merge(1.0_dp, pass_share, stalled)*allowed_here(lane, block, trial)) then
             call states(lane, force, block, trial)
             if (minval(trial%film(:, :trial%flanks)) > 0.0_dp) block%trust(lane) = 1.0_dp
             return
          end if
          if (.not. abs(change) < huge(1.0_dp)) return
-         if (pass > 4 .and. change > slowest_fall*last_change) return
+         if (stalled) return
          last_change = change
       end do
    end subroutine solve
@@ -189,8 +192,8 @@ contains
       real(dp), intent(out) :: matrix(:, :)
       real(dp), intent(out) :: right(:)
       logical, intent(out) :: found
-      real(dp) :: load, by_film, by_velocity, turn, ratio
-      integer :: row, flank, other, i
+      real(dp) :: load, velocity, by_film, by_velocity, by_load, turn
+      integer :: row, flank, other, outcome, i
 
       found = .false.
       associate (s => block%step(lane), kappa => block%compliance(lane))
@@ -199,39 +202,41 @@ contains
                row = stages*(flank - 1) + i
                found = trial%film(i, flank) > 0.0_dp
                if (.not. found) return
-               call film_load(film_law, trial%film(i, flank)*block%film_scale(lane), &
-                              trial%velocity(i, flank)*block%velocity_scale(lane), load, by_film, by_velocity)
-               block%no_load(lane) = .not. abs(load) < overflow_load
-               found = .not. block%no_load(lane)
-               if (.not. found) return
-               load = load/block%force_scale(lane)
-               by_film = by_film*(block%film_scale(lane)/block%force_scale(lane))
-               by_velocity = by_velocity*(block%velocity_scale(lane)/block%force_scale(lane))
-               right(row) = load - trial%load(i, flank)
-               if (never_pulls(film_law) .and. load > least_load .and. trial%load(i, flank) > least_load) then
-                  ratio = trial%load(i, flank)/load
-                  ! The load of the exact films grows straight with a fast approach: there its own equation is the better one.
-                  if (ratio > 1.0_dp .or. .not. film_law%exact) then
-                     right(row) = -trial%load(i, flank)*log(ratio)
-                     by_film = by_film*ratio
-                     by_velocity = by_velocity*ratio
-                  end if
+               if (never_pulls(film_law)) then
+                  call squeeze_velocity(film_law, trial%film(i, flank)*block%film_scale(lane), &
+                                        trial%load(i, flank)*block%force_scale(lane), velocity, by_film, by_load, outcome)
+                  block%no_load(lane) = outcome == load_too_large
+                  found = outcome == load_carried
+                  if (.not. found) return
+                  right(row) = velocity/block%velocity_scale(lane) - trial%velocity(i, flank)
+                  by_film = -by_film*(block%film_scale(lane)/block%velocity_scale(lane))
+                  by_velocity = 1.0_dp
+                  by_load = -by_load*(block%force_scale(lane)/block%velocity_scale(lane))
+               else
+                  call film_load(film_law, trial%film(i, flank)*block%film_scale(lane), &
+                                 trial%velocity(i, flank)*block%velocity_scale(lane), load, by_film, by_velocity)
+                  block%no_load(lane) = .not. abs(load) < overflow_load
+                  found = .not. block%no_load(lane)
+                  if (.not. found) return
+                  right(row) = load/block%force_scale(lane) - trial%load(i, flank)
+                  by_film = -by_film*(block%film_scale(lane)/block%force_scale(lane))
+                  by_velocity = -by_velocity*(block%velocity_scale(lane)/block%force_scale(lane))
+                  by_load = 1.0_dp
                end if
                do other = 1, trial%flanks
                   turn = sign_of(flank)*sign_of(other)
-                  matrix(row, stages*(other - 1) + 1:stages*other) = &
-                     -(turn*s)*(by_film*s*twice(i, :) + by_velocity*once(i, :))
+                  matrix(row, stages*(other - 1) + 1:stages*other) = (turn*s)*(by_film*s*twice(i, :) + by_velocity*once(i, :))
                end do
                matrix(row, stages*(flank - 1) + 1:stages*flank) = matrix(row, stages*(flank - 1) + 1:stages*flank) &
-                                                                  - (by_velocity*kappa/s)*slope(i, :)
-               matrix(row, row) = matrix(row, row) + (1.0_dp - by_film*kappa)
+                                                                  + (by_velocity*kappa/s)*slope(i, :)
+               matrix(row, row) = matrix(row, row) + (by_load + by_film*kappa)
             end do
          end do
       end associate
    end subroutine equations
 
-   !> Whether a film carries positive loads only, down to nothing: then W(H, H') = W is solved as an equation of the logarithms of
-   !> both sides, which is what keeps Newton's method from going too far where the load falls by powers of ten.
+   !> Whether a film carries positive loads only, down to nothing: then its law is solved for the velocity, H' = w(H, W). A short
+   !> step leaves the load where it is, but not the velocity of the film: an equation of loads would be far from linear there.
    pure logical function never_pulls(film_law)
       type(film_t), intent(in) :: film_law
 
