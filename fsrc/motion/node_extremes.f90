@@ -174,7 +174,7 @@ contains
       pure type(extreme_t) function at_place(piece, x)
          integer, intent(in) :: piece
          real(dp), intent(in) :: x
-         real(dp) :: value(1), here(1, size(states, 2))
+         real(dp) :: value(1), here(1, largest_state)
          integer :: before
 
          before = nodes_per_piece*(piece - 1)
@@ -183,7 +183,7 @@ contains
          at_place%phase = start(piece) + x*length(piece)
          associate (numbers => size(states, 2))
             call interpolate(states(before + 1:before + nodes_per_piece, :), x, at_place%state(:numbers))
-            here(1, :) = at_place%state(:numbers)
+            here(1, :) = at_place%state
          end associate
          select case (quantity)
          case (seen_film)

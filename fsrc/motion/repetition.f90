@@ -62,8 +62,8 @@ module repetition
       integer :: newest = 0
       real(dp) :: film(0:kept - 1) = 0.0_dp
       real(dp) :: momentum(0:kept - 1) = 0.0_dp
-      !> Scaled compressions of teeth that give [-]
-      real(dp) :: compression(2, 0:kept - 1) = 0.0_dp
+      !> Scaled compressions of teeth that give [-]; of rigid ones there are none
+      real(dp), allocatable :: compression(:, :)
       !> Scaled backlash [-], told with every state; huge: there is one flank
       real(dp) :: backlash = huge(1.0_dp)
    end type orbit_watch_t
@@ -106,7 +106,7 @@ contains
       watch_from%count = 1
       watch_from%film(watch_from%newest) = film
       watch_from%momentum(watch_from%newest) = momentum
-      if (present(compression)) watch_from%compression(:, watch_from%newest) = compression
+      if (present(compression)) call note_compression(compression, watch_from)
    end function watch_from
 
    !> Scaled film and momentum of some periods ago, at most `count` - 1 and `kept` - 1.
@@ -161,7 +161,7 @@ contains
       watch%newest = modulo(watch%newest + 1, kept)
       watch%film(watch%newest) = film
       watch%momentum(watch%newest) = momentum
-      if (present(compression)) watch%compression(:, watch%newest) = compression
+      if (present(compression)) call note_compression(compression, watch)
       watch%count = watch%count + 1
       last = 1
       if (watch%count >= longer_from .and. modulo(watch%count, longer_every) == 0) last = longest_orbit
@@ -317,8 +317,32 @@ contains
       i = modulo(watch%newest - back_1, kept)
       j = modulo(watch%newest - back_2, kept)
       apart = max(abs(watch%film(i) - watch%film(j)), abs(watch%momentum(i) - watch%momentum(j))*momentum_weight, &
-                  maxval(abs(watch%compression(:, i) - watch%compression(:, j))))/weight_of_film(watch, watch%film(i))
+                  compressed_apart(watch, i, j))/weight_of_film(watch, watch%film(i))
    end function apart
+
+   !> Distance of the compressions of two states, 0 of rigid teeth [-].
+   pure real(dp) function compressed_apart(watch, i, j) result(distance)
+      type(orbit_watch_t), intent(in) :: watch
+      !> Their places
+      integer, intent(in) :: i
+      integer, intent(in) :: j
+
+      distance = 0.0_dp
+      if (allocated(watch%compression)) distance = maxval(abs(watch%compression(:, i) - watch%compression(:, j)))
+   end function compressed_apart
+
+   !> Keep the compressions of the newest state; those of rigid teeth are 0 and take no room.
+   pure subroutine note_compression(compression, watch)
+      !> Scaled [-]
+      real(dp), intent(in) :: compression(2)
+      type(orbit_watch_t), intent(inout) :: watch
+
+      if (.not. allocated(watch%compression)) then
+         if (.not. maxval(abs(compression)) > 0.0_dp) return
+         allocate (watch%compression(2, 0:kept - 1), source=0.0_dp)
+      end if
+      watch%compression(:, watch%newest) = compression
+   end subroutine note_compression
 
    !> Compare the state at the start of a period with earlier ones, and keep it.
    pure subroutine look_back(past, period, state, steps, cycle_periods, cycle_steps)

@@ -141,15 +141,14 @@ contains
       !> States at the nodes
       real(dp), intent(in) :: states(:, :)
       type(window_record_t), intent(inout) :: record
-      real(dp), dimension(size(states, 1)) :: films, velocities
-      real(dp), dimension(block_nodes) :: phases, weights, values, loads, coast, forces, cosine, sine
+      real(dp), dimension(block_nodes) :: phases, weights, values, loads, coast, forces, cosine, sine, films, velocities
       real(dp) :: sum_of, size_of, square_of, film_work, force_work, work_size, period
       real(dp) :: static, beyond, cube_of, fourth_of, beyond_sum, beyond_square, beyond_power
       integer :: n, i, before
 
-      n = size(films)
-      films = states(:, of_film)
-      velocities = states(:, of_velocity)
+      n = size(states, 1)
+      films(:n) = states(:, of_film)
+      velocities(:n) = states(:, of_velocity)
       do i = 1, size(start)
          before = nodes_per_piece*(i - 1)
          phases(before + 1:before + nodes_per_piece) = start(i) + node_place*length(i)
@@ -215,11 +214,11 @@ contains
       record%work_size = record%work_size + work_size*period
 
       if (record%multiples > 0) then
-         call add_integrals(weights(:n)*velocities, cosine, sine, record%integrals)
+         call add_integrals(weights(:n)*velocities(:n), cosine, sine, record%integrals)
          call add_turns(values(:n), record)
       end if
-      call search(seen_film, films, record)
-      call search(seen_velocity, velocities, record)
+      call search(seen_film, films(:n), record)
+      call search(seen_velocity, velocities(:n), record)
       call search(seen_acceleration, values(:n), record)
       if (record%wants(seen_pressure)) then
          call largest_pressures(problem, states, values(:n))

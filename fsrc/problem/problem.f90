@@ -263,12 +263,15 @@ contains
       real(dp), intent(in) :: states(:, :)
       !> [N]
       real(dp), intent(out) :: loads(:)
-      real(dp) :: coast(size(loads))
 
       call drive_loads(problem, states, loads)
       if (.not. has_two_flanks(problem)) return
-      call coast_loads(problem, states, coast)
-      loads = loads - coast
+      block
+         real(dp) :: coast(size(loads))
+
+         call coast_loads(problem, states, coast)
+         loads = loads - coast
+      end block
    end subroutine net_loads
 
    !> Loads of the drive film.
@@ -371,18 +374,28 @@ contains
       real(dp), intent(in) :: states(:, :)
       !> [Pa]
       real(dp), intent(out) :: pressures(:)
-      real(dp) :: coast(size(pressures)), squeeze(size(pressures))
 
       associate (film => problem%film)
-         squeeze = states(:, of_velocity)
-         if (has_elastic_teeth(problem)) call film_velocities(problem, states(:, of_film), states(:, of_drive_compression), squeeze)
-         call exact_pressures(film%radius, film%speed, film%viscosity, states(:, of_film), squeeze, pressures)
-         if (.not. has_two_flanks(problem)) return
-         squeeze = -states(:, of_velocity)
-         if (has_elastic_teeth(problem)) &
-            call film_velocities(problem, coast_films(problem, states), states(:, of_coast_compression), squeeze)
-         call exact_pressures(film%radius, film%speed, film%viscosity, coast_films(problem, states), squeeze, coast)
-         pressures = max(pressures, coast)
+         if (.not. has_elastic_teeth(problem)) then
+            call exact_pressures(film%radius, film%speed, film%viscosity, states(:, of_film), states(:, of_velocity), pressures)
+            if (.not. has_two_flanks(problem)) return
+         end if
+         ! Room that one flank of rigid teeth does not take.
+         block
+            real(dp), dimension(size(pressures)) :: coast, squeeze
+
+            if (has_elastic_teeth(problem)) then
+               squeeze = states(:, of_velocity)
+               call film_velocities(problem, states(:, of_film), states(:, of_drive_compression), squeeze)
+               call exact_pressures(film%radius, film%speed, film%viscosity, states(:, of_film), squeeze, pressures)
+               if (.not. has_two_flanks(problem)) return
+            end if
+            squeeze = -states(:, of_velocity)
+            if (has_elastic_teeth(problem)) &
+               call film_velocities(problem, coast_films(problem, states), states(:, of_coast_compression), squeeze)
+            call exact_pressures(film%radius, film%speed, film%viscosity, coast_films(problem, states), squeeze, coast)
+            pressures = max(pressures, coast)
+         end block
       end associate
    end subroutine largest_pressures
 

@@ -197,7 +197,13 @@ contains
                 merge(1.0_dp, 0.0_dp, state%implicit), real(state%count%steps, dp), real(state%count%evaluations, dp), &
                 real(state%count%cuts, dp), real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), watch%film, &
                 watch%momentum]
-         if (elastic) row = [row, state%compression, state%film_velocity, watch%compression]
+         if (.not. elastic) return
+         row = [row, state%compression, state%film_velocity]
+         if (allocated(watch%compression)) then
+            row = [row, watch%compression]
+         else
+            row = [row, spread(0.0_dp, 1, 2*size(watch%film))]
+         end if
       end associate
    end function row_of
 
@@ -228,7 +234,8 @@ contains
       if (size(row) == place) return
       state%compression = row(place + 1:place + 2)
       state%film_velocity = row(place + 3:place + 4)
-      state%watch%compression(:, :) = reshape(row(place + 5:), shape(state%watch%compression))
+      allocate (state%watch%compression(2, 0:size(state%watch%film) - 1))
+      state%watch%compression(:, :) = reshape(row(place + 5:), [2, size(state%watch%film)])
    end function state_of
 
 end module resume

@@ -48,6 +48,8 @@ NEAREST_TESTS = {
         "commands",
     ),
     "fsrc/film": ("columns", "kernels*", "tasks", "scenes_at_rest"),
+    "fsrc/gear": ("gear_inputs", "force_signal", "varied_keys"),
+    "fsrc/problem": ("two_flanks", "elastic_teeth", "tooth_stiffness", "force_orders", "scenes_at_rest"),
     "fsrc/motion": (
         "columns",
         "tasks",
