@@ -84,8 +84,7 @@ module film_law
    end interface
 
    public :: new_film, with_exact_film, contact_radius, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, &
-             squeeze_velocity, &
-             law_words, film_kernel
+             squeeze_velocity, never_pulls, law_words, film_kernel
 
 contains
 
@@ -302,6 +301,13 @@ contains
          steady_film = 0.0_dp
       end select
    end function steady_film
+
+   !> Whether a film carries positive loads only, down to nothing.
+   elemental logical function never_pulls(film)
+      type(film_t), intent(in) :: film
+
+      never_pulls = film%exact .or. film%pressure_thickens
+   end function never_pulls
 
    !> Film velocity at which a film carries a load, and its slopes. Those of a film that carries it at no velocity, and of a law
    !> that is not known, are 0.

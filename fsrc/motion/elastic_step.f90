@@ -14,15 +14,14 @@
 !> The error is that of module collocation_step, of the polynomial of the acceleration; a load that is off moves its film by
 !> kappa as well, and so counts the first coefficient of its polynomial that is left out.
 module elastic_step
-   use collocation_newton, only: allowed
    use collocation_step, only: choose_steps, forces_of_stages, growth_of, highest_terms, most_extrapolation
-   use film_law, only: film_load, film_t, overflow_load, squeeze_velocity
+   use film_law, only: film_load, film_t, never_pulls, overflow_load, squeeze_velocity
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
    use radau_nodes, only: node, once, power, slope, stages, start_alone, twice
    use squeeze_of_load, only: load_carried, load_too_large
-   use taylor_step_control, only: free_rate
+   use taylor_step_control, only: film_weight, free_rate
    implicit none(type, external)
    private
 
@@ -41,6 +40,9 @@ module elastic_step
       !> A, and of the gear V and Z - Z at the start
       real(dp) :: acceleration(stages) = 0.0_dp, momentum(stages) = 0.0_dp, way(stages) = 0.0_dp
    end type trial_t
+
+   !> Error that is rounding alone, as a share of the thickest film
+   real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
 
    !> A correction leaves at least this share of the load of a film that never pulls
    real(dp), parameter :: least_ratio = 0.1_dp
@@ -202,6 +204,8 @@ contains
                row = stages*(flank - 1) + i
                found = trial%film(i, flank) > 0.0_dp
                if (.not. found) return
+               ! A short step leaves the load where it is, but not the velocity of the film: where loads fall to nothing an equation
+               ! of them would be far from linear.
                if (never_pulls(film_law)) then
                   call squeeze_velocity(film_law, trial%film(i, flank)*block%film_scale(lane), &
                                         trial%load(i, flank)*block%force_scale(lane), velocity, by_film, by_load, outcome)
@@ -235,14 +239,6 @@ contains
       end associate
    end subroutine equations
 
-   !> Whether a film carries positive loads only, down to nothing: then its law is solved for the velocity, H' = w(H, W). A short
-   !> step leaves the load where it is, but not the velocity of the film: an equation of loads would be far from linear there.
-   pure logical function never_pulls(film_law)
-      type(film_t), intent(in) :: film_law
-
-      never_pulls = film_law%exact .or. film_law%pressure_thickens
-   end function never_pulls
-
    !> Solve linear equations; the solution replaces the right-hand side. Rows are exchanged for the largest pivot.
    pure subroutine eliminate(matrix, right)
       real(dp), intent(inout) :: matrix(:, :)
@@ -272,31 +268,17 @@ contains
       end do
    end subroutine eliminate
 
-   !> Error that the accuracy allows to the thinnest of the films of a step [-].
+   !> Error that the accuracy allows to the films of a step, where the thinner one of both is thickest or thinnest [-].
    pure real(dp) function allowed_here(lane, block, trial)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
       type(trial_t), intent(in) :: trial
-      integer :: flank
+      real(dp) :: thinner(stages)
 
-      allowed_here = huge(1.0_dp)
-      do flank = 1, trial%flanks
-         associate (films => trial%film(:, flank))
-            allowed_here = min(allowed_here, allowed_thickness(minval(films), lane, block), &
-                               allowed_thickness(maxval(films), lane, block))
-         end associate
-      end do
+      thinner = minval(trial%film(:, :trial%flanks), dim=2)
+      allowed_here = max(block%accuracy(lane)*min(film_weight(minval(thinner)), film_weight(maxval(thinner))), &
+                         rounding*maxval(trial%film(:, :trial%flanks)))
    end function allowed_here
-
-   !> Error that the accuracy allows to one film [-].
-   pure real(dp) function allowed_thickness(film, lane, block)
-      real(dp), intent(in) :: film
-      integer, intent(in) :: lane
-      type(lane_block_t), intent(in) :: block
-
-      allowed_thickness = huge(1.0_dp)
-      if (film > 0.0_dp) allowed_thickness = allowed(film, lane, block)
-   end function allowed_thickness
 
    !> Error of the step, whether it stands, and the next one; series of film, momentum and compressions for the samples.
    pure subroutine judge(lane, trial, block)

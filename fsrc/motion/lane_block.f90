@@ -15,8 +15,8 @@ module lane_block
    use lane_functions, only: lanes
    use load_expansion, only: load_expansion_t
    use memory, only: allocate_lines
-   use problem, only: has_elastic_teeth, has_two_flanks, net_load, problem_t, reference_film, rest_film, settling_of, settling_t, &
-                      static_load, thinner_film
+   use problem, only: has_elastic_teeth, has_two_flanks, net_load, problem_t, reference_film, reference_films, settling_of, &
+                      settling_t, static_load, thinner_film
    use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
@@ -94,13 +94,12 @@ contains
       !> No step is better than rounding
       real(dp), parameter :: best_accuracy = 1.0e-13_dp
       type(settling_t) :: settling
-      real(dp) :: film
+      real(dp) :: films(2)
 
       lane_accuracy = accuracy
-      film = rest_film(problem)
-      if (.not. film > 0.0_dp) film = problem%initial_film
-      if (.not. (film > 0.0_dp .and. ieee_is_finite(film))) return
-      settling = settling_of(problem, film, film)
+      films = reference_films(problem)
+      if (.not. (films(1) > 0.0_dp .and. ieee_is_finite(films(1)))) return
+      settling = settling_of(problem, films, films)
       lane_accuracy = min(accuracy, max(accuracy*settling%rate, best_accuracy))
    end function lane_accuracy
 

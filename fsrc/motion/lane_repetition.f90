@@ -16,7 +16,7 @@ module lane_repetition
    use kinds, only: dp, int64
    use lane_run, only: departure_t, lane_run_t
    use lane_sampling, only: repeat_samples
-   use problem, only: problem_t, settling_of, settling_t
+   use problem, only: films_at_rest, has_elastic_teeth, problem_t, settling_of, settling_t, static_load
    use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, state_of_age, &
       watch_from, weight_of_film
    use scene_status, only: status_steady
@@ -62,8 +62,7 @@ contains
       associate (watch => run%watches(lane), block => run%block)
          ! A run without samples is one to be carried on: there the last state counts like the others.
          if (request%until_steady .and. (watch%period < watch%sample_from .or. request%sampled_periods == 0)) then
-            weight = momentum_weight(min(watch%film, block%backlash(lane) - watch%film), block%damping_rate(lane), &
-                                     block%force(lane))
+            weight = momentum_weight(minval(films_of_lane(lane, run)), block%damping_rate(lane), block%force(lane))
             call note_state(watch%states, watch%film, watch%momentum, weight, settling_of_lane(lane, problem, run), &
                             repetition_share*request%accuracy, orbit, distance, block%backlash(lane), watch%compression)
             if (orbit > 0) then
@@ -81,6 +80,18 @@ contains
       end associate
    end subroutine find_repetition
 
+   !> Scaled films of drive and coast flank at the end of the period [-].
+   pure function films_of_lane(lane, run) result(films)
+      !> Lane
+      integer, intent(in) :: lane
+      type(lane_run_t), intent(in) :: run
+      real(dp) :: films(2)
+
+      associate (watch => run%watches(lane))
+         films = [watch%film, run%block%backlash(lane) - watch%film + sum(watch%compression)]
+      end associate
+   end function films_of_lane
+
    !> How the film of a lane settles from where it is.
    pure type(settling_t) function settling_of_lane(lane, problem, run)
       !> Lane
@@ -88,8 +99,12 @@ contains
       type(problem_t), intent(in) :: problem
       type(lane_run_t), intent(in) :: run
 
+      real(dp) :: rest(2)
+
       associate (block => run%block)
-         settling_of_lane = settling_of(problem, run%watches(lane)%film*block%film_scale(lane), block%film_scale(lane))
+         rest = [block%film_scale(lane), problem%backlash - block%film_scale(lane)]
+         if (has_elastic_teeth(problem)) rest = films_at_rest(problem, static_load(problem))
+         settling_of_lane = settling_of(problem, films_of_lane(lane, run)*block%film_scale(lane), rest)
          ! The momentum of Lienard's form holds the damping.
          if (block%slip(lane) > 0.0_dp) settling_of_lane%damping = 0.0_dp
       end associate
@@ -204,7 +219,7 @@ contains
       film = 0.0_dp
       momentum = 0.0_dp
       state = state_of_age(watch, 0)
-      weight = [1.0_dp, momentum_weight]/weight_of_film(watch, state(1))
+      weight = [1.0_dp, momentum_weight]/weight_of_film(watch, 0)
       ! Longer orbits are looked for now and again: most motions do not have them.
       longest = merge(longest_orbit, 1, modulo(watch%count, longer_every) == 0)
       do periods = 1, longest

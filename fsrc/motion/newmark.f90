@@ -37,17 +37,18 @@ contains
       integer, intent(out) :: status
       real(dp) :: load, load_by_film, load_by_velocity
 
-      call net_load(problem, problem%initial_film, problem%initial_velocity, load, load_by_film, load_by_velocity, kernel)
-      count%evaluations = count%evaluations + 1
       state%film = problem%initial_film
       state%velocity = problem%initial_velocity
-      status = merge(status_complete, problem%film%status_without_load, load < overflow_load)
-      if (status /= status_complete) return
+      count%evaluations = count%evaluations + 1
       if (has_elastic_teeth(problem)) then
          call start_springs(problem, state%compression)
          state%film_velocity = [state%velocity, -state%velocity]
          load = (state%compression(1) - state%compression(2))/problem%compliance
+      else
+         call net_load(problem, state%film, state%velocity, load, load_by_film, load_by_velocity, kernel)
       end if
+      status = merge(status_complete, problem%film%status_without_load, load < overflow_load)
+      if (status /= status_complete) return
       state%acceleration = (load - problem%weight - force_at(problem%force, 0.0_dp))/problem%mass
    end subroutine start_motion
 

@@ -9,8 +9,8 @@ module newmark_engine
    use kinds, only: dp, int64
    use newmark, only: advance_period, start_motion
    use newmark_step, only: newmark_state_t
-   use problem, only: has_two_flanks, largest_state, of_drive_compression, of_film, of_velocity, problem_t, rest_film, &
-      settling_of, state_size, thinner_film
+   use problem, only: has_two_flanks, largest_state, of_drive_compression, of_film, of_velocity, problem_t, reference_film, &
+      reference_films, settling_of, state_size
    use repetition, only: note_state, orbit_watch_t
    use scene_status, only: status_complete, status_steady
    use window_record, only: window_record_t
@@ -132,15 +132,20 @@ contains
       type(orbit_watch_t), intent(inout) :: states
       !> Periods after which the motion repeats, 0: not known to, or too many
       integer, intent(out) :: orbit
-      real(dp) :: distance, unit, backlash
+      real(dp) :: distance, unit, backlash, coast
 
-      ! The film at t = 0 scales the states.
-      unit = thinner_film(problem, problem%initial_film)
+      ! The film at t = 0 scales the states, between two flanks the thinner one at rest.
+      unit = problem%initial_film
       backlash = huge(1.0_dp)
-      if (has_two_flanks(problem)) backlash = problem%backlash/unit
-      call note_state(states, state%film/unit, state%velocity/(unit*problem%frequency), &
-                      1.0_dp/two_pi, settling_of(problem, state%film, rest_film(problem)), repetition_tolerance, orbit, distance, &
-                      backlash, state%compression/unit)
+      coast = huge(1.0_dp)
+      if (has_two_flanks(problem)) then
+         unit = reference_film(problem)
+         backlash = problem%backlash/unit
+         coast = problem%backlash - state%film + sum(state%compression)
+      end if
+      call note_state(states, state%film/unit, state%velocity/(unit*problem%frequency), 1.0_dp/two_pi, &
+                      settling_of(problem, [state%film, coast], reference_films(problem)), repetition_tolerance, orbit, &
+                      distance, backlash, state%compression/unit)
       if (orbit > periods_left) orbit = 0
    end subroutine look_back
 

@@ -11,7 +11,7 @@
 !> h_i = h_(i-1) + dt/2 (h'_(i-1) + h'_i). The loads at the end of the step are found by Newton's method with the slopes of the law.
 module newmark_step
    use engine, only: request_t
-   use film_law, only: film_kernel, overflow_load
+   use film_law, only: film_kernel, never_pulls, overflow_load
    use kinds, only: dp
    use problem, only: has_elastic_teeth, has_two_flanks, net_load, problem_t, thinner_film
    use scene_status, only: status_complete, status_film_lost, status_not_converged
@@ -227,7 +227,7 @@ contains
             end if
             residual(flank) = carried - load(flank)
             ! A film that never pulls: the equation of the logarithms, as in module elastic_step.
-            if (carries_only(problem) .and. carried > 0.0_dp .and. load(flank) > carried) then
+            if (never_pulls(problem%film) .and. carried > 0.0_dp .and. load(flank) > carried) then
                ratio = load(flank)/carried
                residual(flank) = -load(flank)*log(ratio)
                by_film(flank) = by_film(flank)*ratio
@@ -241,18 +241,11 @@ contains
          determinant = slopes(1, 1)*slopes(2, 2) - slopes(1, 2)*slopes(2, 1)
          correction = [residual(1)*slopes(2, 2) - slopes(1, 2)*residual(2), &
                        slopes(1, 1)*residual(2) - slopes(2, 1)*residual(1)]/determinant
-         if (carries_only(problem)) correction = max(correction, -0.9_dp*load)
+         if (never_pulls(problem%film)) correction = max(correction, -0.9_dp*load)
          load = load + correction
       end do
       passes = request%iteration_limit
       status = status_not_converged
    end subroutine spring_step
-
-   !> Whether a film carries positive loads only.
-   pure logical function carries_only(problem)
-      type(problem_t), intent(in) :: problem
-
-      carries_only = problem%film%exact .or. problem%film%pressure_thickens
-   end function carries_only
 
 end module newmark_step

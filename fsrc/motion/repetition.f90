@@ -122,13 +122,18 @@ contains
       state = [watch%film(place), watch%momentum(place)]
    end function state_of_age
 
-   !> Film error that counts as one: that of the thinner film of both flanks [-].
-   pure real(dp) function weight_of_film(watch, film)
+   !> Film error that counted as one some periods ago: that of the thinner film of both flanks [-].
+   pure real(dp) function weight_of_film(watch, age)
       type(orbit_watch_t), intent(in) :: watch
-      !> Scaled film H [-]
-      real(dp), intent(in) :: film
+      !> Periods since then
+      integer, intent(in) :: age
+      real(dp) :: coast
+      integer :: place
 
-      weight_of_film = film_weight(min(film, watch%backlash - film))
+      place = modulo(watch%newest - age, kept)
+      coast = watch%backlash - watch%film(place)
+      if (allocated(watch%compression)) coast = coast + sum(watch%compression(:, place))
+      weight_of_film = film_weight(min(watch%film(place), coast))
    end function weight_of_film
 
    !> Take the state at the end of a period.
@@ -222,7 +227,7 @@ contains
                                  abs(step(1))/sqrt(stiffness))
          newer = older
       end do
-      creeping_distance = creeping_distance/weight_of_film(watch, newer(1))
+      creeping_distance = creeping_distance/weight_of_film(watch, 3*orbit)
    end function creeping_distance
 
    !> Bound of the distance from a motion that repeats after `orbit` periods, huge where there is none.
@@ -276,7 +281,7 @@ contains
       states(:, 2) = state_of_age(watch, 2*orbit)
       states(:, 3) = state_of_age(watch, 3*orbit)
       states(2, :) = states(2, :)*momentum_weight
-      states = states/weight_of_film(watch, states(1, 0))
+      states = states/weight_of_film(watch, 0)
       a = states(:, 2) - states(:, 3)
       b = states(:, 1) - states(:, 2)
       c = states(:, 0) - states(:, 1)
@@ -317,7 +322,7 @@ contains
       i = modulo(watch%newest - back_1, kept)
       j = modulo(watch%newest - back_2, kept)
       apart = max(abs(watch%film(i) - watch%film(j)), abs(watch%momentum(i) - watch%momentum(j))*momentum_weight, &
-                  compressed_apart(watch, i, j))/weight_of_film(watch, watch%film(i))
+                  compressed_apart(watch, i, j))/weight_of_film(watch, back_1)
    end function apart
 
    !> Distance of the compressions of two states, 0 of rigid teeth [-].

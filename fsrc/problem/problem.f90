@@ -53,9 +53,10 @@ module problem
       real(dp) :: rate = huge(1.0_dp)
    end type settling_t
 
-   public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, static_load, film_at_rest, rest_film, loads_at_rest, &
-             reference_film, thinner_film, thinnest_film, start_springs, linearise, settling_of, net_load, net_loads, &
-             drive_loads, coast_loads, coast_films, gear_positions, largest_pressures, acceleration_at, accelerations_of_samples
+   public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, static_load, film_at_rest, films_at_rest, loads_at_rest, &
+             reference_films, reference_film, thinner_film, thinnest_film, start_springs, linearise, settling_of, net_load, &
+             net_loads, drive_loads, coast_loads, coast_films, gear_positions, largest_pressures, acceleration_at, &
+             accelerations_of_samples
 
 contains
 
@@ -127,28 +128,32 @@ contains
       thinnest_film = min(thinnest_film, coast(1))
    end function thinnest_film
 
-   !> Film at rest under the static load [m], 0 where there is none.
-   elemental real(dp) function rest_film(problem)
-      type(problem_t), intent(in) :: problem
-
-      rest_film = film_at_rest(problem, static_load(problem))
-   end function rest_film
-
    !> Film of the drive flank at rest under a load [m], 0 where there is none.
    elemental real(dp) function film_at_rest(problem, load) result(film)
       type(problem_t), intent(in) :: problem
       !> Q + m g [N]
       real(dp), intent(in) :: load
-      real(dp) :: drive_load, coast_load
+      real(dp) :: films(2)
 
-      film = 0.0_dp
-      if (has_two_flanks(problem)) then
-         call loads_at_rest(problem, load, drive_load, coast_load)
-         if (drive_load > 0.0_dp) film = steady_film(problem%film, drive_load)
-      else if (load > 0.0_dp) then
-         film = steady_film(problem%film, load)
-      end if
+      films = films_at_rest(problem, load)
+      film = films(1)
    end function film_at_rest
+
+   !> Films of drive and coast flank at rest under a load [m]: 0 where there are none, the second huge where there is one flank.
+   pure function films_at_rest(problem, load) result(films)
+      type(problem_t), intent(in) :: problem
+      !> Q + m g [N]
+      real(dp), intent(in) :: load
+      real(dp) :: films(2), loads(2)
+
+      films = 0.0_dp
+      if (has_two_flanks(problem)) then
+         call loads_at_rest(problem, load, loads(1), loads(2))
+         if (loads(1) > 0.0_dp) films = [steady_film(problem%film, loads(1)), steady_film(problem%film, loads(2))]
+      else if (load > 0.0_dp) then
+         films = [steady_film(problem%film, load), huge(1.0_dp)]
+      end if
+   end function films_at_rest
 
    !> Loads of both films of a tooth that rests between its flanks under a load. Their difference is that load, and the films that
    !> carry them fill the backlash and what both springs give,
@@ -198,27 +203,46 @@ contains
       coast_load = merge(smaller, larger, load > 0.0_dp)
    end subroutine loads_at_rest
 
-   !> The thinner film at rest, or the first one where there is none [m].
+   !> Films of drive and coast flank at rest under the static load, or where there are none about those of the start [m].
+   pure function reference_films(problem) result(films)
+      type(problem_t), intent(in) :: problem
+      real(dp) :: films(2)
+
+      films = films_at_rest(problem, static_load(problem))
+      if (films(1) > 0.0_dp) return
+      films = [problem%initial_film, problem%backlash - problem%initial_film]
+      ! Teeth that give let a film grow beyond the backlash.
+      if (.not. films(2) > 0.0_dp) films(2) = films(1)
+   end function reference_films
+
+   !> The thinner one of them [m].
    elemental real(dp) function reference_film(problem)
       type(problem_t), intent(in) :: problem
 
-      reference_film = rest_film(problem)
-      if (.not. reference_film > 0.0_dp) reference_film = problem%initial_film
-      reference_film = thinner_film(problem, reference_film)
+      reference_film = minval(reference_films(problem))
    end function reference_film
 
-   !> Stiffness -dW/dh [N/m] and damping -dW/dz' [N s/m] of the net load without squeeze velocity.
-   pure subroutine linearise(problem, thickness, stiffness, damping)
+   !> Stiffness [N/m] and damping [N s/m] against slow motions of the gear: of each film -dW/dh and -dW/dh' without squeeze
+   !> velocity, where teeth give in series with its spring.
+   pure subroutine linearise(problem, films, stiffness, damping)
       type(problem_t), intent(in) :: problem
-      !> Film thickness h [m]
-      real(dp), intent(in) :: thickness
+      !> Films of drive and coast flank [m]
+      real(dp), intent(in) :: films(2)
       real(dp), intent(out) :: stiffness
       real(dp), intent(out) :: damping
-      real(dp) :: load, load_by_film, load_by_velocity
+      real(dp) :: load, by_film, by_velocity, share
+      integer :: flank
 
-      call net_load(problem, thickness, 0.0_dp, load, load_by_film, load_by_velocity)
-      stiffness = -load_by_film
-      damping = -load_by_velocity
+      stiffness = 0.0_dp
+      damping = 0.0_dp
+      do flank = 1, merge(2, 1, has_two_flanks(problem))
+         call film_load(problem%film, films(flank), 0.0_dp, load, by_film, by_velocity)
+         ! What of the gear's way the film takes; the spring takes the rest.
+         share = 1.0_dp
+         if (has_elastic_teeth(problem)) share = 1.0_dp/(1.0_dp - problem%compliance*by_film)
+         stiffness = stiffness - by_film*share
+         damping = damping - by_velocity*share*share
+      end do
    end subroutine linearise
 
    !> Net load of both films and its slopes.
@@ -418,32 +442,26 @@ contains
 
    !> How the film settles by its law alone, without watching it. Its rate is that of a thinner film at rest if it is there: a tooth
    !> in flight does not settle, nor is its motion small.
-   pure type(settling_t) function settling_of(problem, thickness, rest_thickness)
+   pure type(settling_t) function settling_of(problem, films, rest_films)
       type(problem_t), intent(in) :: problem
-      !> Film thickness h [m]
-      real(dp), intent(in) :: thickness
-      !> Film at rest, near enough; either flank will do [m]
-      real(dp), intent(in) :: rest_thickness
+      !> Films of drive and coast flank, and those at rest, near enough [m]
+      real(dp), intent(in) :: films(2)
+      real(dp), intent(in) :: rest_films(2)
       type(settling_t) :: rest
 
-      settling_of = settling_about(problem, thickness)
-      if (.not. thinner_film(problem, thickness) > thinner_film(problem, rest_thickness)) return
-      rest = settling_about(problem, rest_thickness)
+      settling_of = settling_about(problem, films)
+      if (.not. minval(films) > minval(rest_films)) return
+      rest = settling_about(problem, rest_films)
       settling_of%rate = max(settling_of%rate, rest%rate)
    end function settling_of
 
-   !> Settling about one film.
-   pure type(settling_t) function settling_about(problem, thickness) result(settling)
+   !> Settling about some films.
+   pure type(settling_t) function settling_about(problem, films) result(settling)
       type(problem_t), intent(in) :: problem
-      real(dp), intent(in) :: thickness
+      real(dp), intent(in) :: films(2)
       real(dp) :: stiffness, damping, discriminant
 
-      call linearise(problem, thickness, stiffness, damping)
-      ! A slow motion sees spring and film in series.
-      if (has_elastic_teeth(problem)) then
-         damping = damping/(1.0_dp + problem%compliance*stiffness)**2
-         stiffness = stiffness/(1.0_dp + problem%compliance*stiffness)
-      end if
+      call linearise(problem, films, stiffness, damping)
       associate (d => settling%damping, k => settling%stiffness)
          d = damping/(problem%mass*problem%frequency)
          k = stiffness/(problem%mass*problem%frequency*problem%frequency)

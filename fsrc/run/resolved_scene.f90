@@ -6,7 +6,7 @@ module resolved_scene
    use force, only: largest_oscillation
    use kinds, only: dp
    use linear_motion, only: natural_motion
-   use problem, only: film_at_rest, has_elastic_teeth, has_two_flanks, linearise, problem_of, problem_t, thinner_film
+   use problem, only: films_at_rest, has_elastic_teeth, has_two_flanks, linearise, problem_of, problem_t
    use regime, only: steel_tooth
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
@@ -48,35 +48,35 @@ contains
       !> Checked scene
       type(scene_t), intent(in) :: scene
       type(resolved_scene_t) :: resolved
-      real(dp) :: static_load, stiffness, damping, thinner, force
+      real(dp) :: static_load, stiffness, damping, rest(2), force
 
       resolved%problem = problem_of(scene)
       resolved%tooth_compliance = 1.0_dp/(steel_tooth*scene%contact%length)
       if (scene%contact%stiffness > 0.0_dp) resolved%tooth_compliance = 1.0_dp/scene%contact%stiffness
       static_load = scene%load%static_load()
-      resolved%steady_film = film_at_rest(resolved%problem, static_load)
+      rest = films_at_rest(resolved%problem, static_load)
+      resolved%steady_film = rest(1)
       associate (problem => resolved%problem, film => resolved%problem%film, mass => resolved%problem%mass)
          if (problem%initial_film > 0.0_dp) resolved%initial_squeeze_group = &
             squeeze_group(film%radius, film%speed, problem%initial_film, problem%initial_velocity)
          resolved%rounding_noise = 1.0e-12_dp*(abs(static_load) + largest_oscillation(problem%force))/mass
          resolved%noise_floor = resolved%rounding_noise
          if (.not. resolved%steady_film > 0.0_dp) return
-         call linearise(problem, resolved%steady_film, stiffness, damping)
+         call linearise(problem, rest, stiffness, damping)
          resolved%natural_frequency = sqrt(stiffness/mass)/two_pi
          resolved%damping_ratio = damping/(2.0_dp*sqrt(stiffness*mass))
          if (has_elastic_teeth(problem)) &
             call natural_motion(problem, resolved%natural_frequency, resolved%damping_ratio)
-         thinner = thinner_film(problem, resolved%steady_film)
          force = static_load
          if (has_two_flanks(problem)) force = max(abs(static_load) + largest_oscillation(problem%force), least_static_load)
-         resolved%noise_by_accuracy = noise_of_steps(thinner, stiffness/mass, damping/mass, &
+         resolved%noise_by_accuracy = noise_of_steps(minval(rest), stiffness/mass, damping/mass, &
                                                      force/mass, problem%frequency)
          ! Newmark's steps are not chosen by an accuracy, and at rest they stand still. What a loose tolerance makes of them
          ! is a motion that the certificate doubts.
          if (scene%solver%method /= method_newmark) resolved%noise_floor = resolved%noise_floor_at(scene%solver%accuracy)
          resolved%pressure_group = film%pressure_viscosity* &
-                                   pressure_scale(film%radius, film%speed, film%viscosity, thinner)
-         resolved%alpha_p = steady_alpha_p(film, thinner)
+                                   pressure_scale(film%radius, film%speed, film%viscosity, minval(rest))
+         resolved%alpha_p = steady_alpha_p(film, minval(rest))
       end associate
    end function resolve
 

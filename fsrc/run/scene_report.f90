@@ -8,7 +8,7 @@ module scene_report
    use log_file, only: log_magic, log_t
    use node_extremes, only: seen_acceleration, seen_film
    use output_place, only: result_path, summary_path
-   use problem, only: thinner_film
+   use problem, only: reference_film
    use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_deflection_share, &
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
                          quantity_t, quantity_table, quantity_word
@@ -147,7 +147,7 @@ contains
 
       share = 0.0_dp
       if (resolved%steady_film > 0.0_dp) then
-         thinner = thinner_film(resolved%problem, resolved%steady_film)
+         thinner = reference_film(resolved%problem)
          call film_load(resolved%problem%film, thinner, 0.0_dp, load, by_film, by_velocity)
          share = resolved%tooth_compliance*load/thinner
          lines = '! steady film                          '//short_text(resolved%steady_film, 10)//' m'//end_of_line// &
