@@ -131,9 +131,11 @@ contains
    end subroutine solve_window
 
    !> Solve until the motion repeats, without samples.
-   subroutine find_steady_motion(problem, accuracy, periods, window, found)
+   subroutine find_steady_motion(problem, start, accuracy, periods, window, found)
       !> What moves
       type(problem_t), intent(in) :: problem
+      !> Where it starts
+      type(motion_state_t), intent(in) :: start
       !> Relative accuracy [-]
       real(dp), intent(in) :: accuracy
       !> Most periods, and periods of the window at their end
@@ -148,7 +150,7 @@ contains
       request = request_t(accuracy=accuracy, periods=periods, until_steady=.true., samples_per_period=1, &
                           sampled_periods=reserved_periods(window))
       allocate (unused(request%sampled_periods, state_size(problem), 1), source=0.0_dp)
-      call solve_motions([problem], [start_of(problem)], request, unused, endings)
+      call solve_motions([problem], [start], request, unused, endings)
       found = endings(1)
    end subroutine find_steady_motion
 

@@ -38,6 +38,15 @@ module run_sweep
    !> A periodic motion farther away than this is another one [-].
    real(dp), parameter :: orbit_nearness = 1.0e-3_dp
 
+   !> What a motion hands to the next one.
+   type, public :: carried_state_t
+      !> h [m], 0: there is none; z' [m/s]
+      real(dp) :: film = 0.0_dp
+      real(dp) :: velocity = 0.0_dp
+      !> Where teeth give, by films that stay as they are while the stiffness changes: drive and coast flank [N]
+      real(dp) :: spring_loads(2) = 0.0_dp
+   end type carried_state_t
+
    public :: run_sweep_task, solve_value
 
 contains
@@ -61,7 +70,8 @@ contains
       type(judged_scene_t) :: judged
       character(column_name_bytes), allocatable :: names(:)
       character(column_unit_bytes), allocatable :: units(:)
-      real(dp) :: started, film, velocity
+      type(carried_state_t) :: state
+      real(dp) :: started
       integer :: i, failed, beyond_model
 
       status = status_complete
@@ -73,13 +83,11 @@ contains
       call sweep_columns(scene, names, units)
       call writer%open(result_path(scene), scene%resolved_input, names, units, size(scene%sweep%values, kind=int64), .true., error)
       call watcher%start(log, quiet)
-      film = 0.0_dp
-      velocity = 0.0_dp
       failed = 0
       beyond_model = 0
       do i = 1, size(scene%sweep%values)
          if (allocated(error)) exit
-         call solve_value(swept_scene(scene, scene%sweep%values(i)), film, velocity, judged, error)
+         call solve_value(swept_scene(scene, scene%sweep%values(i)), state, judged, error)
          ! A motion under way when the signal came may be half judged.
          if (caught_signal() /= 0) then
             status = status_interrupted
@@ -177,12 +185,11 @@ contains
    end function sweep_row
 
    !> Steady motion of one value, from the state given; that state becomes the one for the next value.
-   subroutine solve_value(scene, film, velocity, judged, error)
+   subroutine solve_value(scene, state, judged, error)
       !> Checked scene with that value
       type(scene_t), intent(in) :: scene
-      !> State to start from; no film: the steady film at rest [m], [m/s]
-      real(dp), intent(inout) :: film
-      real(dp), intent(inout) :: velocity
+      !> State to start from; no film: the steady film at rest
+      type(carried_state_t), intent(inout) :: state
       !> The motion
       type(judged_scene_t), intent(out) :: judged
       !> Set if there is not enough memory
@@ -193,23 +200,24 @@ contains
 
       judged%resolved = resolve(scene)
       associate (problem => judged%resolved%problem)
-         if (film > 0.0_dp) then
-            problem%initial_film = film
-            problem%initial_velocity = velocity
-         end if
          judged%status = problem%film%status_without_load
+         if (state%film > 0.0_dp) then
+            problem%initial_film = state%film
+            problem%initial_velocity = state%velocity
+         end if
          if (.not. problem%initial_film > 0.0_dp) return
-         call find_steady_motion(problem, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
+         start = start_of(problem)
+         if (state%film > 0.0_dp) start%compression = problem%compliance*state%spring_loads
+         call find_steady_motion(problem, start, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
          judged%status = ending%status
          judged%periods = ending%periods
-         if (.not. is_success(ending%status)) then
-            film = 0.0_dp
-            return
-         end if
-         film = ending%film
-         velocity = ending%velocity
-         problem%initial_film = film
-         problem%initial_velocity = velocity
+         state = carried_state_t()
+         if (.not. is_success(ending%status)) return
+         state%film = ending%film
+         state%velocity = ending%velocity
+         if (problem%compliance > 0.0_dp) state%spring_loads = ending%compression/problem%compliance
+         problem%initial_film = ending%film
+         problem%initial_velocity = ending%velocity
          start = start_of(problem)
          start%compression = ending%compression
          window%periods = scene%spectrum%periods

@@ -14,6 +14,7 @@ program stress_summaries
    use lobatto_rule, only: lobatto_rule_t, new_lobatto_rule
    use random_scenes, only: drawn_scene_t, law_names, laws
    use reference_check, only: reference_deviation
+   use run_sweep, only: carried_state_t
    use scene_namelist, only: print_namelist
    use scene_types, only: scene_t
    use summary_outcomes, only: outcome_of_row, outcome_of_summary, told_names, told_outcome_t, told_outcomes, told_silent
@@ -128,23 +129,22 @@ contains
       type(drawn_scene_t) :: drawn(sweep_values)
       type(told_t) :: told
       type(told_outcome_t) :: outcome
-      real(dp) :: film, velocity, times(3)
+      type(carried_state_t) :: state
+      real(dp) :: times(3)
       integer :: law, i
 
       call draw_sweep(seed, number, drawn, law)
-      film = 0.0_dp
-      velocity = 0.0_dp
       do i = 1, sweep_values
          associate (value => drawn(i))
-            if (film > 0.0_dp) then
-               value%scene%film%initial_film = film
-               value%scene%film%initial_velocity = velocity
-               value%resolved%problem%initial_film = film
-               value%resolved%problem%initial_velocity = velocity
+            if (state%film > 0.0_dp) then
+               value%scene%film%initial_film = state%film
+               value%scene%film%initial_velocity = state%velocity
+               value%resolved%problem%initial_film = state%film
+               value%resolved%problem%initial_velocity = state%velocity
             end if
          end associate
          times(1) = wall_seconds()
-         call value_told(drawn(i)%scene, film, velocity, told)
+         call value_told(drawn(i)%scene, state, told)
          times(2) = wall_seconds()
          call outcome_of_row(drawn(i), rule, told, outcome)
          times(3) = wall_seconds()

@@ -16,7 +16,7 @@ module told_summary
                          quantity_periods_solved, quantity_rattle_class, quantity_sampling_sufficient, quantity_word
    use random_scenes, only: drawn_scene_t
    use resolved_scene, only: request_of
-   use run_sweep, only: solve_value
+   use run_sweep, only: carried_state_t, solve_value
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t
    use scene_status, only: is_success, status_name
@@ -173,17 +173,16 @@ contains
    end subroutine rows_told
 
    !> What a sweep tells of a value.
-   subroutine value_told(scene, film, velocity, told)
+   subroutine value_told(scene, state, told)
       !> Scene with that value
       type(scene_t), intent(in) :: scene
-      !> State that the value before has left, none: no film; on return that for the next one [m], [m/s]
-      real(dp), intent(inout) :: film
-      real(dp), intent(inout) :: velocity
+      !> State that the value before has left, none: no film; on return that for the next one
+      type(carried_state_t), intent(inout) :: state
       type(told_t), intent(out) :: told
       type(error_t), allocatable :: error
       type(judged_scene_t) :: judged
 
-      call solve_value(scene, film, velocity, judged, error)
+      call solve_value(scene, state, judged, error)
       told%status = status_name(judged%status)
       told%judged = is_success(judged%status) .and. .not. allocated(error)
       told%certificate_asked = .false.

@@ -116,7 +116,7 @@ contains
       type(periodic_orbit_t) :: orbit
       real(dp), allocatable :: states(:, :), z(:), amplitudes(:)
 
-      call find_steady_motion(problem, accuracy, 400, 1, found)
+      call find_steady_motion(problem, start_of(problem), accuracy, 400, 1, found)
       call checks%check(is_success(found%status) .and. found%orbit == 1, name//': repeats after one period')
       call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
       call checks%check(found%status == status_complete, name//': solved')

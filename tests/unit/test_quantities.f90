@@ -15,7 +15,7 @@ module test_quantities
    use quantities, only: a_list, a_number, quantities_told_in, quantity_certified, quantity_gear_position_maximum, &
                          quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, quantity_word
    use resolved_scene, only: request_of, resolve
-   use run_sweep, only: solve_value
+   use run_sweep, only: carried_state_t, solve_value
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t
    use scene_types, only: law_iso_viscous, method_taylor, scene_t, until_steady
@@ -175,11 +175,9 @@ contains
       type(scene_t), intent(in) :: scene          !> The scene
       type(judged_scene_t), intent(out) :: judged  !> Its result
       type(error_t), allocatable :: error
-      real(dp) :: film, velocity
+      type(carried_state_t) :: state
 
-      film = 0.0_dp
-      velocity = 0.0_dp
-      call solve_value(scene, film, velocity, judged, error)
+      call solve_value(scene, state, judged, error)
    end subroutine solve_swept
 
    !> Solve and judge it as a row of a campaign.

@@ -223,7 +223,7 @@ contains
       type(loudness_t) :: told
       real(dp), allocatable :: states(:, :), z(:), amplitudes(:)
 
-      call find_steady_motion(problem, accuracy, periods, 1, found)
+      call find_steady_motion(problem, start_of(problem), accuracy, periods, 1, found)
       call checks%check(is_success(found%status) .and. found%orbit == 1, name//': repeats after one period')
       call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
       call checks%check(found%status == status_complete, name//': solved')
@@ -263,7 +263,7 @@ contains
       scene = canonical_between_flanks(law_piezo_viscous, model_published, rupture_half_pi)
       scene%load%steady_force = 0.0_dp
       problem = problem_of(scene)
-      call find_steady_motion(problem, accuracy, 400, 1, found)
+      call find_steady_motion(problem, start_of(problem), accuracy, 400, 1, found)
       call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
       call checks%check(maxval(abs(cshift(states(:, of_film), samples/2) - (problem%backlash - states(:, of_film)))) &
                         < 1.0e-7_dp*problem%backlash, 'mirror: its own image half a period later')

@@ -86,3 +86,16 @@ def test_a_campaign_over_the_stiffness_has_the_same_rows_in_any_company(run, tmp
         assert ended.returncode == 0, ended.stderr
     one, two = ((tmp_path / place / "teeth.rattle").read_bytes() for place in ("one", "two"))
     assert one == two
+
+
+def test_a_sweep_carries_the_springs_along(run, repository: Path, tmp_path: Path) -> None:
+    """Films that let go in flight: a spring that met its film anew would throw the tooth away."""
+    scene = repository / "input" / "stiff_or_not.nml"
+    settings = ("film.law=piezo-viscous", "sweep.first=1.3e8", "sweep.last=1.0e8", "sweep.count=4")
+    given = [word for setting in settings for word in ("--set", setting)]
+    assert run(scene, *given, "--output", tmp_path, cwd=tmp_path).returncode == 0
+    swept = rattle.read(tmp_path / "stiff_or_not.rattle").frame()
+    assert set(swept.status_word) == {"steady"} and set(swept.orbit_period) == {2.0}
+    assert swept.film_maximum.between(1.5e-5, 3.5e-5).all()
+    for _, both in swept.groupby("stiffness"):
+        assert np.ptp(both.acceleration_maximum) < 1e-4 * both.acceleration_maximum.max()
