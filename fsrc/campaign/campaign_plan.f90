@@ -23,7 +23,7 @@ module campaign_plan
    !> Invalid scenes that are named one by one
    integer, parameter :: most_named = 20
 
-   public :: plan_campaign, count_invalid
+   public :: plan_campaign, check_size, count_invalid
 
 contains
 
@@ -61,6 +61,10 @@ contains
          end do
          call plan_table(samples%positions, samples%values, plan)
          plan%known = samples%read
+      else if (size(scene%campaign%vary) == 0) then
+         ! A threshold without axes has one line.
+         allocate (samples%positions(0), samples%values(0, 1))
+         call plan_table(samples%positions, samples%values, plan)
       else
          call form_axes(scene, file, axes, faults)
          if (faults%count() > before) return
@@ -79,9 +83,20 @@ contains
             return
          end if
       end if
-      if (plan%size > unconfirmed_limit .and. .not. scene%campaign%confirm_size) &
-         call faults%add(file, 0, 'campaign', 'confirm_size', integer_text(plan%size)//' scenes; set it if that is meant')
+      call check_size(scene, file, plan%size, faults)
    end subroutine plan_campaign
+
+   !> So many scenes must be meant.
+   subroutine check_size(scene, file, scenes, faults)
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      integer(int64), intent(in) :: scenes
+      type(fault_list_t), intent(inout) :: faults
+
+      if (scenes > unconfirmed_limit .and. .not. scene%campaign%confirm_size) &
+         call faults%add(file, 0, 'campaign', 'confirm_size', integer_text(scenes)//' scenes; set it if that is meant')
+   end subroutine check_size
 
    !> Axes of the varied keys.
    subroutine form_axes(scene, file, axes, faults)

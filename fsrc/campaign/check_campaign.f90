@@ -1,9 +1,11 @@
-!> --check of a campaign: how many scenes, how large the result, how long it may take.
+!> --check of a campaign or threshold: how many scenes, how large the result, how long it may take.
 module check_campaign
    use clock, only: wall_seconds
    use errors, only: error_t, fault_list_t
    use kinds, only: dp, int64
    use prepared_campaign, only: campaign_t, prepare_campaign
+   use prepared_threshold, only: points_plan, prepare_threshold, prepared_threshold_t
+   use run_threshold, only: grid_scenes
    use scene_types, only: scene_t
    use signals, only: lift_time_limit, limit_time, must_stop
    use solve_chunk, only: chunk_space_t, solve_scenes
@@ -14,7 +16,7 @@ module check_campaign
    !> What --check may take to solve some scenes [s]
    integer, parameter :: trial_limit = 1
 
-   public :: check_one_campaign
+   public :: check_one_campaign, check_one_threshold
 
 contains
 
@@ -55,6 +57,41 @@ contains
               integer_text(campaign%layout%chunk_rows)//' scenes'//new_line('a')// &
               '! core time, '//core_time_sentence(scene, campaign)
    end subroutine check_one_campaign
+
+   !> --check of a threshold: how many lines and scenes, and how long the scan may take.
+   subroutine check_one_threshold(scene, file, lines, faults)
+      !> Checked base scene
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> What to tell
+      character(:), allocatable, intent(out) :: lines
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(prepared_threshold_t) :: threshold
+      type(campaign_t) :: scan
+      integer(int64) :: line_count, line
+      integer :: i, scanned
+
+      lines = ''
+      call prepare_threshold(scene, file, .true., threshold, faults)
+      if (faults%count() > 0) return
+      line_count = threshold%lines%layout%scene_count
+      scanned = size(threshold%scan)
+      do i = 1, size(threshold%lines%warnings)
+         lines = lines//'! '//threshold%lines%warnings(i)%text//new_line('a')
+      end do
+      scan = threshold%lines
+      scan%seen = min(line_count, max(1_int64, 512_int64/scanned))*scanned
+      call points_plan(threshold, [((line, i=1, scanned), line=1_int64, scan%seen/scanned)], &
+                       [((threshold%scan(i), i=1, scanned), line=1_int64, scan%seen/scanned)], scan%plan)
+      scan%layout%scene_count = line_count*scanned
+      scan%layout%names = [scan%layout%names, scan%layout%names(1)]
+      lines = lines//'! lines               '//integer_text(line_count)//new_line('a')// &
+              '! scenes of the scan  '//integer_text(scan%layout%scene_count)//new_line('a')// &
+              '! a grid as fine has  '//integer_text(nint(grid_scenes(scene, threshold), int64))//' scenes'//new_line('a')// &
+              '! core time of the scan, '//core_time_sentence(scene, scan)
+   end subroutine check_one_threshold
 
    !> How long the scenes may take, from trials of 8, 64 and 512 of them, as far as there is time.
    function core_time_sentence(scene, campaign) result(sentence)

@@ -1,15 +1,17 @@
-!> What a call asks for: a campaign, or scenes one after the other.
+!> What a call asks for: a campaign or threshold, or scenes one after the other.
 module run_tasks
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use check_campaign, only: check_one_campaign
+   use check_campaign, only: check_one_campaign, check_one_threshold
    use batch, only: input_name, print_faults, run_batch
    use command_line, only: command_t, most_threads
    use derived_scene, only: complete_scene
    use errors, only: error_t, exit_bad_input, exit_complete, fault_list_t
+   use key_table, only: choice_word
    use ranks, only: end_ranks, is_foreign_job, rank_count, start_ranks, this_rank
    use run_campaign, only: run_one_campaign
+   use run_threshold, only: run_one_threshold
    use scene_reader, only: read_scene
-   use scene_types, only: scene_t, task_campaign
+   use scene_types, only: scene_t, task_campaign, task_threshold
    use signals, only: caught_signal
    use text, only: integer_text
    use text_output, only: put_line, put_text
@@ -21,7 +23,7 @@ module run_tasks
 
 contains
 
-   !> Read the inputs and hand them to who solves them. A campaign stands alone in its call.
+   !> Read the inputs and hand them to who solves them. A campaign or threshold stands alone in its call.
    subroutine run_all_tasks(command, exit_code)
       !> What the arguments ask for
       type(command_t), intent(in) :: command
@@ -46,19 +48,27 @@ contains
                                                     ' are allowed on this machine')
       if (faults%count() == 0 .and. size(scenes) > 1) then
          do i = 1, size(scenes)
-            if (scenes(i)%task == task_campaign) call faults%add(input_name(command%files(i)%text), 0, 'scene', 'task', &
-                                                                 'a campaign must be the only input of a call')
+            if (is_shared(scenes(i))) call faults%add(input_name(command%files(i)%text), 0, 'scene', 'task', 'a '// &
+                                                      choice_word('scene', 'task', scenes(i)%task)// &
+                                                      ' must be the only input of a call')
          end do
       end if
       if (faults%count() > 0) then
          call print_faults(faults)
          exit_code = faults%exit_code
-      else if (any(scenes%task == task_campaign)) then
-         call run_campaign_task(command, scenes(1), exit_code)
+      else if (any(is_shared(scenes))) then
+         call run_shared_task(command, scenes(1), exit_code)
       else
          call run_alone(command, scenes, exit_code)
       end if
    end subroutine run_all_tasks
+
+   !> Whether threads and ranks share the work of an input.
+   elemental logical function is_shared(scene)
+      type(scene_t), intent(in) :: scene
+
+      is_shared = scene%task == task_campaign .or. scene%task == task_threshold
+   end function is_shared
 
    !> Scenes take one process: several would all do the same work.
    subroutine run_alone(command, scenes, exit_code)
@@ -72,13 +82,13 @@ contains
          call run_batch(command, scenes, exit_code)
       else if (this_rank() == 0) then
          write (error_unit, '(a)') 'an MPI job of '//integer_text(rank_count())//' processes was started, but only a '// &
-            'campaign can be divided; start motions, sweeps and film tasks without mpirun'
+            'campaign or threshold can be divided; start motions, sweeps and film tasks without mpirun'
       end if
       call end_ranks()
    end subroutine run_alone
 
-   !> Check or run the campaign; rank 0 does the talking.
-   subroutine run_campaign_task(command, scene, exit_code)
+   !> Check or run the campaign or threshold; rank 0 does the talking.
+   subroutine run_shared_task(command, scene, exit_code)
       type(command_t), intent(in) :: command
       type(scene_t), intent(inout) :: scene
       integer, intent(out) :: exit_code
@@ -91,7 +101,11 @@ contains
       exit_code = exit_complete
       call start_ranks()
       if (command%check) then
-         call check_one_campaign(scene, file, lines, faults)
+         if (scene%task == task_threshold) then
+            call check_one_threshold(scene, file, lines, faults)
+         else
+            call check_one_campaign(scene, file, lines, faults)
+         end if
          if (caught_signal() /= 0) then
             exit_code = 128 + caught_signal()
          else if (faults%count() > 0) then
@@ -105,11 +119,15 @@ contains
             call put_text(scene%resolved_input)
          end if
       else
-         call run_one_campaign(scene, file, command%resume, command%quiet, faults, exit_code, error)
+         if (scene%task == task_threshold) then
+            call run_one_threshold(scene, file, command%resume, command%quiet, faults, exit_code, error)
+         else
+            call run_one_campaign(scene, file, command%resume, command%quiet, faults, exit_code, error)
+         end if
          if (this_rank() == 0 .and. allocated(error)) write (error_unit, '(a)') error%message
       end if
       if (this_rank() == 0 .and. faults%count() > 0) call print_faults(faults)
       call end_ranks()
-   end subroutine run_campaign_task
+   end subroutine run_shared_task
 
 end module run_tasks

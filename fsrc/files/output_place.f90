@@ -6,7 +6,7 @@ module output_place
    use log_file, only: log_magic
    use output_lock, only: lock_path
    use result_format, only: result_magic
-   use scene_types, only: compute_profile, scene_t, task_campaign, task_film, task_motion
+   use scene_types, only: compute_profile, scene_t, task_campaign, task_film, task_motion, task_threshold
    use summary_file, only: summary_magic
    use text, only: integer_text
    implicit none(type, external)
@@ -110,7 +110,7 @@ contains
          call check_file(profiles_path(scene), result_magic)
       if (scene%task == task_motion) call check_file(state_path(scene), result_magic)
       call check_file(summary_path(scene), summary_magic)
-      if (scene%task == task_campaign) call check_file(progress_path(scene), summary_magic)
+      if (scene%task == task_campaign .or. scene%task == task_threshold) call check_file(progress_path(scene), summary_magic)
       call check_kind(log_path(scene), log_magic, .false.)
       call check_kind(lock_path(stem(scene)), '', .true.)
 

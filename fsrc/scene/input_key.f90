@@ -33,13 +33,13 @@ module input_key
       !> Allowed numbers
       type(range_t) :: range
       !> Allowed words, separated by blanks; empty: any text that the reader accepts
-      character(1200) :: choices
+      character(1400) :: choices
       !> 'group.key=word[|word] [& ...]': legal only then; empty: always
       character(48) :: used_when
       !> What it means
       character(240) :: sentence
       !> Value in the template where there is no default
-      character(16) :: example = ''
+      character(24) :: example = ''
       !> Numbers that an engineer may mean, wide; others are taken, with a warning
       type(range_t) :: sensible = range_t()
       !> Numbers that a film and its motion can be computed with, wider still; others are refused

@@ -5,7 +5,7 @@
 module key_table
    use input_key, only: integer_kind, key_t, list_kind, logical_kind, range_t, real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
-   use quantities, only: recordable
+   use quantities, only: class_words, measurable, recordable
    use scene_types, only: highest_order
    use text, only: edit_distance
    use word_list, only: split_words, word_t
@@ -44,15 +44,17 @@ module key_table
    type(range_t), parameter :: a_speed_group = range_t(1.0e-30_dp, .false., 1.0e10_dp, .false.)
    type(range_t), parameter :: fraction = range_t(0.0_dp, .true., 1.0_dp, .false.)
 
-   character(*), parameter :: of_motions = 'scene.task=motion|sweep|campaign'
+   character(*), parameter :: of_motions = 'scene.task=motion|sweep|campaign|threshold', &
+      of_campaigns = 'scene.task=campaign|threshold', of_thresholds = 'scene.task=threshold', &
+      certified = 'scene.task=motion|threshold'
 
    ! Three parts: a statement has 255 continuation lines at most.
    type(key_t), parameter :: keys_of_gears(*) = [ &
       key_t('scene', 'name', text_kind, '', '', any_number, '', '', &
             'Name of the scene and stem of its output files: letters, digits, . _ - only; absent: the stem of the input file.'), &
-      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion film sweep campaign', '', &
-            'What is computed: motion, the transient film and tooth motion; film, the oil film at given points; sweep, steady '// &
-            'motions along a key, each from the one before; campaign, many motions that differ in some keys.'), &
+      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion film sweep campaign threshold', '', &
+            'What is computed: motion, of film and tooth; film, the oil film at given points; sweep, steady motions along a '// &
+            'key, each from the one before; campaign, many motions that differ in some keys; threshold, where they change.'), &
       key_t('contact', 'radius', real_kind, 'm', '', positive, '', '', &
             'Equivalent radius R of the contact; give either this or both radius_1 and radius_2.', &
             example='0.0127', &
@@ -77,11 +79,11 @@ module key_table
             computable=a_modulus), &
       key_t('contact', 'poisson_ratio', real_kind, '-', '0.3', poisson, '', '', &
             'Poisson ratio of the teeth; E* = E/(1 - nu^2) (3).'), &
-      key_t('contact', 'backlash', real_kind, 'm', '', positive, '', 'scene.task=motion|sweep|campaign', &
+      key_t('contact', 'backlash', real_kind, 'm', '', positive, '', of_motions, &
             'Play between drive and coast flank along their normal, the sum of both gaps; absent: the drive flank alone.', &
             sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
             computable=a_play, given_by='gear'), &
-      key_t('contact', 'stiffness', real_kind, 'N/m', '', positive, '', 'scene.task=motion|sweep|campaign', &
+      key_t('contact', 'stiffness', real_kind, 'N/m', '', positive, '', of_motions, &
             'Stiffness of a flank with its tooth, in series with the film of each flank; absent: rigid teeth.', &
             sensible=range_t(lower=1.0e5_dp, upper=1.0e12_dp), &
             computable=a_stiffness, given_by='gear'), &
@@ -115,57 +117,57 @@ module key_table
             'Surface speed of the second flank.', &
             sensible=range_t(lower=-300.0_dp, upper=300.0_dp), &
             computable=a_signed_speed, given_by='gear'), &
-      key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'mass', real_kind, 'kg', 'required', positive, '', of_motions, &
             'Equivalent mass m of the impacting tooth pair.', &
             example='3.0', &
             sensible=range_t(lower=1.0e-4_dp, upper=1.0e3_dp), &
             computable=a_mass, given_by='gear'), &
-      key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'steady_force', real_kind, 'N', 'required', any_number, '', of_motions, &
             'Steady force Q of (34); without a backlash Q + m g must be positive.', &
             example='199.2', &
             sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
             computable=a_signed_force, given_by='gear'), &
-      key_t('load', 'force_amplitude', real_kind, 'N', '', not_negative, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'force_amplitude', real_kind, 'N', '', not_negative, '', of_motions, &
             'Amplitude F0 of the oscillating force of (34); give this, or force_orders with force_amplitudes.', &
             example='205.7', &
             sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
             computable=an_amplitude, given_by='shaft'), &
-      key_t('load', 'force_orders', reals_kind, '-', '', an_order, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'force_orders', reals_kind, '-', '', an_order, '', of_motions, &
             'Orders of a force of any shape, whole multiples of the frequency, instead of force_amplitude.', given_by='shaft'), &
-      key_t('load', 'force_amplitudes', reals_kind, 'N', '', not_negative, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'force_amplitudes', reals_kind, 'N', '', not_negative, '', of_motions, &
             'Amplitude of each order.', &
             sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
             computable=an_amplitude, given_by='shaft'), &
-      key_t('load', 'force_phases', reals_kind, 'rad', '', any_number, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'force_phases', reals_kind, 'rad', '', any_number, '', of_motions, &
             'Phase of each order: a cos(2 pi n f t + phase); absent: all 0.', &
             sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
             computable=a_phase, given_by='shaft'), &
-      key_t('load', 'force_mean', real_kind, 'N', '', any_number, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'force_mean', real_kind, 'N', '', any_number, '', of_motions, &
             'Mean of the force beside steady_force: added to it, and not multiplied by force_scale; absent: 0.', &
             sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
             computable=a_signed_force), &
-      key_t('load', 'signal', text_kind, '', '', any_number, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'signal', text_kind, '', '', any_number, '', of_motions, &
             'CSV file, in the folder of this input, with one cycle of the force [N], uniformly sampled; it becomes '// &
             'force_orders and, by its mean, force_mean.', given_by='shaft'), &
-      key_t('load', 'signal_column', text_kind, '', '', any_number, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'signal_column', text_kind, '', '', any_number, '', of_motions, &
             'Name of the signal in the header of the file; absent: the only column that is no time or angle.', given_by='shaft'), &
-      key_t('load', 'signal_orders', integer_kind, '-', '', an_order, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'signal_orders', integer_kind, '-', '', an_order, '', of_motions, &
             'Orders that are kept of a signal, from the first on; absent: those that hold all but 1e-6 of its power.', &
             given_by='shaft'), &
-      key_t('load', 'force_scale', real_kind, '-', '1.0', not_negative, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'force_scale', real_kind, '-', '1.0', not_negative, '', of_motions, &
             'Multiplies all that oscillates of the force.', &
             sensible=range_t(lower=0.0_dp, upper=1.0e4_dp), &
             computable=a_scale), &
-      key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'frequency', real_kind, 'Hz', 'required', positive, '', of_motions, &
             'Frequency f_exc of the oscillating force.', &
             example='600.0', &
             sensible=range_t(lower=0.1_dp, upper=1.0e5_dp), &
             computable=a_frequency, given_by='shaft'), &
-      key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', 'scene.task=motion|sweep|campaign', &
+      key_t('load', 'gravity', real_kind, 'm/s2', '9.80665', not_negative, '', of_motions, &
             'Acceleration of free fall g.', &
             sensible=range_t(lower=0.0_dp, upper=100.0_dp), &
             computable=a_fall, given_by='gear'), &
-      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', 'scene.task=motion|sweep|campaign', &
+      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', of_motions, &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
             example='iso-viscous'), &
       key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical', '', &
@@ -176,11 +178,11 @@ module key_table
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
       key_t('film', 'rupture_solver', text_kind, '', 'fast', any_number, 'fast successive', 'film.rupture=solved', &
             'Root finder of (18): fast takes a table good to rounding, successive the paper''s substitution; same root.'), &
-      key_t('film', 'initial_film', real_kind, 'm', '', positive, '', 'scene.task=motion|sweep|campaign', &
+      key_t('film', 'initial_film', real_kind, 'm', '', positive, '', of_motions, &
             'Film at t = 0; absent: the steady film under Q + m g.', &
             sensible=range_t(lower=1.0e-10_dp, upper=1.0e-2_dp), &
             computable=a_film), &
-      key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', 'scene.task=motion|sweep|campaign', &
+      key_t('film', 'initial_velocity', real_kind, 'm/s', '0.0', any_number, '', of_motions, &
             'Film velocity dh/dt at t = 0, negative on approach.', &
             sensible=range_t(lower=-100.0_dp, upper=100.0_dp), &
             computable=a_signed_speed) &
@@ -296,14 +298,14 @@ module key_table
 
    type(key_t), parameter :: keys_of_tasks(*) = [ &
       key_t('solver', 'method', text_kind, '', 'taylor', any_number, 'newmark taylor', &
-            'scene.task=motion|sweep|campaign', &
+            of_motions, &
             'Time integration: taylor (error-controlled series, implicit where the film is stiff) or the paper''s newmark.'), &
       key_t('solver', 'accuracy', real_kind, '-', '1.0e-8', range_t(1.0e-12_dp, .false., 1.0e-2_dp, .false.), '', &
             'solver.method=taylor', &
             'Relative accuracy of the film that an error-controlled method aims at.'), &
-      key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion|campaign', &
+      key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion|campaign|threshold', &
             'End of the run: all periods, or as soon as the motion is verified to repeat; then one orbit is the window.'), &
-      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', 'scene.task=motion|sweep|campaign', &
+      key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', of_motions, &
             'Periods of the force that are solved (the most, until steady); at least those of the spectrum window.'), &
       key_t('solver', 'time_limit', real_kind, 's', '', positive, '', 'scene.task=motion', &
             'Wall time after which the run ends cleanly, to be resumed; absent: none.'), &
@@ -322,19 +324,19 @@ module key_table
             'Most passes in a step; a step that needs more ends the scene as not_converged.'), &
       key_t('solver', 'steps_per_period', integer_kind, '-', '512', at_least_8, '', 'solver.method=newmark', &
             'Time steps in one period of the force; every one is a sample.'), &
-      key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', 'scene.task=motion|sweep|campaign', &
+      key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', of_motions, &
             'Whole periods at the end of the run that spectrum, extremes and regime are taken from.'), &
-      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep|campaign', &
+      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', of_motions, &
             'A harmonic counts as a line if it exceeds this share of the first (of several orders: of the largest forced one).'), &
-      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', 'scene.task=motion|sweep|campaign', &
+      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', of_motions, &
             'From this many lines on the motion is idle rattle.'), &
-      key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', 'scene.task=motion|sweep|campaign', &
+      key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', of_motions, &
             'Below this harmonic distortion the motion is quiet.'), &
-      key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', 'scene.task=motion|sweep|campaign', &
+      key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', of_motions, &
             'Above this share of power off the harmonics the motion is irregular, or subharmonic if it is known to repeat.'), &
-      key_t('spectrum', 'certify', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &
+      key_t('spectrum', 'certify', logical_kind, '', '.true.', any_number, '', certified, &
             'Whether the scene is solved again tighter, to say how large its errors are and whether its class stands.'), &
-      key_t('spectrum', 'certificate_tolerance', real_kind, '-', '0.01', fraction, '', 'scene.task=motion', &
+      key_t('spectrum', 'certificate_tolerance', real_kind, '-', '0.01', fraction, '', certified, &
             'Largest error of the film, relative, with which the class of a regular motion is certified.'), &
       key_t('points', 'film_ratios', reals_kind, '-', '', positive, '', 'scene.task=film', &
             'Film ratios h* = h0/R, one or more; give these or film_ratio_range.', &
@@ -384,26 +386,26 @@ module key_table
             'How the values are spaced.'), &
       key_t('sweep', 'turn', logical_kind, '', '.true.', any_number, '', 'scene.task=sweep', &
             'Whether the sweep goes back to first, so that jumps and hysteresis show.'), &
-      key_t('campaign', 'vary', list_kind, '', '', any_number, '', 'scene.task=campaign', &
+      key_t('campaign', 'vary', list_kind, '', '', any_number, '', of_campaigns, &
             'Keys that are varied, as ''group.key'': vary(1) = ..., vary(2) = ...; any numeric key of a motion.'), &
-      key_t('campaign', 'scale', list_kind, '', '', any_number, 'linear logarithmic', 'scene.task=campaign', &
+      key_t('campaign', 'scale', list_kind, '', '', any_number, 'linear logarithmic', of_campaigns, &
             'How the range of each varied key is divided; absent: linear.'), &
-      key_t('campaign', 'first', reals_kind, 'of key', '', any_number, '', 'scene.task=campaign', &
+      key_t('campaign', 'first', reals_kind, 'of key', '', any_number, '', of_campaigns, &
             'First value of each varied key.'), &
-      key_t('campaign', 'last', reals_kind, 'of key', '', any_number, '', 'scene.task=campaign', &
+      key_t('campaign', 'last', reals_kind, 'of key', '', any_number, '', of_campaigns, &
             'Last value of each varied key.'), &
-      key_t('campaign', 'count', reals_kind, '-', '', at_least_1, '', 'scene.task=campaign', &
+      key_t('campaign', 'count', reals_kind, '-', '', at_least_1, '', of_campaigns, &
             'Values of each varied key on a grid, both ends included.'), &
-      key_t('campaign', 'values', table_kind, 'of key', '', any_number, '', 'scene.task=campaign', &
+      key_t('campaign', 'values', table_kind, 'of key', '', any_number, '', of_campaigns, &
             'Values of a varied key instead of a range: values(:, 1) = ..., all of vary(1).'), &
-      key_t('campaign', 'sample', text_kind, '', 'grid', any_number, 'grid sobol latin-hypercube', 'scene.task=campaign', &
+      key_t('campaign', 'sample', text_kind, '', 'grid', any_number, 'grid sobol latin-hypercube', of_campaigns, &
             'Which scenes: the full grid, or a sample of the ranges.'), &
       key_t('campaign', 'size', integer_kind, '-', '', at_least_1, '', 'campaign.sample=sobol|latin-hypercube', &
             'Scenes of a sample.'), &
       key_t('campaign', 'seed', integer_kind, '-', '1', range_t(0.0_dp, .false., 2.0e9_dp, .false.), '', &
             'campaign.sample=sobol|latin-hypercube', &
             'Seed of a sample: the same seed gives the same scenes everywhere.'), &
-      key_t('campaign', 'csv', text_kind, '', '', any_number, '', 'scene.task=campaign', &
+      key_t('campaign', 'csv', text_kind, '', '', any_number, '', of_campaigns, &
             'Table of scenes instead of vary: a CSV file whose header names group.key, one scene per row.'), &
       key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
             'natural_frequency damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period '// &
@@ -411,16 +413,37 @@ module key_table
             'scene.task=campaign', &
             'Recorded of every scene beside number, varied keys and status; certified (1 or 0) solves each again, tighter.'), &
       key_t('campaign', 'samples_per_period', integer_kind, '-', '256', range_t(32.0_dp, .false., 16384.0_dp, .false.), '', &
-            'scene.task=campaign', &
+            of_campaigns, &
             'Samples of a period that a scene is judged by; where they are too few, its steps are integrated over.'), &
-      key_t('campaign', 'allow_invalid', logical_kind, '', '.false.', any_number, '', 'scene.task=campaign', &
+      key_t('campaign', 'allow_invalid', logical_kind, '', '.false.', any_number, '', of_campaigns, &
             'Whether scenes that are no valid scenes are recorded as such; else they stop the campaign before it begins.'), &
-      key_t('campaign', 'confirm_size', logical_kind, '', '.false.', any_number, '', 'scene.task=campaign', &
+      key_t('campaign', 'confirm_size', logical_kind, '', '.false.', any_number, '', of_campaigns, &
             'Must be true for more than ten million scenes.'), &
       key_t('campaign', 'part', integer_kind, '-', '1', at_least_1, '', 'scene.task=campaign', &
             'Which part of the campaign this run solves, as a job of an array.'), &
       key_t('campaign', 'parts', integer_kind, '-', '1', at_least_1, '', 'scene.task=campaign', &
             'Parts that the campaign is divided into.'), &
+      key_t('threshold', 'key', text_kind, '', 'required', any_number, '', of_thresholds, &
+            'Key whose thresholds are found, as ''group.key'': any numeric key of a motion but those that &campaign varies.', &
+            example='load.force_amplitude'), &
+      key_t('threshold', 'first', real_kind, 'of key', 'required', any_number, '', of_thresholds, &
+            'Least value of the key.', &
+            example='5.0'), &
+      key_t('threshold', 'last', real_kind, 'of key', 'required', any_number, '', of_thresholds, &
+            'Largest value of the key.', &
+            example='455.0'), &
+      key_t('threshold', 'scale', text_kind, '', 'linear', any_number, 'linear logarithmic', of_thresholds, &
+            'How the range is divided, by the scan and by halves.'), &
+      key_t('threshold', 'count', integer_kind, '-', '33', range_t(2.0_dp, .false., 1.0e6_dp, .false.), '', of_thresholds, &
+            'Values of the scan, both ends included; two changes between neighbours that cancel each other stay unseen.'), &
+      key_t('threshold', 'tolerance', real_kind, '-', '1.0e-4', range_t(1.0e-9_dp, .false., 0.5_dp, .false.), '', &
+            of_thresholds, &
+            'Largest width of a bracket, a share of the range from first to last (of its logarithm where the scale is); '// &
+            'integers to the next one.'), &
+      key_t('threshold', 'criterion', text_kind, '', 'class', any_number, 'class '//class_words//measurable, of_thresholds, &
+            'What changes at a threshold: the class, whether it is the one named, a code or flag, or a quantity passing level.'), &
+      key_t('threshold', 'level', real_kind, 'of it', '', any_number, '', of_thresholds, &
+            'What a quantity that is a number has to reach.'), &
       key_t('output', 'directory', text_kind, '', 'results', any_number, '', '', &
             'Folder of the output files, relative to the working directory; made if missing.'), &
       key_t('output', 'series', logical_kind, '', '.true.', any_number, '', 'scene.task=motion', &

@@ -14,11 +14,12 @@ module odd_numbers
 
 contains
 
-   !> Odd numbers of all keys that were given, of the ends of a sweep, and of the ranges and lists of a campaign.
+   !> Odd numbers of all keys that were given, of the ends of a sweep or threshold, and of the ranges and lists of a campaign.
    pure function odd_numbers_of_input(input) result(lines)
       !> Typed values without a fault
       type(scene_input_t), intent(in) :: input
       type(word_t), allocatable :: lines(:)
+      character(:), allocatable :: task
       integer :: i
 
       allocate (lines(0))
@@ -26,23 +27,34 @@ contains
          if (keys(i)%kind == real_kind .and. input%entries(i)%given) &
             call add_odd(input%entries(i), '&'//trim(keys(i)%group)//' '//trim(keys(i)%name), i, input%entries(i)%number, '', lines)
       end do
-      if (input%word('scene', 'task') == 'sweep') call add_sweep(input, lines)
-      if (input%word('scene', 'task') == 'campaign') call add_campaign(input, lines)
+      task = input%word('scene', 'task')
+      if (task == 'sweep' .or. task == 'threshold') call add_ends(input, task, lines)
+      if (task == 'campaign' .or. task == 'threshold') call add_campaign(input, lines)
    end function odd_numbers_of_input
 
-   !> Both ends of a sweep.
-   pure subroutine add_sweep(input, lines)
+   !> Both ends of a sweep, or of the range of a threshold. A name that is no key is told elsewhere.
+   pure subroutine add_ends(input, task, lines)
       type(scene_input_t), intent(in) :: input
+      !> The task, which is also the group
+      character(*), intent(in) :: task
       type(word_t), allocatable, intent(inout) :: lines(:)
       character(*), parameter :: ends(2) = ['first', 'last ']
-      integer :: i, position
+      character(:), allocatable :: name
+      integer :: i, dot, position
 
-      position = find_swept_key(input%word('sweep', 'key'))
+      name = input%word(task, 'key')
+      dot = index(name, '.')
+      if (dot == 0) then
+         position = find_swept_key(name)
+      else
+         position = find_key(name(:dot - 1), name(dot + 1:))
+      end if
+      if (position < 1 .or. position > size(keys)) return
       do i = 1, size(ends)
-         call add_odd(input%entries(find_key('sweep', trim(ends(i)))), '&sweep '//trim(ends(i)), position, &
-                      input%number('sweep', trim(ends(i))), whose(position), lines)
+         call add_odd(input%entries(find_key(task, trim(ends(i)))), '&'//task//' '//trim(ends(i)), position, &
+                      input%number(task, trim(ends(i))), whose(position), lines)
       end do
-   end subroutine add_sweep
+   end subroutine add_ends
 
    !> Both ends of the range of every varied key, or its list of values. Names that are no keys are told elsewhere.
    pure subroutine add_campaign(input, lines)
@@ -127,7 +139,7 @@ contains
                       '; is it in this unit?')]
    end function odd_numbers_of_list
 
-   !> Of which key the numbers of a sweep or a campaign are.
+   !> Of which key the numbers of a sweep, a threshold or a campaign are.
    pure function whose(position) result(words)
       integer, intent(in) :: position
       character(:), allocatable :: words

@@ -229,6 +229,13 @@ module quantities
    character(*), parameter, private :: names(*) = [(quantity_table(i)%name, i=1, size(quantity_table))]
    character(*), parameter :: recordable = transfer(pack(names, in_campaigns), repeat(' ', len(names)*count(in_campaigns)))
 
+   !> Those of them that are no lists: a threshold can be one of theirs.
+   logical, parameter, private :: is_measurable(*) = [(index(quantity_table(i)%told_in, 'campaign') > 0 .and. &
+                                                       quantity_table(i)%kind /= a_list, i=1, size(quantity_table))]
+   character(*), parameter :: measurable = transfer(pack(names, is_measurable), repeat(' ', len(names)*count(is_measurable)))
+   !> Words of rattle_class
+   character(*), parameter :: class_words = 'quiet creep idle irregular subharmonic '
+
 contains
 
    !> Code of a quantity, 0 if there is none of this name.

@@ -8,6 +8,7 @@ module scene_checker
    use keys_in_use, only: in_use
    use kinds, only: dp
    use memory, only: expect_memory
+   use quantities, only: a_count, a_number, quantity_code, quantity_table
    use scene_input, only: scene_input_t
    use scene_rules, only: broken_rules, rule_t
    use scene_types, only: scene_t, set_number
@@ -52,6 +53,7 @@ contains
          call check_window(input, faults)
          if (input%word('scene', 'task') == 'sweep') call check_sweep(input, faults)
          if (input%word('scene', 'task') == 'campaign') call check_campaign(input, faults)
+         if (input%word('scene', 'task') == 'threshold') call check_threshold(input, faults)
       end if
    end subroutine check_together
 
@@ -221,7 +223,7 @@ contains
       real(dp), parameter :: most_samples = 1.0e7_dp, most_of_any_number = 2.0e6_dp
 
       if (input%is_faulty('spectrum', 'periods')) return
-      if (input%word('scene', 'task') == 'campaign') then
+      if (input%word('scene', 'task') == 'campaign' .or. input%word('scene', 'task') == 'threshold') then
          call check_samples('campaign', 'samples_per_period')
       else if (input%word('solver', 'method') == 'newmark') then
          call check_samples('solver', 'steps_per_period')
@@ -364,16 +366,49 @@ contains
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
 
-      if (input%word('solver', 'method') /= 'taylor') &
-         call input%add_fault('solver', 'method', 'a campaign needs the taylor method', faults)
       if (input%is_given('campaign', 'vary') .eqv. input%is_given('campaign', 'csv')) &
          call input%add_fault('campaign', 'vary', 'give either vary or csv', faults)
-      if (input%word('campaign', 'sample') /= 'grid' .and. .not. input%is_given('campaign', 'size')) &
-         call input%add_fault('campaign', 'size', 'a sample needs its size', faults)
+      call check_sample(input, faults)
       if (.not. (input%is_faulty('campaign', 'part') .or. input%is_faulty('campaign', 'parts')) .and. &
           input%count('campaign', 'part') > input%count('campaign', 'parts')) &
          call input%add_fault('campaign', 'part', 'at most parts ('//integer_text(input%count('campaign', 'parts'))//')', faults)
    end subroutine check_campaign
+
+   !> What varies is solved by the engine of many lanes, and a sample has a size.
+   subroutine check_sample(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+
+      if (input%word('solver', 'method') /= 'taylor') &
+         call input%add_fault('solver', 'method', 'a '//input%word('scene', 'task')//' needs the taylor method', faults)
+      if (input%word('campaign', 'sample') /= 'grid' .and. .not. input%is_given('campaign', 'size')) &
+         call input%add_fault('campaign', 'size', 'a sample needs its size', faults)
+   end subroutine check_sample
+
+   !> A threshold may stand alone or along the axes of &campaign; its criterion is one that the scene has.
+   subroutine check_threshold(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: criterion
+      integer :: code
+      logical :: takes_level
+
+      call check_sample(input, faults)
+      if (input%is_given('campaign', 'vary') .and. input%is_given('campaign', 'csv')) &
+         call input%add_fault('campaign', 'vary', 'give either vary or csv, or neither', faults)
+      if (input%is_faulty('threshold', 'criterion')) return
+      criterion = input%word('threshold', 'criterion')
+      code = quantity_code(criterion)
+      takes_level = code > 0
+      if (takes_level) takes_level = quantity_table(code)%kind == a_number .or. quantity_table(code)%kind == a_count
+      if (takes_level .and. .not. (input%is_given('threshold', 'level') .or. input%is_faulty('threshold', 'level'))) &
+         call input%add_fault('threshold', 'level', criterion//' is a number: give the level that it has to reach', faults)
+      if (input%is_given('threshold', 'level') .and. .not. takes_level) &
+         call input%add_fault('threshold', 'level', criterion//' changes by itself and has no level; leave it out', faults)
+      if ((criterion == 'double_sided' .or. index(criterion, 'coast_') == 1) .and. &
+          .not. (input%is_given('contact', 'backlash') .or. input%is_given('gear', 'backlash'))) &
+         call input%add_fault('threshold', 'criterion', criterion//' needs a backlash', faults)
+   end subroutine check_threshold
 
    !> One way to give each list of a film task, and no more points than anyone means.
    subroutine check_points(input, faults)

@@ -12,9 +12,9 @@ module scene_reader
    use odd_numbers, only: odd_numbers_of_input
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
-   use scene_types, only: forced_orders, output_t, scene_t, task_campaign, task_sweep
+   use scene_types, only: forced_orders, output_t, scene_t, task_campaign, task_sweep, task_threshold
    use signal_reader, only: take_signal
-   use task_reader, only: read_campaign, read_points, read_sweep
+   use task_reader, only: read_campaign, read_points, read_sweep, read_threshold
    use text, only: integer_text, quoted
    implicit none(type, external)
    private
@@ -91,7 +91,11 @@ contains
       call read_choices(input, scene)
       scene%points = read_points(input, scene%film%model)
       if (scene%task == task_sweep) scene%sweep = read_sweep(input)
-      if (scene%task == task_campaign) scene%campaign = read_campaign(input)
+      if (scene%task == task_campaign .or. scene%task == task_threshold) scene%campaign = read_campaign(input)
+      if (scene%task == task_threshold) then
+         scene%threshold = read_threshold(input)
+         scene%campaign%record = [scene%threshold%quantity]
+      end if
       scene%output = read_output(input)
       scene%lines = input%entries%line
       scene%resolved_input = resolved_text(input, trim(scene%name))

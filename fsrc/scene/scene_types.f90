@@ -10,7 +10,7 @@ module scene_types
    ! The codes of a key count its choices in the order of the key table.
 
    !> What is computed.
-   integer, parameter, public :: task_motion = 1, task_film = 2, task_sweep = 3, task_campaign = 4
+   integer, parameter, public :: task_motion = 1, task_film = 2, task_sweep = 3, task_campaign = 4, task_threshold = 5
    !> What a film task computes of every point.
    integer, parameter, public :: compute_rupture = 1, compute_load = 2, compute_stiffness = 3, compute_damping = 4, &
                                  compute_pressure = 5, compute_limits = 6, compute_profile = 7
@@ -269,6 +269,24 @@ module scene_types
       logical, allocatable :: in_base(:)
    end type campaign_choice_t
 
+   !> &threshold, as given
+   type, public :: threshold_t
+      !> As group.key
+      character(:), allocatable :: key
+      real(dp) :: first = 0.0_dp
+      real(dp) :: last = 0.0_dp
+      !> 1 linear, 2 logarithmic
+      integer :: scale = 1
+      !> Values of the scan
+      integer :: count = 0
+      !> Width of a bracket as a share of the range
+      real(dp) :: tolerance = 0.0_dp
+      !> Code of the quantity; its code that is looked for, 0: any change; its level [unit of the quantity]
+      integer :: quantity = 0
+      integer :: wanted = 0
+      real(dp) :: level = 0.0_dp
+   end type threshold_t
+
    !> &output
    type, public :: output_t
       character(path_limit) :: directory = ''
@@ -296,6 +314,7 @@ module scene_types
       type(film_points_t) :: points
       type(sweep_t) :: sweep
       type(campaign_choice_t) :: campaign
+      type(threshold_t) :: threshold
       type(output_t) :: output
       !> What was made of a signal, and what is allowed but hardly meant, a line each
       type(word_t), allocatable :: warnings(:)

@@ -1,16 +1,16 @@
-!> The groups of tasks other than a single motion: &points, &sweep, &campaign.
+!> The groups of tasks other than a single motion: &points, &sweep, &campaign, &threshold.
 module task_reader
    use key_table, only: find_swept_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
-   use quantities, only: quantity_code
+   use quantities, only: class_words, quantity_code, quantity_rattle_class
    use scene_input, only: scene_input_t
-   use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t
-   use word_list, only: split_words, word_t
+   use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t, threshold_t
+   use word_list, only: split_words, word_position, word_t
    implicit none(type, external)
    private
 
-   public :: read_points, read_sweep, read_campaign
+   public :: read_points, read_sweep, read_campaign, read_threshold
 
 contains
 
@@ -108,6 +108,25 @@ contains
          campaign%in_base(i) = input%entries(i)%present .and. in_use(input, i)
       end do
    end function read_campaign
+
+   !> &threshold
+   function read_threshold(input) result(threshold)
+      type(scene_input_t), intent(in) :: input
+      type(threshold_t) :: threshold
+      character(:), allocatable :: criterion
+
+      threshold%key = input%word('threshold', 'key')
+      threshold%first = input%number('threshold', 'first')
+      threshold%last = input%number('threshold', 'last')
+      threshold%scale = input%choice('threshold', 'scale')
+      threshold%count = input%count('threshold', 'count')
+      threshold%tolerance = input%number('threshold', 'tolerance')
+      threshold%level = input%number('threshold', 'level')
+      criterion = input%word('threshold', 'criterion')
+      threshold%quantity = quantity_code(criterion)
+      threshold%wanted = word_position(class_words, criterion)
+      if (threshold%quantity == 0) threshold%quantity = quantity_rattle_class
+   end function read_threshold
 
    !> Numbers from first to last, both hit exactly.
    pure function spread_between(first, last, count, logarithmic) result(numbers)

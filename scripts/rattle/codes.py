@@ -44,12 +44,21 @@ FLAGS = tuple(row["name"] for row in _TABLE if row["kind"] == "flag")
 CLASSES, FILM_REGIMES, STATUSES = (CODES[name] for name in ("rattle_class", "film_regime", "status"))
 NO_OR_YES = MappingProxyType({0: "no", 1: "yes"})
 WORD_ENDING = "_word"  # of columns that hold the words of a column of codes
+SIDES = ("_below", "_above")  # of a threshold, behind the name of a quantity
 SUCCESSES = tuple(code for code, word in STATUSES.items() if word in ("complete", "steady"))
+
+
+def quantity_of(column: str) -> str:
+    """The quantity that a column holds, at a side of a threshold or anywhere."""
+    for side in SIDES:
+        column = column.removesuffix(side)
+    return column
 
 
 def words_of(column: str) -> Mapping[int, str] | None:
     """The words of a column of codes or flags; None for a column of plain numbers."""
-    return NO_OR_YES if column in FLAGS else CODES.get(column)
+    quantity = quantity_of(column)
+    return NO_OR_YES if quantity in FLAGS else CODES.get(quantity)
 
 
 def word(column: str, code: float) -> str:

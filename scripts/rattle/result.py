@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rattle.attributes import attributes
-from rattle.codes import CODES, WORD_ENDING, word
+from rattle.codes import CODES, WORD_ENDING, quantity_of, word
 from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import ResultError, ResultHeader, read_header
 from rattle.summary import read_summary
@@ -105,7 +105,7 @@ class Result(ResultFile):
         import pandas
 
         frame = pandas.DataFrame(self.table())
-        for name in filter(self.__contains__, CODES):
+        for name in (name for name in self.names if quantity_of(name) in CODES):
             frame[name + WORD_ENDING] = [word(name, code) for code in frame[name]]
         frame.attrs = {"units": dict(self.units), **self._told}
         return frame

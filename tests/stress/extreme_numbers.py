@@ -84,6 +84,19 @@ BASES: dict[str, Groups] = {
         },
     ),
     "campaign": merged(MOTION, VARIED),
+    "threshold": merged(
+        MOTION,
+        {
+            "scene": {"task": "'threshold'"},
+            "threshold": {
+                "key": "'load.mass'",
+                "first": "1.0",
+                "last": "3.0",
+                "count": "2",
+                "tolerance": "0.2",
+            },
+        },
+    ),
     "exact campaign": merged(MOTION, EXACT, LIGHT, VARIED, {"film": {"law": "'piezo-viscous'"}}),
     "film": POINTS,
     "film of groups": merged(

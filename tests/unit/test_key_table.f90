@@ -12,7 +12,7 @@ module test_key_table
       model_numerical, model_published, model_reynolds, predictor_extrapolated, predictor_previous, &
       rupture_half_pi, rupture_solved, rupture_solver_fast, rupture_solver_successive, speed_mean, &
       speed_sum, &
-      task_campaign, task_film, task_motion, task_sweep, until_periods, until_steady, viscosity_barus, &
+      task_campaign, task_film, task_motion, task_sweep, task_threshold, until_periods, until_steady, viscosity_barus, &
       viscosity_roelands
    use varied_keys, only: find_varied_key
    use word_list, only: split_words, word_position, word_t
@@ -203,6 +203,7 @@ contains
       call agree('scene', 'task', 'film', task_film)
       call agree('scene', 'task', 'sweep', task_sweep)
       call agree('scene', 'task', 'campaign', task_campaign)
+      call agree('scene', 'task', 'threshold', task_threshold)
       call agree('lubricant', 'viscosity_law', 'barus', viscosity_barus)
       call agree('lubricant', 'viscosity_law', 'roelands', viscosity_roelands)
       call agree('points', 'speed_reading', 'mean', speed_mean)

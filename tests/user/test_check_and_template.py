@@ -23,6 +23,7 @@ GROUPS = (
     "points",
     "sweep",
     "campaign",
+    "threshold",
     "output",
 )
 

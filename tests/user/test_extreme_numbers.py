@@ -15,7 +15,7 @@ MACHINES = ("contact", "lubricant", "kinematics", "load", "film", "points")
 
 
 # Groups that only some of the inputs have; gear, shaft and oil replace keys of the others (test_gear_inputs).
-OWN_GROUPS = ("sweep", "points", "campaign", "gear", "shaft", "oil")
+OWN_GROUPS = ("sweep", "points", "campaign", "threshold", "gear", "shaft", "oil")
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,8 @@ def test_ranges_are_wide_and_bounded(keys) -> None:
 
 
 @pytest.mark.parametrize(
-    "title", ["published", "exact piezo", "newmark", "sweep", "film", "film of groups", "campaign"]
+    "title",
+    ["published", "exact piezo", "newmark", "sweep", "film", "film of groups", "campaign", "threshold"],
 )
 def test_every_key_at_extremes(title: str, keys, run, tmp_path: Path) -> None:
     """--check knows the place of what is too large or too small; what it takes has a natural frequency."""

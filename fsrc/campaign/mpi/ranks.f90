@@ -3,13 +3,13 @@ module ranks
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
    use, intrinsic :: iso_fortran_env, only: error_unit
    use errors, only: error_t
-   use kinds, only: int64
+   use kinds, only: dp, int64
    use mpi_f08
    implicit none(type, external)
    private
 
    public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &
-             close_tickets, sum_over_ranks, is_foreign_job
+             renew_tickets, close_tickets, sum_over_ranks, add_over_ranks, is_foreign_job
 
    !> What --version says
    character(*), parameter, public :: parallel_words = 'with MPI'
@@ -95,6 +95,20 @@ contains
       next_ticket = before + 1_int64
    end function next_ticket
 
+   !> Count the tickets from 1 again, once no rank asks for one.
+   subroutine renew_tickets()
+      integer(int64), asynchronous :: none, before
+
+      call wait_for_ranks()
+      if (this_rank() == 0) then
+         none = 0_int64
+         before = 0_int64
+         call MPI_Fetch_and_op(none, before, MPI_INTEGER8, 0, 0_MPI_ADDRESS_KIND, MPI_REPLACE, window)
+         call MPI_Win_flush(0, window)
+      end if
+      call wait_for_ranks()
+   end subroutine renew_tickets
+
    !> No more tickets are asked for.
    subroutine close_tickets()
       if (.not. window_open) return
@@ -110,5 +124,13 @@ contains
 
       call MPI_Allreduce(number, sum_over_ranks, 1, MPI_INTEGER8, MPI_SUM, MPI_COMM_WORLD)
    end function sum_over_ranks
+
+   !> Add up tables of all ranks; every rank has the sum then.
+   subroutine add_over_ranks(table)
+      !> In: of this rank; out: of all
+      real(dp), contiguous, intent(inout) :: table(:, :)
+
+      call MPI_Allreduce(MPI_IN_PLACE, table, size(table), MPI_REAL8, MPI_SUM, MPI_COMM_WORLD)
+   end subroutine add_over_ranks
 
 end module ranks

@@ -1,12 +1,12 @@
 !> Stand-in for ranks: one process does it all. With MPI=1 the module of the same name in campaign/mpi is built.
 module ranks
    use errors, only: error_t
-   use kinds, only: int64
+   use kinds, only: dp, int64
    implicit none(type, external)
    private
 
    public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &
-             close_tickets, sum_over_ranks, is_foreign_job
+             renew_tickets, close_tickets, sum_over_ranks, add_over_ranks, is_foreign_job
 
    !> What --version says
    character(*), parameter, public :: parallel_words = 'without MPI'
@@ -86,6 +86,11 @@ contains
       !$omp end atomic
    end function next_ticket
 
+   !> Count the tickets from 1 again, once no rank asks for one.
+   subroutine renew_tickets()
+      tickets = 0_int64
+   end subroutine renew_tickets
+
    !> No more tickets are asked for.
    subroutine close_tickets()
       tickets = 0_int64
@@ -98,5 +103,13 @@ contains
 
       sum_over_ranks = number
    end function sum_over_ranks
+
+   !> Add up tables of all ranks; every rank has the sum then.
+   subroutine add_over_ranks(table)
+      !> In: of this rank; out: of all
+      real(dp), contiguous, intent(inout) :: table(:, :)
+
+      if (size(table) < 0) tickets = 0_int64
+   end subroutine add_over_ranks
 
 end module ranks

@@ -1,0 +1,465 @@
+!> Thresholds from input to file: a scan of every line, then passes over all lines together, each the middles of all brackets
+!> that are still wide, solved as the scenes of a campaign are.
+module run_threshold
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use campaign_axis, only: grid_value
+   use campaign_progress, only: campaign_progress_t
+   use clock, only: wall_seconds
+   use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t, raise
+   use finished_files, only: place_files
+   use key_table, only: key_name, keys
+   use kinds, only: dp, int64
+   use log_file, only: log_magic, log_t
+   use output_lock, only: output_lock_t
+   use output_place, only: check_output_place, log_path, progress_path, result_path, stem, summary_path
+   use prepared_threshold, only: points_plan, prepare_threshold, prepared_threshold_t
+   use quantities, only: quantity_certified, quantity_table
+   use ranks, only: abort_ranks, add_over_ranks, next_ticket, rank_count, renew_tickets, share_number, sum_over_ranks, this_rank, &
+                    wait_for_ranks
+   use result_format, only: column_name_bytes, column_unit_bytes
+   use result_writer, only: result_writer_t
+   use sampling, only: sample_plan_t, scene_values
+   use scene_report, only: law_sentence
+   use scene_status, only: is_success, status_complete, status_interrupted, status_not_written
+   use scene_summary, only: add_head
+   use scene_types, only: scene_t
+   use signals, only: caught_signal
+   use solve_chunk, only: chunk_space_t, solve_scenes
+   use summary_file, only: summary_t
+   use text, only: counted, integer_text, short_text
+   use threshold_search, only: bracket_t, brackets_of_scan, halved, is_wide, middle, new_point, point_t
+   use version, only: program_version
+   use word_list, only: word_t
+   use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
+   implicit none(type, external)
+   private
+
+   !> Scenes of a scan that are held at a time: lines beyond them wait for those before
+   integer, parameter :: most_scanned = 262144
+   !> Scenes that a thread takes at a time: fewer leave lanes empty, more leave the other threads nothing
+   integer, parameter :: fewest_taken = 32, most_taken = 512
+
+   !> What became of the thresholds so far.
+   type :: outcome_t
+      !> Rows of the result, one column of this array each
+      real(dp), allocatable :: rows(:, :)
+      integer(int64) :: solved = 0_int64, crossings = 0_int64, uncrossed = 0_int64, uncertain = 0_int64
+      !> Whether a signal asked to stop
+      logical :: cut = .false.
+   end type outcome_t
+
+   public :: run_one_threshold, grid_scenes
+
+contains
+
+   !> Find thresholds and write their files. All ranks call this.
+   subroutine run_one_threshold(scene, file, carry_on, quiet, faults, exit_code, error)
+      !> Checked base scene
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> Whether an earlier run is to be carried on: all is solved anew, and the log says so
+      logical, intent(in) :: carry_on
+      !> Nothing to the terminal
+      logical, intent(in) :: quiet
+      !> Faults of the input are appended; nothing has run then
+      type(fault_list_t), intent(inout) :: faults
+      !> Exit code of the program
+      integer, intent(out) :: exit_code
+      !> Set if files could not be written
+      type(error_t), allocatable, intent(out) :: error
+      type(prepared_threshold_t) :: threshold
+      type(campaign_progress_t) :: progress
+      type(outcome_t) :: outcome
+      type(log_t) :: log
+      type(output_lock_t) :: lock
+      real(dp) :: started
+      integer(int64) :: first, last, line_count
+
+      started = wall_seconds()
+      call prepare_threshold(scene, file, .false., threshold, faults)
+      exit_code = faults%exit_code
+      if (this_rank() == 0) then
+         if (faults%count() == 0) call check_output_place(scene, file, .true., faults)
+         if (faults%count() == 0) call lock%take(stem(scene), error)
+         ! Another run may have written these files since they were looked at.
+         if (faults%count() == 0 .and. .not. allocated(error)) call check_output_place(scene, file, .false., faults)
+         if (faults%count() == 0 .and. .not. allocated(error)) call log%open(log_path(scene), quiet, error)
+         exit_code = merge(faults%exit_code, exit_complete, faults%count() > 0)
+         if (allocated(error)) exit_code = error%exit_code
+         if (caught_signal() /= 0) exit_code = 128 + caught_signal()
+      end if
+      call share_number(exit_code)
+      if (exit_code /= exit_complete) then
+         call lock%release()
+         return
+      end if
+      ! Memory may lack on the machine of this rank alone.
+      if (faults%count() > 0) then
+         call raise(error, faults%exit_code, faults%sentence(1))
+         call abort_ranks(error)
+         return
+      end if
+      if (this_rank() == 0) call report_start(log, scene, threshold, carry_on)
+      line_count = threshold%lines%layout%scene_count
+      call progress%start(progress_path(scene), 0_int64, 0_int64, quiet)
+      allocate (outcome%rows(size(column_names(scene, threshold)), 0))
+      do first = 1_int64, line_count, max(1_int64, most_scanned/size(threshold%scan, kind=int64))
+         last = min(line_count, first + max(1_int64, most_scanned/size(threshold%scan, kind=int64)) - 1_int64)
+         call search_lines(scene, threshold, first, last, progress, log, outcome, error)
+         if (allocated(error)) call abort_ranks(error)
+         if (allocated(error) .or. outcome%cut) exit
+      end do
+      progress%done = sum_over_ranks(progress%done)
+      progress%failed = sum_over_ranks(progress%failed)
+      if (this_rank() == 0) call close_threshold(scene, threshold, started, progress, log, outcome, exit_code, error)
+      call lock%release()
+      call share_number(exit_code)
+   end subroutine run_one_threshold
+
+   !> What will be done.
+   subroutine report_start(log, scene, threshold, carry_on)
+      type(log_t), intent(in) :: log
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      logical, intent(in) :: carry_on
+      integer :: i
+
+      call log%line(log_magic//program_version//', threshold '//trim(scene%name)//': '// &
+                    counted(int(threshold%lines%layout%scene_count), 'line')//' of '//key_name(threshold%axis%position)//', '// &
+                    law_sentence(scene)//'; '//counted(rank_count(), 'rank')//' of '//counted(omp_get_max_threads(), 'thread'))
+      do i = 1, size(scene%warnings)
+         call log%line('  '//scene%warnings(i)%text)
+      end do
+      do i = 1, size(threshold%lines%warnings)
+         call log%line('  '//threshold%lines%warnings(i)%text)
+      end do
+      if (carry_on) call log%line('  thresholds have no state to be carried on from; all is solved from the start')
+      call log%line('  '//integer_text(size(threshold%scan))//' values a line, then halves down to '// &
+                    integer_text(threshold%axis%count)//' places; two changes between neighbours of the scan that cancel each '// &
+                    'other stay unseen: more &threshold count sees them')
+   end subroutine report_start
+
+   !> All thresholds of some lines; all ranks find the same.
+   subroutine search_lines(scene, threshold, first, last, progress, log, outcome, error)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      !> First and last line
+      integer(int64), intent(in) :: first
+      integer(int64), intent(in) :: last
+      type(campaign_progress_t), intent(inout) :: progress
+      type(log_t), intent(in) :: log
+      type(outcome_t), intent(inout) :: outcome
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
+      type(bracket_t), allocatable :: brackets(:), wide(:)
+      type(point_t), allocatable :: points(:), ends(:, :)
+      real(dp), allocatable :: certified(:), both(:, :)
+      integer(int64) :: line
+      integer :: i, scanned
+
+      scanned = size(threshold%scan)
+      call solve_points(scene, threshold, [((line, i=1, scanned), line=first, last)], &
+                        [((threshold%scan(i), i=1, scanned), line=first, last)], progress, log, outcome, points, certified, error)
+      if (allocated(error) .or. outcome%cut) return
+      allocate (ends(2, last - first + 1_int64), brackets(0))
+      do line = 1_int64, last - first + 1_int64
+         associate (scan => points((line - 1_int64)*scanned + 1_int64:line*scanned))
+            brackets = [brackets, brackets_of_scan(first + line - 1_int64, scan)]
+            ends(:, line) = scan([1, scanned])
+         end associate
+      end do
+      do
+         wide = pack(brackets, is_wide(brackets))
+         if (size(wide) == 0) exit
+         call solve_points(scene, threshold, wide%line, middle(wide), progress, log, outcome, points, certified, error)
+         if (allocated(error) .or. outcome%cut) return
+         brackets = halved(brackets, points)
+      end do
+      if (scene%spectrum%certify) then
+         call solve_points(certifying(scene), threshold, [brackets%line, brackets%line], &
+                           [brackets%lower%place, brackets%upper%place], progress, log, outcome, points, certified, error)
+         if (allocated(error) .or. outcome%cut) return
+      end if
+      allocate (both(size(brackets), 2), source=0.0_dp)
+      if (scene%spectrum%certify) both = reshape(certified, [size(brackets), 2])
+      call add_rows(threshold, first, ends, brackets, both, outcome)
+   end subroutine search_lines
+
+   !> The scene with the certificate of its class on record.
+   pure type(scene_t) function certifying(scene)
+      type(scene_t), intent(in) :: scene
+
+      certifying = scene
+      certifying%campaign%record = [scene%threshold%quantity, quantity_certified]
+   end function certifying
+
+   !> Solve scenes at some places of some lines, on the threads of all ranks. What is found does not depend on their number.
+   subroutine solve_points(scene, threshold, lines, places, progress, log, outcome, points, certified, error)
+      !> With what is to be recorded: the quantity, and `certified` or nothing behind it
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      !> Line of each scene, and its place there
+      integer(int64), intent(in) :: lines(:)
+      integer, intent(in) :: places(:)
+      type(campaign_progress_t), intent(inout) :: progress
+      type(log_t), intent(in) :: log
+      type(outcome_t), intent(inout) :: outcome
+      !> What was found; empty where the work was cut
+      type(point_t), allocatable, intent(out) :: points(:)
+      !> Whether each class is certified: 1, 0, NaN: there is none; empty if that is not recorded
+      real(dp), allocatable, intent(out) :: certified(:)
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
+      type(error_t), allocatable :: own_error
+      type(sample_plan_t) :: plan
+      type(chunk_space_t) :: space
+      real(dp), allocatable :: rows(:, :), part(:, :)
+      integer(int64) :: ticket, first, last, taken
+      integer :: i, status
+      logical :: failed
+
+      allocate (points(0), certified(0))
+      if (size(lines) == 0) return
+      call points_plan(threshold, lines, places, plan)
+      status = 2 + size(plan%positions)
+      allocate (rows(status + size(scene%campaign%record), size(lines)), source=0.0_dp)
+      taken = (plan%size - 1_int64)/(2_int64*rank_count()*omp_get_max_threads()) + 1_int64
+      taken = max(int(fewest_taken, int64), min(int(most_taken, int64), taken))
+      progress%scenes = progress%scenes + plan%size
+      call renew_tickets()
+      failed = .false.
+      !$omp parallel default(shared) private(ticket, first, last, part, space, own_error)
+      do
+         if (caught_signal() /= 0 .or. failed) exit
+         ticket = next_ticket()
+         first = (ticket - 1_int64)*taken + 1_int64
+         if (first > plan%size) exit
+         last = min(plan%size, first + taken - 1_int64)
+         allocate (part(size(rows, 1), last - first + 1_int64))
+         call solve_scenes(scene, plan, first, space, part, own_error)
+         if (caught_signal() /= 0) exit
+         rows(:, first:last) = part
+         call progress%add(last - first + 1_int64, count(.not. is_success(nint(part(status, :))), kind=int64), 0_int64, 0_int64)
+         deallocate (part)
+         if (allocated(own_error)) then
+            !$omp critical (threshold_error)
+            failed = .true.
+            if (.not. allocated(error)) call move_alloc(own_error, error)
+            !$omp end critical (threshold_error)
+         end if
+         if (this_rank() == 0) then
+            if (omp_get_thread_num() == 0) call progress%tell(log)
+         end if
+      end do
+      !$omp end parallel
+      if (allocated(error)) return
+      call wait_for_ranks()
+      outcome%cut = sum_over_ranks(int(merge(1, 0, caught_signal() /= 0), int64)) > 0_int64
+      if (outcome%cut) return
+      call add_over_ranks(rows)
+      outcome%solved = outcome%solved + plan%size
+      points = [(new_point(scene%threshold, places(i), nint(rows(status, i)), rows(status + 1, i)), i=1, size(places))]
+      if (size(scene%campaign%record) > 1) certified = rows(status + 2, :)
+   end subroutine solve_points
+
+   !> Names of the columns.
+   pure function column_names(scene, threshold) result(names)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      character(column_name_bytes), allocatable :: names(:)
+      character(column_name_bytes), parameter :: sides(2) = [character(column_name_bytes) :: 'certified_below', 'certified_above']
+      character(column_name_bytes) :: axes(size(threshold%lines%plan%positions))
+      character(:), allocatable :: quantity
+      integer :: i
+
+      do i = 1, size(axes)
+         axes(i) = key_name(threshold%lines%plan%positions(i))
+      end do
+      quantity = trim(quantity_table(scene%threshold%quantity)%name)
+      names = [character(column_name_bytes) :: 'line', axes, 'crossing', 'lower', 'upper', quantity//'_below', quantity//'_above', &
+               'status_below', 'status_above']
+      if (scene%spectrum%certify) names = [names, sides]
+   end function column_names
+
+   !> Units of the columns.
+   pure function column_units(scene, threshold) result(units)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      character(column_unit_bytes), allocatable :: units(:)
+      integer :: i
+
+      associate (key => keys(threshold%axis%position)%unit, quantity => quantity_table(scene%threshold%quantity)%unit)
+         units = [character(column_unit_bytes) :: '-', keys(threshold%lines%plan%positions)%unit, '-', key, key, quantity, quantity]
+         units = [units, [(units(1), i=1, merge(4, 2, scene%spectrum%certify))]]
+      end associate
+   end function column_units
+
+   !> Rows of some lines: one for each bracket, and one for a line that has none, from end to end of its range.
+   subroutine add_rows(threshold, first, ends, brackets, certified, outcome)
+      type(prepared_threshold_t), intent(in) :: threshold
+      !> First of the lines
+      integer(int64), intent(in) :: first
+      !> First and last point of each line
+      type(point_t), intent(in) :: ends(:, :)
+      !> By rising lines and places
+      type(bracket_t), intent(in) :: brackets(:)
+      !> Of both ends of each bracket; of no use where that is not recorded
+      real(dp), intent(in) :: certified(:, :)
+      type(outcome_t), intent(inout) :: outcome
+      real(dp), allocatable :: rows(:, :)
+      real(dp) :: unknown
+      integer(int64) :: line
+      integer :: i, k, crossing
+
+      unknown = ieee_value(0.0_dp, ieee_quiet_nan)
+      allocate (rows(size(outcome%rows, 1), size(brackets) + size(ends, 2)))
+      i = 0
+      k = 0
+      do line = first, first + size(ends, 2, kind=int64) - 1_int64
+         crossing = 0
+         do while (is_of_line(i + 1))
+            i = i + 1
+            crossing = crossing + 1
+            call put(brackets(i)%lower, brackets(i)%upper)
+         end do
+         if (crossing == 0) call put(ends(1, line - first + 1_int64), ends(2, line - first + 1_int64))
+         if (crossing == 0) outcome%uncrossed = outcome%uncrossed + 1_int64
+      end do
+      outcome%crossings = outcome%crossings + size(brackets, kind=int64)
+      outcome%rows = reshape([outcome%rows, rows(:, :k)], [size(rows, 1), size(outcome%rows, 2) + k])
+
+   contains
+
+      pure logical function is_of_line(place)
+         integer, intent(in) :: place
+
+         is_of_line = place <= size(brackets)
+         if (is_of_line) is_of_line = brackets(place)%line == line
+      end function is_of_line
+
+      subroutine put(lower, upper)
+         type(point_t), intent(in) :: lower
+         type(point_t), intent(in) :: upper
+         integer :: axes
+
+         k = k + 1
+         axes = size(threshold%lines%plan%positions)
+         rows(1, k) = real(line, dp)
+         call scene_values(threshold%lines%plan, line, rows(2:1 + axes, k))
+         rows(axes + 2:axes + 8, k) = [real(crossing, dp), grid_value(threshold%axis, lower%place), &
+                                       grid_value(threshold%axis, upper%place), lower%quantity, upper%quantity, &
+                                       real(lower%status, dp), real(upper%status, dp)]
+         if (size(rows, 1) == axes + 8) return
+         rows(axes + 9:axes + 10, k) = unknown
+         if (crossing == 0) return
+         rows(axes + 9:axes + 10, k) = certified(i, :)
+         if (.not. all(certified(i, :) > 0.0_dp)) outcome%uncertain = outcome%uncertain + 1_int64
+      end subroutine put
+
+   end subroutine add_rows
+
+   !> Scenes of a grid that finds brackets as narrow.
+   pure real(dp) function grid_scenes(scene, threshold)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+
+      grid_scenes = real(threshold%axis%count, dp)
+      if (.not. threshold%axis%whole) grid_scenes = max(real(scene%threshold%count, dp), 1.0_dp/scene%threshold%tolerance + 1.0_dp)
+      grid_scenes = grid_scenes*real(threshold%lines%layout%scene_count, dp)
+   end function grid_scenes
+
+   !> Write the files and say what became of the thresholds. What was cut short leaves no result.
+   subroutine close_threshold(scene, threshold, started, progress, log, outcome, exit_code, error)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      real(dp), intent(in) :: started
+      type(campaign_progress_t), intent(inout) :: progress
+      type(log_t), intent(inout) :: log
+      type(outcome_t), intent(in) :: outcome
+      integer, intent(out) :: exit_code
+      !> In: what has failed so far; out: also if a file could not be written
+      type(error_t), allocatable, intent(inout) :: error
+      type(error_t), allocatable :: summary_error
+      type(summary_t) :: summary
+      type(word_t), allocatable :: results(:)
+      integer :: status
+
+      call progress%finish(log)
+      allocate (results(0))
+      status = status_complete
+      if (outcome%cut) then
+         status = status_interrupted
+      else if (.not. allocated(error)) then
+         results = [word_t(result_path(scene))]
+         call write_result(scene, threshold, outcome, error)
+      end if
+      if (allocated(error)) status = status_not_written
+      call add_head(summary, scene, status)
+      call summary%add('lines', threshold%lines%layout%scene_count)
+      call summary%add('crossings', outcome%crossings)
+      call summary%add('lines_without_crossing', outcome%uncrossed)
+      if (scene%spectrum%certify) call summary%add('crossings_uncertain', outcome%uncertain)
+      call summary%add('scenes', outcome%solved)
+      call summary%add('scenes_failed', progress%failed)
+      call summary%add('scenes_of_a_grid', grid_scenes(scene, threshold))
+      call summary%add('wall_seconds', wall_seconds() - started)
+      call summary%write_beside(summary_path(scene), summary_error)
+      if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+      call place_files(results, summary_path(scene), error)
+      if (allocated(error)) then
+         call log%line('  '//error%message)
+      else if (outcome%cut) then
+         call log%line('  cut short: no result is written, and what was solved is lost; start it again')
+         call log%line('  '//summary_path(scene))
+      else
+         call report_ending(log, scene, threshold, outcome, progress%failed)
+      end if
+      call log%close()
+      exit_code = exit_complete
+      if (progress%failed > 0_int64) exit_code = exit_scene_failed
+      if (outcome%cut) exit_code = 128 + caught_signal()
+      if (allocated(error)) exit_code = error%exit_code
+   end subroutine close_threshold
+
+   !> Write the rows.
+   subroutine write_result(scene, threshold, outcome, error)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      type(outcome_t), intent(in) :: outcome
+      type(error_t), allocatable, intent(out) :: error
+      type(result_writer_t) :: writer
+      type(error_t), allocatable :: close_error
+
+      call writer%open(result_path(scene), scene%resolved_input, column_names(scene, threshold), column_units(scene, threshold), &
+                       size(outcome%rows, 2, kind=int64), .false., error)
+      if (.not. allocated(error)) call writer%write_rows(outcome%rows, error)
+      call writer%close(close_error)
+      if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
+   end subroutine write_result
+
+   !> What was found, and what it took.
+   subroutine report_ending(log, scene, threshold, outcome, failed)
+      type(log_t), intent(in) :: log
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      type(outcome_t), intent(in) :: outcome
+      !> Scenes that failed
+      integer(int64), intent(in) :: failed
+      character(:), allocatable :: line
+
+      line = '  '//integer_text(outcome%crossings)//' crossings; '//integer_text(outcome%uncrossed)//' of '// &
+             integer_text(threshold%lines%layout%scene_count)//' lines have none'
+      if (scene%spectrum%certify) line = line//'; at '//integer_text(outcome%uncertain)// &
+                                         ' crossings a class beside it is not certified'
+      call log%line(line)
+      if (failed > 0_int64) call log%line('  scenes that failed are a kind of their own: where they begin is a crossing '// &
+                                          '(columns status_below, status_above)')
+      call log%line('  '//integer_text(outcome%solved)//' scenes; a grid as fine has '// &
+                    integer_text(nint(grid_scenes(scene, threshold), int64))//', '// &
+                    short_text(grid_scenes(scene, threshold)/real(outcome%solved, dp), 3)//' times as many')
+      call log%line('  '//result_path(scene))
+      call log%line('  '//summary_path(scene))
+   end subroutine report_ending
+
+end module run_threshold

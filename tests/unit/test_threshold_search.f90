@@ -1,0 +1,199 @@
+!> Tests of the search for thresholds on functions whose changes are known.
+module test_threshold_search
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use campaign_axis, only: campaign_axis_t, grid_value
+   use checks, only: check_list_t
+   use kinds, only: dp, int64
+   use quantities, only: quantity_film_force_rms, quantity_rattle_class
+   use scene_status, only: status_film_lost, status_steady
+   use scene_types, only: threshold_t
+   use threshold_search, only: bracket_t, brackets_of_scan, finest_axis, halved, is_wide, middle, new_point, point_t, scan_places, &
+                               side_unknown
+   implicit none(type, external)
+   private
+
+   !> Where the known function takes another value
+   real(dp), parameter :: changes(6) = [0.11_dp, 1.3_dp, 1.30001_dp, 2.7_dp, 2.9_dp, 3.99_dp]
+
+   public :: run_threshold_search_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_threshold_search_tests(checks)
+      !> Collects the results
+      type(check_list_t), intent(inout) :: checks
+
+      call checks%start('threshold_search')
+      call test_places(checks)
+      call test_sides(checks)
+      call test_all_changes(checks)
+      call test_unseen_pair(checks)
+      call test_integers(checks)
+   end subroutine run_threshold_search_tests
+
+   !> A threshold of the class between 0.1 and 4.1.
+   pure function search(count, tolerance, scale) result(threshold)
+      integer, intent(in) :: count
+      real(dp), intent(in) :: tolerance
+      integer, intent(in) :: scale
+      type(threshold_t) :: threshold
+
+      threshold = threshold_t(key='load.mass', first=0.1_dp, last=4.1_dp, scale=scale, count=count, tolerance=tolerance, &
+                              quantity=quantity_rattle_class)
+   end function search
+
+   !> The known function: 1, 2, 3, 1, 2, 3, 1.
+   pure real(dp) function known(value)
+      real(dp), intent(in) :: value
+
+      known = real(modulo(count(value >= changes), 3) + 1, dp)
+   end function known
+
+   !> All brackets of the known function, and how many values were asked for.
+   subroutine find(threshold, axis, brackets, asked)
+      type(threshold_t), intent(in) :: threshold
+      type(campaign_axis_t), intent(in) :: axis
+      type(bracket_t), allocatable, intent(out) :: brackets(:)
+      integer, intent(out) :: asked
+      type(bracket_t), allocatable :: wide(:), before(:)
+
+      asked = size(scan_places(threshold, axis))
+      brackets = brackets_of_scan(7_int64, points_at(scan_places(threshold, axis)))
+      do
+         wide = pack(brackets, is_wide(brackets))
+         if (size(wide) == 0) exit
+         asked = asked + size(wide)
+         call move_alloc(brackets, before)
+         brackets = halved(before, points_at(middle(wide)))
+      end do
+
+   contains
+
+      function points_at(places) result(points)
+         integer, intent(in) :: places(:)
+         type(point_t) :: points(size(places))
+         integer :: i
+
+         do i = 1, size(places)
+            points(i) = new_point(threshold, places(i), status_steady, known(grid_value(axis, places(i))))
+         end do
+      end function points_at
+
+   end subroutine find
+
+   subroutine test_places(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(campaign_axis_t) :: axis, coarse
+      integer, allocatable :: places(:)
+      integer :: i, scale
+
+      do scale = 1, 2
+         axis = finest_axis(search(33, 1.0e-4_dp, scale), 3, .false.)
+         call checks%check(axis%count == 16385, 'the first halves of 32 steps that are a 1e-4 of the range wide')
+         if (allocated(places)) deallocate (places)
+         allocate (places, source=scan_places(search(33, 1.0e-4_dp, scale), axis))
+         coarse = axis
+         coarse%count = 33
+         call checks%check(size(places) == 33, 'the scan has its count')
+         call checks%check(.not. any([(abs(grid_value(axis, places(i)) - grid_value(coarse, i - 1)) > 0.0_dp, i=1, 33)]), &
+                           'the values of the scan are those of a grid of its count')
+      end do
+      axis = finest_axis(search(2, 0.5_dp, 1), 3, .false.)
+      call checks%check(axis%count == 3, 'a bracket as wide as half the range')
+      axis = finest_axis(search(1000000, 1.0e-9_dp, 1), 3, .false.)
+      call checks%check(axis%count > 1000000000, 'the finest of all fits an integer')
+   end subroutine test_places
+
+   subroutine test_sides(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(threshold_t) :: threshold
+      type(point_t) :: point
+
+      threshold = search(33, 1.0e-4_dp, 1)
+      point = new_point(threshold, 5, status_film_lost, 2.0_dp)
+      call checks%check(point%side == -status_film_lost .and. point%place == 5, 'a scene that failed is a kind of its own')
+      point = new_point(threshold, 5, status_steady, ieee_value(0.0_dp, ieee_quiet_nan))
+      call checks%check(point%side == side_unknown, 'so is one without a class')
+      point = new_point(threshold, 5, status_steady, 3.0_dp)
+      call checks%check(point%side == 3, 'every class is another side')
+      threshold%wanted = 3
+      point = new_point(threshold, 5, status_steady, 2.0_dp)
+      call checks%check(point%side == 0, 'all classes but the one that is looked for are alike')
+      point = new_point(threshold, 5, status_steady, 3.0_dp)
+      call checks%check(point%side == 1, 'the one that is looked for')
+      threshold = threshold_t(key='load.mass', quantity=quantity_film_force_rms, level=2.5_dp)
+      point = new_point(threshold, 5, status_steady, 2.5_dp)
+      call checks%check(point%side == 1, 'a level is reached')
+      point = new_point(threshold, 5, status_steady, 2.4999_dp)
+      call checks%check(point%side == 0, 'a level is not reached')
+   end subroutine test_sides
+
+   !> Every change has its bracket, also two in one step of the scan where a third value lies between.
+   subroutine test_all_changes(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(campaign_axis_t) :: axis
+      type(bracket_t), allocatable :: brackets(:)
+      real(dp) :: lower, upper
+      integer :: i, asked, scale
+      logical :: right
+
+      do scale = 1, 2
+         axis = finest_axis(search(33, 1.0e-6_dp, scale), 3, .false.)
+         call find(search(33, 1.0e-6_dp, scale), axis, brackets, asked)
+         call checks%check(size(brackets) == size(changes), 'as many brackets as changes')
+         if (size(brackets) /= size(changes)) cycle
+         right = .true.
+         do i = 1, size(changes)
+            lower = grid_value(axis, brackets(i)%lower%place)
+            upper = grid_value(axis, brackets(i)%upper%place)
+            right = right .and. lower < changes(i) .and. changes(i) <= upper .and. brackets(i)%line == 7_int64 &
+                    .and. brackets(i)%upper%place == brackets(i)%lower%place + 1 &
+                    .and. brackets(i)%lower%side == nint(known(lower)) .and. brackets(i)%upper%side == nint(known(upper))
+         end do
+         call checks%check(right, 'each bracket holds its change, in their order')
+         call checks%check(asked <= 33 + 6*15, 'with a scan and 15 halves for each')
+      end do
+   end subroutine test_all_changes
+
+   !> Two changes between neighbours of the scan that cancel each other are not seen; a finer scan sees them.
+   subroutine test_unseen_pair(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(threshold_t) :: threshold
+      type(campaign_axis_t) :: axis
+      type(bracket_t), allocatable :: brackets(:)
+      integer :: asked, i
+
+      do i = 1, 2
+         threshold = search(merge(9, 41, i == 1), 1.0e-3_dp, 1)
+         threshold%wanted = 2
+         axis = finest_axis(threshold, 3, .false.)
+         ! The second value lies between 0.11 and 1.3, and between 2.7 and 2.9, which is less than a step of half.
+         threshold%first = 0.1_dp
+         call find(threshold, axis, brackets, asked)
+         call checks%check(size(brackets) == merge(2, 4, i == 1), 'a pair within one step is seen by a finer scan only')
+      end do
+   end subroutine test_unseen_pair
+
+   subroutine test_integers(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(threshold_t) :: threshold
+      type(campaign_axis_t) :: axis
+      type(bracket_t), allocatable :: brackets(:)
+      integer, allocatable :: places(:)
+      integer :: asked
+
+      threshold = search(33, 1.0e-4_dp, 2)
+      threshold%first = 1.0_dp
+      threshold%last = 5.0_dp
+      axis = finest_axis(threshold, 3, .true.)
+      allocate (places, source=scan_places(threshold, axis))
+      call checks%check(size(places) == 5 .and. all(places == [0, 1, 2, 3, 4]), 'no integer is scanned twice')
+      threshold%last = 1000.0_dp
+      axis = finest_axis(threshold, 3, .true.)
+      call find(threshold, axis, brackets, asked)
+      call checks%check(size(brackets) == 3, 'changes between integers')
+      call checks%check(all(brackets%upper%place - brackets%lower%place == 1), 'down to the next integer')
+   end subroutine test_integers
+
+end module test_threshold_search

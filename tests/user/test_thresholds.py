@@ -1,0 +1,283 @@
+"""Thresholds: where along a key a motion changes, held against grids of campaigns."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from campaign_runs import BASE
+from outcomes import assert_faults, contents, digest, summary_of
+
+import rattle as package
+
+THRESHOLD = {"key": "'load.force_amplitude'", "first": "5.0", "last": "455.0", "count": "17"}
+SPEEDS = {"vary": "'kinematics.entrainment_speed'", "values(:, 1)": "0.8, 1.9, 9.5"}
+LOUD = {"criterion": "'film_force_rms'", "level": "100.0"}
+
+
+def threshold_text(scene_text, campaign=SPEEDS, **changes: dict) -> str:
+    threshold = {**THRESHOLD, **changes.pop("threshold", {})}
+    groups = {**BASE, "scene": {"task": "'threshold'"}, **changes}
+    if campaign is not None:
+        groups["campaign"] = {"samples_per_period": "64", **campaign}
+    return scene_text(**groups, threshold=threshold)
+
+
+@pytest.fixture
+def found(run, tmp_path: Path):
+    """Find the thresholds of an input; return their table."""
+
+    def find(text: str, *options: object, code: int = 0, name: str = "scene"):
+        (tmp_path / f"{name}.nml").write_text(text)
+        ended = run(*options, f"{name}.nml", cwd=tmp_path, timeout=120.0)
+        assert ended.returncode == code, ended.stderr
+        return package.read(tmp_path / "results" / f"{name}.rattle").frame()
+
+    return find
+
+
+def grid_column(run, scene_text, folder: Path, column: str, values, **changes: dict) -> np.ndarray:
+    """A column of a campaign over the same lines and these force amplitudes, and the status."""
+    campaign = {
+        "vary": "'kinematics.entrainment_speed', 'load.force_amplitude'",
+        "values(:, 1)": SPEEDS["values(:, 1)"],
+        "values(:, 2)": ", ".join(map(repr, map(float, values))),
+        "samples_per_period": "64",
+        "record": f"'{column}'",
+    }
+    (folder / "grid.nml").write_text(scene_text(**{**BASE, **changes}, campaign=campaign))
+    assert run("--overwrite", "grid.nml", cwd=folder, timeout=120.0).returncode in (0, 1)
+    rows = package.read_campaign(folder / "results" / "grid.rattle")
+    return np.array([rows[column], rows["status"]]).reshape(2, 3, len(values))
+
+
+@pytest.mark.parametrize("criterion", ["class", "idle", "film_force_rms"])
+def test_brackets_are_where_a_fine_grid_changes(criterion: str, found, run, scene_text, tmp_path: Path):
+    """A bracket is a step of a grid of 1025 values; both say the same of all scenes of the scan as well."""
+    threshold = {
+        "criterion": f"'{criterion}'",
+        "tolerance": "1e-3",
+        "level": "100.0" if "rms" in criterion else None,
+    }
+    rows = found(threshold_text(scene_text, threshold=threshold))
+    values = np.linspace(5.0, 455.0, 1025)
+    column = "film_force_rms" if "rms" in criterion else "rattle_class"
+    grid, _ = grid_column(run, scene_text, tmp_path, column, values)
+    side = {"class": grid, "idle": grid == 3.0, "film_force_rms": grid >= 100.0}[criterion]
+    scan, crossings = np.arange(0, 1025, 64), 0
+    for line in range(3):
+        ours = rows[(rows["line"] == line + 1) & (rows["crossing"] > 0)]
+        np.testing.assert_array_equal(ours["crossing"], np.arange(len(ours)) + 1)
+        steps = np.searchsorted(values, ours["lower"] - 1e-9)
+        np.testing.assert_allclose(values[steps], ours["lower"], rtol=1e-14)
+        np.testing.assert_allclose(values[steps + 1], ours["upper"], rtol=1e-14)
+        assert (side[line, steps] != side[line, steps + 1]).all()
+        np.testing.assert_array_equal(grid[line, steps], ours[f"{column}_below"])
+        np.testing.assert_array_equal(grid[line, steps + 1], ours[f"{column}_above"])
+        # Every step of the scan whose ends differ has its changes, and no other.
+        for first, last in zip(scan[:-1], scan[1:], strict=True):
+            inside = ((steps >= first) & (steps < last)).sum()
+            assert (inside > 0) == (side[line, first] != side[line, last])
+        crossings += len(ours)
+    assert crossings >= 3
+    told = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert told["crossings"] == crossings and told["lines"] == 3
+    assert 51 + 6 * crossings <= told["scenes"] <= 51 + (6 + 2) * crossings
+
+
+def test_several_thresholds_on_a_line(found, scene_text) -> None:
+    """Quiet, creep, idle and back: every change of the class, each beginning where the one before has led."""
+    rows = found(threshold_text(scene_text))
+    for line in (1, 2, 3):
+        ours = rows[rows["line"] == line]
+        assert len(ours) >= 2
+        np.testing.assert_array_equal(ours["rattle_class_above"][:-1], ours["rattle_class_below"][1:])
+        assert (ours["rattle_class_above"] != ours["rattle_class_below"]).all()
+        assert ours["rattle_class_below_word"].iloc[0] == "quiet"
+        assert (ours["lower"] < ours["upper"]).all() and (np.diff(ours["lower"]) > 0).all()
+        np.testing.assert_allclose(ours["upper"] - ours["lower"], 450.0 / 16384)
+
+
+def test_every_bracket_says_whether_both_classes_stand(found, scene_text, tmp_path: Path) -> None:
+    rows = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}))
+    flags = rows[["certified_below", "certified_above"]]
+    assert set(np.unique(flags)) == {0.0, 1.0} and len(rows) > 3
+    told = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert told["crossings_uncertain"] == int((flags == 0.0).any(axis=1).sum())
+    plain = {"periods": "8", "certify": ".false."}
+    bare = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}, spectrum=plain), name="bare")
+    assert bare.equals(rows.drop(columns=["certified_below", "certified_above"]))
+
+
+def test_a_line_without_threshold_is_told(found, scene_text, run, tmp_path: Path) -> None:
+    rows = found(threshold_text(scene_text, threshold={**LOUD, "last": "60.0"}))
+    assert rows["line"].tolist() == [1, 2, 3]
+    alone = rows[rows["crossing"] == 0]
+    assert 0 < len(alone) < 3
+    assert (alone["lower"] == 5.0).all() and (alone["upper"] == 60.0).all()
+    assert (alone["film_force_rms_above"] < 100.0).all() and alone["certified_below"].isna().all()
+    told = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert told["lines_without_crossing"] == len(alone) and told["crossings"] == 3 - len(alone)
+
+
+def test_scenes_that_fail_are_a_kind_of_their_own(found, run, scene_text, tmp_path: Path) -> None:
+    """Where the exact piezo-viscous film is lost is a crossing, with the status behind it."""
+    film = {"law": "'piezo-viscous'", "model": "'reynolds'"}
+    changes = {"film": film, "load": {"steady_force": "30.0"}}
+    threshold = {"last": "900.0", "tolerance": "1e-2"}
+    rows = found(threshold_text(scene_text, threshold=threshold, **changes), code=1)
+    lost = rows[rows["status_above"] > 1]
+    assert len(lost) >= 1 and lost["rattle_class_above"].isna().all()
+    assert (lost["status_above_word"].isin(["film_lost", "no_rigid_film", "not_converged", "overflow"])).all()
+    for place, row in lost.iterrows():
+        _, status = grid_column(
+            run, scene_text, tmp_path, "rattle_class", [row["lower"], row["upper"]], **changes
+        )
+        assert status[int(row["line"]) - 1].tolist() == [row["status_below"], row["status_above"]], place
+    assert summary_of(tmp_path / "results" / "scene.summary.nml")["scenes_failed"] > 0
+
+
+def test_several_axes_and_other_scenes(found, scene_text, tmp_path: Path) -> None:
+    """The lines are the scenes of the campaign: of a grid, a sample, a table; without one, the base."""
+    two = {
+        "vary": "'kinematics.entrainment_speed', 'load.mass'",
+        "first": "1.0, 2.0",
+        "last": "4.0, 3.0",
+        "count": "2, 3",
+    }
+    coarse = {**LOUD, "tolerance": "1e-2"}
+    rows = found(threshold_text(scene_text, campaign=two, threshold=coarse))
+    assert rows["line"].tolist() == [1, 2, 3, 4, 5, 6]
+    assert rows["kinematics.entrainment_speed"].tolist() == [1.0] * 3 + [4.0] * 3
+    assert rows["load.mass"].tolist() == [2.0, 2.5, 3.0] * 2
+    (tmp_path / "lines.csv").write_text("load.mass,kinematics.entrainment_speed\n2.5,4.0\n")
+    table = found(threshold_text(scene_text, campaign={"csv": "'lines.csv'"}, threshold=coarse), name="table")
+    base = {"kinematics": {"entrainment_speed": "4.0"}, "load": {"mass": "2.5"}}
+    alone = found(threshold_text(scene_text, campaign=None, threshold=coarse, **base), name="alone")
+    for other in (table, alone):
+        assert len(other) == 1
+        for column in ("lower", "upper", "film_force_rms_below", "film_force_rms_above"):
+            assert other[column][0] == rows[column][4], column
+    sample = {**two, "count": None, "sample": "'sobol'", "size": "5"}
+    assert len(found(threshold_text(scene_text, campaign=sample, threshold=coarse), name="sample")) >= 5
+
+
+def test_logarithmic_range_and_integers(found, scene_text) -> None:
+    coarse = {**LOUD, "tolerance": "1e-3", "scale": "'logarithmic'"}
+    rows = found(threshold_text(scene_text, threshold=coarse))
+    crossed = rows[rows["crossing"] > 0]
+    np.testing.assert_allclose(crossed["upper"] / crossed["lower"], 91.0 ** (1 / 1024))
+    lines = {"key": "'spectrum.idle_lines'", "first": "2", "last": "40", "criterion": "'idle'", "count": "5"}
+    rows = found(threshold_text(scene_text, threshold=lines), name="lines")
+    crossed = rows[rows["crossing"] > 0]
+    assert len(crossed) >= 1 and (crossed["upper"] - crossed["lower"] == 1.0).all()
+
+
+def test_threads_and_another_run_give_the_same_bytes(found, run, scene_text, tmp_path: Path) -> None:
+    found(threshold_text(scene_text))
+    digests = {digest(tmp_path / "results" / "scene.rattle")}
+    for place, options in (
+        ("one", ["--threads", "1"]),
+        ("four", ["--threads", "4"]),
+        ("again", ["--resume"]),
+    ):
+        assert run(*options, "--output", place, "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+        digests.add(digest(tmp_path / place / "scene.rattle"))
+    assert len(digests) == 1
+    before = contents(tmp_path)
+    ended = run("scene.nml", cwd=tmp_path)
+    assert ended.returncode == 2 and "--overwrite replaces it" in ended.stderr
+    assert contents(tmp_path) == before
+    ended = run("--resume", "scene.nml", cwd=tmp_path, timeout=120.0)
+    assert ended.returncode == 0 and "all is solved from the start" in ended.stdout
+
+
+def test_check_tells_lines_and_cost(run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(threshold_text(scene_text))
+    ended = run("--check", "scene.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    for words in (
+        "! lines               3\n",
+        "! scenes of the scan  51\n",
+        "! a grid as fine has  30003 scenes\n",
+    ):
+        assert words in ended.stdout
+    assert "core time of the scan" in ended.stdout and "   criterion = 'class'\n" in ended.stdout
+
+
+REFUSED = [
+    ({"key": "'load.force_amplitud'"}, "41: &threshold key: load.force_amplitud: unknown key; the nearest"),
+    ({"key": "'force_amplitude'"}, "41: &threshold key: force_amplitude: a key is named as group.key"),
+    ({"key": "'output.stride'"}, "41: &threshold key: output.stride: this key does not describe the motion"),
+    (
+        {"key": "'kinematics.rolling_speed'"},
+        "41: &threshold key: kinematics.rolling_speed: the base input does",
+    ),
+    (
+        {"key": "'kinematics.entrainment_speed'"},
+        "41: &threshold key: &campaign varies kinematics.entrainment",
+    ),
+    ({"first": "500.0"}, "42: &threshold first: the first value must be below the last"),
+    ({"first": "-5.0"}, "42: &threshold first: -5.0 is not allowed for load.force_amplitude; allowed: "),
+    (
+        {"first": "0.0", "scale": "'logarithmic'"},
+        "42: &threshold first: a logarithmic range must lie above zero",
+    ),
+    ({"last": "1e13"}, "43: &threshold last: 1.0E13 N leads to numbers too large"),
+    ({"count": "1"}, "44: &threshold count: 1 is not allowed"),
+    ({"tolerance": "0.0"}, "45: &threshold tolerance: 0.0 is not allowed"),
+    ({"criterion": "'clas'"}, "45: &threshold criterion: 'clas' is not allowed"),
+    ({"criterion": "'harmonics'"}, "45: &threshold criterion: 'harmonics' is not allowed"),
+    ({"criterion": "'film_force_rms'"}, " &threshold level: film_force_rms is a number: give the level"),
+    (
+        {"criterion": "'idle'", "level": "1.0"},
+        "46: &threshold level: idle changes by itself and has no level",
+    ),
+    ({"criterion": "'double_sided'"}, "45: &threshold criterion: double_sided needs a backlash"),
+    ({"key": None}, " &threshold key: this key is required"),
+]
+
+
+@pytest.mark.parametrize(("threshold", "fault"), REFUSED)
+def test_refused_thresholds(threshold: dict, fault: str, refused, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(threshold_text(scene_text, threshold=threshold))
+    assert_faults(refused("scene.nml"), "scene.nml", [fault.strip() if fault[0] == " " else fault])
+
+
+def test_every_fault_at_once(refused, scene_text, tmp_path: Path) -> None:
+    """Faults of the key come with those of the axes; a key of another task is named with its task."""
+    text = threshold_text(
+        scene_text,
+        threshold={"key": "'load.foo'"},
+        campaign={"vary": "'contact.bar'", "first": "1.0", "last": "2.0", "count": "2"},
+    )
+    (tmp_path / "scene.nml").write_text(text)
+    faults = refused("scene.nml")
+    assert len(faults) == 2 and "load.foo" in faults[0] and "contact.bar" in faults[1]
+    (tmp_path / "scene.nml").write_text(text.replace("'threshold'", "'campaign'"))
+    assert all("used only with scene.task=threshold" in fault for fault in refused("scene.nml")[:4])
+    (tmp_path / "scene.nml").write_text(
+        threshold_text(scene_text, campaign={**SPEEDS, "record": "'certified'"})
+    )
+    assert "&campaign record: this key is used only with scene.task=campaign" in refused("scene.nml")[0]
+    (tmp_path / "scene.nml").write_text(threshold_text(scene_text))
+    (tmp_path / "other.nml").write_text(threshold_text(scene_text))
+    assert "a threshold must be the only input of a call" in refused("scene.nml", "other.nml")[0]
+
+
+def test_lines_that_are_no_scenes(run, found, scene_text, tmp_path: Path) -> None:
+    """At the first value the static load is negative: refused, or a kind of its own if that is allowed."""
+    threshold = {"key": "'load.steady_force'", "first": "-100.0", "last": "200.0", "tolerance": "1e-2"}
+    text = threshold_text(scene_text, threshold=threshold)
+    (tmp_path / "scene.nml").write_text(text)
+    ended = run("scene.nml", cwd=tmp_path)
+    assert (
+        ended.returncode == 2
+        and "the static load steady_force + mass*gravity must be positive" in ended.stderr
+    )
+    rows = found(text.replace("&campaign\n", "&campaign\n   allow_invalid = .true.\n"), code=1)
+    assert (rows.groupby("line")["status_below_word"].first() == "invalid").all()
+    weight = 3.0 * 9.80665
+    first = rows.groupby("line").first()
+    assert ((first["lower"] <= -weight) & (-weight <= first["upper"])).all()
