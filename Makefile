@@ -275,6 +275,17 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/sweep.nml
 	@$(PYTHON) scripts/plot.py sweep $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
 	@cp $(PICTURE_RUNS)/sweep_sweep.png $(PICTURES)/sweep.png
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=idle_teeth input/stiff_or_not.nml
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=creep_teeth --set film.law=piezo-viscous \
+	  input/stiff_or_not.nml
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=idle_teeth_exact --set film.model=reynolds \
+	  input/stiff_or_not.nml
+	@$(PYTHON) scripts/plot.py sweep --panels acceleration,lines --mark '1.4e8=steel tooth' --no-title --output $(PICTURE_RUNS) \
+	  $(addprefix $(PICTURE_RUNS)/,idle_teeth.rattle creep_teeth.rattle idle_teeth_exact.rattle)
+	@cp $(PICTURE_RUNS)/sweep_overlay.png $(PICTURES)/stiff_or_not.png
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/loose_gear.nml
+	@$(PYTHON) scripts/plot.py motion --figures flanks --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle
+	@cp $(PICTURE_RUNS)/flanks_loose_gear.png $(PICTURES)/loose_gear.png
 	@$(MAKE) --no-print-directory $(BUILD)/newmark_outcomes
 	@$(BUILD)/newmark_outcomes input/idle.nml input/creep.nml input/creep_forged_line.nml > $(PICTURE_RUNS)/newmark_outcomes.csv
 	@$(PYTHON) tests/stress/newmark_outcome_map.py $(PICTURE_RUNS)/newmark_outcomes.csv $(PICTURES)/newmark_outcomes.png

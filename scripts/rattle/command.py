@@ -100,10 +100,10 @@ def names(text: str) -> list[str]:
     return [name.strip() for name in text.split(",") if name.strip()]
 
 
-def one_of_numbers(known: Sequence[int]) -> Callable[[str], tuple[int, ...]]:
-    """A reader of an option that lists some of the known numbers between commas."""
+def some_of(known: Sequence[int | str]) -> Callable[[str], tuple[int | str, ...]]:
+    """A reader of an option that lists some of the known numbers and words between commas."""
 
-    def read(text: str) -> tuple[int, ...]:
+    def read(text: str) -> tuple[int | str, ...]:
         parts = [part.strip() for part in text.split(",")]
         choice = {str(number): number for number in known}
         for part in parts:

@@ -10,6 +10,7 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from result_writer import write_motion, write_result
+from script_calls import call_script
 
 import rattle
 from rattle.figures import motion, style, sweep, tolerance
@@ -76,8 +77,9 @@ def test_figure_6_shows_film_in_micrometres_over_force_in_newtons(idle, periods)
     assert drawn.colours(film) == [style.LAW_COLOURS["iso-viscous"].lower()]
     assert film.get_ylabel() == r"Film thickness $h$ [$\mathrm{\mu}$m]"
     start = (20 - periods) * PERIOD
+    words = "excitation period" if periods == 1 else f"{periods} excitation periods"
     assert drawn.labels(force) == (
-        f"Time within the last {periods} excitation periods [ms], from $t$ = {start:.2f} ms",
+        f"Time within the last {words} [ms], from $t = {start:.2f}$ ms",
         "Applied force $F$ [N]",
     )
     assert film.get_ylim()[0] == 0.0 and film.get_ylim()[1] > 1.4
@@ -98,7 +100,7 @@ def test_figures_8_and_9_show_the_acceleration(tmp_path, number, law):
     (axes,) = figure(number, path, periods=3).axes
     assert_curve(drawn.curves(axes)[0], history(path, "acceleration", 3))
     assert drawn.colours(axes) == [style.LAW_COLOURS[law].lower()]
-    words = "Time within the last 3 excitation periods [ms], from $t$ = 34.00 ms"
+    words = "Time within the last 3 excitation periods [ms], from $t = 34.00$ ms"
     assert drawn.labels(axes) == (words, ACCELERATION)
     assert axes.get_xlim() == pytest.approx((0.0, 6.0))
     assert drawn.rules(axes, "x") == pytest.approx([0.0, 2.0, 4.0, 6.0])
@@ -345,3 +347,78 @@ def test_a_sweep_names_its_key_and_unit(tmp_path, key, label):
     assert made.axes[-1].get_xlabel() == label
     assert made.axes[2].get_ylim() == (0.5, 2.5)
     assert drawn.legend_words(made) == ["way there"]
+
+
+def test_several_sweeps_share_the_panels_that_are_asked_for(tmp_path):
+    """Each sweep has a colour and a mark, each way its dashes; marks name values of the key."""
+    columns = [("stiffness", "N/m"), *SWEEP_COLUMNS.items(), ("line_count", "-")]
+    results = []
+    for name, lines in (("soft", 9.0), ("hard", 30.0)):
+        rows = [[*row, lines] for row in SWEEP_ROWS]
+        text = sweep_input("stiffness").replace("climb", name) + "&spectrum idle_lines=20 /\n"
+        text = text.replace("&sweep ", "&sweep spacing='logarithmic' ")
+        path = tmp_path / f"{name}.rattle"
+        write_result(path, columns, rows, input_text=text)
+        results.append(rattle.read(path))
+    with style.house_style():
+        made = sweep.draw(*results, panels=("acceleration", "lines"), marks=[(150.0, "steel")])
+    acceleration, lines = made.axes
+    assert lines.get_xlabel() == "Stiffness of the teeth $k$ [N/m]" and lines.get_xscale() == "log"
+    curves = [line for line in lines.lines if len(line.get_xdata()) > 2]
+    assert [float(np.nanmax(line.get_ydata())) for line in curves] == [9.0, 9.0, 30.0, 30.0]
+    assert len({line.get_marker() for line in curves}) == len({line.get_color() for line in curves}) == 2
+    assert len({line.get_linestyle() for line in curves}) == 2
+    assert drawn.rules(lines, "y") == [20.0] and drawn.rules(acceleration, "x") == [150.0]
+    assert [text.get_text() for text in acceleration.texts] == ["steel"]
+    films = "published iso-viscous film"
+    assert drawn.legend_words(made) == [f"soft, {films}", f"hard, {films}", "way there", "way back"]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (("--panels", "lines,colour"), "'colour' is not one of film, acceleration"),
+        (("--mark", "steel"), "is not a value and words"),
+    ],
+)
+def test_panels_and_marks_that_cannot_be_are_refused(tmp_path, given, words):
+    sweep_figure(tmp_path / "climb.rattle")
+    done = call_script("plot.py", "sweep", tmp_path / "climb.rattle", *given)
+    assert done.returncode == 2 and words in done.stderr
+
+
+def test_sweeps_of_different_keys_do_not_share_a_figure(tmp_path):
+    sweep_figure(tmp_path / "one.rattle")
+    sweep_figure(tmp_path / "other.rattle", "steady_force")
+    done = call_script("plot.py", "sweep", tmp_path / "one.rattle", tmp_path / "other.rattle")
+    assert done.returncode == 2 and "different keys, frequency and steady_force" in done.stderr
+
+
+# --- both flanks ---------------------------------------------------------------------------------------
+
+
+def test_both_flanks_are_drawn_over_a_cycle(run, repository, tmp_path):
+    assert run(repository / "input" / "loose_gear.nml", "--output", tmp_path, cwd=tmp_path).returncode == 0
+    path = tmp_path / "loose_gear.rattle"
+    made = figure(motion.FLANKS, path)
+    films, loads, acceleration = made.axes
+    result = rattle.read(path)
+    rows = slice(-2049, None)
+    for axes, names, scale in (
+        (films, ("film_thickness", "coast_film"), 1e6),
+        (loads, ("film_load", "coast_load"), 1.0),
+        (acceleration, ("acceleration",), 1.0),
+    ):
+        curves = [line for line in axes.lines if len(line.get_xdata()) > 2]
+        assert len(curves) == len(names) == len({line.get_linestyle() for line in curves})
+        for curve, name in zip(curves, names, strict=True):
+            expected = scale * np.array(result[name][rows])
+            assert np.isin(expected, curve.get_ydata()).all(), name
+    assert films.get_yscale() == "log"
+    assert drawn.legend_words(made) == ["drive flank", "coast flank"]
+    assert acceleration.get_xlabel().startswith("Time within the last excitation period [ms]")
+
+
+def test_one_flank_has_no_figure_of_two(idle, tmp_path):
+    done = call_script("plot.py", "motion", idle, "--figures", "flanks", "--output", tmp_path)
+    assert done.returncode == 2 and "Nothing to draw" in done.stderr

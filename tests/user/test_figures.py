@@ -175,7 +175,7 @@ def test_a_result_in_place_of_the_command_is_answered_with_the_command(iso):
     [
         ("motion", ["RESULT", "--figures", "--overlay"]),
         ("film", ["RESULT", "--film-ratio"]),
-        ("sweep", ["RESULT"]),
+        ("sweep", ["RESULT", "--panels", "--mark"]),
         ("campaign", ["FILE", "--slice", "--summary"]),
         ("tolerance", ["--forged-line"]),
         ("film-fit", ["--alpha-p"]),

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib import patheffects
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis as MatplotlibAxis
 from matplotlib.colors import LogNorm, Normalize
@@ -43,7 +42,6 @@ HATCH_COLOUR = "#777777"
 HATCHES = ("xxxx", "////", "\\\\\\\\", "++++", "||||", "----", "oo")
 NOT_DONE_HATCH = "...."
 UNKNOWN_HATCH = "**"
-HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 MICROMETRES = "\N{MICRO SIGN}m"
 
 

@@ -230,10 +230,10 @@ def _label(axes: Axes, lines: ContourSet, name: str) -> None:
         along = _length(axes, longest)
         if along[-1] > SHORTEST_LABELLED:
             points.append(tuple(np.interp(place * along[-1], along, part) for part in longest.T))
-    lines.set_path_effects(look.HALO)
+    lines.set_path_effects(style.HALO)
     if points:  # an empty list would mean places of matplotlib's own choice
         for label in axes.clabel(lines, fontsize=7, fmt=form, inline_spacing=3, manual=points):
-            label.set_path_effects(look.HALO)
+            label.set_path_effects(style.HALO)
 
 
 def _length(axes: Axes, segment: np.ndarray) -> np.ndarray:

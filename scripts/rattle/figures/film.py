@@ -24,7 +24,7 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument("result", type=result_path, metavar="RESULT", help="result file, NAME.rattle")
     parser.add_argument(
         "--figures",
-        type=command.one_of_numbers(NUMBERS),
+        type=command.some_of(NUMBERS),
         metavar="3,4,5",
         help="the figures to draw; by default all that the result holds",
     )

@@ -1,4 +1,4 @@
-"""Figures 6, 8 and 9: time histories of the last periods of a run."""
+"""Figures 6, 8 and 9 and that of both flanks: time histories of the last periods of a run."""
 
 from __future__ import annotations
 
@@ -9,12 +9,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rattle.figures import style
+from rattle.figures.campaign_look import plain_log_ticks
 from rattle.result import TIME, Result
 
 FILM = "film_thickness"
 SHORT_IMPACT = 0.02  # of a period, at half the height of the peak; a shorter one has a panel of its own
 AROUND = 4.0  # widths before and behind the peak that this panel shows
 FEWEST_POINTS = 4  # of the impact in the series; fewer would not show it
+FLANK_FILMS = (FILM, "coast_film")
+FLANK_LOADS = ("film_load", "coast_load")
+FLANK_LINES = (style.run_line(0), style.run_line(1))
+LOAD_LABEL = "Load of the film $W$ [N]"
 SAME_FILMS = 1e-4  # of their range; a smaller difference is thinner than the line that shows it
 
 
@@ -59,6 +64,32 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], periods:
     style.name_runs(figure, axes, "Acceleration of the film surface", results, labels, note)
     if near:
         _draw_impact(axes, below[0], near)
+    return figure
+
+
+def draw_flanks(result: Result, label: str) -> Figure:
+    """Films and loads of both flanks, as far as columns tell them, and the acceleration over a cycle."""
+    periods = result.orbit_period or 1
+    figure = Figure(figsize=(style.WIDTH, 5.6 if FLANK_LOADS[0] in result else 4.2))
+    pairs = [names for names in (FLANK_FILMS, FLANK_LOADS) if all(name in result for name in names)]
+    *both, last = figure.subplots(len(pairs) + 1, 1, sharex=True)
+    for axes, names in zip(both, pairs, strict=True):
+        is_film = names == FLANK_FILMS
+        for name, words, line in zip(names, ("drive flank", "coast flank"), FLANK_LINES, strict=True):
+            axes.plot(*last_periods(result, name, periods, 1e6 if is_film else 1.0), label=words, **line)
+        axes.set_ylabel(style.FILM_LABEL if is_film else LOAD_LABEL)
+    both[0].set_yscale("log")
+    plain_log_ticks(both[0].yaxis, *both[0].get_ylim())
+    last.axhline(0.0, color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
+    last.plot(*last_periods(result, "acceleration", periods), color=style.FORCE_COLOUR)
+    last.set_ylabel(style.ACCELERATION_LABEL)
+    last.set_xlabel(time_label([result], periods))
+    for axes in (*both, last):
+        period_rules(axes, [result], periods)
+    figure.align_ylabels()
+    note = coarse_words(result, FILM, periods, r"$\mathrm{\mu}$m", 1e6)
+    both[0].set_title("\n".join(filter(None, (style.title("Both flanks", result, label), note))))
+    style.legend_below(figure, both[0])
     return figure
 
 
@@ -135,11 +166,12 @@ def period_rules(axes: Axes, results: Sequence[Result], periods: int) -> None:
 
 def time_label(results: Sequence[Result], periods: int) -> str:
     """The label of the time axis; for a single run it also says where the axis starts."""
-    label = f"Time within the last {periods} excitation periods [ms]"
+    last = "the last excitation period" if periods == 1 else f"the last {periods} excitation periods"
+    label = f"Time within {last} [ms]"
     if len(results) > 1:
         return label
     start = 1e3 * float(results[0].samples("time", results[0].window(periods, with_start=True))[0])
-    return f"{label}, from $t$ = {start:.2f} ms"
+    return f"{label}, from $t = {start:.2f}$ ms"
 
 
 def _own_periods(result: Result) -> np.ndarray:

@@ -16,13 +16,15 @@ from rattle.result import Result, ResultError
 
 DESCRIPTION = (
     "Draw figures 6 to 10 of the paper. An iso-viscous result gives figures 06, 07, 08 and 10a, a "
-    "piezo-viscous one 09 and 10b, with the scene's name behind the number."
+    "piezo-viscous one 09 and 10b, with the scene's name behind the number. A result with the column "
+    "coast_film also gives flanks_NAME: films and loads of both flanks and the acceleration over a cycle."
 )
 
-NUMBERS = (6, 7, 8, 9, 10)
+FLANKS = "flanks"
+NUMBERS = (6, 7, 8, 9, 10, FLANKS)
 FIGURES_OF_LAW = {
-    "iso-viscous": {6: "figure_06", 7: "figure_07", 8: "figure_08", 10: "figure_10a"},
-    "piezo-viscous": {9: "figure_09", 10: "figure_10b"},
+    "iso-viscous": {6: "figure_06", 7: "figure_07", 8: "figure_08", 10: "figure_10a", FLANKS: FLANKS},
+    "piezo-viscous": {9: "figure_09", 10: "figure_10b", FLANKS: FLANKS},
 }
 OVERLAYS = {
     (6,): "figure_06_overlay",
@@ -45,9 +47,9 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="result file, NAME.rattle")
     parser.add_argument(
         "--figures",
-        type=command.one_of_numbers(NUMBERS),
+        type=command.some_of(NUMBERS),
         default=NUMBERS,
-        metavar="6,7,8,9,10",
+        metavar="6,7,8,9,10,flanks",
         help="the figures to draw, all by default",
     )
     style.add_extent(parser, 4)
@@ -92,7 +94,7 @@ def run(options: Namespace) -> None:
 
 
 def single_figures(
-    results: Sequence[Result], numbers: Sequence[int], extent: Extent
+    results: Sequence[Result], numbers: Sequence[int | str], extent: Extent
 ) -> Iterator[tuple[str, Figure]]:
     """File stem, which ends with the scene's name, and figure for each result, in the order given."""
     for result, label in zip(results, style.run_labels(results), strict=True):
@@ -101,12 +103,12 @@ def single_figures(
                 f"{result.path} has the film law '{result.law}', which no figure of 6 to 10 shows."
             )
         for number, stem in FIGURES_OF_LAW[result.law].items():
-            if number in numbers:
+            if number in numbers and (number != FLANKS or histories.FLANK_FILMS[1] in result):
                 yield f"{stem}_{style.file_part(label)}", _draw(number, [result], [label], extent)
 
 
 def overlay_figures(
-    results: Sequence[Result], numbers: Sequence[int], extent: Extent
+    results: Sequence[Result], numbers: Sequence[int | str], extent: Extent
 ) -> Iterator[tuple[str, Figure]]:
     """File stem and figure that shows all results at once."""
     most = len(style.RUN_COLOURS)
@@ -118,7 +120,9 @@ def overlay_figures(
             yield stem, _draw(covered[0], results, labels, extent)
 
 
-def _draw(number: int, results: Sequence[Result], labels: Sequence[str], extent: Extent) -> Figure:
+def _draw(number: int | str, results: Sequence[Result], labels: Sequence[str], extent: Extent) -> Figure:
+    if number == FLANKS:
+        return histories.draw_flanks(results[0], labels[0])
     if number == 6:
         return histories.draw_film_and_force(results, labels, extent.periods)
     if number == 7:

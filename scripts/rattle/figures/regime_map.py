@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib import patheffects
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -28,7 +27,6 @@ DESCRIPTION = (
 SUMMARY_ENDING = ".summary.nml"
 FILLS = ("#E8F1FA", "#FCEBDD", "#E6F4EC", "#F7E6F0")
 PLACES = ((0.70, 0.12), (0.40, 0.55), (0.55, 0.30), (0.73, 0.50))  # of the names, in shares of their regime
-HALO = [patheffects.withStroke(linewidth=2.5, foreground="white")]
 BORDER = {"colors": style.FORCE_COLOUR, "linewidths": 1.0}
 MARKERS = "osD^vP*"
 HATCH = "////"
@@ -301,7 +299,7 @@ def _draw_regimes(axes: Axes, g_e: np.ndarray, g_v: np.ndarray, films: tuple[np.
             rows = np.flatnonzero(code[:, column] == regime)
             place = (g_e[0, column], g_v[rows[int(up * (rows.size - 1))], 0])
             name = axes.annotate(kernels.MAP_REGIMES[regime], place, ha="center", va="center", fontsize=8.5)
-            name.set_path_effects(HALO)
+            name.set_path_effects(style.HALO)
 
 
 def _covered(scenes: Sequence[Scene], position: int) -> int:

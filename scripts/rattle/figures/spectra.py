@@ -187,8 +187,14 @@ def _draw_single(
             place[harmonic & ~driven], 0.0, amplitude[harmonic & ~driven], color=colour, linewidth=1.8
         )
         if driven.any():
-            handles["at orders of the force"] = axes.vlines(
-                place[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, linewidth=1.8
+            axes.vlines(place[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, linewidth=1.8)
+            (handles["at orders of the force"],) = axes.plot(
+                place[driven],
+                amplitude[driven],
+                color=style.FORCE_COLOUR,
+                marker="o",
+                markersize=3.4,
+                linestyle="",
             )
     if between.any():
         handles["between the harmonics"] = panels[0].collections[0]

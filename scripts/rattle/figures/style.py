@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import matplotlib
+from matplotlib import patheffects
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -25,6 +26,7 @@ RUN_MARKS = ("o", "s", "^", "D", "v", "P", "X")
 FORCE_COLOUR = "#4D4D4D"
 FAINT_COLOUR = "#9A9A9A"
 PERIOD_COLOUR = "#D5D5D5"
+HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]  # of words over curves
 
 ACCELERATION_LABEL = r"Acceleration $\ddot{z}$ [m/s$^2$]"
 AMPLITUDE_LABEL = r"Amplitude of $\ddot{z}$ [m/s$^2$]"
@@ -170,7 +172,8 @@ def file_part(label: str) -> str:
 
 def film_words(result: Result) -> str:
     """The film law and model, as in 'published iso-viscous film'."""
-    return f"{str(result.value('film', 'model')).strip()} {result.law} film"
+    model = str(result.value("film", "model")).strip()
+    return f"{'exact' if model == 'reynolds' else model} {result.law} film"
 
 
 def title(subject: str, result: Result, label: str) -> str:

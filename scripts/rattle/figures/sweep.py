@@ -1,13 +1,17 @@
-"""Steady motions along a swept key, on the way there and on the way back."""
+"""Steady motions along a swept key, on the way there and on the way back; several sweeps in one figure."""
 
 from __future__ import annotations
 
+import argparse
 from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 import rattle
 from rattle import command
@@ -15,69 +19,28 @@ from rattle.codes import SUCCESSES
 from rattle.figures import style
 from rattle.result import Result
 
-DESCRIPTION = "Draw the steady motions of a sweep along its key, there and back, as sweep_NAME."
+DESCRIPTION = (
+    "Draw the steady motions of a sweep along its key, there and back, as sweep_NAME; several sweeps of one "
+    "key as sweep_overlay."
+)
 KEY_LABELS = {
     "frequency": r"Excitation frequency $f_\mathrm{exc}$ [Hz]",
     "force_amplitude": r"Force amplitude $F_0$ [N]",
     "steady_force": r"Steady force $Q$ [N]",
     "entrainment_speed": r"Entrainment speed $U$ [m/s]",
+    "stiffness": r"Stiffness of the teeth $k$ [N/m]",
 }
 WAYS = (("there", 1.0, style.RUN_COLOURS[0], "-"), ("back", -1.0, style.RUN_COLOURS[1], (0, (4, 2))))
+MARKED = 12  # marks along a curve of an overlay
 
 
-def add_options(parser: ArgumentParser) -> None:
-    parser.add_argument("result", type=Path, metavar="RESULT", help="result file of a sweep, NAME.rattle")
+@dataclass(frozen=True)
+class Panel:
+    """A panel: its label, the curves of some rows, and how high it is."""
 
-
-def run(options: Namespace) -> None:
-    result = rattle.read(options.result)
-    result.require_task("sweep")
-    command.note_open(result)
-    with style.house_style():
-        for path in style.save(draw(result), options, f"sweep_{result.scene_name}"):
-            print(path)
-
-
-def draw(result: Result) -> Figure:
-    """Film range, peak acceleration, period of the motion and Floquet multiplier over the swept key."""
-    key = str(result.value("sweep", "key")).strip()
-    figure = Figure(figsize=(style.WIDTH, 6.2))
-    film, acceleration, period, multiplier = figure.subplots(
-        4, 1, sharex=True, gridspec_kw={"height_ratios": (2.2, 2.2, 1, 1.6)}
-    )
-    for name, direction, colour, dashes in WAYS:
-        rows = way(result, direction)
-        if rows.size == 0:
-            continue
-        value = result[result.names[0]][rows]
-        line = {"color": colour, "linestyle": dashes}
-        film.semilogy(value, column(result, "film_maximum", rows, 1e6), label=f"way {name}", **line)
-        film.semilogy(value, column(result, "film_minimum", rows, 1e6), **line)
-        peak = np.maximum(
-            np.abs(column(result, "acceleration_minimum", rows)), column(result, "acceleration_maximum", rows)
-        )
-        acceleration.plot(value, peak, **line)
-        period.plot(value, column(result, "orbit_period", rows), **line)
-        multiplier.plot(value, column(result, "floquet_modulus", rows), **line)
-    label_values(film, r"Film, least and" "\n" r"largest [$\mathrm{\mu}$m]")
-    label_values(acceleration, r"Largest $|\ddot{z}|$" "\n" r"[m/s$^2$]")
-    label_values(period, "Period\n[$1/f_\\mathrm{exc}$]")
-    label_values(multiplier, "Largest Floquet\nmultiplier")
-    period.set_ylim(0.5, max(2.5, float(np.nanmax(result["orbit_period"])) + 0.5))
-    multiplier.axhline(1.0, color=style.FAINT_COLOUR, linewidth=0.8)
-    multiplier.set_ylim(0.0, 1.1)
-    multiplier.set_xlabel(KEY_LABELS[key])
-    film.set_title(f"Steady motions along a sweep\nScene {result.scene_name}, {result.law} film")
-    style.legend_below(figure, film, columns=2)
-    return figure
-
-
-def way(result: Result, direction: float) -> np.ndarray:
-    """Rows of one way; the way back begins with the last motion of the way there."""
-    rows = np.flatnonzero(result["direction"] == direction)
-    if direction < 0.0 and rows.size:
-        rows = np.concatenate(([rows[0] - 1], rows))
-    return rows
+    label: str
+    curves: Callable[[Result, np.ndarray], Sequence[np.ndarray]]
+    height: float = 2.2
 
 
 def column(result: Result, name: str, rows: np.ndarray, scale: float = 1.0) -> np.ndarray:
@@ -87,6 +50,223 @@ def column(result: Result, name: str, rows: np.ndarray, scale: float = 1.0) -> n
     return np.where(~np.isin(result["status"][rows], SUCCESSES) | unknown, np.nan, values)
 
 
-def label_values(axes: Axes, text: str) -> None:
-    axes.set_ylabel(text)
-    axes.margins(x=0.01)
+def _films(result: Result, rows: np.ndarray) -> list[np.ndarray]:
+    return [column(result, name, rows, 1e6) for name in ("film_maximum", "film_minimum")]
+
+
+def _peak(result: Result, rows: np.ndarray) -> list[np.ndarray]:
+    lowest = np.abs(column(result, "acceleration_minimum", rows))
+    return [np.maximum(lowest, column(result, "acceleration_maximum", rows))]
+
+
+def _plain(name: str) -> Callable[[Result, np.ndarray], Sequence[np.ndarray]]:
+    return lambda result, rows: [column(result, name, rows)]
+
+
+PANELS = {
+    "film": Panel(r"Film, least and" "\n" r"largest [$\mathrm{\mu}$m]", _films),
+    "acceleration": Panel(r"Largest $|\ddot{z}|$" "\n" r"[m/s$^2$]", _peak),
+    "lines": Panel("Lines", _plain("line_count")),
+    "period": Panel("Period\n[$1/f_\\mathrm{exc}$]", _plain("orbit_period"), 1.0),
+    "multiplier": Panel("Largest Floquet\nmultiplier", _plain("floquet_modulus"), 1.6),
+}
+DEFAULT_PANELS = ("film", "acceleration", "period", "multiplier")
+
+
+def add_options(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "results", nargs="+", type=Path, metavar="RESULT", help="result file of a sweep, NAME.rattle"
+    )
+    parser.add_argument(
+        "--panels",
+        type=panels,
+        default=DEFAULT_PANELS,
+        metavar="NAMES",
+        help=f"of {', '.join(PANELS)} (all but lines)",
+    )
+    parser.add_argument(
+        "--mark",
+        type=mark,
+        action="append",
+        default=[],
+        metavar="VALUE=WORDS",
+        help="a rule at a value of the key, with words on it; may be repeated",
+    )
+
+
+def panels(text: str) -> tuple[str, ...]:
+    chosen = command.names(text)
+    for name in chosen:
+        if name not in PANELS:
+            raise argparse.ArgumentTypeError(f"'{name}' is not one of {', '.join(PANELS)}")
+    if not chosen:
+        raise argparse.ArgumentTypeError("no panel is named")
+    return tuple(dict.fromkeys(chosen))
+
+
+def mark(text: str) -> tuple[float, str]:
+    value, equals, words = text.partition("=")
+    if not equals or not words.strip():
+        raise argparse.ArgumentTypeError(f"'{text}' is not a value and words, as in 1.4e8=steel")
+    return command.finite(value), words.strip()
+
+
+def run(options: Namespace) -> None:
+    results = [rattle.read(path) for path in options.results]
+    for result in results:
+        result.require_task("sweep")
+        command.note_open(result)
+    keys = {key_of(result) for result in results}
+    if len(keys) > 1:
+        raise command.CommandError(
+            f"The sweeps are of different keys, {' and '.join(sorted(keys))}; each has a figure of its own."
+        )
+    most = len(style.RUN_COLOURS)
+    if len(results) > most:
+        raise command.CommandError(f"An overlay shows {most} sweeps at most; {len(results)} were given.")
+    stem = f"sweep_{results[0].scene_name}" if len(results) == 1 else "sweep_overlay"
+    with style.house_style():
+        made = draw(*results, panels=options.panels, marks=options.mark)
+        for path in style.save(made, options, stem):
+            print(path)
+
+
+def draw(
+    *results: Result, panels: Sequence[str] = DEFAULT_PANELS, marks: Sequence[tuple[float, str]] = ()
+) -> Figure:
+    """The panels over the swept key; of several sweeps each has its colour and mark, a way its dashes."""
+    chosen = [PANELS[name] for name in panels]
+    heights = [panel.height for panel in chosen]
+    figure = Figure(figsize=(style.WIDTH, 0.8 + 0.77 * sum(heights)))
+    all_axes = dict(
+        zip(
+            panels,
+            figure.subplots(len(chosen), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0],
+            strict=True,
+        )
+    )
+    handles = _draw_single(results[0], all_axes) if len(results) == 1 else _draw_overlay(results, all_axes)
+    for name, axes in all_axes.items():
+        axes.set_ylabel(PANELS[name].label)
+        axes.margins(x=0.01)
+    _dress(results, all_axes)
+    first, last = all_axes[panels[0]], all_axes[panels[-1]]
+    last.set_xlabel(_key_label(results[0]))
+    logarithmic = str(results[0].input.get("sweep", {}).get("spacing", "linear")).strip() == "logarithmic"
+    if logarithmic:
+        last.set_xscale("log")
+    if marks and first.get_yscale() == "linear":
+        low, high = first.get_ylim()
+        first.set_ylim(low, high + 0.12 * (high - low))
+    for value, words in marks:
+        for axes in all_axes.values():
+            axes.axvline(value, color=style.FAINT_COLOUR, linewidth=0.8, linestyle=(0, (2, 2)), zorder=0)
+        first.annotate(
+            words,
+            (value, 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(3, -2),
+            textcoords="offset points",
+            verticalalignment="top",
+            fontsize=8,
+            path_effects=style.HALO,
+        )
+    single = f"Scene {results[0].scene_name}, {results[0].law} film"
+    words = single if len(results) == 1 else f"{len(results)} sweeps"
+    first.set_title(f"Steady motions along a sweep\n{words}")
+    figure.align_ylabels()
+    style.legend_below(figure, first, columns=2, labels=handles)
+    return figure
+
+
+def _draw_single(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, object]:
+    handles = {}
+    for name, direction, colour, dashes in WAYS:
+        rows = way(result, direction)
+        if rows.size == 0:
+            continue
+        value = result[result.names[0]][rows]
+        for panel, axes in all_axes.items():
+            for values in PANELS[panel].curves(result, rows):
+                (curve,) = axes.plot(value, values, color=colour, linestyle=dashes)
+                handles.setdefault(f"way {name}", curve)
+    return handles
+
+
+def _draw_overlay(results: Sequence[Result], all_axes: Mapping[str, Axes]) -> dict[str, object]:
+    handles: dict[str, object] = {}
+    ways = {}
+    for position, (result, label) in enumerate(zip(results, style.run_labels(results), strict=True)):
+        look = {
+            "color": style.RUN_COLOURS[position],
+            "marker": style.RUN_MARKS[position],
+            "markersize": 3.6,
+        }
+        handles[f"{label}, {style.film_words(result)}"] = Line2D([], [], **look)
+        for name, direction, _, dashes in WAYS:
+            rows = way(result, direction)
+            if rows.size == 0:
+                continue
+            thin = {"linestyle": dashes, "linewidth": 1.2 if direction > 0.0 else 0.9}
+            ways.setdefault(f"way {name}", Line2D([], [], color=style.FORCE_COLOUR, **thin))
+            value = result[result.names[0]][rows]
+            marked = _marked(value, position / len(results))
+            for panel, axes in all_axes.items():
+                for values in PANELS[panel].curves(result, rows):
+                    axes.plot(value, values, markevery=marked, **look, **thin)
+    return handles | ways
+
+
+def _marked(values: np.ndarray, offset: float) -> list[int]:
+    """Rows with a mark, the same values there and back, from a share of their distance on."""
+    each = max(1, values.size // MARKED)
+    places = np.sort(values)[int(offset * each) :: each]
+    return list(np.flatnonzero(np.isin(values, places)))
+
+
+def _dress(results: Sequence[Result], all_axes: Mapping[str, Axes]) -> None:
+    """Scales, limits and rules that belong to a panel."""
+    if film := all_axes.get("film"):
+        film.set_yscale("log")
+    if period := all_axes.get("period"):
+        longest = max(float(np.nanmax(result["orbit_period"])) for result in results)
+        period.set_ylim(0.5, max(2.5, longest + 0.5))
+    if multiplier := all_axes.get("multiplier"):
+        multiplier.axhline(1.0, color=style.FAINT_COLOUR, linewidth=0.8)
+        multiplier.set_ylim(0.0, 1.1)
+    if lines := all_axes.get("lines"):
+        lines.set_ylim(bottom=0.0)
+        limits = {result.input.get("spectrum", {}).get("idle_lines") for result in results} - {None}
+        if len(limits) == 1:
+            (limit,) = limits
+            lines.axhline(limit, color=style.FAINT_COLOUR, linewidth=0.8, zorder=0)
+            lines.annotate(
+                f"idle from {limit} lines on",
+                (1.0, limit),
+                xycoords=("axes fraction", "data"),
+                xytext=(0, -2),
+                textcoords="offset points",
+                horizontalalignment="right",
+                verticalalignment="top",
+                fontsize=8,
+                path_effects=style.HALO,
+            )
+
+
+def key_of(result: Result) -> str:
+    return str(result.value("sweep", "key")).strip()
+
+
+def _key_label(result: Result) -> str:
+    """Symbols where they are known, else name and unit."""
+    name = result.names[0]
+    plain = f"{name.replace('_', ' ').capitalize()} [{result.units[name]}]"
+    return KEY_LABELS.get(key_of(result), plain)
+
+
+def way(result: Result, direction: float) -> np.ndarray:
+    """Rows of one way; the way back begins with the last motion of the way there."""
+    rows = np.flatnonzero(result["direction"] == direction)
+    if direction < 0.0 and rows.size:
+        rows = np.concatenate(([rows[0] - 1], rows))
+    return rows
