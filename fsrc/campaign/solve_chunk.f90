@@ -18,7 +18,7 @@ module solve_chunk
    use rattle_class, only: classify_steps, note_orbit
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: need_count, needs_certificate, needs_coast_film_range, needs_coast_load_range, needs_deflection, &
-      needs_film_range, needs_load_range, needs_position_range, needs_regime, needs_spectrum, quantity_table
+      needs_film_range, needs_load_range, needs_regime, needs_spectrum, quantity_table
    use regime_check, only: check_regime
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use sampling, only: chunk_values, largest_value, sample_plan_t
@@ -80,7 +80,7 @@ contains
       allocate (values(size(plan%positions), min(batch, size(rows, 2))))
       needed = [(any(quantity_table(base%campaign%record)%need == i), i=1, need_count)]
       needed(needs_load_range) = any(needed([needs_load_range, needs_deflection]))
-      needed(needs_film_range) = any(needed([needs_film_range, needs_coast_film_range, needs_position_range]))
+      needed(needs_coast_film_range) = any(needed([needs_film_range, needs_coast_film_range]))
       needed(needs_coast_load_range) = any(needed([needs_coast_load_range, needs_deflection]))
       scene = base
       scene%resolved_input = ''

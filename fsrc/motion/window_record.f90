@@ -167,7 +167,7 @@ contains
          loads(:n) = loads(:n) - coast(:n)
          call search(seen_coast_load, coast(:n), record)
          call search(seen_net_load, loads(:n), record)
-         if (has_elastic_teeth(problem)) call search(seen_coast_film, coast_films(problem, states), record)
+         if (record%wants(seen_coast_film)) call search(seen_coast_film, coast_films(problem, states), record)
       end if
       if (has_elastic_teeth(problem)) call search(seen_position, gear_positions(problem, states), record)
       call forces_on_circle(problem%force, cosine(:n), sine(:n), forces(:n))

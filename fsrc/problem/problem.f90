@@ -55,7 +55,7 @@ module problem
 
    public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, static_load, film_at_rest, films_at_rest, loads_at_rest, &
              reference_films, reference_film, thinner_film, thinnest_film, start_springs, linearise, settling_of, net_load, &
-             net_loads, drive_loads, coast_loads, coast_films, gear_positions, largest_pressures, acceleration_at, &
+             net_loads, drive_loads, coast_loads, coast_films, films_of, gear_positions, largest_pressures, acceleration_at, &
              accelerations_of_samples
 
 contains
@@ -341,6 +341,19 @@ contains
       films = problem%backlash - states(:, of_film)
       if (has_elastic_teeth(problem)) films = films + (states(:, of_drive_compression) + states(:, of_coast_compression))
    end function coast_films
+
+   !> Films of one flank or of both [m].
+   pure function films_of(problem, states) result(films)
+      type(problem_t), intent(in) :: problem
+      !> State, number of it
+      real(dp), intent(in) :: states(:, :)
+      !> State, flank
+      real(dp), allocatable :: films(:, :)
+
+      allocate (films(size(states, 1), merge(2, 1, has_two_flanks(problem))))
+      films(:, 1) = states(:, of_film)
+      if (has_two_flanks(problem)) films(:, 2) = coast_films(problem, states)
+   end function films_of
 
    !> Positions of the gear [m]: with rigid teeth the film of the drive flank.
    pure function gear_positions(problem, states) result(positions)

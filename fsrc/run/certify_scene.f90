@@ -10,7 +10,7 @@ module certify_scene
    use loudness, only: loudness_of_record, loudness_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use quantities, only: quantity_rattle_class, quantity_word
-   use problem, only: of_film, problem_t
+   use problem, only: films_of, problem_t
    use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
@@ -100,10 +100,10 @@ contains
          if (allocated(error)) return
       end if
       associate (stride => tight%samples_per_period/window%samples_per_period)
-         call compare_windows(window%states(:, of_film), tight%states(stride::stride, of_film), extremes, &
-                              extremes_of_record(tight%record), verdict, &
-                              tight_verdict, unclosed, scene%spectrum, scene%spectrum%certificate_tolerance, accuracy, &
-                              resolved%noise_floor_at(accuracy), certificate, resolved%problem%backlash)
+         call compare_windows(films_of(resolved%problem, window%states), &
+                              films_of(resolved%problem, tight%states(stride::stride, :)), extremes, &
+                              extremes_of_record(tight%record), verdict, tight_verdict, unclosed, scene%spectrum, &
+                              scene%spectrum%certificate_tolerance, accuracy, resolved%noise_floor_at(accuracy), certificate)
       end associate
       certificate%loudness_error = loudness_error(loudness, loudness_of_record(tight%record, resolved%problem%frequency), accuracy)
    end subroutine certify

@@ -25,7 +25,7 @@ module judged_scene
       quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, quantity_sampling_sufficient, &
       quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, quantity_steps_cut, &
       quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, quantity_window_periods
-   use problem, only: coast_films, has_elastic_teeth, has_two_flanks, largest_state, of_film, thinner_film
+   use problem, only: coast_films, has_elastic_teeth, has_two_flanks, largest_state, of_film
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit
    use regime_check, only: model_limit, regime_verdict_t
@@ -145,14 +145,13 @@ contains
          case (quantity_dissipated_power)
             value = judged%loudness%dissipated_energy*judged%resolved%problem%frequency
          case (quantity_model_limit)
-            value = real(model_limit(thinnest_seen(judged), &
-                                     highest(seen_film)%value, problem%film%radius), dp)
+            value = lowest(seen_film)%value
+            if (has_two_flanks(problem)) value = min(value, lowest(seen_coast_film)%value)
+            value = real(model_limit(value, highest(seen_film)%value, problem%film%radius), dp)
          case (quantity_coast_film_minimum)
-            if (has_two_flanks(problem)) value = problem%backlash - highest(seen_film)%value
-            if (has_two_flanks(problem) .and. has_elastic_teeth(problem)) value = lowest(seen_coast_film)%value
+            if (has_two_flanks(problem)) value = lowest(seen_coast_film)%value
          case (quantity_coast_film_maximum)
-            if (has_two_flanks(problem)) value = problem%backlash - lowest(seen_film)%value
-            if (has_two_flanks(problem) .and. has_elastic_teeth(problem)) value = highest(seen_coast_film)%value
+            if (has_two_flanks(problem)) value = highest(seen_coast_film)%value
          case (quantity_gear_position_minimum)
             if (has_elastic_teeth(problem)) value = lowest(seen_position)%value
          case (quantity_gear_position_maximum)
@@ -206,19 +205,6 @@ contains
          end select
       end associate
    end function window_value
-
-   !> Smallest film of both flanks over the window [m].
-   pure real(dp) function thinnest_seen(judged) result(film)
-      type(judged_scene_t), intent(in) :: judged
-
-      associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest, problem => judged%resolved%problem)
-         if (has_two_flanks(problem) .and. has_elastic_teeth(problem)) then
-            film = min(lowest(seen_film)%value, lowest(seen_coast_film)%value)
-         else
-            film = min(lowest(seen_film)%value, thinner_film(problem, highest(seen_film)%value))
-         end if
-      end associate
-   end function thinnest_seen
 
    !> By which share of the film a tooth gives way under the largest load of it, at the flank where that is more [-].
    pure real(dp) function deflection_share(judged) result(share)

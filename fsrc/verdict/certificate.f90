@@ -2,7 +2,7 @@
 module certificate
    use kinds, only: dp
    use loudness, only: loudness_t
-   use node_extremes, only: seen_acceleration, seen_film
+   use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
    use quantities, only: quantity_rattle_class, quantity_word
    use rattle_class, only: class_irregular, class_subharmonic, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
@@ -51,10 +51,11 @@ contains
 
    !> Certificate of a window by a tighter one of the same samples.
    pure subroutine compare_windows(films, tight_films, extremes, tight_extremes, verdict, tight_verdict, unclosed, choice, &
-                                   tolerance, tight_accuracy, tight_noise, certificate, backlash)
-      !> Film of the scene and of its tighter solution [m]
-      real(dp), intent(in) :: films(:)
-      real(dp), intent(in) :: tight_films(:)
+                                   tolerance, tight_accuracy, tight_noise, certificate)
+      !> Films of the scene and of its tighter solution: sample, flank [m]. Their errors count against the thinner film of both
+      !> flanks.
+      real(dp), intent(in) :: films(:, :)
+      real(dp), intent(in) :: tight_films(:, :)
       !> Extremes of both
       type(window_extremes_t), intent(in) :: extremes
       type(window_extremes_t), intent(in) :: tight_extremes
@@ -72,22 +73,17 @@ contains
       !> Acceleration that its errors explain [m/s2]
       real(dp), intent(in) :: tight_noise
       type(certificate_t), intent(out) :: certificate
-      !> Backlash [m], where there are two flanks: the films are those of the drive flank, their errors count against the thinner
-      !> film of both
-      real(dp), intent(in), optional :: backlash
       real(dp), allocatable :: differences(:)
-      real(dp) :: peak, errors(2), film_difference, gap
+      real(dp) :: peak, errors(2), film_difference
       integer :: lines
 
       certificate%exists = .true.
       errors = errors_of(seen_film, 0.0_dp)
       certificate%film_minimum_error = errors(1)
       certificate%film_maximum_error = errors(2)
-      gap = huge(1.0_dp)
-      if (present(backlash)) gap = backlash
-      film_difference = max(maxval(abs(films - tight_films)/thinner(tight_films)), &
-                            errors(1)/(margin*thinner(tight_extremes%lowest(seen_film)%value)), &
-                            errors(2)/(margin*thinner(tight_extremes%highest(seen_film)%value)))
+      film_difference = max(maxval(maxval(abs(films - tight_films), dim=2)/minval(tight_films, dim=2)), &
+                            error_in_film(seen_film))
+      if (size(films, 2) > 1) film_difference = max(film_difference, error_in_film(seen_coast_film))
       certificate%film_error = margin*film_difference
       errors = errors_of(seen_acceleration, tight_noise)
       certificate%acceleration_minimum_error = errors(1)
@@ -108,12 +104,14 @@ contains
 
    contains
 
-      !> The thinner film of both flanks [m].
-      elemental real(dp) function thinner(film)
-         real(dp), intent(in) :: film
+      !> Errors of the extremes of a film as a share of it, without margin [-].
+      pure real(dp) function error_in_film(quantity)
+         !> Code of node_extremes
+         integer, intent(in) :: quantity
 
-         thinner = min(film, gap - film)
-      end function thinner
+         error_in_film = maxval(errors_of(quantity, 0.0_dp)/ &
+                                (margin*[tight_extremes%lowest(quantity)%value, tight_extremes%highest(quantity)%value]))
+      end function error_in_film
 
       !> Errors of the smallest and the largest value of a quantity.
       pure function errors_of(quantity, noise) result(differences)

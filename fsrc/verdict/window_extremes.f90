@@ -60,7 +60,7 @@ contains
             call note(seen_coast_load, part)
             call net_loads(problem, here, part)
             call note(seen_net_load, part)
-            if (has_elastic_teeth(problem)) call note(seen_coast_film, coast_films(problem, here))
+            call note(seen_coast_film, coast_films(problem, here))
          end associate
       end do
 

@@ -3,7 +3,7 @@ module test_certificate
    use certificate, only: certificate_t, closing_sentence, compare_windows, no_certificate
    use checks, only: check_list_t
    use kinds, only: dp
-   use node_extremes, only: seen_acceleration, seen_film
+   use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
    use rattle_class, only: class_creep, class_idle, class_irregular, class_quiet, class_subharmonic, rattle_verdict_t
    use scene_types, only: spectrum_choice_t
    use window_extremes, only: window_extremes_t
@@ -35,6 +35,7 @@ contains
       call test_closing(checks)
       call test_chance(checks)
       call test_tighter_errors(checks)
+      call test_coast_film(checks)
       call test_none(checks)
    end subroutine run_certificate_tests
 
@@ -69,9 +70,17 @@ contains
 
       reason = ''
       if (present(unclosed)) reason = unclosed
-      call compare_windows(films, tight_films, extremes_of(films, values), extremes_of(tight_films, tight_values), verdict, &
-         tight, reason, choice, tolerance, 0.0_dp, 0.0_dp, certificate)
+      call compare_windows(one_flank(films), one_flank(tight_films), extremes_of(films, values), &
+         extremes_of(tight_films, tight_values), verdict, tight, reason, choice, tolerance, 0.0_dp, 0.0_dp, certificate)
    end subroutine compare
+
+   !> Films of one flank.
+   pure function one_flank(films)
+      real(dp), intent(in) :: films(:) !> h [m]
+      real(dp) :: one_flank(size(films), 1)
+
+      one_flank(:, 1) = films
+   end function one_flank
 
    !> Extremes of film and acceleration.
    pure function extremes_of(films, values) result(extremes)
@@ -347,8 +356,8 @@ contains
       type(rattle_verdict_t) :: verdict
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
-      call compare_windows(films, films, extremes_of(films, values), extremes_of(films, values), verdict, verdict, '', choice, &
-         tolerance, accuracy, noise, certificate)
+      call compare_windows(one_flank(films), one_flank(films), extremes_of(films, values), extremes_of(films, values), verdict, &
+         verdict, '', choice, tolerance, accuracy, noise, certificate)
       call checks%check(certificate%film_error > accuracy, 'tighter errors: film')
       call checks%check(certificate%film_minimum_error > accuracy*minval(films) .and. &
          certificate%film_maximum_error > accuracy*maxval(films), 'tighter errors: extremes of the film')
@@ -358,6 +367,43 @@ contains
       call checks%check(certificate%film_error < 100.0_dp*accuracy .and. &
          all(certificate%harmonic_errors < 100.0_dp*(noise + accuracy*verdict%lines%harmonics)), 'tighter errors: not by far')
    end subroutine test_tighter_errors
+
+   !> Between two flanks the errors of both films count, against the thinner one: in samples, and in extremes between them. On teeth
+   !> that give the drive film may be thicker than the backlash.
+   subroutine test_coast_film(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: coast(3) = [1.0e-7_dp, 2.0e-7_dp, 4.0e-7_dp], error = 0.05_dp
+      type(certificate_t) :: certificate
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: verdict
+      type(window_extremes_t) :: extremes, tight_extremes
+
+      verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
+      extremes = extremes_of(films, values)
+      extremes%lowest(seen_coast_film)%value = minval(coast)
+      extremes%highest(seen_coast_film)%value = maxval(coast)
+      tight_extremes = extremes
+      call compare_both(coast)
+      call checks%check(certificate%certified .and. .not. certificate%film_error > 0.0_dp, 'coast film: the same')
+      call compare_both(coast*[1.0_dp, 1.0_dp + error, 1.0_dp])
+      call checks%check_close(certificate%film_error, 2.0_dp*error, 1.0e-14_dp, 'coast film: error of a sample')
+      call checks%check(.not. certificate%certified, 'coast film: not certified')
+      extremes%lowest(seen_coast_film)%value = (1.0_dp - error)*minval(coast)
+      call compare_both(coast)
+      call checks%check_close(certificate%film_error, 2.0_dp*error, 1.0e-14_dp, 'coast film: error between samples')
+
+   contains
+
+      !> Compare with a solution of the same drive film.
+      subroutine compare_both(coast_film)
+         real(dp), intent(in) :: coast_film(:) !> Of the scene [m]
+
+         call compare_windows(reshape([films, coast_film], [3, 2]), reshape([films, coast], [3, 2]), extremes, tight_extremes, &
+            verdict, verdict, '', choice, tolerance, 0.0_dp, 0.0_dp, certificate)
+      end subroutine compare_both
+
+   end subroutine test_coast_film
 
    !> Without a tighter solution nothing is certified.
    subroutine test_none(checks)
