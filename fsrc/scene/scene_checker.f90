@@ -39,6 +39,7 @@ contains
       call check_film_model(input, faults)
       call check_rules(input, faults)
       call check_no_word_twice(input, 'output', 'columns', faults)
+      call check_columns(input, faults)
       call check_no_word_twice(input, 'points', 'compute', faults)
       call check_no_word_twice(input, 'campaign', 'vary', faults)
       call check_no_word_twice(input, 'campaign', 'record', faults)
@@ -283,6 +284,23 @@ contains
          end do
       end do
    end subroutine check_no_word_twice
+
+   !> Columns of the coast flank are asked for only where there is one.
+   subroutine check_columns(input, faults)
+      type(scene_input_t), intent(in) :: input
+      type(fault_list_t), intent(inout) :: faults
+      type(word_t), allocatable :: words(:)
+      integer :: i
+
+      if (input%is_faulty('output', 'columns')) return
+      if (input%is_given('contact', 'backlash') .or. input%is_given('gear', 'backlash')) return
+      allocate (words, source=split_words(input%words('output', 'columns')))
+      do i = 1, size(words)
+         if (index(words(i)%text, 'coast_') /= 1) cycle
+         call input%add_fault('output', 'columns', "'"//words(i)%text//"' needs a coast flank: give "// &
+                              trim(merge('gear.backlash   ', 'contact.backlash', input%has_group('gear'))), faults)
+      end do
+   end subroutine check_columns
 
    !> The referee and Roelands' viscosity are for film tasks: a motion would wait for them at every step.
    subroutine check_film_model(input, faults)

@@ -12,8 +12,8 @@ module test_elastic_teeth
    use newmark, only: advance_period, newmark_state_t, start_motion
    use node_extremes, only: seen_coast_film, seen_coast_load, seen_load, seen_position
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use problem, only: film_at_rest, gear_positions, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, &
-      problem_t, static_load
+   use problem, only: coast_films, film_at_rest, gear_positions, loads_at_rest, of_drive_compression, of_film, of_velocity, &
+      problem_of, problem_t, static_load
    use scene_status, only: is_success, status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
    use window_record, only: energy_gap, window_record_t
@@ -53,6 +53,7 @@ contains
       call test_small_motions(checks)
       call test_stiff_teeth(checks)
       call test_newmark(checks)
+      call test_mirror(checks)
       call test_no_company(checks)
    end subroutine run_elastic_teeth_tests
 
@@ -264,6 +265,68 @@ contains
       end subroutine one_period
 
    end subroutine test_newmark
+
+   !> Turned round, load and force press the other flank: the same motion with its films exchanged. Soft teeth let the film of the
+   !> flank that carries nothing grow beyond the backlash.
+   subroutine test_mirror(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: stiffness(2) = [1.0e6_dp, 5.0e7_dp], load(2) = [30.0_dp, 0.5_dp]
+      type(problem_t) :: pressed, turned
+      type(ending_t) :: ending
+      type(window_record_t) :: record
+      real(dp), allocatable :: states(:, :), turned_states(:, :), z(:), turned_z(:)
+      integer :: i, status
+
+      do i = 1, 2
+         pressed = between_flanks()
+         pressed%compliance = 1.0_dp/stiffness(i)
+         turned = pressed
+         pressed%force%steady = load(i)
+         turned%force%steady = -load(i)
+         turned%force%cosine = -pressed%force%cosine
+         turned%force%sine = -pressed%force%sine
+         turned%force%others(:, :) = -pressed%force%others
+         pressed%initial_film = film_at_rest(pressed, load(i))
+         turned%initial_film = film_at_rest(turned, -load(i))
+         call checks%check(turned%initial_film > turned%backlash .eqv. i == 1, 'mirror: soft teeth open beyond the backlash')
+         call solve_window(pressed, start_of(pressed), accuracy, 64, 3, 1, states, z, ending, record)
+         call checks%check(ending%status == status_complete, 'mirror: solved on the drive flank')
+         call solve_window(turned, start_of(turned), accuracy, 64, 3, 1, turned_states, turned_z, ending, record)
+         call checks%check(ending%status == status_complete, 'mirror: solved on the coast flank')
+         if (ending%status /= status_complete) cycle
+         call checks%check(maxval(abs(coast_films(turned, turned_states)/states(:, of_film) - 1.0_dp)) < 1.0e-6_dp .and. &
+                           maxval(abs(turned_states(:, of_film)/coast_films(pressed, states) - 1.0_dp)) < 1.0e-6_dp, &
+                           'mirror: the films change places')
+         call checks%check(maxval(abs(turned_z + z)) < 1.0e-6_dp*maxval(abs(z)), 'mirror: the acceleration turns')
+         call three_periods(turned, status)
+         call checks%check(status == status_complete, 'mirror: solved on the coast flank by newmark')
+      end do
+
+   contains
+
+      !> Films after three periods of Newmark's method, held against the last sample.
+      subroutine three_periods(problem, status)
+         type(problem_t), intent(in) :: problem
+         integer, intent(out) :: status
+         integer, parameter :: steps = 8192
+         type(newmark_state_t) :: state
+         type(motion_count_t) :: count
+         real(dp), dimension(steps) :: force, films, velocities, accelerations
+         real(dp) :: coast
+         integer :: done, period
+
+         call force_of_period(problem%force, force)
+         call start_motion(kernel_of(problem%film), problem, state, count, status)
+         do period = 1, 3
+            if (status /= status_complete) return
+            call advance_period(kernel_of(problem%film), problem, request_t(tolerance=1.0e-16_dp, iteration_limit=100), force, &
+                                state, count, films, velocities, accelerations, done, status)
+         end do
+         coast = problem%backlash - state%film + sum(state%compression)
+         call checks%check(abs(coast/states(64, of_film) - 1.0_dp) < 1.0e-3_dp, 'mirror: newmark agrees')
+      end subroutine three_periods
+
+   end subroutine test_mirror
 
    !> A window carried on from its middle is the same to the last bit.
    subroutine test_no_company(checks)
