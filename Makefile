@@ -129,7 +129,7 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 COMPUTING := $(foreach room,$(filter-out foundation scene files run campaign,$(ROOMS)),$(wildcard fsrc/$(room)/*.f90))
 $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),$(WIDENING))
 
-$(BUILD)/film_series.o $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o: private FFLAGS += $(LANE_FLAGS)
+$(BUILD)/film_series.o $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o $(BUILD)/step_nodes.o: private FFLAGS += $(LANE_FLAGS)
 $(BUILD)/lane_functions.o $(BUILD)/elementary_functions.o: private FFLAGS += $(ELEMENTARY_FLAGS)
 
 $(BUILD)/lane_rows.o: private FFLAGS += -cpp -DWIDE_REGISTERS=$(WIDE_REGISTERS)

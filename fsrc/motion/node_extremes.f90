@@ -4,9 +4,11 @@
 !> film and velocity are interpolated in the piece of the step, the quantity follows from them by its own law, and the
 !> parabola is renewed until it stands.
 module node_extremes
+   use film_law, only: film_load
+   use film_pressure, only: exact_pressure
    use kinds, only: dp
-   use problem, only: acceleration_at, coast_films, coast_loads, drive_loads, gear_positions, largest_pressures, largest_state, &
-      net_loads, of_film, of_velocity, problem_t
+   use problem, only: acceleration_at, coast_films, coast_loads, drive_loads, gear_positions, has_elastic_teeth, has_two_flanks, &
+      largest_pressures, largest_state, net_loads, of_film, of_velocity, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    use value_range, only: range_of
    implicit none(type, external)
@@ -18,6 +20,9 @@ module node_extremes
    integer, parameter, public :: seen_film = 1, seen_velocity = 2, seen_acceleration = 3, seen_load = 4, seen_pressure = 5, &
                                  seen_coast_load = 6, seen_net_load = 7, seen_coast_film = 8, seen_position = 9
    integer, parameter, public :: seen_quantities = 9
+
+   !> Pieces that are looked at together, at most: their arrays stay in the cache.
+   integer, parameter, public :: block_pieces = 64, block_nodes = nodes_per_piece*block_pieces
 
    !> How far above its nodes a smooth curve may rise within a piece, as a share of its range there.
    real(dp), parameter :: between = 0.06_dp
@@ -44,7 +49,7 @@ module node_extremes
 
 contains
 
-   !> Smallest and largest value of a quantity over some pieces, kept where they are beyond those found before.
+   !> Smallest and largest value of a quantity over some pieces, a block of them at most, kept where they are beyond those found before.
    pure subroutine find_extremes(problem, quantity, period, start, length, states, values, lowest, highest)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: quantity
@@ -76,8 +81,8 @@ contains
          real(dp), intent(in) :: range
          type(extreme_t), intent(inout) :: found
          real(dp) :: level, best, place
-         real(dp), dimension(size(values)) :: estimates
-         integer, dimension(size(values)) :: peaks
+         real(dp) :: estimates(block_nodes)
+         integer :: peaks(block_nodes)
          integer :: i, count_of_peaks
 
          ! The highest estimate is found first; then those that come near it are renewed.
@@ -174,26 +179,30 @@ contains
       pure type(extreme_t) function at_place(piece, x)
          integer, intent(in) :: piece
          real(dp), intent(in) :: x
-         real(dp) :: value(1), here(1, largest_state)
-         integer :: before
+         real(dp) :: value(1), here(1, largest_state), by_film, by_velocity
+         logical :: alone
 
-         before = nodes_per_piece*(piece - 1)
          at_place%exists = .true.
          at_place%period = period
          at_place%phase = start(piece) + x*length(piece)
-         associate (numbers => size(states, 2))
-            call interpolate(states(before + 1:before + nodes_per_piece, :), x, at_place%state(:numbers))
-            here(1, :) = at_place%state
-         end associate
+         call interpolate(states, piece, x, at_place%state)
+         here(1, :) = at_place%state
+         ! One film is not worth the registers of many.
+         alone = .not. (has_two_flanks(problem) .or. has_elastic_teeth(problem))
          select case (quantity)
          case (seen_film)
             value = at_place%state(of_film)
          case (seen_velocity)
             value = at_place%state(of_velocity)
-         case (seen_pressure)
-            call largest_pressures(problem, here, value)
          case (seen_acceleration)
-            value = acceleration_at(problem, here(1, :), min(1.0_dp, at_place%phase))
+            value = acceleration_at(problem, at_place%state, min(1.0_dp, at_place%phase))
+         case (seen_pressure)
+            if (alone) then
+               value = exact_pressure(problem%film%radius, problem%film%speed, problem%film%viscosity, &
+                                      at_place%state(of_film), at_place%state(of_velocity))
+            else
+               call largest_pressures(problem, here, value)
+            end if
          case (seen_coast_load)
             call coast_loads(problem, here, value)
          case (seen_net_load)
@@ -203,7 +212,11 @@ contains
          case (seen_position)
             value = gear_positions(problem, here)
          case default
-            call drive_loads(problem, here, value)
+            if (alone) then
+               call film_load(problem%film, at_place%state(of_film), at_place%state(of_velocity), value(1), by_film, by_velocity)
+            else
+               call drive_loads(problem, here, value)
+            end if
          end select
          at_place%value = value(1)
       end function at_place

@@ -4,7 +4,7 @@
 !> exact to rounding, and interpolation between its nodes is closer than the accuracy of the step. A step is cut into equal
 !> pieces of eight nodes each where oscillations shorter than it are to be integrated.
 module step_nodes
-   use kinds, only: dp, int64
+   use kinds, only: dp
    use lane_block, only: lane_block_t
    use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
@@ -49,8 +49,7 @@ contains
       type(step_nodes_t), intent(inout) :: nodes
       real(dp), dimension(nodes_per_piece) :: x, film, velocity, odd_film, odd_velocity
       real(dp) :: film_series(0:order), momentum_series(0:order), length
-      real(dp) :: compression(nodes_per_piece)
-      integer :: pieces, piece, before, numbers, flank, i, k
+      integer :: pieces, piece, before, numbers, i, k
 
       film_series = block%film(lane, :)
       momentum_series = block%momentum(lane, :)
@@ -89,15 +88,30 @@ contains
          nodes%length(nodes%pieces) = length
          nodes%states(before + 1:before + nodes_per_piece, of_film) = film*block%film_scale(lane)
          nodes%states(before + 1:before + nodes_per_piece, of_velocity) = velocity*block%velocity_scale(lane)
-         do flank = 1, numbers - 2
-            compression = 0.0_dp
-            do k = order, 0, -1
-               compression = compression*x + block%compression(lane, flank, k)
-            end do
-            nodes%states(before + 1:before + nodes_per_piece, of_velocity + flank) = compression*block%film_scale(lane)
-         end do
+         if (numbers > 2) call take_compressions(block, lane, x, &
+                                                 nodes%states(before + 1:before + nodes_per_piece, of_velocity + 1:))
       end do
    end subroutine take_nodes
+
+   !> Compressions of the springs of a lane, one or two.
+   pure subroutine take_compressions(block, lane, x, compressions)
+      type(lane_block_t), intent(in) :: block
+      integer, intent(in) :: lane
+      !> Times since the step began [periods]
+      real(dp), intent(in) :: x(nodes_per_piece)
+      !> Node, flank [m]
+      real(dp), intent(out) :: compressions(:, :)
+      real(dp) :: compression(nodes_per_piece)
+      integer :: flank, k
+
+      do flank = 1, size(compressions, 2)
+         compression = 0.0_dp
+         do k = order, 0, -1
+            compression = compression*x + block%compression(lane, flank, k)
+         end do
+         compressions(:, flank) = compression*block%film_scale(lane)
+      end do
+   end subroutine take_compressions
 
    !> See that so many pieces have their place.
    pure subroutine provide_room(nodes, pieces, numbers)
@@ -137,30 +151,40 @@ contains
    end subroutine extend
 
    !> State within a piece, from those at its nodes.
-   pure subroutine interpolate(states, x, state)
-      !> Node, number of the state
+   pure subroutine interpolate(states, piece, x, state)
+      !> Nodes of some pieces, eight a piece: node, number of the state
       real(dp), intent(in) :: states(:, :)
-      !> Place in the piece, from 0 to 1
+      !> The piece, and a place in it, from 0 to 1
+      integer, intent(in) :: piece
       real(dp), intent(in) :: x
-      !> Its numbers there
-      real(dp), intent(out) :: state(:)
-      real(dp), dimension(nodes_per_piece) :: distance, factor
-      integer(int64) :: bits(nodes_per_piece)
-      integer :: nearest, number
+      !> The numbers there; those that the states lack stay
+      real(dp), intent(inout) :: state(:)
+      real(dp), dimension(nodes_per_piece) :: distance, factor, products
+      integer :: nearest, number, before
 
+      before = nodes_per_piece*(piece - 1)
       distance = x - node_place
       if (any(abs(distance) < epsilon(1.0_dp))) then
          nearest = minloc(abs(distance), dim=1)
-         state = states(nearest, :)
+         state(:size(states, 2)) = states(before + nearest, :)
       else
          factor = barycentric/distance
          factor = factor/sum(factor)
-         do number = 1, size(state)
-            ! Bits of the products: no compiler is to fuse them with their sum, one way here and another there.
-            bits = transfer(factor*states(:, number), bits)
-            state(number) = sum(transfer(bits, factor))
+         do number = 1, size(states, 2)
+            call multiply(factor, states(before + 1:before + nodes_per_piece, number), products)
+            state(number) = sum(products)
          end do
       end if
    end subroutine interpolate
+
+   !> Rounded products. Part of another routine, which the flags of this file do not allow, they would be fused with their sum, one
+   !> way here and another there.
+   pure subroutine multiply(factor, values, products)
+      real(dp), intent(in) :: factor(nodes_per_piece)
+      real(dp), intent(in) :: values(nodes_per_piece)
+      real(dp), intent(out) :: products(nodes_per_piece)
+
+      products = factor*values
+   end subroutine multiply
 
 end module step_nodes

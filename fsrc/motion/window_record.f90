@@ -19,16 +19,13 @@ module window_record
    use force, only: forces_on_circle
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
-   use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, &
-      seen_load, seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
+   use node_extremes, only: block_nodes, block_pieces, extreme_t, find_extremes, seen_acceleration, seen_coast_film, &
+      seen_coast_load, seen_film, seen_load, seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
    use problem, only: coast_films, coast_loads, drive_loads, gear_positions, has_elastic_teeth, has_two_flanks, &
       largest_pressures, of_film, of_velocity, problem_t, static_load
    use step_nodes, only: node_place, node_weight, nodes_per_piece, step_nodes_t
    implicit none(type, external)
    private
-
-   !> Pieces that are looked at together: their arrays stay in the cache.
-   integer, parameter :: block_pieces = 64, block_nodes = nodes_per_piece*block_pieces
 
    !> Oscillations that the eight nodes of a piece of a step integrate to eight digits.
    real(dp), parameter :: oscillations_per_piece = 1.27_dp

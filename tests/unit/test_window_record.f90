@@ -55,12 +55,12 @@ contains
       call checks%check(abs(sum(node_weight*node_place**16) - 1.0_dp/17.0_dp) > 1.0e-10_dp, 'nodes: not of the next one')
       do k = 0, nodes_per_piece - 1
          do i = 0, 10
-            call interpolate(reshape([node_place**k, -node_place**k], [nodes_per_piece, 2]), 0.1_dp*real(i, dp), state)
+            call interpolate(reshape([node_place**k, -node_place**k], [nodes_per_piece, 2]), 1, 0.1_dp*real(i, dp), state)
             call checks%check_close(state(of_film), (0.1_dp*real(i, dp))**k, 8.0_dp*rounding, 'nodes: a power between them')
             call checks%check_close(state(of_velocity), -state(of_film), 0.0_dp, 'nodes: the velocity like the film')
          end do
       end do
-      call interpolate(reshape([node_place**3, node_place], [nodes_per_piece, 2]), node_place(2), state)
+      call interpolate(reshape([node_place**3, node_place], [nodes_per_piece, 2]), 1, node_place(2), state)
       call checks%check_close(state(of_film), node_place(2)**3, 0.0_dp, 'nodes: at a node')
       call checks%check_close(state(of_velocity), node_place(2), 0.0_dp, 'nodes: velocity at a node')
    end subroutine test_nodes
