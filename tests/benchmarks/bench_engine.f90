@@ -9,13 +9,13 @@ program bench_engine
    use engine, only: ending_t, request_t, start_of
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use problem, only: of_film, problem_of, problem_t
+   use problem, only: of_film, problem_of, problem_t, state_size
    use scene_status, only: is_success, status_name
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
    use version, only: program_version
    implicit none(type, external)
    !> Copies that fill the lanes; the time is that of one.
-   integer, parameter :: copies = 64, periods = 200, sampled = 10, points = 64
+   integer, parameter :: copies = 64, sampled = 10, points = 64
    real(dp), parameter :: least_seconds = 0.05_dp
    type(scene_t) :: scene
    type(problem_t) :: lanes(copies)
@@ -24,7 +24,7 @@ program bench_engine
    real(dp), allocatable :: states(:, :, :)
    character(512) :: engine, path, word
    real(dp) :: accuracy, started, finished, best
-   integer :: i, repetition, repetitions, rows
+   integer :: i, repetition, repetitions, rows, periods
 
    call get_command_argument(1, engine)
    if (engine == '--version' .or. command_argument_count() < 3) then
@@ -34,7 +34,7 @@ program bench_engine
    call get_command_argument(2, path)
    call get_command_argument(3, word)
    read (word, *) accuracy
-   call read_scene_file(trim(path), scene)
+   call read_scene_file(trim(path), scene, periods)
    lanes = problem_of(scene)
    request%accuracy = accuracy
    request%periods = periods
@@ -42,7 +42,7 @@ program bench_engine
    request%sampled_periods = sampled
    request%until_steady = engine == 'taylor-steady'
    request%every_period = engine == 'taylor-every-period'
-   allocate (states(sampled*points, 2, copies), source=0.0_dp)
+   allocate (states(sampled*points, state_size(lanes(1)), copies), source=0.0_dp)
 
    call solve()
    if (.not. all(is_success(endings%status))) then
@@ -77,13 +77,22 @@ contains
    end subroutine solve
 
    !> Scene in SI units from lines of `key value`.
-   subroutine read_scene_file(file, scene)
+   subroutine read_scene_file(file, scene, periods)
       character(*), intent(in) :: file
       type(scene_t), intent(out) :: scene
+      integer, intent(out) :: periods
       character(64) :: key
       character(128) :: line, value
-      integer :: unit, stat
+      integer, parameter :: highest = 64
+      !> Over the static load: amplitudes of the orders above the first, 0 where there is none; and their phases [rad]
+      real(dp) :: ratio(highest), phase(highest), backlash, compliance
+      integer :: unit, stat, order
 
+      ratio = 0.0_dp
+      phase = 0.0_dp
+      backlash = 0.0_dp
+      compliance = 0.0_dp
+      periods = 200
       open (newunit=unit, file=file, status='old', action='read')
       do
          read (unit, '(a)', iostat=stat) line
@@ -117,11 +126,30 @@ contains
             read (value, *) scene%load%frequency
          case ('initial_film')
             read (value, *) scene%film%initial_film
+         case ('periods')
+            read (value, *) periods
+         case ('backlash')
+            read (value, *) backlash
+         case ('compliance')
+            read (value, *) compliance
          case default
-            continue
+            if (index(key, 'ratio_') /= 1 .and. index(key, 'phase_') /= 1) cycle
+            read (key(7:), *) order
+            if (key(:1) == 'r') read (value, *) ratio(order)
+            if (key(:1) == 'p') read (value, *) phase(order)
          end select
       end do
       close (unit)
+      ! In units of the first film, and of the stiffness under which the static load gives way by it.
+      scene%contact%backlash = backlash*scene%film%initial_film
+      if (compliance > 0.0_dp) &
+         scene%contact%stiffness = scene%load%static_load()/(compliance*scene%film%initial_film)
+      if (any(ratio > 0.0_dp)) then
+         scene%load%force_orders = pack([(order, order=1, highest)], ratio > 0.0_dp .or. [(order == 1, order=1, highest)])
+         ratio(1) = scene%load%force_amplitude/scene%load%static_load()
+         scene%load%force_amplitudes = ratio(scene%load%force_orders)*scene%load%static_load()
+         scene%load%force_phases = phase(scene%load%force_orders)
+      end if
       scene%contact%young_modulus = 2.0e11_dp
    end subroutine read_scene_file
 

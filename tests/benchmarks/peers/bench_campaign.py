@@ -58,7 +58,7 @@ def heyoka_seconds(sample: list[scenes.Scene]) -> float:
     """Seconds a scene in batches of eight."""
     import heyoka_peer
 
-    integrator = heyoka_peer._batch("published iso_viscous", HEYOKA_TOLERANCE)
+    integrator = heyoka_peer._batch(sample[0].kind, HEYOKA_TOLERANCE)
     parameters = len(integrator.pars)
     total = 0.0
     for first in range(0, len(sample), 8):

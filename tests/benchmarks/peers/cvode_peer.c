@@ -14,12 +14,15 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <time.h>
 
-enum { POINTS = 24 };
+enum { POINTS = 24, ORDERS = 64 };
 
 typedef struct {
    int film; /* 0, 1: published iso, piezo; 2, 3: Reynolds iso, piezo */
    double a, c, q, b0, steady;
    int periods, sampled, points;
+   /* More than one cosine on one rigid flank: orders, ratios and phases of those above the first; 0: one flank, rigid */
+   int changed, orders;
+   double ratio[ORDERS + 1], phase[ORDERS + 1], backlash, compliance, coast_start;
 } scene_t;
 
 typedef struct {
@@ -92,6 +95,105 @@ static double piezo_load(double d, const rupture_t *r, double b, double *by_a, d
    return load;
 }
 
+/* Load of a published film and its slopes in film and speed. */
+static double film_load(const scene_t *p, double y, double v, double *by_y, double *by_v)
+{
+   double root = sqrt(y);
+   if (p->film == 0) {
+      *by_y = (1.5 * p->c * v / root - 1) / (y * y);
+      *by_v = -p->c / (y * root);
+      return (1 - p->c * v / root) / y;
+   }
+   double load = exp(-p->c * v) / (y * y * y * root);
+   *by_y = -3.5 * load / y;
+   *by_v = -p->c * load;
+   return load;
+}
+
+/* Its speed under a load and the slopes in film and load. */
+static double film_speed(const scene_t *p, double y, double w, double *by_y, double *by_w)
+{
+   double root = sqrt(y);
+   if (p->film == 0) {
+      *by_y = (0.5 / root - 1.5 * root * w) / p->c;
+      *by_w = -y * root / p->c;
+      return root * (1 - y * w) / p->c;
+   }
+   *by_y = -3.5 / (p->c * y);
+   *by_w = -1 / (p->c * w);
+   return -(log(w) + 3.5 * log(y)) / p->c;
+}
+
+/* Several orders, two flanks, teeth that give: states y, v or y, z, v or y, z, coast film, v (scenes.py). */
+static int changed_rates(realtype tau, N_Vector state, N_Vector slope, void *data)
+{
+   const scene_t *p = data;
+   const double *s = NV_DATA_S(state);
+   double *d = NV_DATA_S(slope), one, two, y = s[0], drive = 1 + p->q * cos(2 * M_PI * tau), net;
+   for (int n = 2; n <= p->orders; n++) drive += p->ratio[n] * cos(2 * M_PI * n * tau + p->phase[n]);
+   if (!(y > 0)) return 1;
+   if (p->compliance > 0) {
+      double w = (y - s[1]) / p->compliance, v = s[p->backlash > 0 ? 3 : 2];
+      if (p->film == 1 && !(w > 0)) return 1;
+      d[0] = film_speed(p, y, w, &one, &two);
+      d[1] = v;
+      net = w;
+      if (p->backlash > 0) {
+         double second = (s[2] - (p->backlash - s[1])) / p->compliance;
+         if (!(s[2] > 0) || (p->film == 1 && !(second > 0))) return 1;
+         d[2] = film_speed(p, s[2], second, &one, &two);
+         net -= second;
+      }
+      d[p->backlash > 0 ? 3 : 2] = p->a * (net - drive);
+      return 0;
+   }
+   d[0] = s[1];
+   net = film_load(p, y, s[1], &one, &two);
+   if (p->backlash > 0) {
+      if (!(p->backlash - y > 0)) return 1;
+      net -= film_load(p, p->backlash - y, -s[1], &one, &two);
+   }
+   d[1] = p->a * (net - drive);
+   return isfinite(d[1]) ? 0 : 1;
+}
+
+static int changed_jacobian(realtype tau, N_Vector state, N_Vector slope, SUNMatrix matrix, void *data, N_Vector first,
+                            N_Vector second, N_Vector third)
+{
+   (void)tau, (void)slope, (void)first, (void)second, (void)third;
+   const scene_t *p = data;
+   const double *s = NV_DATA_S(state);
+   double e = p->compliance, b = p->backlash, y = s[0], by_y, by_x;
+   SUNMatZero(matrix);
+   if (e > 0) {
+      int v = b > 0 ? 3 : 2;
+      film_speed(p, y, (y - s[1]) / e, &by_y, &by_x);
+      SM_ELEMENT_D(matrix, 0, 0) = by_y + by_x / e;
+      SM_ELEMENT_D(matrix, 0, 1) = -by_x / e;
+      SM_ELEMENT_D(matrix, 1, v) = 1;
+      SM_ELEMENT_D(matrix, v, 0) = p->a / e;
+      SM_ELEMENT_D(matrix, v, 1) = -p->a / e;
+      if (b > 0) {
+         film_speed(p, s[2], (s[2] - (b - s[1])) / e, &by_y, &by_x);
+         SM_ELEMENT_D(matrix, 2, 2) = by_y + by_x / e;
+         SM_ELEMENT_D(matrix, 2, 1) = by_x / e;
+         SM_ELEMENT_D(matrix, v, 2) = -p->a / e;
+         SM_ELEMENT_D(matrix, v, 1) = -2 * p->a / e;
+      }
+      return 0;
+   }
+   film_load(p, y, s[1], &by_y, &by_x);
+   SM_ELEMENT_D(matrix, 0, 1) = 1;
+   SM_ELEMENT_D(matrix, 1, 0) = p->a * by_y;
+   SM_ELEMENT_D(matrix, 1, 1) = p->a * by_x;
+   if (b > 0) {
+      film_load(p, b - y, -s[1], &by_y, &by_x);
+      SM_ELEMENT_D(matrix, 1, 0) += p->a * by_y;
+      SM_ELEMENT_D(matrix, 1, 1) += p->a * by_x;
+   }
+   return 0;
+}
+
 static int rates(realtype tau, N_Vector state, N_Vector slope, void *data)
 {
    const scene_t *p = data;
@@ -162,15 +264,19 @@ static int solve(scene_t *scene, double tolerance, double *film)
 {
    SUNContext context;
    if (SUNContext_Create(NULL, &context)) return 1;
-   N_Vector state = N_VNew_Serial(2, context);
+   int size = scene->compliance > 0 ? (scene->backlash > 0 ? 4 : 3) : 2;
+   N_Vector state = N_VNew_Serial(size, context);
+   N_VConst(0, state);
    NV_Ith_S(state, 0) = 1;
-   NV_Ith_S(state, 1) = scene->film < 2 ? 0 : 0.5 * M_PI + atan(0.4751299200930563);
-   SUNMatrix matrix = SUNDenseMatrix(2, 2, context);
+   if (scene->film > 1) NV_Ith_S(state, 1) = 0.5 * M_PI + atan(0.4751299200930563);
+   if (size > 2) NV_Ith_S(state, 1) = 1 - scene->compliance;
+   if (size > 3) NV_Ith_S(state, 2) = scene->coast_start;
+   SUNMatrix matrix = SUNDenseMatrix(size, size, context);
    SUNLinearSolver solver = SUNLinSol_Dense(state, matrix, context);
    void *memory = CVodeCreate(CV_BDF, context);
-   int flag = CVodeInit(memory, rates, 0, state) || CVodeSStolerances(memory, tolerance, tolerance) ||
+   int flag = CVodeInit(memory, scene->changed ? changed_rates : rates, 0, state) || CVodeSStolerances(memory, tolerance, tolerance) ||
               CVodeSetUserData(memory, scene) || CVodeSetLinearSolver(memory, solver, matrix) ||
-              CVodeSetJacFn(memory, jacobian) || CVodeSetMaxNumSteps(memory, 2000000) || CVodeSetErrFile(memory, NULL);
+              CVodeSetJacFn(memory, scene->changed ? changed_jacobian : jacobian) || CVodeSetMaxNumSteps(memory, 2000000) || CVodeSetErrFile(memory, NULL);
    int first = (scene->periods - scene->sampled) * scene->points;
    for (int i = 0; !flag && i < scene->sampled * scene->points; i++) {
       realtype reached;
@@ -200,6 +306,15 @@ static int read_scene(const char *name, scene_t *scene)
       if (!strcmp(key, "force_ratio")) scene->q = number;
       if (!strcmp(key, "pressure_scale")) scene->b0 = number;
       if (!strcmp(key, "steady_load")) scene->steady = number;
+      if (!strcmp(key, "backlash")) scene->changed = 1, scene->backlash = number;
+      if (!strcmp(key, "compliance")) scene->compliance = number;
+      if (!strcmp(key, "coast_start")) scene->coast_start = number;
+      int order;
+      if (sscanf(key, "ratio_%d", &order) == 1 && order > 1 && order <= ORDERS) {
+         scene->ratio[order] = number;
+         if (order > scene->orders) scene->orders = order;
+      }
+      if (sscanf(key, "phase_%d", &order) == 1 && order > 1 && order <= ORDERS) scene->phase[order] = number;
       if (!strcmp(key, "periods")) scene->periods = (int)number;
       if (!strcmp(key, "sampled_periods")) scene->sampled = (int)number;
       if (!strcmp(key, "points_a_period")) scene->points = (int)number;

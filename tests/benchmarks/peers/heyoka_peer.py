@@ -18,9 +18,6 @@ import scenes
 VERSION = hy.__version__
 LANES = 8
 TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12, 1e-14)
-# The sampled part needs dense output, the part before does not and is faster without.
-FIRST = float(scenes.PERIODS - scenes.SAMPLED_PERIODS)
-GRID = np.append(FIRST, scenes.SAMPLE_TIMES)
 
 
 def _piezo_load(d, s, c, a, b):
@@ -77,8 +74,61 @@ def _system(film: str) -> list:
     ]
 
 
+def _changed_system(kind: tuple) -> list:
+    """Equations of a published film under several orders, on two flanks, of teeth that give (scenes.py).
+
+    Parameters: a, c, q, backlash, compliance, then ratio and phase of every order above the first.
+    """
+    film, orders, two_flanks, springs = kind
+    iso = film == "published iso_viscous"
+    y, v, z, coast = hy.make_vars("y", "v", "z", "coast")
+    big_a, rate, ratio, backlash, compliance = (hy.par[i] for i in range(5))
+    turn = 2.0 * np.pi * hy.time
+    drive = 1.0 + ratio * hy.cos(turn)
+    for order in range(2, orders + 1):
+        drive += hy.par[2 * order + 1] * hy.cos(float(order) * turn + hy.par[2 * order + 2])
+
+    def load(gap, speed):
+        return 1.0 / gap - rate * speed * gap**-1.5 if iso else gap**-3.5 * hy.exp(-rate * speed)
+
+    def speed(gap, load):
+        return hy.sqrt(gap) * (1.0 - gap * load) / rate if iso else -(hy.log(load) + 3.5 * hy.log(gap)) / rate
+
+    if not springs:
+        net = load(y, v) - load(backlash - y, -v) if two_flanks else load(y, v)
+        return [(y, v), (v, big_a * (net - drive))]
+    first = (y - z) / compliance
+    system = [(y, speed(y, first)), (z, v)]
+    net = first
+    if two_flanks:
+        second = (coast - (backlash - z)) / compliance
+        system.append((coast, speed(coast, second)))
+        net = first - second
+    return [*system, (v, big_a * (net - drive))]
+
+
+def _parameters(scene: scenes.Scene) -> np.ndarray:
+    """What the equations of a scene take."""
+    if not scene.is_changed:
+        return scene.parameters
+    orders = [number for pair in zip(scene.more_ratios, scene.phases, strict=True) for number in pair]
+    return np.array([*scene.parameters[:3], scene.backlash, scene.compliance, *orders])
+
+
 def _start(scene: scenes.Scene) -> list[float]:
+    if scene.compliance > 0.0:
+        coast = [scenes.coast_start(scene)] if scene.backlash > 0.0 else []
+        return [1.0, 1.0 - scene.compliance, *coast, 0.0]
     return [1.0, 0.0 if scene.model == "published" else scenes.STEADY_ANGLE]
+
+
+def _equations(kind: tuple) -> list:
+    return _system(kind[0]) if kind[1:] == (1, False, False) else _changed_system(kind)
+
+
+def _grid(scene: scenes.Scene) -> np.ndarray:
+    """Start and times of the sampled part, which needs dense output; the part before is faster without."""
+    return np.append(scene.sample_times[0] - 1.0 / scenes.POINTS_A_PERIOD, scene.sample_times)
 
 
 def _options(film: str) -> dict:
@@ -88,28 +138,32 @@ def _options(film: str) -> dict:
 
 
 @functools.cache
-def _scalar(film: str, tolerance: float):
-    return hy.taylor_adaptive(_system(film), [1.0, 0.5], tol=tolerance, **_options(film))
+def _scalar(kind: tuple, tolerance: float):
+    system = _equations(kind)
+    return hy.taylor_adaptive(system, np.full(len(system), 0.5), tol=tolerance, **_options(kind[0]))
 
 
 @functools.cache
-def _batch(film: str, tolerance: float):
+def _batch(kind: tuple, tolerance: float):
+    system = _equations(kind)
     return hy.taylor_adaptive_batch(
-        _system(film), np.ones((2, LANES)), tol=tolerance, force_avx512=True, **_options(film)
+        system, np.ones((len(system), LANES)), tol=tolerance, force_avx512=True, **_options(kind[0])
     )
 
 
 def prepare_scalar(scene: scenes.Scene, tolerance: float) -> Callable[[], tuple[np.ndarray, float]]:
     """Compile; the function returned solves once and gives the film and the CPU seconds."""
-    integrator, start = _scalar(scene.film, tolerance), _start(scene)
+    integrator, start = _scalar(scene.kind, tolerance), _start(scene)
+    parameters = _parameters(scene)
+    grid = _grid(scene)
 
     def solve() -> tuple[np.ndarray, float]:
         begin = time.thread_time()
         integrator.time = 0.0
         integrator.state[:] = start
-        integrator.pars[:] = scene.parameters[: len(integrator.pars)]
-        integrator.propagate_until(FIRST)
-        film = integrator.propagate_grid(GRID)[-1][1:, 0]
+        integrator.pars[:] = parameters[: len(integrator.pars)]
+        integrator.propagate_until(grid[0])
+        film = integrator.propagate_grid(grid)[-1][1:, 0]
         return film, time.thread_time() - begin
 
     return solve
@@ -117,17 +171,18 @@ def prepare_scalar(scene: scenes.Scene, tolerance: float) -> Callable[[], tuple[
 
 def prepare_batch(scene: scenes.Scene, tolerance: float) -> Callable[[], tuple[np.ndarray, float]]:
     """Like prepare_scalar for eight lanes; seconds are those of one lane, the film that of the first lane."""
-    integrator = _batch(scene.film, tolerance)
+    integrator = _batch(scene.kind, tolerance)
     start = np.repeat(np.array(_start(scene))[:, None], LANES, axis=1)
-    parameters = np.repeat(scene.parameters[:, None], LANES, axis=1)
-    times = np.repeat(GRID[:, None], LANES, axis=1)
+    parameters = np.repeat(_parameters(scene)[:, None], LANES, axis=1)
+    grid = _grid(scene)
+    times = np.repeat(grid[:, None], LANES, axis=1)
 
     def solve() -> tuple[np.ndarray, float]:
         begin = time.thread_time()
         integrator.set_time(0.0)
         integrator.state[:] = start
         integrator.pars[:] = parameters[: len(integrator.pars)]
-        integrator.propagate_until(FIRST)
+        integrator.propagate_until(grid[0])
         film = integrator.propagate_grid(times)[-1][1:, 0, 0]
         return film, (time.thread_time() - begin) / LANES
 

@@ -1,4 +1,4 @@
-"""The twelve scenes of the bench, in the scaled form that every contender integrates.
+"""The scenes of the bench, in the scaled form that every contender integrates: twelve, and six changed in four ways.
 
 Scaled variables: y = h/h0, tau = f t (one excitation period is 1), v = dy/dtau. With the mean load Q + m g
 carried by the steady film h0 (which fixes the contact length l), the equation of motion (1) is
@@ -25,12 +25,27 @@ Scenes: R 0.0127 m, eta0 0.3 Pa s, m 3 kg, f 600 Hz, h0 0.89 um, Q 40 N, F0 = 0.
 1.9 m/s, with l from their own static balance. For the Reynolds piezo-viscous film alpha is lowered until
 the largest alpha p of the run is 0.9: the numbers in REYNOLDS_ALPHA, found by `../reference/find_alpha.py`.
 
+The six published scenes are also changed in four ways (CHANGES): a force of three orders, two flanks, teeth
+that give, and all three. With w the load of a film over the mean load, b the backlash over h0, z the
+position of the gear over h0 and e = (Q + m g)/(k h0) the compliance of a tooth,
+
+    v' = a (w_1 - w_2 - 1 - sum_n q_n cos(2 pi n tau + phi_n)),        z' = v,
+    rigid teeth    w_1 = G(y, v),  w_2 = G(b - y, -v),  y = z,
+    teeth that give    e w_1 = y_1 - z,  e w_2 = y_2 - (b - z),        y_1' = g(y_1, w_1),  y_2' = g(y_2, w_2),
+
+where g is G solved for the velocity: sqrt(y) (1 - y w)/c for (35), -ln(w y^(7/2))/c for (37). With one flank
+w_2 = 0. The motion starts at y_1 = 1, v = 0, the films at no velocity. k is twice the stiffness of the steady
+film. At F0 = 3 Q the film of (37) lets the tooth that gives go: w falls towards 0, where g is infinitely steep,
+and explicit steps do not follow. That scene is a group of its own ("a film that lets go"). The motion of (35)
+with teeth that give at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is solved for 20 periods, judged
+in the last ten of them, and its time counted ten times.
+
 Error measure: largest |h/h_reference - 1| over the last 10 periods at 64 points a period, that is at tau =
-190 + k/64, k = 1 ... 640, against `../reference/film.csv`.
+190 + k/64, k = 1 ... 640, against `../reference/film.csv`, and for the changed scenes against the tightest solution of a peer.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -44,6 +59,20 @@ REYNOLDS_ALPHA = {0.1: 1.055592e-8, 1.0: 4.820269e-9, 3.0: 5.906726e-10}
 PERIODS, SAMPLED_PERIODS, POINTS_A_PERIOD = 200, 10, 64
 SAMPLE_COUNT = SAMPLED_PERIODS * POINTS_A_PERIOD
 SAMPLE_TIMES = (PERIODS - SAMPLED_PERIODS) + np.arange(1, SAMPLE_COUNT + 1) / POINTS_A_PERIOD
+
+# Of the changed scenes: amplitudes over F0 of the orders 1, 2, 3 and their phases, backlash in steady films,
+# stiffness of the teeth in stiffnesses of the steady film.
+ORDER_SHARES, ORDER_PHASES = (1.0, 60.0 / 150.0, 25.0 / 150.0), (0.0, 0.7, -1.2)
+BACKLASH, STIFFNESS = 5.0, 2.0
+FILM_STIFFNESS = {"iso_viscous": 1.0, "piezo_viscous": 3.5}
+CHANGES = {
+    "three orders": ("orders",),
+    "two flanks": ("flanks",),
+    "teeth that give": ("springs",),
+    "all three": ("orders", "flanks", "springs"),
+}
+CHAOTIC_PERIODS = 20
+LETS_GO = "a film that lets go"
 
 REFERENCE_FILE = Path(__file__).resolve().parent.parent / "reference" / "film.csv"
 
@@ -67,6 +96,29 @@ class Scene:
     force_ratio: float
     pressure_scale: float
     steady_load: float
+    # Amplitudes over the mean load and phases of the orders above the first, whose amplitude is force_ratio;
+    # backlash over h0 (0: one flank), compliance of a tooth as in the header (0: rigid).
+    more_ratios: tuple[float, ...] = ()
+    phases: tuple[float, ...] = ()
+    backlash: float = 0.0
+    compliance: float = 0.0
+    group: str = ""
+    periods: int = PERIODS
+
+    @property
+    def kind(self) -> tuple:
+        """What the equations depend on: film, number of orders, two flanks, teeth that give."""
+        return self.film, 1 + len(self.more_ratios), self.backlash > 0.0, self.compliance > 0.0
+
+    @property
+    def sample_times(self) -> np.ndarray:
+        """Times of the samples."""
+        return SAMPLE_TIMES - PERIODS + self.periods
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether it is more than one cosine on one rigid flank."""
+        return self.kind[1:] != (1, False, False)
 
     @property
     def film(self) -> str:
@@ -142,6 +194,40 @@ def make_scene(model: str, law: str, factor: float, alpha: float | None = None) 
     )
 
 
+def changed(scene: Scene, group: str) -> Scene:
+    """A published scene with the changes of a group of CHANGES."""
+    more: dict = {"name": f"{scene.name} {group}", "group": group}
+    if "orders" in CHANGES[group]:
+        more["more_ratios"] = tuple(share * scene.force_ratio for share in ORDER_SHARES[1:])
+        more["phases"] = ORDER_PHASES[1:]
+    if "flanks" in CHANGES[group]:
+        more["backlash"] = BACKLASH
+    if "springs" in CHANGES[group]:
+        more["compliance"] = 1.0 / (STIFFNESS * FILM_STIFFNESS[scene.law])
+        if scene.law == "piezo_viscous" and scene.force_amplitude > STATIC_FORCE:
+            more["group"] = f"{group}, {LETS_GO}"
+    if group == "teeth that give" and scene.name == "published-iso-3":
+        more["periods"] = CHAOTIC_PERIODS
+    return replace(scene, **more)
+
+
+def coast_start(scene: Scene) -> float:
+    """Film of the coast flank at the start, of teeth that give: y - e G(y, 0) = b - 1 + e, by Newton's method."""
+    power = 1.0 if scene.law == "iso_viscous" else 3.5
+    wanted = scene.backlash - 1.0 + scene.compliance
+    film = wanted
+    for _ in range(50):
+        load = film**-power
+        film -= (film - scene.compliance * load - wanted) / (1.0 + scene.compliance * power * load / film)
+    return film
+
+
+def changed_scenes() -> list[Scene]:
+    """The six published scenes changed in every way."""
+    published = [scene for scene in all_scenes() if scene.model == "published"]
+    return [changed(scene, group) for group in CHANGES for scene in published]
+
+
 def all_scenes() -> list[Scene]:
     """The twelve scenes: published iso, published piezo, Reynolds iso, Reynolds piezo, three loads each."""
     return [
@@ -155,7 +241,7 @@ def all_scenes() -> list[Scene]:
 def scene_text(scene: Scene) -> str:
     """Scene file of the command protocol (see run_peers.py): one `key value` a line, SI then scaled."""
     rows = {
-        "scene": scene.name,
+        "scene": scene.name.replace(" ", "-"),
         "model": scene.model,
         "law": scene.law,
         "radius": RADIUS,
@@ -175,10 +261,16 @@ def scene_text(scene: Scene) -> str:
         "force_ratio": scene.force_ratio,
         "pressure_scale": scene.pressure_scale,
         "steady_load": scene.steady_load,
-        "periods": PERIODS,
+        "periods": scene.periods,
         "sampled_periods": SAMPLED_PERIODS,
         "points_a_period": POINTS_A_PERIOD,
     }
+    if scene.is_changed:
+        rows["backlash"] = scene.backlash
+        rows["compliance"] = scene.compliance
+        rows["coast_start"] = coast_start(scene) if scene.backlash * scene.compliance > 0.0 else 0.0
+        for order, (ratio, phase) in enumerate(zip(scene.more_ratios, scene.phases, strict=True), start=2):
+            rows[f"ratio_{order}"], rows[f"phase_{order}"] = ratio, phase
     return "".join(
         f"{key} {value:.17g}\n" if isinstance(value, float) else f"{key} {value}\n"
         for key, value in rows.items()
