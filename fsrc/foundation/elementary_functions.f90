@@ -21,7 +21,7 @@ module elementary_functions
    real(dp), parameter :: inverse_factorial(0:exponential_terms) = &
       [(1.0_dp/gamma(real(i + 1, dp)), i=0, exponential_terms)]
 
-   public :: cosine_sine, exponential
+   public :: cosine_sine, exponential, logarithm
 
 contains
 
@@ -71,6 +71,42 @@ contains
       end do
       exponential = with_octaves(mantissa, sum)
    end function exponential
+
+   !> Natural logarithm of a normal number, error below 1 epsilon of 1 or of itself. Octaves apart, the rest lies between
+   !> sqrt(1/2) and sqrt(2), and with s = (m - 1)/(m + 1) its logarithm is 2 (s + s^3/3 + s^5/5 + ...).
+   elemental real(dp) function logarithm(x)
+      !> Positive [-]
+      real(dp), intent(in) :: x
+      !> 2^52: a number below it, put in place of its mantissa, is that integer
+      real(dp), parameter :: integer_base = 4503599627370496.0_dp
+      !> Bits of sqrt(1/2), of the mantissa
+      integer(int64), parameter :: least = int(z'3FE6A09E667F3BCD', int64), mantissa_bits = int(z'000FFFFFFFFFFFFF', int64)
+      !> Of s^(2k+1)
+      integer, parameter :: terms = 10
+      real(dp), parameter :: odd(0:terms) = [(2.0_dp/real(2*i + 1, dp), i=0, terms)]
+      real(dp), parameter :: ln_2_high = 6.931471803691238e-01_dp, ln_2_low = 1.9082149292705877e-10_dp
+      !> Added to make octaves positive
+      integer(int64), parameter :: lift = 1023_int64
+      integer(int64) :: bits, exponent
+      real(dp) :: rest, octaves, s, square, sum
+      integer :: k
+
+      bits = transfer(x, bits)
+      bits = bits - least
+      exponent = shiftr(bits + shiftl(lift, 52), 52)
+      bits = iand(bits, mantissa_bits) + least
+      rest = transfer(bits, rest)
+      exponent = ior(exponent, transfer(integer_base, exponent))
+      octaves = transfer(exponent, octaves)
+      octaves = (octaves - integer_base) - real(lift, dp)
+      s = (rest - 1.0_dp)/(rest + 1.0_dp)
+      square = s*s
+      sum = odd(terms)
+      do k = terms - 1, 1, -1
+         sum = sum*square + odd(k)
+      end do
+      logarithm = octaves*ln_2_high + (odd(0)*s + (s*square*sum + octaves*ln_2_low))
+   end function logarithm
 
    !> A number times two to the power of the integer that `rounder` has left at the end of a sum: it goes to the exponent.
    elemental real(dp) function with_octaves(number, sum)

@@ -12,12 +12,13 @@ module film_series
    use lane_functions, only: lanes
    use load_expansion, only: expand_load
    use load_pieces, only: exact_load, published_load
-   use problem, only: has_two_flanks, problem_t
+   use problem, only: has_elastic_teeth, has_two_flanks, problem_t
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
    use taylor_iso_viscous, only: iso_viscous_series, iso_viscous_series_of_two
    use taylor_piezo_viscous, only: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
    use taylor_reynolds_piezo, only: reynolds_piezo_series, reynolds_piezo_series_of_two
    use taylor_rupture, only: reject_large_defect, rupture_order, rupture_series, rupture_series_of_two
+   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, shortest_rest
    use taylor_step_control, only: order
    implicit none(type, external)
    private
@@ -32,6 +33,10 @@ module film_series
       logical :: exists = .false.
       !> Whether it is that of a tooth between two flanks
       logical :: two_flanks = .false.
+      !> Whether the teeth give
+      logical :: springs = .false.
+      !> Whether its films carry positive loads only
+      logical :: never_pulls = .false.
       !> Whether its steps are checked against the equation of motion at their ends, where the next expansion begins
       logical :: checked_at_end = .false.
       !> Load that a series with rupture by (18) takes from module load_pieces
@@ -47,7 +52,7 @@ module film_series
    !> Damping rate that no step follows [1/periods]
    real(dp), parameter :: unfollowable_rate = 1.0e30_dp
 
-   public :: series_of, has_series, set_coefficients, expand_motion, check_ends
+   public :: series_of, has_series, set_coefficients, expand_motion, expand_springs, check_ends
 
 contains
 
@@ -76,6 +81,9 @@ contains
       case default
          series%exists = .false.
       end select
+      series%never_pulls = problem%film%kernel == kernel_piezo
+      series%springs = has_elastic_teeth(problem)
+      if (series%springs .and. series%checked_at_end) series%exists = .false.
    end function series_of
 
    !> Whether a problem has a Taylor series that is good enough.
@@ -103,7 +111,8 @@ contains
          case (kernel_half_pi)
             block%strength(lane) = film%rolling/film_scale/force_scale
             block%damping(lane) = 2.0_dp*pi*film%squeeze/sqrt(film_scale)*problem%frequency/force_scale
-            block%slip(lane) = block%damping(lane)
+            ! Lienard's form, which teeth that give do not take.
+            if (.not. has_elastic_teeth(problem)) block%slip(lane) = block%damping(lane)
             if (.not. carried_on) &
                block%momentum(lane, 0) = block%momentum(lane, 0) - slip_velocity(block%film(lane, 0), lane, block)
          case (kernel_solved_fast)
@@ -179,6 +188,42 @@ contains
          block%damping_rate = unfollowable_rate
       end select
    end subroutine expand_between_flanks
+
+   !> Series of films, gear and compressions where teeth give. The film of the coast flank is told apart: it is what backlash, drive
+   !> film and springs leave.
+   pure subroutine expand_springs(series, block, films)
+      type(film_series_t), intent(in) :: series
+      type(lane_block_t), intent(inout) :: block
+      !> Series of H and, between two flanks, of C [-]
+      real(dp), intent(out) :: films(lanes, 0:order, 2)
+      real(dp) :: force(lanes, order)
+      integer :: flanks
+
+      call force_derivatives(series%last_order, block%oscillation, force)
+      flanks = merge(2, 1, series%two_flanks)
+      films(:, 0, 1) = block%film(:, 0)
+      if (series%two_flanks) then
+         films(:, 0, 2) = block%backlash - block%film(:, 0) + (block%compression(:, 1, 0) + block%compression(:, 2, 0))
+         ! A lane that rests has no backlash.
+         films(:, 0, 2) = merge(films(:, 0, 2), 1.0_dp, block%backlash < huge(1.0_dp))
+      end if
+      block%damping_rate = 0.0_dp
+      select case (series%kernel)
+      case (kernel_half_pi)
+         call iso_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, films, &
+                                  block%momentum, block%compression)
+      case (kernel_piezo)
+         call piezo_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, films, &
+                                    block%momentum, block%compression)
+         block%damping_rate = merge(0.0_dp, unfollowable_rate, block%damping*minval(block%compression(:, :flanks, 0), dim=2) &
+                                    > shortest_rest)
+      case default
+         films(:, 1:, :) = 0.0_dp
+         block%momentum(:, 1:) = 0.0_dp
+         block%compression(:, :, 1:) = 0.0_dp
+      end select
+      block%film(:, 1:) = films(:, 1:, 1)
+   end subroutine expand_springs
 
    !> Reject the steps at whose end the series does not hold.
    pure subroutine check_ends(series, rise, block)

@@ -1,12 +1,12 @@
 !> One step of all lanes of a block by Taylor series, and the bookkeeping of a step by any method.
 module lane_advance
-   use film_series, only: check_ends, expand_motion, film_series_t
+   use film_series, only: check_ends, expand_motion, expand_springs, film_series_t
    use kinds, only: dp
    use lane_block, only: lane_block_t, lost_film
    use lane_force, only: turn_to
    use lane_functions, only: lanes
    use taylor_rupture, only: evaluate_rupture_series
-   use taylor_step_control, only: evaluate_series, lane_steps
+   use taylor_step_control, only: evaluate_series, lane_steps, order
    implicit none(type, external)
    private
 
@@ -17,7 +17,7 @@ module lane_advance
    !> Step that is too short to continue [periods].
    real(dp), parameter, public :: shortest_step = 1.0e-14_dp
 
-   public :: take_series_step, advance
+   public :: take_series_step, take_springs_step, advance
 
 contains
 
@@ -52,6 +52,60 @@ contains
       end do
       call check_ends(series, next_rise, block)
    end subroutine take_series_step
+
+   !> The same for teeth that give. An error of a spring counts like that of its film, and one of the gear's velocity as where nothing
+   !> damps it. Where a film never pulls, a load that falls by some powers of ten is rejected as well: it would not stay positive.
+   pure subroutine take_springs_step(series, block)
+      type(film_series_t), intent(in) :: series
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: films(lanes, 0:order, 2), largest(lanes, 0:order), changed(lanes, 2), undamped(lanes)
+      integer :: flanks, flank, k, l
+
+      call turn_to(block%phase, block%oscillation%phase)
+      block%remaining = 1.0_dp - block%phase
+      call expand_springs(series, block, films)
+      flanks = merge(2, 1, series%two_flanks)
+      largest(:, 0) = films(:, 0, 1)
+      if (flanks == 2) largest(:, 0) = min(films(:, 0, 1), films(:, 0, 2))
+      do k = series%last_order - 1, series%last_order
+         !$omp simd
+         do l = 1, lanes
+            largest(l, k) = max(abs(films(l, k, 1)), abs(block%compression(l, 1, k)))
+         end do
+         if (flanks == 2) largest(:, k) = max(largest(:, k), abs(films(:, k, 2)), abs(block%compression(:, 2, k)))
+      end do
+      undamped = 0.0_dp
+      call lane_steps(series%last_order, series%share, block%accuracy, block%force, largest(:, 0), largest, block%momentum, &
+                      undamped, block%remaining, block%limit, block%step)
+      call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
+      do flank = 1, flanks
+         block%next_compression(:, flank) = block%compression(:, flank, series%last_order)
+         !GCC$ unroll 16
+         do k = series%last_order - 1, 0, -1
+            !$omp simd
+            do l = 1, lanes
+               block%next_compression(l, flank) = block%next_compression(l, flank)*block%step(l) + block%compression(l, flank, k)
+            end do
+         end do
+      end do
+      block%trust = 1.0_dp
+      do flank = 1, flanks
+         if (flank == 1) changed(:, 1) = block%next_film/block%film(:, 0)
+         if (flank == 2) changed(:, 1) = ((block%backlash - block%next_film) + (block%next_compression(:, 1) &
+                                                                                + block%next_compression(:, 2)))/films(:, 0, 2)
+         if (flank == 2) changed(:, 1) = merge(changed(:, 1), 1.0_dp, block%backlash < huge(1.0_dp))
+         changed(:, 2) = 1.0_dp
+         if (series%never_pulls) changed(:, 2) = block%next_compression(:, flank)/block%compression(:, flank, 0)
+         do k = 1, 2
+            !$omp simd
+            do l = 1, lanes
+               block%trust(l) = block%trust(l)*merge(1.0_dp, 0.0_dp, changed(l, k) > smallest_film_ratio) &
+                  *merge(1.0_dp, 0.0_dp, changed(l, k) < largest_film_ratio)
+            end do
+         end do
+      end do
+      block%trust = block%trust*merge(1.0_dp, 0.0_dp, abs(block%next_momentum) < huge(1.0_dp))
+   end subroutine take_springs_step
 
    !> Advance all lanes whose step is accepted; the others try again with a shorter one.
    pure subroutine advance(most_steps, largest_rate, block, events)

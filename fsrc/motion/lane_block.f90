@@ -193,8 +193,10 @@ contains
       block%momentum(lane, :) = 0.0_dp
       block%film(lane, 0) = 1.0_dp
       block%damping_rate(lane) = 0.0_dp
-      block%compliance(lane) = 0.0_dp
+      ! Springs that carry the static load
+      block%compliance(lane) = 1.0_dp
       block%compression(lane, :, :) = 0.0_dp
+      block%compression(lane, :, 0) = 1.0_dp
       block%next_compression(lane, :) = 0.0_dp
       call start_period(lane, block)
       ! Far from the end of a period, so that it never ends one.

@@ -13,7 +13,7 @@ module lane_integration
    use engine, only: ending_t, motion_count_t, motion_state_t, request_t
    use film_series, only: series_of, set_coefficients
    use kinds, only: dp, int64
-   use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step
+   use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step, take_springs_step
    use lane_block, only: load_problem, lost_film, place_block, rest_lane, start_period, start_status, state_of_lane
    use lane_functions, only: lanes
    use lane_repetition, only: find_repetition, restore_departure
@@ -71,14 +71,14 @@ contains
       end do
       do while (run%active > 0)
          if (must_stop()) exit
-         if (by_series) then
+         if (by_series .and. run%elastic) then
+            call take_springs_step(run%series, run%block)
+         else if (by_series) then
             call take_series_step(run%series, run%block)
+         else if (run%elastic) then
+            call take_elastic_step(run%films, run%watches%scene > 0, run%block)
          else
-            if (run%elastic) then
-               call take_elastic_step(run%films, run%watches%scene > 0, run%block)
-            else
-               call take_collocation_step(run%films, run%watches%scene > 0, run%block)
-            end if
+            call take_collocation_step(run%films, run%watches%scene > 0, run%block)
          end if
          if (run%samples%sampled_lanes > 0) then
             call take_samples(run%block, run%samples, states)

@@ -2,6 +2,7 @@
 !> for all others and for motions too stiff for explicit steps.
 module many_motions
    use engine, only: ending_t, motion_state_t, request_t
+   use film_law, only: film_load
    use film_series, only: has_series
    use force, only: largest_oscillation
    use kinds, only: dp
@@ -43,13 +44,13 @@ contains
       allocate (explicit(size(problems)), left(size(problems)), alike(size(problems)), number(size(problems)))
       number(:) = [(i, i=1, size(problems))]
       explicit(:) = has_series(problems, lane_accuracy(problems, request%accuracy)) .and. .not. starts%implicit &
-                    .and. .not. has_elastic_teeth(problems) &
                     .and. .not. outgrows_series(problems, starts)
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)
          alike(:) = problems%film%kernel == problems(first)%film%kernel &
-                    .and. (has_two_flanks(problems) .eqv. has_two_flanks(problems(first)))
+                    .and. (has_two_flanks(problems) .eqv. has_two_flanks(problems(first))) &
+                    .and. (has_elastic_teeth(problems) .eqv. has_elastic_teeth(problems(first)))
          call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), request, states, endings, watches, &
                               records)
          left(:) = left .and. .not. alike
@@ -61,7 +62,7 @@ contains
          left(i) = any(endings(i)%status == [status_not_converged, status_film_lost])
          ! The rest of a motion that Taylor series could not finish.
          if (left(i)) rest(i) = motion_state_t(periods=endings(i)%periods, film=endings(i)%film, velocity=endings(i)%velocity, &
-                                               implicit=.true.)
+                                               compression=endings(i)%compression, implicit=.true.)
       end do
       ! Teeth that give are followed by steps of their own.
       do i = 0, 1
@@ -80,12 +81,19 @@ contains
       real(dp), parameter :: largest_growth = 1.0e8_dp
       !> What is thinner is no film, which is found at the first step [m]
       real(dp), parameter :: thinnest = 1.0e-30_dp
+      !> Rate at which a stiff spring and its film come to rest that no series is to follow [1/periods]
+      real(dp), parameter :: largest_rate = 1.0e4_dp
       real(dp) :: load, load_by_film, load_by_velocity, rate, thinner
 
       outgrows_series = .false.
       ! A motion that is carried on goes on as it went; one that cannot start is not for this procedure to refuse.
       if (start%carried_on) return
       if (start_status(problem, start) /= status_complete) return
+      if (has_elastic_teeth(problem)) then
+         call film_load(problem%film, start%film, start%velocity, load, load_by_film, load_by_velocity)
+         outgrows_series = .not. abs(load_by_velocity)*(problem%compliance*problem%frequency*largest_rate) > 1.0_dp
+         return
+      end if
       thinner = thinner_film(problem, start%film)
       if (.not. thinner > thinnest) return
       call net_load(problem, start%film, start%velocity, load, load_by_film, load_by_velocity)

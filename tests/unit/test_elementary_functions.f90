@@ -1,8 +1,8 @@
-!> Tests of exponential and circular functions: against the intrinsic ones, and the same bits in any place.
+!> Tests of exponential, logarithm and circular functions: against the intrinsic ones, and the same bits in any place.
 module test_elementary_functions
    use checks, only: check_list_t, same_bits
    use constants, only: two_pi
-   use elementary_functions, only: cosine_sine, exponential, largest_exponent
+   use elementary_functions, only: cosine_sine, exponential, largest_exponent, logarithm
    use kinds, only: dp
    implicit none(type, external)
    private
@@ -22,6 +22,7 @@ contains
 
       call checks%start('elementary_functions')
       call test_exponential(checks)
+      call test_logarithm(checks)
       call test_circle(checks)
    end subroutine run_elementary_functions_tests
 
@@ -42,6 +43,23 @@ contains
       fewer = exponential(x(2:))
       call checks%check(all(same_bits(y(2:), fewer)), 'exponential: the same bits in another place')
    end subroutine test_exponential
+
+   !> The logarithm of small and large numbers, and of those near one.
+   subroutine test_logarithm(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp) :: x(points), y(points), fewer(2:points), error
+
+      x = exp(largest_exponent*spread)
+      error = maxval(abs(logarithm(x) - log(x))/max(1.0_dp, abs(log(x))))
+      call checks%check_close(error, 0.0_dp, 2.0_dp*epsilon(1.0_dp), 'logarithm: whole range')
+      x = 1.0_dp + 0.5_dp*spread
+      error = maxval(abs(logarithm(x) - log(x))/max(tiny(1.0_dp), abs(log(x))))
+      call checks%check_close(error, 0.0_dp, 4.0_dp*epsilon(1.0_dp), 'logarithm: near one')
+      y = logarithm(x)
+      fewer = logarithm(x(2:))
+      call checks%check(all(same_bits(y(2:), fewer)), 'logarithm: the same bits in another place')
+   end subroutine test_logarithm
 
    !> Cosine and sine once around, and exact at its quarters.
    subroutine test_circle(checks)

@@ -1,0 +1,156 @@
+!> Taylor series of the motion of teeth that give, with the published films (35) and (37), for a block of lanes.
+!>
+!> With x = f_exc t and H = h/h_s, a spring of compliance kappa between the gear and the film carries W = d/kappa and is
+!> compressed as the film law, solved for the velocity of the film, tells:
+!>
+!>     d' = H' - V ,   V' = d/kappa - q - f(x) ,
+!>     (35)   H' = sqrt(H) (a - W H)/b        (37)   H' = ln(a/(W H^(7/2)))/c
+!>
+!> (a, b, c as in modules taylor_iso_viscous and taylor_piezo_viscous). With r = sqrt(H), or with y = H'/H and w = W'/W, each order
+!> takes a product of series and a half, or two:
+!>
+!>     2 b (k+1) r_(k+1) = -(sum of d_j H_(k-j))/kappa     y_k = (H'_k - sum of H_j y_(k-j), j = 1..k)/H_0
+!>     H_k = sum of r_j r_(k-j)                            w_k = ((k+1) d_(k+1) - sum of d_j w_(k-j), j = 1..k)/d_0
+!>                                                         c (k+1) H'_(k+1) = -w_k - 7/2 y_k
+!>
+!> On the coast flank, whose film C = B - H + d_1 + d_2 has a spring of its own, V counts with the other sign, and its load is
+!> subtracted. Errors count as those of the films: an error of d moves a film by as much.
+module taylor_springs
+   use elementary_functions, only: logarithm
+   use kinds, only: dp
+   use lane_force, only: factor
+   use lane_functions, only: lanes
+   use taylor_step_control, only: inverse, order
+   implicit none(type, external)
+   private
+
+   !> Signs of the gear's velocity in the springs of both flanks, and of their loads on the gear
+   real(dp), parameter :: sign_of(2) = [1.0_dp, -1.0_dp]
+
+   !> Time within which a film and its spring come to rest that a series is to follow: what is faster would overflow the
+   !> coefficients [periods]
+   real(dp), parameter, public :: shortest_rest = 1.0e-14_dp
+
+   public :: iso_viscous_springs, piezo_viscous_springs
+
+contains
+
+   !> Coefficients 1 to `order` with the film (35).
+   pure subroutine iso_viscous_springs(flanks, rolling, squeeze, compliance, load, force, films, momentum, compression)
+      !> Flanks: 1 or 2
+      integer, intent(in) :: flanks
+      !> a, 2 b, kappa, q [-]
+      real(dp), intent(in) :: rolling(lanes)
+      real(dp), intent(in) :: squeeze(lanes)
+      real(dp), intent(in) :: compliance(lanes)
+      real(dp), intent(in) :: load(lanes)
+      !> Derivatives of the force that oscillates, by module lane_force [-]
+      real(dp), intent(in) :: force(lanes, order)
+      !> Series of H and C, of V and of d_1 and d_2 [-]; coefficients 0 are given
+      real(dp), intent(inout) :: films(lanes, 0:order, 2)
+      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: compression(lanes, 2, 0:order)
+      real(dp) :: r(lanes, 0:order, 2), stiffness(lanes), share(lanes), product
+      integer :: flank, k, j, l
+
+      stiffness = 1.0_dp/compliance
+      share = 1.0_dp/squeeze
+      do flank = 1, flanks
+         r(:, 0, flank) = sqrt(films(:, 0, flank))
+      end do
+      !GCC$ unroll 24
+      do k = 0, order - 1
+         !$omp simd
+         do l = 1, lanes
+            momentum(l, k + 1) = -factor(k + 1)*force(l, k + 1)
+            if (k == 0) momentum(l, 1) = momentum(l, 1) - load(l)
+         end do
+         do flank = 1, flanks
+            !$omp simd private(product)
+            do l = 1, lanes
+               momentum(l, k + 1) = momentum(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*compression(l, flank, k)
+               product = 0.0_dp
+               do j = 0, k
+                  product = product + compression(l, flank, j)*films(l, k - j, flank)
+               end do
+               product = -stiffness(l)*product
+               if (k == 0) product = product + rolling(l)
+               r(l, k + 1, flank) = (inverse(k + 1)*share(l))*product
+               product = 0.0_dp
+               do j = 0, k/2
+                  product = product + r(l, j, flank)*r(l, k + 1 - j, flank)
+               end do
+               product = 2.0_dp*product
+               if (mod(k, 2) == 1) product = product + r(l, shiftr(k + 1, 1), flank)*r(l, shiftr(k + 1, 1), flank)
+               films(l, k + 1, flank) = product
+               compression(l, flank, k + 1) = product - (inverse(k + 1)*sign_of(flank))*momentum(l, k)
+            end do
+         end do
+      end do
+   end subroutine iso_viscous_springs
+
+   !> Coefficients 1 to `order` with the film (37).
+   pure subroutine piezo_viscous_springs(flanks, strength, rate, compliance, load, force, films, momentum, compression)
+      !> Flanks: 1 or 2
+      integer, intent(in) :: flanks
+      !> a, c, kappa, q [-]
+      real(dp), intent(in) :: strength(lanes)
+      real(dp), intent(in) :: rate(lanes)
+      real(dp), intent(in) :: compliance(lanes)
+      real(dp), intent(in) :: load(lanes)
+      !> Derivatives of the force that oscillates, by module lane_force [-]
+      real(dp), intent(in) :: force(lanes, order)
+      !> Series of H and C, of V and of d_1 and d_2 [-]; coefficients 0 are given
+      real(dp), intent(inout) :: films(lanes, 0:order, 2)
+      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: compression(lanes, 2, 0:order)
+      real(dp), dimension(lanes, 0:order, 2) :: y, w
+      real(dp), dimension(lanes, 2) :: inverse_film, inverse_spring, velocity
+      real(dp) :: stiffness(lanes), share(lanes), product
+      integer :: flank, k, j, l
+
+      stiffness = 1.0_dp/compliance
+      share = 1.0_dp/rate
+      momentum(:, 1) = -load - force(:, 1)
+      do flank = 1, flanks
+         !$omp simd
+         do l = 1, lanes
+            inverse_film(l, flank) = 1.0_dp/films(l, 0, flank)
+            inverse_spring(l, flank) = 1.0_dp/max(compression(l, flank, 0), shortest_rest*share(l))
+            velocity(l, flank) = share(l)*logarithm(strength(l)*compliance(l)*inverse_spring(l, flank)*inverse_film(l, flank) &
+                                                    *inverse_film(l, flank)*inverse_film(l, flank)*sqrt(inverse_film(l, flank)))
+            momentum(l, 1) = momentum(l, 1) + (sign_of(flank)*stiffness(l))*compression(l, flank, 0)
+         end do
+      end do
+      !GCC$ unroll 24
+      do k = 0, order - 1
+         if (k > 0) then
+            !$omp simd
+            do l = 1, lanes
+               momentum(l, k + 1) = -factor(k + 1)*force(l, k + 1)
+            end do
+         end if
+         do flank = 1, flanks
+            !$omp simd private(product)
+            do l = 1, lanes
+               if (k > 0) momentum(l, k + 1) = momentum(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l)) &
+                                               *compression(l, flank, k)
+               films(l, k + 1, flank) = inverse(k + 1)*velocity(l, flank)
+               product = velocity(l, flank) - sign_of(flank)*momentum(l, k)
+               compression(l, flank, k + 1) = inverse(k + 1)*product
+               do j = 1, k
+                  product = product - compression(l, flank, j)*w(l, k - j, flank)
+               end do
+               w(l, k, flank) = inverse_spring(l, flank)*product
+               product = velocity(l, flank)
+               do j = 1, k
+                  product = product - films(l, j, flank)*y(l, k - j, flank)
+               end do
+               y(l, k, flank) = inverse_film(l, flank)*product
+               velocity(l, flank) = -(inverse(k + 1)*share(l))*(w(l, k, flank) + 3.5_dp*y(l, k, flank))
+            end do
+         end do
+      end do
+   end subroutine piezo_viscous_springs
+
+end module taylor_springs
