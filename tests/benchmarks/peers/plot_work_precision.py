@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
+import scenes
 
 matplotlib.use("Agg")
 
@@ -25,6 +26,11 @@ GROUPS = {
     "published": ("published iso_viscous", "published piezo_viscous"),
     "Reynolds iso-viscous": ("reynolds iso_viscous",),
     "Reynolds piezo-viscous": ("reynolds piezo_viscous",),
+    **{group: (group,) for group in scenes.CHANGES},
+    **{
+        f"{group}, {scenes.LETS_GO}": (f"{group}, {scenes.LETS_GO}",)
+        for group in ("teeth that give", "all three")
+    },
 }
 TABLE_ERRORS = (1e-4, 1e-6, 1e-8)
 CURVE_ERRORS = tuple(10.0 ** (-k / 4) for k in range(8, 50))
