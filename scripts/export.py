@@ -71,7 +71,7 @@ def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) 
 
     The extreme rows are put in by time, all of them. Columns of codes come again as words, behind the others.
     """
-    coded = [(names.index(name), name) for name in codes.CODES if name in names]
+    coded = [(place, name) for place, name in enumerate(names) if codes.quantity_of(name) in codes.CODES]
     writer = csv.writer(stream, lineterminator="\n")
     head = [f"{name}[{result.units[name]}]" for name in names]
     writer.writerow([*head, *(f"{name}_word" for _, name in coded)])

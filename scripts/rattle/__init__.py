@@ -3,7 +3,7 @@
 from rattle.campaign_result import Campaign, read_campaign
 from rattle.faults import Fault, InputError, RunError
 from rattle.result import Result, ResultError, read
-from rattle.solve import Range, SceneFailed, Solved, campaign, run, sweep
+from rattle.solve import Range, SceneFailed, Solved, campaign, run, sweep, threshold
 from rattle.summary import SummaryError, read_summary
 
 version = "0.1.0"
@@ -25,5 +25,6 @@ __all__ = [
     "read_summary",
     "run",
     "sweep",
+    "threshold",
     "version",
 ]

@@ -22,7 +22,7 @@ MOST_THREADS = 4
 FEWEST_CHUNKS = 4
 DERIVED = re.compile(r"^! derived: (\w+)\.(\w+) = ([-+.\dE]+(?:, [-+.\dE]+)*)", re.MULTILINE)
 # Tasks whose results plot.py draws, with a command of that name.
-DRAWN = ("motion", "film", "sweep", "campaign")
+DRAWN = ("motion", "film", "sweep", "campaign", "threshold")
 
 
 class ResultFile:

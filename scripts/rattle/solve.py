@@ -161,18 +161,33 @@ def campaign(
     those of `run`.
     """
     given = {"record": record, "sample": sample, "size": size, "seed": seed}
-    asked: dict[str, Any] = {f"campaign.{name}": value for name, value in given.items() if value is not None}
-    varied = dict(vary or {})
-    if not all(isinstance(values, Range) for values in varied.values()):  # a table of values has no gaps
-        varied = {key: v.values if isinstance(v, Range) else v for key, v in varied.items()}
-    for place, (key, values) in enumerate(varied.items(), 1):
-        asked[f"campaign.vary({place})"] = key
-        if isinstance(values, Range):
-            parts = {"first": values.first, "last": values.last, "count": values.count, "scale": values.scale}
-            asked |= {f"campaign.{name}({place})": part for name, part in parts.items() if part is not None}
-        else:
-            asked[f"campaign.values(:,{place})"] = list(values)
-    return run(input, set={"scene.task": "campaign", **asked, **(set or {})}, **options)
+    asked = {f"campaign.{name}": value for name, value in given.items() if value is not None}
+    return run(input, set={"scene.task": "campaign", **asked, **_varied(vary), **(set or {})}, **options)
+
+
+def threshold(
+    input: Input,
+    key: str | None = None,
+    first: float | None = None,
+    last: float | None = None,
+    *,
+    set: Mapping[str, Any] | None = None,
+    vary: Mapping[str, Range | Iterable[float]] | None = None,
+    criterion: str | None = None,
+    level: float | None = None,
+    scale: str | None = None,
+    count: int | None = None,
+    tolerance: float | None = None,
+    **options: Any,
+) -> Solved:
+    """Find where along a key a motion changes, for each of the scenes of `vary`; None: as the input has it.
+
+    `vary` is that of `campaign`, `options` are those of `run`.
+    """
+    given = {"key": key, "first": first, "last": last, "criterion": criterion, "level": level, "scale": scale}
+    given |= {"count": count, "tolerance": tolerance}
+    asked = {f"threshold.{name}": value for name, value in given.items() if value is not None}
+    return run(input, set={"scene.task": "threshold", **asked, **_varied(vary), **(set or {})}, **options)
 
 
 def find_program() -> str:
@@ -185,6 +200,22 @@ def find_program() -> str:
     if found is None:
         raise RunError([], BAD_INPUT, "There is no program rattle: run make, or name it as $RATTLE_PROGRAM.")
     return found
+
+
+def _varied(vary: Mapping[str, Range | Iterable[float]] | None) -> dict[str, Any]:
+    """Keys of &campaign that vary these."""
+    asked: dict[str, Any] = {}
+    varied = dict(vary or {})
+    if not all(isinstance(values, Range) for values in varied.values()):  # a table of values has no gaps
+        varied = {key: v.values if isinstance(v, Range) else v for key, v in varied.items()}
+    for place, (key, values) in enumerate(varied.items(), 1):
+        asked[f"campaign.vary({place})"] = key
+        if isinstance(values, Range):
+            parts = {"first": values.first, "last": values.last, "count": values.count, "scale": values.scale}
+            asked |= {f"campaign.{name}({place})": part for name, part in parts.items() if part is not None}
+        else:
+            asked[f"campaign.values(:,{place})"] = list(values)
+    return asked
 
 
 def text_of(given: Input) -> str | None:

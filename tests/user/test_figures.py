@@ -177,6 +177,7 @@ def test_a_result_in_place_of_the_command_is_answered_with_the_command(iso):
         ("film", ["RESULT", "--film-ratio"]),
         ("sweep", ["RESULT", "--panels", "--mark"]),
         ("campaign", ["FILE", "--slice", "--summary"]),
+        ("threshold", ["RESULT", "--map", "--crossing", "--slice"]),
         ("tolerance", ["--forged-line"]),
         ("film-fit", ["--alpha-p"]),
         ("regime-map", ["SUMMARY|RESULT"]),

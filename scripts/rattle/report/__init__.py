@@ -9,7 +9,7 @@ import rattle
 from rattle.campaign_result import Campaign
 from rattle.codes import QUANTITIES, words_of
 from rattle.figures import film, film_points
-from rattle.report import asked, campaign, motion, page, sweep
+from rattle.report import asked, campaign, motion, page, sweep, threshold
 from rattle.result import Result, read
 from rattle.result_file import ResultFile
 from rattle.summary import comparison_table
@@ -53,9 +53,8 @@ def part(result: ResultFile, name: str) -> list[str]:
     if isinstance(result, Campaign):
         parts = campaign_part(result)
     elif isinstance(result, Result):
-        parts = {"motion": motion_part, "sweep": sweep_part, "film": film_part}.get(result.task, table_part)(
-            result
-        )
+        makers = {"motion": motion_part, "sweep": sweep_part, "threshold": threshold_part, "film": film_part}
+        parts = makers.get(result.task, table_part)(result)
     if not result.closed:
         words = "This run was not finished when the page was written; what it had done so far is shown."
         parts.insert(0, page.paragraph(words, "note"))
@@ -92,6 +91,20 @@ def sweep_part(result: Result) -> list[str]:
         *sweep.figures(result),
         page.heading(2, "How it was computed"),
         *motion.computed(result, motion.summary_of(result)),
+    ]
+
+
+def threshold_part(result: Result) -> list[str]:
+    summary = motion.summary_of(result)
+    return [
+        page.heading(2, "Verdict"),
+        *threshold.verdict(result, summary),
+        page.heading(2, "The thresholds in pictures"),
+        *threshold.figures(result),
+        page.heading(2, "Numbers"),
+        *threshold.tables(result),
+        page.heading(2, "How it was computed"),
+        *motion.computed(result, summary),
     ]
 
 

@@ -27,11 +27,13 @@ IN_SHORT = (
 
 
 def in_short(result: ResultFile) -> str:
-    """The few values that a scene is known by; those that a campaign or a sweep varies are not among them."""
+    """The few values that a scene is known by; those that a task varies are not among them."""
     known = key_table()
     varied = {name.rpartition(".")[2] for name in result.names if "." in name}
     if result.task == "sweep":
         varied.add(result.names[0])
+    if result.task == "threshold":
+        varied.add(str(result.value("threshold", "key")).strip().rpartition(".")[2])
     parts = []
     for group, name, words in IN_SHORT:
         given = result.input.get(group, {}).get(name)

@@ -1,0 +1,389 @@
+"""Thresholds along one or two keys: curves, alone or over the map that they divide."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from matplotlib import ticker
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+import rattle
+from rattle import command
+from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC, read_plan
+from rattle.campaign_result import Axis
+from rattle.campaign_section import Section, new_section, short_name, spaced_unit
+from rattle.codes import CLASSES, STATUSES, SUCCESSES, quantity_of, word, words_of
+from rattle.figures import campaign_look as look
+from rattle.figures import campaign_map, style
+from rattle.figures.campaign import held_key, one_each
+from rattle.result import Result
+
+DESCRIPTION = (
+    "Draw thresholds, over the map of a campaign if one is given, as threshold_NAME: points over one key, "
+    "curves or a map over two. Open marks: a class beside the threshold is not certified."
+)
+MOST_CURVES = 7
+MOST_KINDS = len(style.RUN_COLOURS) - 1
+NONE = "no change"
+UNCERTAIN = "not certified"
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """A result of thresholds, or some of its rows, in words that people know."""
+
+    result: Result
+    rows: np.ndarray
+
+    @property
+    def key(self) -> str:
+        """The key whose thresholds they are."""
+        return str(self.result.value("threshold", "key")).strip().lower()
+
+    @property
+    def quantity(self) -> str:
+        """The quantity that the criterion looks at."""
+        return quantity_of(self.result.names[self.result.names.index("upper") + 1])
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        return tuple(name for name in self.result.names if "." in name)
+
+    def column(self, name: str) -> np.ndarray:
+        return np.asarray(self.result[name])[self.rows]
+
+    @cached_property
+    def range(self) -> Axis:
+        """The key between its ends."""
+        ends = [float(self.result.number("threshold", name)) for name in ("first", "last")]
+        scale = str(self.result.value("threshold", "scale")).strip()
+        return Axis(self.key, self.result.units["lower"], scale, np.array(ends))
+
+    @property
+    def values(self) -> np.ndarray:
+        """Middles of the brackets, NaN for a line without one."""
+        lower, upper = self.column("lower"), self.column("upper")
+        logarithmic = self.range.scale == LOGARITHMIC
+        with np.errstate(invalid="ignore"):
+            middles = np.sqrt(lower * upper) if logarithmic else 0.5 * (lower + upper)
+        return np.where(self.column("crossing") > 0, middles, np.nan)
+
+    @cached_property
+    def kinds(self) -> np.ndarray:
+        """What changes at each crossing, as in 'quiet to creep'; of a line without one what it is."""
+        below, above = (self._sides(side) for side in ("_below", "_above"))
+        crossing = self.column("crossing") > 0
+        return np.array(
+            [
+                f"{one} to {other}" if changes else one
+                for one, other, changes in zip(below, above, crossing, strict=True)
+            ],
+            dtype=object,
+        )
+
+    def _sides(self, side: str) -> list[str]:
+        status, values = self.column(f"status{side}"), self.column(f"{self.quantity}{side}")
+        return [
+            STATUSES.get(int(code), "failed").replace("_", " ")
+            if code not in SUCCESSES
+            else self._word(value)
+            for code, value in zip(status, values, strict=True)
+        ]
+
+    def _word(self, value: float) -> str:
+        if not np.isfinite(value):
+            return "unknown"
+        if words_of(self.quantity) is not None:
+            words = word(self.quantity, value).replace("_", " ")
+            wanted = str(self.result.value("threshold", "criterion")).strip()
+            if wanted in CLASSES.values() and words != wanted:
+                return "another class"
+            return words if self.quantity == "rattle_class" else f"{short_name(self.quantity)} {words}"
+        level = float(self.result.number("threshold", "level"))
+        place = "at least" if value >= level else "below"
+        return f"{place} {level:g}{spaced_unit(self.result.units[f'{self.quantity}_below'])}"
+
+    @property
+    def uncertain(self) -> np.ndarray:
+        """Crossings with a class beside them that is not certified, where that was asked for."""
+        if "certified_below" not in self.result:
+            return np.zeros(self.rows.size, dtype=bool)
+        flags = np.column_stack([self.column(f"certified{side}") for side in ("_below", "_above")])
+        return (self.column("crossing") > 0) & ~(flags == 1.0).all(axis=1)
+
+    @cached_property
+    def axes(self) -> tuple[Axis, ...]:
+        """The varied keys with their values in rising order."""
+        scales = {axis.key: axis.scale for axis in read_plan(self.result.input_text).axes}
+        return tuple(
+            Axis(key, self.result.units[key], scales.get(key, LINEAR), np.unique(self.column(key)))
+            for key in self.varied
+        )
+
+    @property
+    def on_grid(self) -> bool:
+        return read_plan(self.result.input_text).kind == GRID
+
+    def held(self, values: Mapping[str, float]) -> Thresholds:
+        """The rows of the lines at these values of some keys."""
+        kept = np.ones(self.rows.size, dtype=bool)
+        for key, value in values.items():
+            kept &= self.column(key) == value
+        return replace(self, rows=self.rows[kept])
+
+
+def thresholds(result: Result) -> Thresholds:
+    """All thresholds of a result."""
+    return Thresholds(result, np.arange(result.row_count))
+
+
+def add_options(parser: ArgumentParser) -> None:
+    parser.add_argument("result", type=Path, metavar="RESULT", help="result of thresholds, NAME.rattle")
+    parser.add_argument(
+        "--map",
+        type=Path,
+        metavar="CAMPAIGN",
+        help="grid campaign over the same keys, drawn behind the curves",
+    )
+    parser.add_argument(
+        "--crossing",
+        type=command.positive,
+        default=1,
+        metavar="N",
+        help="which change of a line is drawn over two keys, counted from the first value (1)",
+    )
+    parser.add_argument(
+        "--slice",
+        type=held_key,
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="of three varied keys or more, hold one at the nearest value; by default its middle",
+    )
+
+
+def run(options: Namespace) -> None:
+    result = rattle.read(options.result)
+    result.require_task("threshold")
+    command.note_open(result)
+    found, words = cut(thresholds(result), one_each(options.slice), 1 if options.map else 2)
+    section = behind(found, options.map, words) if options.map else None
+    with style.house_style():
+        figure = draw(found, words, section, options.crossing)
+        for path in style.save(figure, options, f"threshold_{result.scene_name}"):
+            print(path)
+
+
+def cut(found: Thresholds, slices: Mapping[str, float], most: int) -> tuple[Thresholds, dict[str, float]]:
+    """Thresholds over at most so many keys; the others are held where asked for, or in their middle."""
+    if not found.varied:
+        raise command.CommandError(f"{found.result.path} has one line: there is no key to draw it along.")
+    for key in slices:
+        if key not in found.varied:
+            raise command.CommandError(f"{found.result.path} does not vary '{key}'.")
+    free = [key for key in found.varied if key not in slices][:most]
+    if not free:
+        raise command.CommandError("all varied keys are sliced: one has to stay free.")
+    if len(found.varied) > 1 and not found.on_grid:
+        raise command.CommandError(f"{found.result.path} is no grid: its thresholds have no curve.")
+    held = {}
+    for axis in found.axes:
+        if axis.key in free:
+            continue
+        asked = slices.get(axis.key)
+        index = axis.values.size // 2 if asked is None else int(np.argmin(np.abs(axis.values - asked)))
+        held[axis.key] = float(axis.values[index])
+        command.note(
+            f"{short_name(axis.key)} = {held[axis.key]:.4g}{spaced_unit(axis.unit)}; --slice moves it."
+        )
+    return found.held(held), held
+
+
+def behind(found: Thresholds, path: Path, held: Mapping[str, float]) -> Section:
+    """The map behind the curves: the axis to the right, the key of the thresholds upwards."""
+    campaign = rattle.read_campaign(path)
+    if campaign.kind != GRID:
+        raise command.CommandError(
+            f"{path} is no grid but a {campaign.kind} campaign: nothing to draw behind."
+        )
+    free = next(key for key in found.varied if key not in held)
+    return new_section(campaign, (free, found.key), {k: v for k, v in held.items() if k in campaign.varied})
+
+
+def draw(
+    found: Thresholds,
+    held: Mapping[str, float] | None = None,
+    section: Section | None = None,
+    crossing: int = 1,
+) -> Figure:
+    """Thresholds over the keys that are not held."""
+    free = [axis for axis in found.axes if axis.key not in (held or {})]
+    figure = Figure(figsize=(style.WIDTH, 4.9))
+    axes = figure.subplots()
+    if len(free) == 1:
+        handles = draw_points(axes, found, free[0], section)
+    elif min(axis.values.size for axis in free) <= MOST_CURVES:
+        handles = draw_curves(axes, found, *sorted(free, key=lambda axis: -axis.values.size), crossing)
+    else:
+        handles = draw_surface(figure, axes, found, *free[:2], crossing)
+    if handles:
+        figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    what = words_of_criterion(found)
+    if len(free) > 1:
+        what = f"{ordinal(crossing)} {what}"
+    parts = [
+        f"{short_name(key)} = {value:.4g}{spaced_unit(found.result.units[key])}"
+        for key, value in (held or {}).items()
+    ]
+    lines = [
+        f"{look.capital(short_name(found.key))}: {what}",
+        f"Scene {found.result.scene_name}, {style.film_words(found.result)}",
+    ]
+    axes.set_title("\n".join([*lines, *([", ".join(parts)] if parts else [])]))
+    return figure
+
+
+def words_of_criterion(found: Thresholds) -> str:
+    """As in 'change of class'."""
+    criterion = str(found.result.value("threshold", "criterion")).strip()
+    if criterion == "class" or found.quantity == criterion == "rattle_class":
+        return "change of class"
+    if criterion in CLASSES.values():
+        return f"change into or out of {criterion}"
+    if words_of(criterion) is not None:
+        return f"change of {short_name(criterion)}"
+    level = float(found.result.number("threshold", "level"))
+    return f"{short_name(criterion)} passes {level:g}{spaced_unit(found.result.units[f'{criterion}_below'])}"
+
+
+def ordinal(number: int) -> str:
+    return {1: "first", 2: "second", 3: "third"}.get(number, f"{number}th")
+
+
+def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | None) -> list:
+    """Every crossing over one key, a colour for each kind of change; returns legend entries."""
+    handles = []
+    if section is None:
+        look.set_axis(axes, "x", axis, to_edges=False)
+        look.set_axis(axes, "y", found.range, to_edges=False)
+    else:
+        handles, _ = campaign_map.draw_cells(axes, section, map_column(section, found))
+    x, y, crossed = found.column(axis.key), found.values, found.column("crossing") > 0
+    common = [kind for kind, _ in Counter(found.kinds[crossed]).most_common()]
+    kinds = common if len(common) <= MOST_KINDS + 1 else [*common[:MOST_KINDS], None]
+    for place, kind in enumerate(kinds):
+        chosen = crossed & (found.kinds == kind if kind else ~np.isin(found.kinds, kinds[:-1]))
+        halo = look.HALO if section else None
+        colour = "black" if section else style.RUN_COLOURS[place]
+        dashes = {"linewidth": 1.3, "linestyle": style.RUN_DASHES[place % len(style.RUN_DASHES)]}
+        for part in curves(found, axis, chosen) if kind else ():
+            axes.plot(*part, zorder=3, color=colour, path_effects=halo, **dashes)
+        marks = {"color": colour, "marker": style.RUN_MARKS[place], "markersize": 3.0, "zorder": 4}
+        sure = chosen & ~found.uncertain
+        axes.plot(x[sure], y[sure], linestyle="", **marks)
+        axes.plot(
+            x[chosen & found.uncertain],
+            y[chosen & found.uncertain],
+            linestyle="",
+            markerfacecolor="white",
+            **marks,
+        )
+        words = kind or "other changes"
+        handles.append(Line2D([], [], **dashes, **marks, label=f"{words} ({int(chosen.sum())})"))
+    if found.uncertain.any():
+        mark = {"marker": "o", "markersize": 4, "markerfacecolor": "white", "color": style.FORCE_COLOUR}
+        handles.append(
+            Line2D([], [], linestyle="", **mark, label=f"{UNCERTAIN} ({int(found.uncertain.sum())})")
+        )
+    if not crossed.all():
+        mark = {"marker": "|", "linestyle": "", "color": style.FORCE_COLOUR, "markersize": 7}
+        foot = np.full(int((~crossed).sum()), 0.02)
+        axes.plot(x[~crossed], foot, transform=axes.get_xaxis_transform(), zorder=4, **mark)
+        handles.append(Line2D([], [], **mark, label=f"{NONE} ({int((~crossed).sum())})"))
+    return handles
+
+
+def map_column(section: Section, found: Thresholds) -> str:
+    """What the map behind shows: what the criterion looks at where that is recorded, else the class."""
+    return found.quantity if found.quantity in section.campaign else "rattle_class"
+
+
+def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Crossings of one kind joined from line to line, as long as neighbours have as many of them."""
+    x, y = found.column(axis.key), found.values
+    lines = [y[chosen & (x == value)] for value in axis.values]
+    joined, start = [], 0
+    for end in range(1, len(lines) + 1):
+        if end < len(lines) and len(lines[end]) == len(lines[start]):
+            continue
+        part = np.array(lines[start:end])
+        joined += [(axis.values[start:end], part[:, place]) for place in range(part.shape[1])]
+        start = end
+    return joined
+
+
+def on_plane(found: Thresholds, x: Axis, y: Axis, crossing: int) -> tuple[np.ndarray, np.ndarray]:
+    """A crossing of each line, an index for each axis, NaN where there is none; and where it is uncertain."""
+    values = np.full((x.values.size, y.values.size), np.nan)
+    uncertain = np.zeros(values.shape, dtype=bool)
+    rows = np.flatnonzero(found.column("crossing") == crossing)
+    places = tuple(np.searchsorted(axis.values, found.column(axis.key)[rows]) for axis in (x, y))
+    values[places], uncertain[places] = found.values[rows], found.uncertain[rows]
+    return values, uncertain
+
+
+def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossing: int) -> list:
+    """A curve along one key for each value of another; returns legend entries."""
+    look.set_axis(axes, "x", along, to_edges=False)
+    look.set_axis(axes, "y", found.range, to_edges=False)
+    values, uncertain = on_plane(found, along, other, crossing)
+    for place, value in enumerate(other.values):
+        column, unsure = values[:, place], uncertain[:, place]
+        label = f"{short_name(other.key)} {value:.4g}{spaced_unit(other.unit)}"
+        mark = {"marker": style.RUN_MARKS[place], "markersize": 3.0}
+        line = style.run_line(place)
+        axes.plot(along.values, column, label=label, **line, **mark)
+        points = {"color": line["color"], "linestyle": "", "markerfacecolor": "white", **mark}
+        axes.plot(along.values[unsure], column[unsure], **points)
+    handles = list(axes.get_lines())[::2]
+    if uncertain.any():
+        mark = {"marker": "o", "markersize": 4, "markerfacecolor": "white", "color": style.FORCE_COLOUR}
+        handles.append(Line2D([], [], linestyle="", **mark, label=UNCERTAIN))
+    return handles
+
+
+def draw_surface(figure: Figure, axes: Axes, found: Thresholds, x: Axis, y: Axis, crossing: int) -> list:
+    """A coloured map of the threshold over two keys, with contours; returns legend entries."""
+    values, uncertain = on_plane(found, x, y, crossing)
+    edges = look.cell_edges(x), look.cell_edges(y)
+    drawn = axes.pcolormesh(*edges, values.T, cmap=look.COLOUR_MAP, rasterized=True)
+    known = values[np.isfinite(values)]
+    if known.size and np.ptp(known) > 0.0:
+        levels = ticker.MaxNLocator(7).tick_values(known.min(), known.max())
+        levels = [level for level in levels if known.min() < level < known.max()]
+        lines = axes.contour(
+            x.values, y.values, np.ma.masked_invalid(values.T), levels=levels, colors="black", linewidths=0.9
+        )
+        lines.set_path_effects(look.HALO)
+        for label in axes.clabel(lines, fontsize=7, fmt="%g"):
+            label.set_path_effects(look.HALO)
+    look.set_axis(axes, "x", x, to_edges=True)
+    look.set_axis(axes, "y", y, to_edges=True)
+    figure.colorbar(drawn, ax=axes, label=look.axis_label(found.range), pad=0.02, aspect=30)
+    handles = []
+    for where, marker, words in ((np.isnan(values), "x", NONE), (uncertain, ".", UNCERTAIN)):
+        if where.any():
+            mark = {"marker": marker, "linestyle": "", "color": style.FORCE_COLOUR, "markersize": 3}
+            axes.plot(
+                *(axis.values[index] for axis, index in zip((x, y), np.nonzero(where), strict=True)), **mark
+            )
+            handles.append(Line2D([], [], **mark, label=f"{words} ({int(where.sum())})"))
+    return handles

@@ -1,0 +1,101 @@
+"""What a report says of thresholds: what changes where, how far that stands, and what it took."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+import numpy as np
+
+from rattle.campaign_section import short_name
+from rattle.command import CommandError
+from rattle.figures import threshold as picture
+from rattle.figures.threshold import Thresholds
+from rattle.report import motion, page
+from rattle.result import Result
+from rattle.summary import Summary
+
+MOST_ROWS = 100
+MOST_KINDS = 12
+
+
+def verdict(result: Result, summary: Summary | None) -> list[str]:
+    found = picture.thresholds(result)
+    crossings = int((found.column("crossing") > 0).sum())
+    head = "1 threshold" if crossings == 1 else f"{crossings} thresholds" if crossings else "no threshold"
+    box = page.verdict_box(head, None, list(sentences_on(found, summary)), doubt=bool(found.uncertain.any()))
+    if found.quantity != "rattle_class":
+        return [box]
+    names = dict.fromkeys(name for kind in found.kinds for name in kind.split(" to "))
+    return [box, motion.class_meanings(names)]
+
+
+def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
+    unit = found.range.unit
+    crossed = found.column("crossing") > 0
+    lines = int(np.unique(found.column("line")).size)
+    first, last = (page.plain(float(end), unit) for end in found.range.values)
+    of_lines = "" if lines == 1 else f" on {lines} lines"
+    yield (
+        f"Looked for: {picture.words_of_criterion(found)}, along the {short_name(found.key)} from {first} to "
+        f"{last}{of_lines}."
+    )
+    for kind, count in Counter(found.kinds[crossed]).most_common(3):
+        values = found.values[crossed & (found.kinds == kind)]
+        least, largest = (page.plain(float(end), unit) for end in (values.min(), values.max()))
+        where = f"at {least}" if count == 1 else f"{count} times, between {least} and {largest}"
+        yield f"From {kind}: {where}."
+    if lines > 1 or not crossed.any():
+        yield f"{int((~crossed).sum())} of {lines} lines have no threshold in this range."
+    if "certified_below" in found.result:
+        sure = int(crossed.sum() - found.uncertain.sum())
+        yield (
+            f"At {sure} of {int(crossed.sum())} thresholds the classes on both sides are certified: solved "
+            "again, tighter, they are the same. So close to a change not every class can be."
+        )
+    count = found.result.value("threshold", "count")
+    yield (
+        f"Each line was looked at in {count} places, and neighbours that differ were brought together by "
+        "halves. Two changes between neighbours that cancel each other are not seen."
+    )
+    if summary and "scenes" in summary:
+        times = float(summary["scenes_of_a_grid"]) / float(summary["scenes"])
+        yield f"It took {summary['scenes']} scenes; a grid as fine has {times:.3g} times as many."
+
+
+def tables(result: Result) -> list[str]:
+    """Each kind of change and where it is least and largest; then every threshold."""
+    found = picture.thresholds(result)
+    unit, crossed = found.range.unit, found.column("crossing") > 0
+    rows = []
+    for kind, count in Counter(found.kinds[crossed]).most_common(MOST_KINDS):
+        places = np.flatnonzero(crossed & (found.kinds == kind))
+        ends = places[[np.argmin(found.values[places]), np.argmax(found.values[places])]]
+        told = [page.value(float(found.values[place]), unit) for place in ends]
+        rows.append([kind, str(count), *told, str(int(found.uncertain[places].sum()))])
+    heads = ("From, to", "Thresholds", "Least", "Largest", "Not certified")
+    parts = [page.table(heads, rows, kinds=("", "number", "number", "number", "number"))] if rows else []
+    if result.row_count > MOST_ROWS:
+        words = f"All {result.row_count} rows stand in the result file; the first {MOST_ROWS} are these."
+        parts.append(page.paragraph(words, "note"))
+    lines = []
+    for row in range(min(result.row_count, MOST_ROWS)):
+        axes = [page.value(float(found.column(key)[row]), result.units[key]) for key in found.varied]
+        ends = [page.value(float(found.column(name)[row]), unit) for name in ("lower", "upper")]
+        kind = found.kinds[row] if crossed[row] else f"{found.kinds[row]} throughout"
+        sure = (
+            "no" if found.uncertain[row] else "yes" if crossed[row] and "certified_below" in result else "-"
+        )
+        lines.append([*axes, *(ends if crossed[row] else ["-", "-"]), kind, sure])
+    heads = (*map(short_name, found.varied), "between", "and", "from, to", "certified")
+    kinds = (*("number" for _ in found.varied), "number", "number", "", "")
+    return [*parts, page.table(heads, lines, kinds=kinds)]
+
+
+def figures(result: Result) -> list[str]:
+    caption = "Thresholds over the varied keys. Open marks: a class beside the threshold is not certified."
+    try:
+        found, held = picture.cut(picture.thresholds(result), {}, 2)
+    except CommandError:
+        return [page.paragraph("Thresholds of one line, or of a sample of lines, have no curve.", "note")]
+    return [page.drawing(lambda: picture.draw(found, held), caption, f"{result.scene_name} threshold")]

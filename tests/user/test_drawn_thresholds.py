@@ -1,0 +1,242 @@
+"""What Python makes of thresholds: figures, the page of a report, a call of the program."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import campaign_writer
+import drawn
+import numpy as np
+import pytest
+from campaign_runs import BASE
+from campaign_writer import FORCE, SPEED, Key
+from matplotlib.figure import Figure
+from outcomes import contents
+from report_reader import read_page
+from result_writer import write_result
+from script_calls import call_script
+
+import rattle as package
+from rattle.figures import style, threshold
+
+SIDES = ("certified_below", "certified_above")
+NAN = np.nan
+# line, speed, crossing, lower, upper, then below and above: class, status, certified
+ROWS = [
+    [1.0, 1.0, 1.0, 40.0, 42.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0],
+    [1.0, 1.0, 2.0, 90.0, 92.0, 2.0, 3.0, 1.0, 1.0, 1.0, 1.0],
+    [2.0, 2.0, 1.0, 30.0, 32.0, 1.0, 2.0, 1.0, 1.0, 1.0, 0.0],
+    [2.0, 2.0, 2.0, 70.0, 72.0, 2.0, NAN, 1.0, 3.0, 1.0, NAN],
+    [3.0, 4.0, 0.0, 5.0, 100.0, 1.0, 1.0, 1.0, 1.0, NAN, NAN],
+    [4.0, 8.0, 1.0, 20.0, 22.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0],
+]
+PLANE = [
+    [
+        float(1 + 10 * x + y),
+        float(x),
+        float(y),
+        1.0,
+        10.0 * x + y,
+        10.0 * x + y + 2.0,
+        1.0,
+        2.0,
+        1.0,
+        1.0,
+        1.0,
+        1.0,
+    ]
+    for x in range(1, 11)
+    for y in range(1, 10)
+]
+
+
+BASE_KEYS = {
+    f"{group}.{key}": float(value) if value[0].isdigit() else value.strip("'")
+    for group in ("solver", "spectrum")
+    for key, value in BASE[group].items()
+    if value is not None
+}
+BASE_KEYS = {key: int(value) if key.endswith("periods") else value for key, value in BASE_KEYS.items()}
+
+
+def threshold_input(
+    criterion: str = "class", axes: tuple[str, ...] = ("kinematics.entrainment_speed",)
+) -> str:
+    vary = "".join(f" vary({i}) = '{key}'\n" for i, key in enumerate(axes, 1))
+    return (
+        "&scene\n name = 'edge'\n task = 'threshold'\n/\n"
+        "&film\n law = 'iso-viscous'\n model = 'published'\n/\n"
+        f"&campaign\n{vary} sample = 'grid'\n/\n&threshold\n key = 'load.force_amplitude'\n first = 5.0\n"
+        f" last = 100.0\n scale = 'linear'\n count = 33\n tolerance = 0.02\n criterion = '{criterion}'\n/\n"
+    )
+
+
+def written(path: Path, rows=ROWS, axes=("kinematics.entrainment_speed",), criterion: str = "class"):
+    units = {"kinematics.entrainment_speed": "m/s", "load.mass": "kg"}
+    names = ["line", *axes, "crossing", "lower", "upper", "rattle_class_below", "rattle_class_above"]
+    names += ["status_below", "status_above", *SIDES]
+    columns = [(name, units.get(name, "N" if name in ("lower", "upper") else "-")) for name in names]
+    write_result(path, columns, rows, input_text=threshold_input(criterion, axes))
+    return package.read(path)
+
+
+def figure(result, **options) -> Figure:
+    with style.house_style():
+        return threshold.draw(threshold.thresholds(result), **options)
+
+
+def test_kinds_of_change_are_curves_of_their_own(tmp_path):
+    """Neighbours with as many changes of a kind are joined; a line without a change is marked at the foot."""
+    made = figure(written(tmp_path / "edge.rattle"))
+    lines = drawn.curves(made.axes[0])
+    expected = [
+        ([1.0, 2.0], [41.0, 31.0]),
+        ([8.0], [21.0]),
+        ([1.0, 8.0], [41.0, 21.0]),
+        ([2.0], [31.0]),
+        ([1.0], [91.0]),
+        ([1.0], [91.0]),
+        ([2.0], [71.0]),
+        ([2.0], [71.0]),
+    ]
+    lines = [line for line in lines if line[0].size]
+    assert len(lines) == len(expected)
+    for found, wanted in zip(lines, expected, strict=True):
+        np.testing.assert_array_equal(found, wanted)
+    assert drawn.rules(made.axes[0], "x") == [4.0]
+    assert drawn.legend_words(made) == [
+        "quiet to creep (3)",
+        "creep to idle (1)",
+        "creep to film lost (1)",
+        "not certified (2)",
+        "no change (1)",
+    ]
+    assert made.axes[0].get_xlabel() == "Entrainment speed [m/s]"
+    assert made.axes[0].get_ylabel() == "Force amplitude [N]"
+    assert "change of class" in made.axes[0].get_title(loc="left")
+
+
+def test_one_class_against_all_others(tmp_path):
+    made = figure(written(tmp_path / "edge.rattle", ROWS[:3], criterion="quiet"))
+    assert drawn.legend_words(made)[0] == "quiet to another class (2)"
+    assert "change into or out of quiet" in made.axes[0].get_title(loc="left")
+
+
+def test_curves_lie_over_the_map_that_they_divide(tmp_path):
+    path = tmp_path / "map.rattle"
+    keys = Key(SPEED, 1.0, 8.0, 6), Key(FORCE, 5.0, 100.0, 5)
+    campaign_writer.grid(*keys).write(path)
+    result = written(tmp_path / "edge.rattle")
+    done = call_script("plot.py", "threshold", result.path, "--map", path, "--output", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert sorted(contents(tmp_path / "out")) == ["threshold_edge.pdf", "threshold_edge.png"]
+    section = threshold.behind(threshold.thresholds(result), path, {})
+    made = figure(result, section=section)
+    assert [axis.key for axis in section.free] == [SPEED, FORCE]
+    assert any(words.startswith("creep (") for words in drawn.legend_words(made))
+    assert "quiet to creep (3)" in drawn.legend_words(made)
+
+
+def test_two_keys_are_curves_if_few_and_a_surface_if_many(tmp_path):
+    axes = ("kinematics.entrainment_speed", "load.mass")
+    few = [row for row in PLANE if row[2] <= 3.0]
+    made = figure(written(tmp_path / "few.rattle", few, axes))
+    lines = [line for line in drawn.curves(made.axes[0]) if line[0].size]
+    for mass, (x, y) in enumerate(lines, 1):
+        np.testing.assert_array_equal(x, np.arange(1.0, 11.0))
+        np.testing.assert_array_equal(y, 10.0 * x + mass + 1.0)
+    assert drawn.legend_words(made) == ["mass 1 kg", "mass 2 kg", "mass 3 kg"]
+    made = figure(written(tmp_path / "many.rattle", PLANE, axes))
+    mesh = next(one for one in made.axes[0].collections if one.get_array() is not None)
+    values = np.asarray(mesh.get_array()).reshape(9, 10)
+    np.testing.assert_array_equal(values, [[10.0 * x + y + 1.0 for x in range(1, 11)] for y in range(1, 10)])
+    assert [one.get_ylabel() for one in made.axes] == ["Mass [kg]", "Force amplitude [N]"]
+    gone = figure(written(tmp_path / "gone.rattle", PLANE, axes), crossing=2)
+    assert drawn.legend_words(gone) == ["no change (90)"]
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--slice", "load.force=1"], "does not vary 'load.force'"),
+        (["--slice", "kinematics.entrainment_speed=1"], "one has to stay free"),
+        (["--map", "edge.rattle"], "is no campaign but the result of task = 'threshold'"),
+    ],
+)
+def test_what_cannot_be_drawn_is_told(options, words, tmp_path):
+    written(tmp_path / "edge.rattle")
+    done = call_script("plot.py", "threshold", "edge.rattle", *options, cwd=tmp_path)
+    assert done.returncode == 2 and words in done.stderr, done.stderr
+
+
+def test_one_line_has_no_curve_but_a_page(tmp_path):
+    rows = [[row[0], *row[2:]] for row in ROWS[:2]]
+    path = written(tmp_path / "edge.rattle", rows, axes=()).path
+    done = call_script("plot.py", "threshold", path)
+    assert done.returncode == 2 and "there is no key to draw it along" in done.stderr
+    done = call_script("report.py", path, "--output", tmp_path / "edge.html")
+    assert done.returncode == 0, done.stderr
+    assert "From quiet to creep: at 41 N." in read_page(tmp_path / "edge.html").words
+
+
+def test_the_report_tells_every_threshold(tmp_path):
+    path = written(tmp_path / "edge.rattle").path
+    done = call_script("report.py", path, "--output", tmp_path / "edge.html")
+    assert done.returncode == 0, done.stderr
+    words = read_page(tmp_path / "edge.html").words
+    for sentence in (
+        "5 thresholds",
+        "Looked for: change of class, along the force amplitude from 5 N to 100 N on 4 lines.",
+        "From quiet to creep: 3 times, between 21 N and 41 N.",
+        "1 of 4 lines have no threshold in this range.",
+        "At 3 of 5 thresholds the classes on both sides are certified",
+        "quiet throughout",
+        "Two changes between neighbours that cancel each other are not seen.",
+    ):
+        assert sentence in words, sentence
+    shown = {float(digits) for digits, _ in read_page(tmp_path / "edge.html").numbers}
+    for row in ROWS:
+        if row[2]:
+            assert row[3] in shown and row[4] in shown
+
+
+def test_thresholds_from_python_and_as_a_table(groups, tmp_path):
+    found = package.threshold(
+        groups,
+        "load.force_amplitude",
+        5.0,
+        455.0,
+        vary={"kinematics.entrainment_speed": [1.0, 2.0]},
+        criterion="quiet",
+        tolerance=0.01,
+        set=BASE_KEYS,
+        folder=tmp_path,
+    )
+    frame = found.result.frame()
+    assert frame["line"].tolist() == [1.0, 2.0] and found.summary["crossings"] == 2
+    assert frame["rattle_class_below_word"].tolist() == ["quiet", "quiet"]
+    assert set(frame["status_above_word"]) <= {"complete", "steady"}
+    assert (frame["upper"] - frame["lower"] < 4.5).all() and frame.attrs["units"]["lower"] == "N"
+    data = found.result.dataset()
+    assert "quiet" in data["rattle_class_above"].attrs["flag_meanings"]
+    done = call_script("export.py", found.result.path)
+    assert done.returncode == 0, done.stderr
+    table = found.result.path.with_suffix(".csv").read_text()
+    assert re.search(r"rattle_class_below\[-\].*rattle_class_below_word", table) and ",quiet," in table
+    with pytest.raises(package.InputError) as refused:
+        package.threshold(groups, "load.mas", 1.0, 2.0, set=BASE_KEYS)
+    assert (refused.value.faults[0].group, refused.value.faults[0].key) == ("threshold", "key")
+
+
+@pytest.fixture
+def groups(rattle: Path, monkeypatch) -> dict:
+    """The groups of a scene, for the program under test."""
+    monkeypatch.setenv("RATTLE_PROGRAM", str(rattle))
+    return {
+        "contact": {"radius": 0.0127, "length": 0.010},
+        "lubricant": {"viscosity": 0.3, "pressure_viscosity": 2.0e-8},
+        "kinematics": {"entrainment_speed": 1.905},
+        "load": {"mass": 3.0, "steady_force": 199.2, "force_amplitude": 205.7, "frequency": 600.0},
+        "film": {"law": "iso-viscous"},
+    }
