@@ -16,6 +16,9 @@ module derived_scene
    implicit none(type, external)
    private
 
+   !> A temperature farther from those of the data sheet than these are apart deserves a warning [K].
+   real(dp), parameter :: farthest_beyond_data = 60.0_dp
+
    public :: derive, derived_rules, complete_scene
 
 contains
@@ -199,14 +202,60 @@ contains
    !> What follows from &oil.
    subroutine tell_oil(scene)
       type(scene_t), intent(inout) :: scene
-      real(dp) :: thin
+      real(dp) :: thin, ends(2)
+      real(dp), parameter :: low = 40.0_dp, high = 100.0_dp
 
-      thin = kinematic_viscosity(scene%oil%viscosity_40_cst, scene%oil%viscosity_100_cst, scene%oil%temperature_celsius)
+      ends = temperatures(scene)
+      if (ends(1) < low - farthest_beyond_data) &
+         call warn(ends(1), low - ends(1), ', and near its pour point an oil leaves that line')
+      if (ends(2) > high + farthest_beyond_data) call warn(ends(2), ends(2) - high, '')
+      thin = kinematic_viscosity(scene%oil%viscosity_40_cst, scene%oil%viscosity_100_cst, ends(2))
       if (thin < least_viscosity_meant) scene%warnings = [scene%warnings, word_t('warning: the oil has '// &
-         short_text(thin, 3)//' mm2/s at this temperature; the line through both viscosities (ASTM D341) is meant for 2 and more')]
+         short_text(thin, 3)//' mm2/s at '//short_text(ends(2), 3)// &
+         ' degC; the line through both viscosities (ASTM D341) is meant for 2 and more')]
       call tell(scene, 'lubricant.viscosity', [scene%lubricant%viscosity], 'Pa s')
       call tell(scene, 'lubricant.pressure_viscosity', [scene%lubricant%pressure_viscosity], '1/Pa')
+
+   contains
+
+      !> Say that a temperature lies far beyond the data.
+      subroutine warn(temperature, beyond, words)
+         real(dp), intent(in) :: temperature
+         !> By how much [K]
+         real(dp), intent(in) :: beyond
+         !> What else there is to say
+         character(*), intent(in) :: words
+
+         scene%warnings = [scene%warnings, word_t('warning: at '//short_text(temperature, 3)// &
+            ' degC the viscosity is extrapolated by '//short_text(beyond, 2)// &
+            ' K from the 40 and 100 degC of the data sheet, farther than these are apart'//words)]
+      end subroutine warn
+
    end subroutine tell_oil
+
+   !> Lowest and highest temperature of the oil in what an input asks for [degC].
+   pure function temperatures(scene) result(ends)
+      type(scene_t), intent(in) :: scene
+      real(dp) :: ends(2)
+      integer :: i, key
+
+      ends = scene%oil%temperature_celsius
+      key = find_key('oil', 'temperature_celsius')
+      if (scene%task == task_sweep) then
+         if (scene%sweep%key == key) ends = [minval(scene%sweep%values), maxval(scene%sweep%values)]
+      end if
+      if (.not. allocated(scene%campaign%vary)) return
+      do i = 1, size(scene%campaign%vary)
+         if (scene%campaign%vary(i)%text /= 'oil.temperature_celsius') cycle
+         associate (campaign => scene%campaign)
+            if (i <= min(size(campaign%first), size(campaign%last))) &
+               ends = [min(campaign%first(i), campaign%last(i)), max(campaign%first(i), campaign%last(i))]
+            if (i > size(campaign%values)) cycle
+            if (size(campaign%values(i)%numbers) > 0) &
+               ends = [minval(campaign%values(i)%numbers), maxval(campaign%values(i)%numbers)]
+         end associate
+      end do
+   end function temperatures
 
    !> What follows from &gear and &shaft.
    subroutine tell_gear(scene)

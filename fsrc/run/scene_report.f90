@@ -12,7 +12,7 @@ module scene_report
    use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_deflection_share, &
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
                          quantity_t, quantity_table, quantity_word
-   use regime, only: deflection_limit, iso_viscous_limit, rigid_limit
+   use regime, only: deflection_limit, iso_viscous_limit, rigid_limit, steel_tooth
    use regime_check, only: model_limit, model_limit_sentence, regime_sentence, within_model
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
@@ -291,7 +291,8 @@ contains
       warning = short_text(100.0_dp*share, 2)//' % of'
       if (share > 1.0_dp) warning = short_text(share, 2)//' times'
       warning = 'warning: '//when//' a steel tooth gives way by '//warning//' the film, while these teeth are rigid '// &
-                '(stiffness_matters)'
+                '(stiffness_matters). Teeth that give may move otherwise, and fall into another class: steel ones have '// &
+                'contact.stiffness = '//short_text(steel_tooth*scene%contact%length, 2)//' N/m'
    end function stiffness_warning
 
    !> What samples that are too few for the motion mean, and how many would do.

@@ -285,7 +285,8 @@ module key_table
             sensible=range_t(lower=600.0_dp, upper=1500.0_dp), &
             computable=range_t(1.0_dp, .false., 1.0e5_dp, .false.)), &
       key_t('oil', 'temperature_celsius', real_kind, 'degC', 'required', range_t(-150.0_dp, .false., 400.0_dp, .false.), '', '', &
-            'Temperature of the oil.', &
+            'Temperature of the oil. A warning says where it lies more than 60 K beyond 40 or 100 degC, or the oil is '// &
+            'thinner than 2 mm2/s.', &
             example='40.0', &
             sensible=range_t(lower=-50.0_dp, upper=200.0_dp)), &
       key_t('oil', 'base', text_kind, '', 'mineral', any_number, 'mineral pao polyglycol', '', &

@@ -194,8 +194,8 @@ def test_pixels_are_those_of_the_width(idle, tmp_path):
         (("--xlim", "3,1"), "not two rising numbers"),
         (("--ylim", "1"), "not two rising numbers"),
         (("--font-size", "100"), "not a size of type"),
-        (("--frequency", "order"), "belong together"),
-        (("--shaft-speed", "900"), "belong together"),
+        (("--frequency", "order"), "has no &shaft speed_rpm that orders could count; give --shaft-speed"),
+        (("--shaft-speed", "900"), "--shaft-speed belongs to --frequency order"),
     ),
 )
 def test_wishes_that_cannot_be_met_are_refused(idle, tmp_path, given, words):
@@ -220,6 +220,18 @@ def test_spectra_stand_over_what_was_asked_for(idle, frequency, factor):
     words = {"ratio": "Frequency ratio", "hz": "Frequency [Hz]", "order": "Order of the shaft"}
     for made_figure in (spectrum, force):
         assert made_figure.axes[-1].get_xlabel().startswith(words[frequency])
+
+
+def test_orders_count_the_shaft_of_the_scene(repository, run, tmp_path):
+    scene = repository / "input" / "loose_pair.nml"
+    assert run(scene, "--set", "spectrum.certify=.false.", "--output", tmp_path, cwd=tmp_path).returncode == 0
+    result = rattle.read(tmp_path / "loose_pair.rattle")
+    for speed, factor in ((None, 2.0), (1600.0, 1.0)):
+        with style.house_style(own=False):
+            figure = spectra.draw_force([result], ["pair"], None, spectra.View("order", speed))
+        places, heights = drawn.bars(figure.axes[0])[0]
+        strong = places[heights > 0.1]
+        np.testing.assert_allclose(strong, factor * np.arange(4.0), atol=1e-12)
 
 
 def test_levels_are_those_of_the_amplitudes(idle):

@@ -318,7 +318,35 @@ def test_warnings_that_an_engineer_expects(check) -> None:
     dragged = check(PAIR, "gear.drag_torque=0.4").stdout
     assert "is larger than the inertia force of 6.673 N at most" in dragged
     thin = check(PAIR, "oil.temperature_celsius=250").stdout
-    assert "(ASTM D341) is meant for 2 and more" in thin
+    assert "mm2/s at 250 degC; the line through both viscosities (ASTM D341) is meant for 2 and more" in thin
+
+
+@pytest.mark.parametrize(
+    ("temperature", "words"),
+    (
+        (-20, None),
+        (160, None),
+        (
+            -21,
+            "at -21.0 degC the viscosity is extrapolated by 61 K from the 40 and 100 degC of the data sheet",
+        ),
+        (161, "at 161 degC the viscosity is extrapolated by 61 K"),
+    ),
+)
+def test_temperatures_far_beyond_the_data_sheet_are_called_extrapolated(check, temperature, words) -> None:
+    told = check(PAIR, f"oil.temperature_celsius={temperature}").stdout
+    assert words in told if words else "extrapolated" not in told
+
+
+def test_sweeps_and_campaigns_are_warned_of_their_ends(check) -> None:
+    ends = "first = -50, last = 40"
+    swept = PAIR + f"&scene task = 'sweep' /\n&sweep key = 'temperature_celsius', {ends}, count = 3 /\n"
+    assert "at -50.0 degC the viscosity is extrapolated by 90 K" in check(swept).stdout
+    vary = "vary = 'shaft.speed_rpm', 'oil.temperature_celsius'"
+    grid = f"&campaign {vary}, first = 600, -50, last = 3000, 40, count = 2, 2 /\n"
+    assert "at -50.0 degC" in check(PAIR + "&scene task = 'campaign' /\n" + grid).stdout
+    listed = "&campaign vary = 'oil.temperature_celsius', values(:, 1) = 40, 180 /\n"
+    assert "at 180 degC" in check(PAIR + "&scene task = 'campaign' /\n" + listed).stdout
 
 
 def cycle(kind: str) -> tuple[list[float], float]:

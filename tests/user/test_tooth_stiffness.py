@@ -54,4 +54,6 @@ def test_the_deflection_is_that_of_the_largest_load(groups, length, matters, run
     assert rows["stiffness_matters"][0] == matters
     checked = run("--check", "scene.nml", cwd=tmp_path).stdout
     assert ("! warning: at rest a steel tooth gives way by 1.8 times the film" in checked) == matters
+    steel = "fall into another class: steel ones have contact.stiffness = 1.4E8 N/m"
+    assert (steel in checked) == matters
     assert "! deflection share at the steady film" in checked

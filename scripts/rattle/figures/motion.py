@@ -60,7 +60,10 @@ def add_options(parser: ArgumentParser) -> None:
         help="what spectra are drawn over: multiples of the force's frequency (ratio), Hz, orders of a shaft",
     )
     parser.add_argument(
-        "--shaft-speed", type=command.positive_number, metavar="RPM", help="speed [1/min] that orders count"
+        "--shaft-speed",
+        type=command.positive_number,
+        metavar="RPM",
+        help="speed [1/min] that orders count (&shaft speed_rpm of the result)",
     )
     parser.add_argument(
         "--level",
@@ -76,8 +79,11 @@ def run(options: Namespace) -> None:
     for result in results:
         result.require_task("motion")
         command.note_open(result)
-    if (options.frequency == "order") != (options.shaft_speed is not None):
-        raise command.CommandError("--frequency order and --shaft-speed belong together.")
+    if options.shaft_speed is not None and options.frequency != "order":
+        raise command.CommandError("--shaft-speed belongs to --frequency order.")
+    if options.frequency == "order" and options.shaft_speed is None:
+        for result in results:
+            spectra.shaft_speed(result)
     view = spectra.View(options.frequency, options.shaft_speed, options.level == "db")
     extent = Extent(options.periods, options.window, view)
     make = overlay_figures if options.overlay else single_figures

@@ -34,7 +34,7 @@ LEVEL_LABEL = r"Level of the amplitude of $\ddot{z}$" "\n" r"[dB re 10$^{-6}$ m/
 
 @dataclass(frozen=True)
 class View:
-    """Over what spectra are shown ('order': of a shaft, its speed in 1/min), and whether as levels."""
+    """Over what spectra are shown ('order': of a shaft at this speed [1/min] or its own); if as levels."""
 
     frequency: str = "ratio"
     shaft_speed: float | None = None
@@ -44,10 +44,21 @@ class View:
         """What multiples of the frequency of the force are multiplied by."""
         if self.frequency == "ratio":
             return 1.0
-        return result.frequency / (1.0 if self.frequency == "hz" else self.shaft_speed / 60.0)
+        if self.frequency == "hz":
+            return result.frequency
+        return result.frequency / ((self.shaft_speed or shaft_speed(result)) / 60.0)
 
 
 PLAIN = View()
+
+
+def shaft_speed(result: Result) -> float:
+    """The mean speed of the shaft that the input describes [1/min]."""
+    if "speed_rpm" not in result.input.get("shaft", {}):
+        raise ResultError(
+            f"{result.path} has no &shaft speed_rpm that orders could count; give --shaft-speed."
+        )
+    return float(result.number("shaft", "speed_rpm"))
 
 
 def draw_force(
