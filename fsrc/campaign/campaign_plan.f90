@@ -6,12 +6,12 @@ module campaign_plan
    use key_table, only: key_name
    use kinds, only: dp, int64
    use odd_numbers, only: odd_numbers_of_list
-   use sampling, only: chunk_values, method_grid, method_sobol, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, &
-                       sample_plan_t
+   use sampling, only: chunk_values, cross_plan, method_grid, method_sobol, plan_grid, plan_latin_hypercube, plan_sobol, &
+                       plan_table, sample_plan_t
    use scene_types, only: scene_t
    use signals, only: must_stop
    use text, only: integer_text, printable
-   use varied_keys, only: find_varied_key, is_valid_scene, is_whole, set_varied_keys, why_invalid
+   use varied_keys, only: find_varied_key, is_valid_scene, is_whole, pair_position, set_varied_keys, why_invalid
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -44,9 +44,14 @@ contains
       type(csv_samples_t) :: samples
       character(:), allocatable :: message
       integer :: before, bad_axis, i
+      type(campaign_axis_t) :: pair_axis
 
       before = faults%count()
       allocate (warnings(0))
+      if (allocated(scene%pairs)) then
+         pair_axis%position = pair_position()
+         pair_axis%values = [(real(i, dp), i=1, size(scene%pairs))]
+      end if
       if (len(scene%campaign%csv) > 0) then
          call read_csv_samples(scene%campaign%csv, samples, faults)
          if (faults%count() > before) return
@@ -70,6 +75,8 @@ contains
          if (faults%count() > before) return
          select case (scene%campaign%sample)
          case (method_grid)
+            ! The pair is the first axis: what other keys say of a gear is said of each pair.
+            if (allocated(scene%pairs)) axes = [pair_axis, axes]
             call plan_grid(axes, plan, bad_axis, message)
          case (method_sobol)
             call plan_sobol(axes, int(scene%campaign%size, int64), int(scene%campaign%seed, int64), plan, bad_axis, message)
@@ -78,11 +85,12 @@ contains
                                       bad_axis, message)
          end select
          if (len(message) > 0) then
-            if (bad_axis > 0) message = scene%campaign%vary(bad_axis)%text//': '//message
+            if (bad_axis > 0) message = key_name(axes(bad_axis)%position)//': '//message
             call faults%add(file, 0, 'campaign', 'vary', message)
             return
          end if
       end if
+      if (allocated(scene%pairs) .and. plan%method /= method_grid) call cross_plan(pair_axis, plan)
       call check_size(scene, file, plan%size, faults)
    end subroutine plan_campaign
 

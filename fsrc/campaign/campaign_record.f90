@@ -2,12 +2,13 @@
 module campaign_record
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
-   use key_table, only: key_name, keys
+   use key_table, only: keys
    use kinds, only: dp, int64
    use quantities, only: a_list, quantity_t, quantity_table
    use result_format, only: column_name_bytes, column_unit_bytes
    use scene_types, only: scene_t
    use text, only: integer_text
+   use varied_keys, only: varied_name
    implicit none(type, external)
    private
 
@@ -34,7 +35,8 @@ contains
       allocate (names(0), units(0))
       call put(names, units, 'scene', '-')
       do i = 1, size(positions)
-         call put(names, units, key_name(positions(i)), keys(positions(i))%unit)
+         call put(names, units, varied_name(positions(i)), keys(positions(i))%unit)
+         if (units(size(units)) == '') units(size(units)) = '-'
       end do
       call put(names, units, 'status', '-')
       do i = 1, size(scene%campaign%record)

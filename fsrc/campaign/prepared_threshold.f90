@@ -131,8 +131,18 @@ contains
       type(campaign_axis_t), intent(in) :: axis
       integer, intent(in) :: place
       type(scene_t) :: at
+      integer :: i
 
       at = scene
+      if (allocated(scene%pairs)) then
+         ! A key of a gear is one of each pair.
+         do i = 1, size(scene%pairs)
+            at%gear = scene%pairs(i)
+            call set_number(at, keys(axis%position)%group, keys(axis%position)%name, grid_value(axis, place))
+            at%pairs(i) = at%gear
+         end do
+         at%gear = scene%pairs(1)
+      end if
       call set_number(at, keys(axis%position)%group, keys(axis%position)%name, grid_value(axis, place))
       call derive(at)
    end function scene_at

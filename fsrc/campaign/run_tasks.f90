@@ -2,15 +2,16 @@
 module run_tasks
    use, intrinsic :: iso_fortran_env, only: error_unit
    use check_campaign, only: check_one_campaign, check_one_threshold
-   use batch, only: input_name, print_faults, run_batch
+   use batch, only: print_faults, run_batch
    use command_line, only: command_t, most_threads
    use derived_scene, only: complete_scene
    use errors, only: error_t, exit_bad_input, exit_complete, fault_list_t
+   use gearbox, only: base_of_pairs
    use key_table, only: choice_word
    use ranks, only: end_ranks, is_foreign_job, rank_count, start_ranks, this_rank
    use run_campaign, only: run_one_campaign
    use run_threshold, only: run_one_threshold
-   use scene_reader, only: read_scene
+   use scene_reader, only: read_scenes
    use scene_types, only: scene_t, task_campaign, task_threshold
    use signals, only: caught_signal
    use text, only: integer_text
@@ -29,16 +30,27 @@ contains
       type(command_t), intent(in) :: command
       !> Exit code of the program
       integer, intent(out) :: exit_code
-      type(scene_t), allocatable :: scenes(:)
-      type(fault_list_t) :: faults
-      integer :: i, before, threads
+      type(scene_t), allocatable :: scenes(:), pairs(:)
+      type(fault_list_t) :: faults, found
+      integer :: i, j, before, threads
 
       if (command%threads > 0) call omp_set_num_threads(command%threads)
-      allocate (scenes(size(command%files)))
-      do i = 1, size(scenes)
+      allocate (scenes(0))
+      do i = 1, size(command%files)
          before = faults%count()
-         call read_scene(command%files(i)%text, command%overrides, scenes(i), faults)
-         if (faults%count() == before) call complete_scene(scenes(i), input_name(command%files(i)%text), faults)
+         call read_scenes(command%files(i)%text, command%overrides, pairs, faults)
+         if (faults%count() > before) cycle
+         do j = 1, size(pairs)
+            found = fault_list_t()
+            call complete_scene(pairs(j), found)
+            call faults%take(found)
+         end do
+         if (faults%count() > before) cycle
+         if (is_shared(pairs(1))) then
+            call append(scenes, [base_of_pairs(pairs)])
+         else
+            call append(scenes, pairs)
+         end if
       end do
       if (is_foreign_job()) call faults%add('rattle', 0, '', '', 'a launcher started several copies of this program, which was '// &
                                             'built without MPI: each would do all the work. MPI=1 make builds it with MPI')
@@ -48,7 +60,7 @@ contains
                                                     ' are allowed on this machine')
       if (faults%count() == 0 .and. size(scenes) > 1) then
          do i = 1, size(scenes)
-            if (is_shared(scenes(i))) call faults%add(input_name(command%files(i)%text), 0, 'scene', 'task', 'a '// &
+            if (is_shared(scenes(i))) call faults%add(scenes(i)%source, 0, 'scene', 'task', 'a '// &
                                                       choice_word('scene', 'task', scenes(i)%task)// &
                                                       ' must be the only input of a call')
          end do
@@ -69,6 +81,23 @@ contains
 
       is_shared = scene%task == task_campaign .or. scene%task == task_threshold
    end function is_shared
+
+   !> Put scenes behind others.
+   subroutine append(scenes, more)
+      type(scene_t), allocatable, intent(inout) :: scenes(:)
+      type(scene_t), intent(in) :: more(:)
+      type(scene_t), allocatable :: grown(:)
+      integer :: i
+
+      allocate (grown(size(scenes) + size(more)))
+      do i = 1, size(scenes)
+         grown(i) = scenes(i)
+      end do
+      do i = 1, size(more)
+         grown(size(scenes) + i) = more(i)
+      end do
+      call move_alloc(grown, scenes)
+   end subroutine append
 
    !> Scenes take one process: several would all do the same work.
    subroutine run_alone(command, scenes, exit_code)
@@ -94,24 +123,23 @@ contains
       integer, intent(out) :: exit_code
       type(fault_list_t) :: faults
       type(error_t), allocatable :: error
-      character(:), allocatable :: lines, file
+      character(:), allocatable :: lines
       integer :: i
 
-      file = input_name(command%files(1)%text)
       exit_code = exit_complete
       call start_ranks()
       if (command%check) then
          if (scene%task == task_threshold) then
-            call check_one_threshold(scene, file, lines, faults)
+            call check_one_threshold(scene, scene%source, lines, faults)
          else
-            call check_one_campaign(scene, file, lines, faults)
+            call check_one_campaign(scene, scene%source, lines, faults)
          end if
          if (caught_signal() /= 0) then
             exit_code = 128 + caught_signal()
          else if (faults%count() > 0) then
             exit_code = faults%exit_code
          else if (this_rank() == 0) then
-            call put_line('! '//file//': valid')
+            call put_line('! '//scene%source//': valid')
             do i = 1, size(scene%warnings)
                call put_line('! '//scene%warnings(i)%text)
             end do
@@ -120,9 +148,9 @@ contains
          end if
       else
          if (scene%task == task_threshold) then
-            call run_one_threshold(scene, file, command%resume, command%quiet, faults, exit_code, error)
+            call run_one_threshold(scene, scene%source, command%resume, command%quiet, faults, exit_code, error)
          else
-            call run_one_campaign(scene, file, command%resume, command%quiet, faults, exit_code, error)
+            call run_one_campaign(scene, scene%source, command%resume, command%quiet, faults, exit_code, error)
          end if
          if (this_rank() == 0 .and. allocated(error)) write (error_unit, '(a)') error%message
       end if

@@ -28,6 +28,7 @@ module run_threshold
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
    use threshold_search, only: bracket_t, brackets_of_scan, halved, is_wide, middle, new_point, point_t
+   use varied_keys, only: varied_name
    use version, only: program_version
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
@@ -274,7 +275,7 @@ contains
       integer :: i
 
       do i = 1, size(axes)
-         axes(i) = key_name(threshold%lines%plan%positions(i))
+         axes(i) = varied_name(threshold%lines%plan%positions(i))
       end do
       quantity = trim(quantity_table(scene%threshold%quantity)%name)
       names = [character(column_name_bytes) :: 'line', axes, 'crossing', 'lower', 'upper', quantity//'_below', quantity//'_above', &
@@ -291,6 +292,7 @@ contains
 
       associate (key => keys(threshold%axis%position)%unit, quantity => quantity_table(scene%threshold%quantity)%unit)
          units = [character(column_unit_bytes) :: '-', keys(threshold%lines%plan%positions)%unit, '-', key, key, quantity, quantity]
+         where (units == '') units = '-'
          units = [units, [(units(1), i=1, merge(4, 2, scene%spectrum%certify))]]
       end associate
    end function column_units

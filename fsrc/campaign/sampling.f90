@@ -27,6 +27,8 @@ module sampling
       !> Varied keys by their position in the key table, in the order of the values
       integer, allocatable :: positions(:)
       type(campaign_axis_t), allocatable :: axes(:)
+      !> Whether all scenes of a sample or a table are solved for each value of the first axis, the slowest
+      logical :: is_crossed = .false.
       !> Checksum of the values of a table; 0: there is none
       integer(int64) :: table_checksum = 0_int64
       type(sobol_sequence_t), private :: sequence
@@ -35,7 +37,7 @@ module sampling
       real(dp), allocatable, private :: table(:, :)
    end type sample_plan_t
 
-   public :: plan_grid, plan_sobol, plan_latin_hypercube, plan_table, scene_values, chunk_values, largest_value
+   public :: plan_grid, plan_sobol, plan_latin_hypercube, plan_table, cross_plan, scene_values, chunk_values, largest_value
 
 contains
 
@@ -140,6 +142,19 @@ contains
       call move_alloc(values, plan%table)
    end subroutine plan_table
 
+   !> Solve all scenes of a sample or a table for each value of one more axis, the slowest and the first.
+   pure subroutine cross_plan(axis, plan)
+      !> Checked axis
+      type(campaign_axis_t), intent(in) :: axis
+      type(sample_plan_t), intent(inout) :: plan
+
+      plan%is_crossed = .true.
+      plan%axes = [axis, plan%axes]
+      plan%positions = [axis%position, plan%positions]
+      if (plan%known == plan%size) plan%known = plan%known*int(axis_count(axis), int64)
+      plan%size = plan%size*int(axis_count(axis), int64)
+   end subroutine cross_plan
+
    !> Check the axes, each alone and against each other, and keep them.
    pure subroutine take_axes(axes, on_grid, plan, bad_axis, message)
       type(campaign_axis_t), intent(in) :: axes(:)
@@ -185,13 +200,20 @@ contains
       !> One for every varied key
       real(dp), intent(out) :: values(:)
       integer(int64) :: rest, next, count
-      integer :: i
+      integer :: i, first
 
+      rest = scene - 1_int64
+      first = 1
+      if (plan%is_crossed) then
+         count = plan%size/int(axis_count(plan%axes(1)), int64)
+         values(1) = grid_value(plan%axes(1), int(rest/count))
+         rest = modulo(rest, count)
+         first = 2
+      end if
       select case (plan%method)
       case (method_table)
-         values = plan%table(:, scene)
+         values(first:) = plan%table(:, rest + 1_int64)
       case (method_grid)
-         rest = scene - 1_int64
          do i = size(plan%axes), 1, -1
             count = int(axis_count(plan%axes(i)), int64)
             next = rest/count
@@ -200,13 +222,13 @@ contains
          end do
       case default
          if (plan%method == method_sobol) then
-            call sobol_point(plan%sequence, scene - 1_int64, values)
+            call sobol_point(plan%sequence, rest, values(first:))
          else
-            call hypercube_point(plan%hypercube, scene - 1_int64, values)
+            call hypercube_point(plan%hypercube, rest, values(first:))
          end if
          ! The loop over the keys is the inner one: a loop over scenes could be turned into vectors, and
          ! the vector library rounds powers differently from the scalar one that does what is left over.
-         do i = 1, size(plan%axes)
+         do i = first, size(plan%axes)
             values(i) = spread_value(plan%axes(i), values(i))
          end do
       end select
@@ -225,8 +247,9 @@ contains
       largest_value = base
       i = findloc(plan%positions, position, dim=1)
       if (i == 0) return
-      if (plan%method == method_table) then
-         largest_value = maxval(plan%table(i, :plan%known))
+      if (plan%method == method_table .and. .not. (plan%is_crossed .and. i == 1)) then
+         if (plan%is_crossed) i = i - 1
+         largest_value = maxval(plan%table(i, :min(plan%known, size(plan%table, 2, kind=int64))))
       else if (allocated(plan%axes(i)%values)) then
          largest_value = maxval(plan%axes(i)%values)
       else

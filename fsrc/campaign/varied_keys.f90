@@ -10,7 +10,7 @@ module varied_keys
    implicit none(type, external)
    private
 
-   public :: find_varied_key, is_whole, set_varied_keys, is_valid_scene, why_invalid
+   public :: find_varied_key, pair_position, varied_name, is_whole, set_varied_keys, is_valid_scene, why_invalid
 
 contains
 
@@ -51,6 +51,21 @@ contains
       end if
       if (len(message) > 0) position = 0
    end subroutine find_varied_key
+
+   !> Position in the key table of the key that stands for a gear pair as a whole, by its number.
+   pure integer function pair_position()
+      pair_position = find_key('gear', 'name')
+   end function pair_position
+
+   !> What a varied key is called in results.
+   pure function varied_name(position) result(name)
+      !> Position in the key table
+      integer, intent(in) :: position
+      character(:), allocatable :: name
+
+      name = key_name(position)
+      if (position == pair_position()) name = 'gear'
+   end function varied_name
 
    !> Whether a key takes whole numbers only.
    pure logical function is_whole(position)

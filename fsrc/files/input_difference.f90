@@ -77,7 +77,7 @@ contains
 
       do find = 1, size(assignments)
          if (assignments(find)%group == sought%group .and. assignments(find)%key == sought%key .and. &
-             assignments(find)%first_element == sought%first_element) return
+             assignments(find)%occurrence == sought%occurrence .and. assignments(find)%first_element == sought%first_element) return
       end do
       find = 0
    end function find
@@ -86,7 +86,9 @@ contains
       type(assignment_t), intent(in) :: assignment
       character(:), allocatable :: name
 
-      name = assignment%group//'.'//assignment%key
+      name = assignment%group
+      if (assignment%occurrence > 1) name = name//'('//integer_text(assignment%occurrence)//')'
+      name = name//'.'//assignment%key
       if (assignment%first_element > 0) name = name//'('//integer_text(assignment%first_element)//')'
    end function key_name
 

@@ -18,6 +18,7 @@ module summary_file
       character(:), allocatable :: body
    contains
       generic :: add => add_real, add_reals, add_integer, add_long, add_logical, add_text
+      procedure :: next_group
       procedure :: write => write_summary
       procedure :: write_beside
       procedure, private :: add_real
@@ -104,6 +105,14 @@ contains
       if (.not. allocated(self%body)) self%body = ''
       self%body = self%body//'   '//name//' = '//value//new_line('a')
    end subroutine add_line
+
+   !> Close the group and begin another; what is added goes there.
+   subroutine next_group(self, name)
+      class(summary_t), intent(inout) :: self
+      character(*), intent(in) :: name
+
+      self%body = self%body//'/'//new_line('a')//'&'//name//new_line('a')
+   end subroutine next_group
 
    !> Write the file and put it in its place; what stands there stays until then.
    subroutine write_summary(self, path, error)

@@ -38,6 +38,7 @@ module errors
    contains
       procedure :: add => add_fault
       procedure :: add_error
+      procedure :: take
       procedure :: count => count_faults
       procedure :: not_kept => count_faults_beyond
       procedure :: sentence => fault_sentence
@@ -99,8 +100,22 @@ contains
       character(*), intent(in) :: key
       !> What is wrong and what is allowed
       character(*), intent(in) :: message
-      type(fault_t), allocatable :: grown(:)
       character(:), allocatable :: place
+
+      place = printable(file, .false.)
+      if (line > 0) place = place//':'//integer_text(line)
+      place = place//':'
+      if (len(group) > 0) place = place//' &'//group
+      if (len(key) > 0) place = place//' '//key
+      if (len(group) > 0 .or. len(key) > 0) place = place//':'
+      call keep(self, fault_t(place//' '//printable(message, .true.), line))
+   end subroutine add_fault
+
+   !> Append a fault, or count it where the list is full.
+   pure subroutine keep(self, fault)
+      class(fault_list_t), intent(inout) :: self
+      type(fault_t), intent(in) :: fault
+      type(fault_t), allocatable :: grown(:)
 
       if (self%used == most_faults) then
          self%beyond = self%beyond + 1
@@ -112,16 +127,9 @@ contains
          grown(:self%used) = self%faults
          call move_alloc(grown, self%faults)
       end if
-      place = printable(file, .false.)
-      if (line > 0) place = place//':'//integer_text(line)
-      place = place//':'
-      if (len(group) > 0) place = place//' &'//group
-      if (len(key) > 0) place = place//' '//key
-      if (len(group) > 0 .or. len(key) > 0) place = place//':'
       self%used = self%used + 1
-      self%faults(self%used)%sentence = place//' '//printable(message, .true.)
-      self%faults(self%used)%line = line
-   end subroutine add_fault
+      self%faults(self%used) = fault
+   end subroutine keep
 
    !> Append an error that was found while the input was looked at. One of the system is not the fault of the input.
    pure subroutine add_error(self, file, line, group, key, error)
@@ -136,6 +144,23 @@ contains
       call self%add(file, line, group, key, error%message)
       self%exit_code = max(self%exit_code, error%exit_code)
    end subroutine add_error
+
+   !> Append the faults of another look at the same input that are not known yet.
+   pure subroutine take(self, other)
+      class(fault_list_t), intent(inout) :: self
+      class(fault_list_t), intent(in) :: other
+      integer :: i, j, known
+
+      known = self%used
+      do i = 1, other%used
+         do j = 1, known
+            if (self%faults(j)%sentence == other%faults(i)%sentence) exit
+         end do
+         if (j > known) call keep(self, other%faults(i))
+      end do
+      self%beyond = max(self%beyond, other%beyond)
+      self%exit_code = max(self%exit_code, other%exit_code)
+   end subroutine take
 
    !> Number of faults that are counted but not kept.
    pure integer function count_faults_beyond(self)

@@ -151,11 +151,9 @@ contains
 
    !> Derive the scene of an input, tell what is wrong with it or odd about it, and put what follows into its resolved input as
    !> comments.
-   subroutine complete_scene(scene, file, faults)
+   subroutine complete_scene(scene, faults)
       !> Without a fault of its own
       type(scene_t), intent(inout) :: scene
-      !> Name of its input
-      character(*), intent(in) :: file
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       type(rule_t), allocatable :: broken(:)
@@ -167,20 +165,19 @@ contains
       do i = 1, size(broken)
          associate (key => broken(i)%keys)
             dot = index(key, '.')
-            call faults%add(file, scene%lines(find_key(key(:dot - 1), key(dot + 1:))), key(:dot - 1), trim(key(dot + 1:)), &
+            call faults%add(scene%source, scene%lines(find_key(key(:dot - 1), key(dot + 1:))), key(:dot - 1), trim(key(dot + 1:)), &
                             trim(broken(i)%sentence))
          end associate
       end do
       if (size(broken) > 0) return
-      if (scene%task == task_sweep) call check_sweep(scene, file, faults)
+      if (scene%task == task_sweep) call check_sweep(scene, faults)
       if (scene%oil%given) call tell_oil(scene)
       if (scene%gear%given) call tell_gear(scene)
    end subroutine complete_scene
 
    !> The scenes at both ends of a sweep can be derived.
-   subroutine check_sweep(scene, file, faults)
+   subroutine check_sweep(scene, faults)
       type(scene_t), intent(in) :: scene
-      character(*), intent(in) :: file
       type(fault_list_t), intent(inout) :: faults
       type(rule_t), allocatable :: broken(:)
       type(scene_t) :: swept
@@ -193,7 +190,7 @@ contains
             call derive(swept)
             if (allocated(broken)) deallocate (broken)
             allocate (broken, source=derived_rules(swept))
-            if (size(broken) > 0) call faults%add(file, 0, 'sweep', trim(merge('first', 'last ', i == 1)), &
+            if (size(broken) > 0) call faults%add(scene%source, 0, 'sweep', trim(merge('first', 'last ', i == 1)), &
                                                   trim(broken(1)%sentence))
          end do
       end associate

@@ -4,6 +4,8 @@ module batch
    use command_line, only: command_t
    use engine, only: checkpoint_t
    use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t
+   use gearbox_table, only: pair_row_t, row_of_pair, whole_gearbox, write_table
+   use judged_scene, only: judged_scene_t
    use memory_need, only: expect_scene_memory
    use output_lock, only: output_lock_t
    use output_place, only: check_output_place, stem
@@ -12,7 +14,6 @@ module batch
    use run_film, only: run_film_task
    use run_scene, only: run_one_scene
    use run_sweep, only: run_sweep_task
-   use scene_reader, only: input_name, read_scene
    use scene_report, only: law_sentence, resolved_lines
    use scene_status, only: is_success, status_interrupted
    use scene_types, only: scene_t, task_film, task_motion, task_sweep
@@ -22,7 +23,7 @@ module batch
    implicit none(type, external)
    private
 
-   public :: run_batch, print_faults, input_name
+   public :: run_batch, print_faults
 
 contains
 
@@ -37,13 +38,13 @@ contains
       type(fault_list_t) :: faults
 
       exit_code = exit_complete
-      call check_names(command, scenes, faults)
-      call check_memory(command, scenes, faults)
+      call check_names(scenes, faults)
+      call check_memory(scenes, faults)
       if (.not. command%check) then
          ! Look first, make folders after, so that a fault in one scene leaves nothing behind for another.
-         if (faults%count() == 0) call check_places(command, scenes, .false., faults)
-         if (faults%count() == 0 .and. command%resume) call check_states(command, scenes, faults)
-         if (faults%count() == 0) call check_places(command, scenes, .true., faults)
+         if (faults%count() == 0) call check_places(scenes, .false., faults)
+         if (faults%count() == 0 .and. command%resume) call check_states(scenes, faults)
+         if (faults%count() == 0) call check_places(scenes, .true., faults)
       end if
       if (command%resume .and. caught_signal() /= 0) then
          exit_code = 128 + caught_signal()
@@ -51,7 +52,7 @@ contains
          call print_faults(faults)
          exit_code = faults%exit_code
       else if (command%check) then
-         call show_resolved(command, scenes)
+         call show_resolved(scenes)
       else
          call run_all(command, scenes, exit_code)
       end if
@@ -65,27 +66,34 @@ contains
       type(output_lock_t) :: lock
       type(fault_list_t) :: faults
       type(error_t), allocatable :: error
+      type(judged_scene_t) :: judged
+      type(pair_row_t), allocatable :: rows(:)
       integer :: i, status
 
       exit_code = exit_complete
+      allocate (rows(0))
       do i = 1, size(scenes)
          call lock%take(stem(scenes(i)), error)
          if (.not. allocated(error)) then
             ! Another run may have written these files since they were looked at.
-            call check_output_place(scenes(i), input_name(command%files(i)%text), .false., faults)
+            call check_output_place(scenes(i), scenes(i)%source, .false., faults)
             if (faults%count() > 0) then
                call lock%release()
                call print_faults(faults)
                exit_code = faults%exit_code
                return
             end if
-            call run_task(scenes(i), command, status, error)
+            call run_task(scenes(i), command, judged, status, error)
             call lock%release()
          end if
-         if (allocated(error)) then
-            write (error_unit, '(a)') error%message
-            exit_code = error%exit_code
-            return
+         if (allocated(error)) exit
+         if (is_pair(scenes(i))) rows = [rows, row_of_pair(scenes(i), judged)]
+         if (size(rows) > 0 .and. (is_last_pair(scenes, i) .or. status == status_interrupted)) then
+            call lock%take(stem(whole_gearbox(scenes(i))), error)
+            if (.not. allocated(error)) call write_table(whole_gearbox(scenes(i)), rows, command%quiet, error)
+            call lock%release()
+            if (allocated(error)) exit
+            rows = rows(:0)
          end if
          if (status == status_interrupted) then
             exit_code = 128 + caught_signal()
@@ -93,12 +101,33 @@ contains
          end if
          if (.not. is_success(status)) exit_code = exit_scene_failed
       end do
+      if (.not. allocated(error)) return
+      write (error_unit, '(a)') error%message
+      exit_code = error%exit_code
    end subroutine run_all
 
+   !> Whether a scene is one of several gear pairs of its input, of which there will be a table.
+   pure logical function is_pair(scene)
+      type(scene_t), intent(in) :: scene
+
+      is_pair = scene%task == task_motion .and. scene%gearbox /= ''
+   end function is_pair
+
+   !> Whether a scene is the last pair of its input.
+   pure logical function is_last_pair(scenes, place)
+      type(scene_t), intent(in) :: scenes(:)
+      integer, intent(in) :: place
+
+      is_last_pair = is_pair(scenes(place))
+      if (is_last_pair .and. place < size(scenes)) is_last_pair = scenes(place + 1)%gearbox /= scenes(place)%gearbox
+   end function is_last_pair
+
    !> Run a scene, a film task or a sweep.
-   subroutine run_task(scene, command, status, error)
+   subroutine run_task(scene, command, judged, status, error)
       type(scene_t), intent(in) :: scene
       type(command_t), intent(in) :: command
+      !> Result of a motion
+      type(judged_scene_t), intent(out) :: judged
       integer, intent(out) :: status
       type(error_t), allocatable, intent(out) :: error
 
@@ -108,31 +137,37 @@ contains
       case (task_sweep)
          call run_sweep_task(scene, command%quiet, command%resume, status, error)
       case default
-         call run_one_scene(scene, command%quiet, command%resume, status, error)
+         call run_one_scene(scene, command%quiet, command%resume, judged, status, error)
       end select
    end subroutine run_task
 
    !> Two scenes of one name and folder would write the same files.
-   subroutine check_names(command, scenes, faults)
-      type(command_t), intent(in) :: command
+   subroutine check_names(scenes, faults)
       type(scene_t), intent(in) :: scenes(:)
       type(fault_list_t), intent(inout) :: faults
       integer :: i, j
 
       do i = 2, size(scenes)
          do j = 1, i - 1
-            if (scenes(i)%name /= scenes(j)%name) cycle
-            call faults%add(input_name(command%files(i)%text), 0, 'scene', 'name', &
-                            "'"//trim(scenes(i)%name)//"' is also the name of "// &
-                            input_name(command%files(j)%text))
+            if (.not. share_files(scenes(i), scenes(j))) cycle
+            call faults%add(scenes(i)%source, 0, 'scene', 'name', &
+                            "'"//trim(scenes(i)%name)//"' is also the name of "//scenes(j)%source)
             exit
          end do
       end do
    end subroutine check_names
 
+   !> Whether two scenes, or the tables of their gearboxes, would go by one name.
+   pure logical function share_files(scene, other)
+      type(scene_t), intent(in) :: scene
+      type(scene_t), intent(in) :: other
+
+      share_files = scene%name == other%name .or. scene%name == other%gearbox .or. scene%gearbox == other%name
+      if (scene%gearbox /= '' .and. scene%source /= other%source) share_files = share_files .or. scene%gearbox == other%gearbox
+   end function share_files
+
    !> There is memory for every scene.
-   subroutine check_memory(command, scenes, faults)
-      type(command_t), intent(in) :: command
+   subroutine check_memory(scenes, faults)
       type(scene_t), intent(in) :: scenes(:)
       type(fault_list_t), intent(inout) :: faults
       type(error_t), allocatable :: error
@@ -140,13 +175,12 @@ contains
 
       do i = 1, size(scenes)
          call expect_scene_memory(scenes(i), error)
-         if (allocated(error)) call faults%add_error(input_name(command%files(i)%text), 0, '', '', error)
+         if (allocated(error)) call faults%add_error(scenes(i)%source, 0, '', '', error)
       end do
    end subroutine check_memory
 
    !> States to be carried on belong to these very scenes.
-   subroutine check_states(command, scenes, faults)
-      type(command_t), intent(in) :: command
+   subroutine check_states(scenes, faults)
       type(scene_t), intent(in) :: scenes(:)
       type(fault_list_t), intent(inout) :: faults
       type(checkpoint_t) :: state
@@ -156,31 +190,30 @@ contains
       do i = 1, size(scenes)
          if (scenes(i)%task /= task_motion) cycle
          call load_state(scenes(i), state, error)
-         if (allocated(error)) call faults%add(input_name(command%files(i)%text), 0, '', '', error%message)
+         if (allocated(error)) call faults%add(scenes(i)%source, 0, '', '', error%message)
       end do
    end subroutine check_states
 
    !> Every scene has a place for its files.
-   subroutine check_places(command, scenes, may_make, faults)
-      type(command_t), intent(in) :: command
+   subroutine check_places(scenes, may_make, faults)
       type(scene_t), intent(in) :: scenes(:)
       logical, intent(in) :: may_make
       type(fault_list_t), intent(inout) :: faults
       integer :: i
 
       do i = 1, size(scenes)
-         call check_output_place(scenes(i), input_name(command%files(i)%text), may_make, faults)
+         call check_output_place(scenes(i), scenes(i)%source, may_make, faults)
+         if (is_last_pair(scenes, i)) call check_output_place(whole_gearbox(scenes(i)), scenes(i)%source, may_make, faults)
       end do
    end subroutine check_places
 
    !> --check: every key with its value, and what follows from them.
-   subroutine show_resolved(command, scenes)
-      type(command_t), intent(in) :: command
+   subroutine show_resolved(scenes)
       type(scene_t), intent(in) :: scenes(:)
       integer :: i, j
 
       do i = 1, size(scenes)
-         call put_line('! '//input_name(command%files(i)%text)//': valid; '//law_sentence(scenes(i)))
+         call put_line('! '//scenes(i)%source//': valid; '//law_sentence(scenes(i)))
          do j = 1, size(scenes(i)%warnings)
             call put_line('! '//scenes(i)%warnings(j)%text)
          end do

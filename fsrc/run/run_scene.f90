@@ -32,20 +32,21 @@ contains
 
    !> Run a scene and write its files. An error is one of the system (disk); how the physics ended
    !> stands in the status.
-   subroutine run_one_scene(scene, quiet, carry_on, status, error)
+   subroutine run_one_scene(scene, quiet, carry_on, judged, status, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Nothing to the terminal
       logical, intent(in) :: quiet
       !> Take up the state of an earlier run, if there is one
       logical, intent(in) :: carry_on
+      !> The result
+      type(judged_scene_t), intent(out) :: judged
       !> Status of scene_status
       integer, intent(out) :: status
       !> Set if a file could not be written
       type(error_t), allocatable, intent(out) :: error
       type(ending_t) :: ending
       type(window_record_t) :: record
-      type(judged_scene_t) :: judged
       type(sample_recorder_t) :: recorder
       type(checkpoint_t) :: state
       type(progress_t) :: watcher
@@ -61,6 +62,7 @@ contains
       if (carry_on .and. caught_signal() /= 0) then
          ! The files of the earlier run were not verified to their end; they stay as they are.
          status = status_interrupted
+         judged%status = status
          return
       end if
       if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)

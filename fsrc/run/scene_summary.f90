@@ -135,6 +135,7 @@ contains
       real(dp), intent(in), optional :: time
 
       call summary%add('name', trim(scene%name))
+      if (scene%gear%name /= '') call summary%add('gear', trim(scene%gear%name))
       call summary%add('program_version', program_version)
       call summary%add('status', status_name(status))
       if (present(time)) call summary%add('status_time', time)

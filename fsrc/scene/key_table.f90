@@ -190,6 +190,8 @@ module key_table
 
    ! What a drawing and a data sheet tell: from it keys of the groups above follow.
    type(key_t), parameter :: keys_of_drawings(*) = [ &
+      key_t('gear', 'name', text_kind, '', '', any_number, '', of_motions, &
+            'Name of the pair, required where several &gear stand: each is solved as a scene NAME.GEAR of its own.'), &
       key_t('gear', 'teeth_1', integer_kind, '-', 'required', a_tooth_count, '', of_motions, &
             'Teeth of the gear on the shaft, which drives.', &
             example='11'), &

@@ -9,9 +9,14 @@ module namelist_text
    implicit none(type, external)
    private
 
+   !> The group that may stand several times: each is a gear pair of its own.
+   character(*), parameter, public :: repeated_group = 'gear'
+
    !> key = values, or key(index) = values.
    type, public :: assignment_t
       character(:), allocatable :: group
+      !> Which of the groups of this name it stands in, from 1
+      integer :: occurrence = 1
       !> Empty: here the group opens, so that a group without any key is seen as well
       character(:), allocatable :: key
       !> Whether it could be taken apart; if not, a fault stands for it already
@@ -43,7 +48,7 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(scanner_t) :: scanner
       character(:), allocatable :: group, text
-      integer :: i, stray_line, used
+      integer :: i, stray_line, used, earlier
       logical :: sound
 
       allocate (assignments(64))
@@ -81,22 +86,26 @@ contains
             call scanner%skip_line()
             cycle
          end if
+         earlier = 0
          do i = 1, used
             if (len(assignments(i)%key) > 0 .or. assignments(i)%group /= group) cycle
+            earlier = earlier + 1
+            if (group == repeated_group) cycle
             call faults%add(file, scanner%line, group, '', &
                             'this group stands in line '//integer_text(assignments(i)%line)//' already')
             exit
          end do
-         call scan_group(scanner, file, group, assignments, used, faults)
+         call scan_group(scanner, file, group, earlier + 1, assignments, used, faults)
       end do
       assignments = assignments(:used)
    end subroutine scan_namelists
 
    !> Assignments of one group, up to its slash.
-   subroutine scan_group(scanner, file, group, assignments, used, faults)
+   subroutine scan_group(scanner, file, group, occurrence, assignments, used, faults)
       type(scanner_t), intent(inout) :: scanner
       character(*), intent(in) :: file
       character(*), intent(in) :: group
+      integer, intent(in) :: occurrence
       type(assignment_t), allocatable, intent(inout) :: assignments(:)
       integer, intent(inout) :: used
       type(fault_list_t), intent(inout) :: faults
@@ -139,6 +148,7 @@ contains
          end if
          used = used + 1
          assignments(used) = assignment
+         assignments(used)%occurrence = occurrence
       end subroutine append
 
    end subroutine scan_group

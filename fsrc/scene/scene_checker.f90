@@ -99,8 +99,8 @@ contains
          if (keys(i)%default /= 'required' .or. input%entries(i)%given .or. .not. in_use(input, i)) cycle
          ! Which keys a task requires is not known before the task is.
          if (keys(i)%used_when /= '' .and. input%is_faulty('scene', 'task')) cycle
-         call faults%add(input%file, 0, trim(keys(i)%group), trim(keys(i)%name), &
-                         'this key is required; allowed: '//allowed_text(keys(i)))
+         call input%add_fault(trim(keys(i)%group), trim(keys(i)%name), 'this key is required; allowed: '//allowed_text(keys(i)), &
+                              faults)
       end do
    end subroutine check_required
 

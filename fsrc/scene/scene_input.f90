@@ -5,7 +5,7 @@ module scene_input
    use input_key, only: integer_kind, real_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
-   use namelist_text, only: assignment_t
+   use namelist_text, only: assignment_t, repeated_group
    use scene_types, only: numbers_t, scene_t, set_number
    use text, only: integer_text
    use word_list, only: split_words, word_position, word_t
@@ -17,6 +17,9 @@ module scene_input
       !> Name of the input for the faults
       character(:), allocatable :: file
       type(entry_t), allocatable :: entries(:)
+      !> Which of several gear pairs it takes, from 1, and the line of its group; 0: there is one pair at most
+      integer :: pair = 1
+      integer :: line_of_pair = 0
    contains
       procedure :: set_all
       procedure :: put_numbers
@@ -40,9 +43,12 @@ module scene_input
 contains
 
    !> Input without any value but the defaults.
-   function new_scene_input(file) result(input)
+   function new_scene_input(file, pair, line) result(input)
       !> Name of the input for the faults
       character(*), intent(in) :: file
+      !> Which of several gear pairs it takes, and the line of its group, for the faults; absent: there is one at most
+      integer, optional, intent(in) :: pair
+      integer, optional, intent(in) :: line
       type(scene_input_t) :: input
       integer :: i
 
@@ -50,7 +56,10 @@ contains
       allocate (input%entries(size(keys)))
       do i = 1, size(keys)
          input%entries(i) = new_entry(keys(i), file)
+         if (present(line) .and. keys(i)%group == repeated_group) input%entries(i)%line = line
       end do
+      if (present(pair)) input%pair = pair
+      if (present(line)) input%line_of_pair = line
    end function new_scene_input
 
    !> Take the assignments of a text; later calls (overrides) replace earlier values.
@@ -76,6 +85,8 @@ contains
                reported = assignment%group
                cycle
             end if
+            ! A key that is set on the command line is set in every pair.
+            if (assignment%group == repeated_group .and. .not. overriding .and. assignment%occurrence /= self%pair) cycle
             if (len(assignment%key) == 0) cycle
             position = find_key(assignment%group, assignment%key)
             if (position == 0) then
@@ -123,7 +134,7 @@ contains
       class(scene_input_t), intent(in) :: self
       character(*), intent(in) :: group
 
-      has_group = any(keys%group == group .and. self%entries%given)
+      has_group = any(keys%group == group .and. self%entries%given) .or. (group == repeated_group .and. self%line_of_pair > 0)
    end function has_group
 
    !> Whether a key was set to something that could not be read, so that no rule can be held against it.

@@ -8,14 +8,14 @@ module scene_reader
    use key_table, only: keys, starts_group
    use keys_in_use, only: in_use
    use kinds, only: dp
-   use namelist_text, only: assignment_t, scan_namelists
+   use namelist_text, only: assignment_t, repeated_group, scan_namelists
    use odd_numbers, only: odd_numbers_of_input
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
    use scene_types, only: forced_orders, output_t, scene_t, task_campaign, task_sweep, task_threshold
    use signal_reader, only: take_signal
    use task_reader, only: read_campaign, read_points, read_sweep, read_threshold
-   use text, only: integer_text, quoted
+   use text, only: integer_text, lower, quoted
    implicit none(type, external)
    private
 
@@ -30,27 +30,30 @@ module scene_reader
       character(:), allocatable :: text
    end type override_t
 
-   public :: read_scene, input_name
+   public :: read_scenes, input_name
 
 contains
 
-   !> Read one scene from a file, or standard input, with overrides from the command line.
-   subroutine read_scene(path, overrides, scene, faults)
+   !> Read the scene of a file, or standard input, with overrides from the command line. Where several gear pairs stand in it, each
+   !> is a scene of its own.
+   subroutine read_scenes(path, overrides, scenes, faults)
       !> Path; '-' is standard input
       character(*), intent(in) :: path
       !> Keys set on the command line
       type(override_t), intent(in) :: overrides(:)
-      !> The scene; of use only if no fault was added
-      type(scene_t), intent(out) :: scene
+      !> The scenes; of use only if no fault was added
+      type(scene_t), allocatable, intent(out) :: scenes(:)
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
-      type(scene_input_t) :: input
       type(assignment_t), allocatable :: assignments(:)
+      type(scene_input_t), allocatable :: inputs(:)
+      type(fault_list_t) :: own
       character(:), allocatable :: content, file
       integer :: stat, before, i
       logical :: is_input
 
       before = faults%count()
+      allocate (scenes(0))
       file = input_name(path)
       call read_whole_file(path, size_limit, content, stat)
       select case (stat)
@@ -64,29 +67,81 @@ contains
       end select
       if (stat /= 0) return
 
-      input = new_scene_input(file)
       call scan_namelists(content, file, 1, assignments, faults)
       ! What holds no group at all is no input; a list of all that it lacks would help nobody.
       is_input = size(assignments) > 0 .or. faults%count() == before
+      call begin_inputs(assignments, file, inputs)
+      deallocate (scenes)
+      allocate (scenes(size(inputs)))
+      do i = 1, size(inputs)
+         own = fault_list_t()
+         call set_all_keys(inputs(i), assignments, file, overrides, own)
+         allocate (scenes(i)%warnings(0))
+         call take_signal(inputs(i), 'load', scenes(i)%warnings, own)
+         call take_signal(inputs(i), 'shaft', scenes(i)%warnings, own)
+         if (is_input) call check_together(inputs(i), own)
+         call read_name(inputs(i), path, scenes(i)%name, own)
+         call read_pair_name(inputs(i), scenes(:i), own)
+         scenes(i)%source = file
+         ! What the pairs share is found wrong with each of them.
+         call faults%take(own)
+      end do
+      call faults%sort_since(before)
+      if (faults%count() > before) return
+      do i = 1, size(inputs)
+         call put_values(inputs(i), scenes(i))
+      end do
+   end subroutine read_scenes
+
+   !> An input without values for each gear pair; one where none or one stands.
+   subroutine begin_inputs(assignments, file, inputs)
+      type(assignment_t), intent(in) :: assignments(:)
+      character(*), intent(in) :: file
+      type(scene_input_t), allocatable, intent(out) :: inputs(:)
+      integer :: lines(size(assignments)), pairs, i
+
+      pairs = 0
+      do i = 1, size(assignments)
+         if (assignments(i)%group /= repeated_group .or. len(assignments(i)%key) > 0) cycle
+         pairs = pairs + 1
+         lines(pairs) = assignments(i)%line
+      end do
+      allocate (inputs(max(1, pairs)))
+      if (pairs < 2) inputs(1) = new_scene_input(file)
+      do i = 1, merge(pairs, 0, pairs > 1)
+         inputs(i) = new_scene_input(file, i, lines(i))
+      end do
+   end subroutine begin_inputs
+
+   !> Set the keys of the file, and those of the command line over them.
+   subroutine set_all_keys(input, assignments, file, overrides, faults)
+      type(scene_input_t), intent(inout) :: input
+      !> Of the file
+      type(assignment_t), intent(in) :: assignments(:)
+      character(*), intent(in) :: file
+      type(override_t), intent(in) :: overrides(:)
+      type(fault_list_t), intent(inout) :: faults
+      type(assignment_t), allocatable :: set(:)
+      integer :: i
+
       call input%set_all(assignments, file, .false., faults)
       do i = 1, size(overrides)
-         call scan_namelists(overrides(i)%text, overrides(i)%source, 0, assignments, faults)
+         call scan_namelists(overrides(i)%text, overrides(i)%source, 0, set, faults)
          ! The group itself counts as one; a value that goes on with keys or groups of its own sets more.
-         if (size(assignments) > 2) then
+         if (size(set) > 2) then
             call faults%add(overrides(i)%source, 0, '', '', 'one key is set at a time; give an option of its own to each')
             cycle
          end if
-         call input%set_all(assignments, overrides(i)%source, .true., faults)
+         call input%set_all(set, overrides(i)%source, .true., faults)
       end do
-      allocate (scene%warnings(0))
-      call take_signal(input, 'load', scene%warnings, faults)
-      call take_signal(input, 'shaft', scene%warnings, faults)
-      if (is_input) call check_together(input, faults)
-      call read_name(input, path, scene%name, faults)
-      scene%task = input%choice('scene', 'task')
-      call faults%sort_since(before)
-      if (faults%count() > before) return
+   end subroutine set_all_keys
 
+   !> Put the values of an input without a fault into its scene, which has its names already.
+   subroutine put_values(input, scene)
+      type(scene_input_t), intent(in) :: input
+      type(scene_t), intent(inout) :: scene
+
+      scene%task = input%choice('scene', 'task')
       call input%put_numbers(scene)
       call read_choices(input, scene)
       scene%points = read_points(input, scene%film%model)
@@ -100,7 +155,7 @@ contains
       scene%lines = input%entries%line
       scene%resolved_input = resolved_text(input, trim(scene%name))
       scene%warnings = [scene%warnings, odd_numbers_of_input(input)]
-   end subroutine read_scene
+   end subroutine put_values
 
    !> How faults call an input.
    pure function input_name(path) result(name)
@@ -118,7 +173,6 @@ contains
       character(*), intent(in) :: path
       character(*), intent(out) :: name
       type(fault_list_t), intent(inout) :: faults
-      character(*), parameter :: legal = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-'
       character(:), allocatable :: stem
       integer :: dot
 
@@ -134,11 +188,58 @@ contains
          if (dot > 1) stem = stem(:dot - 1)
       end if
       name = stem
-      if (len(stem) > name_limit .or. verify(stem, legal) > 0 .or. stem == '.' .or. stem == '..') then
-         call input%add_fault('scene', 'name', quoted(stem(:min(len(stem), 80)))//' is not allowed; allowed: 1 to '// &
-                              integer_text(name_limit)//' letters, digits, . _ -', faults)
-      end if
+      call check_name(input, 'scene', stem, faults)
    end subroutine read_name
+
+   !> A name of files is of plain letters.
+   subroutine check_name(input, group, name, faults)
+      type(scene_input_t), intent(in) :: input
+      !> Whose name it is
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+      type(fault_list_t), intent(inout) :: faults
+      character(*), parameter :: legal = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-'
+
+      if (len(name) > name_limit .or. verify(name, legal) > 0 .or. name == '.' .or. name == '..') &
+         call input%add_fault(group, 'name', quoted(name(:min(len(name), 80)))//' is not allowed; allowed: 1 to '// &
+                              integer_text(name_limit)//' letters, digits, . _ -', faults)
+   end subroutine check_name
+
+   !> &gear name. Several pairs need one each, which becomes the end of the names of their scenes; a campaign or threshold
+   !> is one over all.
+   subroutine read_pair_name(input, scenes, faults)
+      type(scene_input_t), intent(in) :: input
+      !> Scenes of all pairs up to this one, the last
+      type(scene_t), intent(inout) :: scenes(:)
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: name
+      integer :: i
+      logical :: is_one_of_several
+
+      if (input%is_faulty('gear', 'name')) return
+      is_one_of_several = input%line_of_pair > 0
+      name = input%word('gear', 'name')
+      if (len(name) == 0) then
+         if (is_one_of_several) call input%add_fault('gear', 'name', 'several &gear stand here; each needs a name', faults)
+         return
+      end if
+      associate (scene => scenes(size(scenes)))
+         call check_name(input, 'gear', name, faults)
+         scene%gear%name = name
+         if (.not. is_one_of_several) return
+         do i = 1, size(scenes) - 1
+            ! There are file systems that know no case.
+            if (lower(trim(scenes(i)%gear%name)) /= lower(name)) cycle
+            call input%add_fault('gear', 'name', quoted(name)//' is also the name of an earlier &gear', faults)
+            exit
+         end do
+         if (len_trim(scene%name) + 1 + len(name) > name_limit) call input%add_fault('gear', 'name', 'the name of this pair, '// &
+            trim(scene%name)//'.'//name//', is longer than '//integer_text(name_limit)//' letters', faults)
+         scene%gearbox = scene%name
+         if (input%word('scene', 'task') /= 'campaign' .and. input%word('scene', 'task') /= 'threshold') &
+            scene%name = trim(scene%name)//'.'//name
+      end associate
+   end subroutine read_pair_name
 
    !> Choices and lists of the groups that make a motion; their numbers are there already.
    subroutine read_choices(input, scene)

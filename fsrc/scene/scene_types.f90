@@ -113,6 +113,8 @@ module scene_types
    !> &gear: a loose gear and the gear that drives it, of which the contact follows
    type, public :: gear_t
       logical :: given = .false.
+      !> Empty: it has none
+      character(name_limit) :: name = ''
       !> Teeth of the gear on the shaft and of the loose gear
       integer :: teeth_1 = 0
       integer :: teeth_2 = 0
@@ -300,12 +302,18 @@ module scene_types
    !> One scene.
    type, public :: scene_t
       character(name_limit) :: name = ''
+      !> Name of the scenes of all gear pairs of its input together; empty: there is one pair at most
+      character(name_limit) :: gearbox = ''
+      !> Its input, for the faults
+      character(:), allocatable :: source
       integer :: task = task_motion
       type(contact_t) :: contact
       type(lubricant_t) :: lubricant
       type(kinematics_t) :: kinematics
       type(load_t) :: load
       type(gear_t) :: gear
+      !> All pairs of a campaign over several, of which the gear is one
+      type(gear_t), allocatable :: pairs(:)
       type(shaft_t) :: shaft
       type(oil_t) :: oil
       type(film_choice_t) :: film
@@ -398,6 +406,9 @@ contains
             load%frequency = value
          case ('load.gravity')
             load%gravity = value
+         case ('gear.name')
+            ! The key that stands for the whole pair.
+            if (allocated(scene%pairs)) gear = scene%pairs(nint(value))
          case ('gear.teeth_1')
             gear%teeth_1 = nint(value)
          case ('gear.teeth_2')

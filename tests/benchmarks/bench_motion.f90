@@ -55,7 +55,7 @@ program bench_motion
    use kinds, only: dp, int64
    use newmark_engine, only: solve_newmark
    use resolved_scene, only: request_of, resolve, resolved_scene_t
-   use scene_reader, only: override_t, read_scene
+   use scene_reader, only: override_t, read_scenes
    use scene_types, only: scene_t
    use silent_motion, only: no_sink_t, no_watcher_t
    use window_record, only: window_record_t
@@ -63,6 +63,7 @@ program bench_motion
 
    integer, parameter :: rounds = 41
    type(scene_t) :: scene
+   type(scene_t), allocatable :: scenes(:)
    type(resolved_scene_t) :: resolved
    type(fault_list_t) :: faults
    type(no_sink_t) :: sink
@@ -78,8 +79,9 @@ program bench_motion
 
    do i = 1, command_argument_count()
       call get_command_argument(i, path)
-      call read_scene(trim(path), [override_t ::], scene, faults)
+      call read_scenes(trim(path), [override_t ::], scenes, faults)
       if (faults%count() > 0) error stop 'bench_motion: an input has faults'
+      scene = scenes(1)
       resolved = resolve(scene)
       do round = 1, rounds
          call system_clock(start, rate)

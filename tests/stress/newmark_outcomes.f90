@@ -16,7 +16,8 @@ program newmark_outcomes
    use random_scenes, only: drawn_scene_t
    use rattle_class, only: classify, rattle_verdict_t
    use resolved_scene, only: resolve
-   use scene_reader, only: override_t, read_scene
+   use scene_reader, only: override_t, read_scenes
+   use scene_types, only: scene_t
    use scene_status, only: is_success, status_complete
    use text, only: real_text
    implicit none(type, external)
@@ -37,6 +38,7 @@ program newmark_outcomes
    character(512) :: path
    character(19), allocatable :: outcome(:)
    real(dp), allocatable :: eps(:)
+   type(scene_t), allocatable :: scenes(:)
    integer, allocatable :: steps(:)
    integer :: i, run, iteration, predictor
 
@@ -46,8 +48,9 @@ program newmark_outcomes
    print '(a)', 'scene,iteration,predictor,steps,eps,outcome'
    do i = 1, command_argument_count()
       call get_command_argument(i, path)
-      call read_scene(trim(path), [override_t ::], drawn%scene, faults)
+      call read_scenes(trim(path), [override_t ::], scenes, faults)
       if (faults%count() > 0) error stop 'newmark_outcomes: an input has faults'
+      drawn%scene = scenes(1)
       drawn%scene%spectrum%periods = window
       drawn%resolved = resolve(drawn%scene)
       call solve_reference(drawn, reference)

@@ -19,6 +19,7 @@ contains
       call test_sentences(checks)
       call test_order(checks)
       call test_cap(checks)
+      call test_taking(checks)
    end subroutine run_errors_tests
 
    !> An error holds its code and sentence; the exit codes are documented numbers.
@@ -33,6 +34,25 @@ contains
       call checks%check(all([exit_complete, exit_scene_failed, exit_bad_input, exit_system] == [0, 1, 2, &
          3]), 'exit codes')
    end subroutine test_raise
+
+   !> Faults of two looks at one input: what both see is told once, what one look sees twice is told twice.
+   subroutine test_taking(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      type(fault_list_t) :: faults, second
+
+      call faults%add('a.nml', 7, 'load', 'mass', 'wrong')
+      call second%add('a.nml', 7, 'load', 'mass', 'wrong')
+      call second%add('a.nml', 3, 'gear', 'name', 'wrong')
+      call second%add('a.nml', 3, 'gear', 'name', 'wrong')
+      second%exit_code = exit_system
+      call faults%take(second)
+      call checks%check(faults%count() == 3, 'known faults are not taken again')
+      call checks%check(faults%sentence(3) == 'a.nml:3: &gear name: wrong', 'sentence of a taken fault')
+      call checks%check(faults%exit_code == exit_system, 'exit code of both')
+      call faults%sort_since(0)
+      call checks%check(faults%sentence(1) == 'a.nml:3: &gear name: wrong', 'line of a taken fault')
+   end subroutine test_taking
 
    !> What is not known is left out of the place.
    subroutine test_sentences(checks)

@@ -3,8 +3,8 @@ module test_sampling
    use campaign_axis, only: campaign_axis_t, scale_linear, scale_logarithmic
    use checks, only: check_list_t, same_bits
    use kinds, only: dp, int64
-   use sampling, only: chunk_values, largest_value, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, sample_plan_t, &
-      scene_values
+   use sampling, only: chunk_values, cross_plan, largest_value, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, &
+      sample_plan_t, scene_values
    use text, only: integer_text
    implicit none(type, external)
    private
@@ -24,8 +24,46 @@ contains
       call test_spread_values(checks)
       call test_any_chunk(checks)
       call test_table(checks)
+      call test_crossed_plans(checks)
       call test_faults(checks)
    end subroutine run_sampling_tests
+
+   !> A sample and a table are repeated for each value of one more axis, the slowest; each scene is that of the plan alone.
+   subroutine test_crossed_plans(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(sample_plan_t) :: plans(3), plan
+      real(dp), allocatable :: table(:, :)
+      character(:), allocatable :: message
+      real(dp) :: values(2), crossed(3)
+      integer(int64) :: scene, pair
+      integer :: bad_axis, i
+      logical :: same
+
+      call plan_sobol([range_axis(2, scale_linear, 0.0_dp, 1.0_dp, 0), range_axis(3, scale_linear, 0.0_dp, 1.0_dp, 0)], &
+                      5_int64, 1_int64, plans(1), bad_axis, message)
+      call plan_latin_hypercube([range_axis(2, scale_linear, 0.0_dp, 1.0_dp, 0), list_axis(3, [4.0_dp, 9.0_dp])], &
+                                5_int64, 1_int64, plans(2), bad_axis, message)
+      allocate (table(2, 5))
+      table = reshape([(real(i, dp), i=1, 10)], [2, 5])
+      call plan_table([2, 3], table, plans(3))
+      do i = 1, size(plans)
+         plan = plans(i)
+         call cross_plan(list_axis(1, [1.0_dp, 2.0_dp, 3.0_dp]), plan)
+         call checks%check(plan%size == 15_int64 .and. plan%known == 15_int64 .and. all(plan%positions == [1, 2, 3]), &
+                           'scenes and keys of a crossed plan')
+         same = .true.
+         do pair = 1_int64, 3_int64
+            do scene = 1_int64, 5_int64
+               call scene_values(plans(i), scene, values)
+               call scene_values(plan, 5_int64*(pair - 1_int64) + scene, crossed)
+               same = same .and. all(same_bits(crossed, [real(pair, dp), values]))
+            end do
+         end do
+         call checks%check(same, 'values of a crossed plan')
+         call checks%check(.not. abs(largest_value(plan, 1, 0.0_dp) - 3.0_dp) > 0.0_dp, 'largest value of its first axis')
+      end do
+      call checks%check(.not. abs(largest_value(plan, 3, 0.0_dp) - 10.0_dp) > 0.0_dp, 'largest value of a column')
+   end subroutine test_crossed_plans
 
    !> Order and corners of a grid of three axes.
    subroutine test_grid(checks)

@@ -1,0 +1,179 @@
+!> The table of all gear pairs of an input: what became of each, and what they do together.
+module gearbox_table
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use errors, only: error_t
+   use input_key, only: name_limit
+   use judged_scene, only: judged_scene_t, quantity_value
+   use kinds, only: dp
+   use log_file, only: log_magic, log_t
+   use output_place, only: log_path, summary_path
+   use quantities, only: a_code, a_flag, quantity_acceleration_maximum, quantity_acceleration_minimum, &
+                         quantity_acceleration_rms, quantity_certified, quantity_dissipated_power, quantity_double_sided, &
+                         quantity_film_force_rms, quantity_film_minimum, quantity_rattle_class, quantity_table, quantity_word
+   use scene_status, only: is_success, status_complete, status_interrupted, status_name
+   use scene_types, only: scene_t
+   use summary_file, only: summary_t
+   use text, only: counted, short_text
+   use version, only: program_version
+   implicit none(type, external)
+   private
+
+   !> What is told of a pair, in the order of the columns.
+   integer, parameter :: told(9) = [quantity_rattle_class, quantity_certified, quantity_double_sided, quantity_film_minimum, &
+                                    quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_acceleration_rms, &
+                                    quantity_film_force_rms, quantity_dissipated_power]
+   integer, parameter :: place_minimum = 5, place_maximum = 6, place_rms = 7, place_force = 8, place_power = 9
+
+   !> A row of the table: what is told of a pair, NaN where it is unknown.
+   type, public :: pair_row_t
+      private
+      character(name_limit) :: name = ''
+      integer :: status = status_complete
+      real(dp) :: numbers(size(told)) = 0.0_dp
+   end type pair_row_t
+
+   public :: row_of_pair, write_table, whole_gearbox
+
+contains
+
+   !> Row of a judged pair.
+   function row_of_pair(scene, judged) result(row)
+      type(scene_t), intent(in) :: scene
+      type(judged_scene_t), intent(in) :: judged
+      type(pair_row_t) :: row
+      integer :: i
+
+      row%name = scene%gear%name
+      row%status = judged%status
+      do i = 1, size(told)
+         row%numbers(i) = quantity_value(told(i), judged)
+      end do
+   end function row_of_pair
+
+   !> The scene that stands for all pairs, as far as files go.
+   function whole_gearbox(scene) result(whole)
+      !> Any of its pairs
+      type(scene_t), intent(in) :: scene
+      type(scene_t) :: whole
+
+      whole = scene
+      whole%name = scene%gearbox
+      whole%output%series = .false.
+   end function whole_gearbox
+
+   !> Write the table as NAME.summary.nml, print it, and keep it in NAME.log.
+   subroutine write_table(gearbox, rows, quiet, error)
+      !> Scene that stands for all pairs
+      type(scene_t), intent(in) :: gearbox
+      !> Those that were solved
+      type(pair_row_t), intent(in) :: rows(:)
+      !> Nothing to the terminal
+      logical, intent(in) :: quiet
+      !> Set if a file could not be written
+      type(error_t), allocatable, intent(out) :: error
+      type(summary_t) :: summary
+      type(log_t) :: log
+      integer :: i, j
+
+      call log%open(log_path(gearbox), quiet, error)
+      if (allocated(error)) return
+      call log%line(log_magic//program_version//', gearbox '//trim(gearbox%name)//': '//counted(size(rows), 'pair'))
+      call report_rows(log, rows)
+      call summary%add('name', trim(gearbox%name))
+      call summary%add('program_version', program_version)
+      call summary%add('status', status_name(merge(status_interrupted, status_complete, any(rows%status == status_interrupted))))
+      call summary%add('pairs', size(rows))
+      call summary%add('pairs_failed', count(.not. is_success(rows%status)))
+      call summary%add('film_force_rms', together(rows, place_force))
+      call summary%add('dissipated_power', together(rows, place_power))
+      do i = 1, size(rows)
+         call summary%next_group('pair')
+         call summary%add('gear', trim(rows(i)%name))
+         call summary%add('status', status_name(rows(i)%status))
+         do j = 1, size(told)
+            associate (name => quantity_table(told(j))%name, number => rows(i)%numbers(j))
+               if (ieee_is_nan(number)) cycle
+               select case (quantity_table(told(j))%kind)
+               case (a_code)
+                  call summary%add(trim(name), quantity_word(told(j), nint(number)))
+               case (a_flag)
+                  call summary%add(trim(name), number > 0.0_dp)
+               case default
+                  call summary%add(trim(name), number)
+               end select
+            end associate
+         end do
+      end do
+      call summary%write(summary_path(gearbox), error)
+      if (.not. allocated(error)) call log%line('  '//summary_path(gearbox))
+      call log%close()
+   end subroutine write_table
+
+   !> What the bearings feel of all pairs [N], and the power that they turn into heat [W]; NaN where one is unknown.
+   pure real(dp) function together(rows, place)
+      type(pair_row_t), intent(in) :: rows(:)
+      !> Which of the numbers
+      integer, intent(in) :: place
+
+      if (place == place_force) then
+         together = sqrt(sum(rows%numbers(place)**2))
+      else
+         together = sum(rows%numbers(place))
+      end if
+   end function together
+
+   !> A line for each pair, and one for all together.
+   subroutine report_rows(log, rows)
+      type(log_t), intent(in) :: log
+      type(pair_row_t), intent(in) :: rows(:)
+      character(:), allocatable :: class
+      real(dp) :: peak
+      integer :: i, width
+
+      width = max(12, maxval(len_trim(rows%name)) + 2)
+      call log%line('  '//cell('gear', width)//cell('class', 24)//cell('both flanks', 13)//cell('least film', 12)// &
+                    cell('peak', 12)//cell('rms', 12)//cell('film force', 12)//'power')
+      call log%line('  '//cell('', width + 37)//cell('[um]', 12)//cell('[m/s2]', 12)//cell('[m/s2]', 12)// &
+                    cell('rms [N]', 12)//'[W]')
+      do i = 1, size(rows)
+         associate (numbers => rows(i)%numbers)
+            class = status_name(rows(i)%status)
+            if (.not. ieee_is_nan(numbers(1))) class = quantity_word(told(1), nint(numbers(1)))
+            if (numbers(2) > 0.0_dp) class = class//', certified'
+            peak = max(abs(numbers(place_minimum)), abs(numbers(place_maximum)))
+            call log%line('  '//cell(trim(rows(i)%name), width)//cell(class, 24)//cell(flag_cell(numbers(3)), 13)// &
+                          cell(number_cell(1.0e6_dp*numbers(4)), 12)//cell(number_cell(peak), 12)// &
+                          cell(number_cell(numbers(place_rms)), 12)//cell(number_cell(numbers(place_force)), 12)// &
+                          number_cell(numbers(place_power)))
+         end associate
+      end do
+      call log%line('  '//cell('together', width + 73)//cell(number_cell(together(rows, place_force)), 12)// &
+                    number_cell(together(rows, place_power)))
+   end subroutine report_rows
+
+   !> Words with blanks behind them up to a width; one at least.
+   pure function cell(words, width)
+      character(*), intent(in) :: words
+      integer, intent(in) :: width
+      character(:), allocatable :: cell
+
+      cell = words//repeat(' ', max(1, width - len(words)))
+   end function cell
+
+   pure function number_cell(number) result(words)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      words = '-'
+      if (.not. ieee_is_nan(number)) words = short_text(number, 4)
+   end function number_cell
+
+   pure function flag_cell(number) result(words)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      words = '-'
+      if (.not. ieee_is_nan(number)) words = trim(merge('yes', 'no ', number > 0.0_dp))
+   end function flag_cell
+
+end module gearbox_table
