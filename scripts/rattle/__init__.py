@@ -3,7 +3,7 @@
 from rattle.campaign_result import Campaign, read_campaign
 from rattle.faults import Fault, InputError, RunError
 from rattle.result import Result, ResultError, read
-from rattle.solve import Range, SceneFailed, Solved, campaign, run, sweep, threshold
+from rattle.solve import Gearbox, Range, SceneFailed, Solved, campaign, run, sweep, threshold
 from rattle.summary import SummaryError, read_summary
 
 version = "0.1.0"
@@ -11,6 +11,7 @@ version = "0.1.0"
 __all__ = [
     "Campaign",
     "Fault",
+    "Gearbox",
     "InputError",
     "Range",
     "Result",

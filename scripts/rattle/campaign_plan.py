@@ -12,6 +12,7 @@ import numpy as np
 from rattle.namelist import NamelistError, parse_groups
 
 GRID, SAMPLE, TABLE = "grid", "sample", "csv"
+GEAR = "gear"  # the axis of the gear pairs, where several stand in the input
 LINEAR, LOGARITHMIC, LISTED = "linear", "logarithmic", "values"
 
 
@@ -33,12 +34,15 @@ class Plan:
     scene_count: int | None
     part: int
     parts: int
+    gears: tuple[str, ...] = ()
 
 
 def read_plan(input_text: str) -> Plan:
     """The plan behind a resolved input. Raises ValueError with a sentence where it has none."""
     try:
-        group = parse_groups(input_text).get("campaign")
+        groups = parse_groups(input_text)
+        group = groups.get("campaign")
+        gears = gear_names(groups)
     except NamelistError as fault:
         raise ValueError(f"its resolved input cannot be read: {fault}") from None
     if group is None:
@@ -47,17 +51,28 @@ def read_plan(input_text: str) -> Plan:
     if part > parts:
         raise ValueError(f"its part {part} is none of {parts}.")
     if _said(group, "csv"):
-        return Plan(TABLE, (), None, part, parts)
+        return Plan(TABLE, (), None, part, parts, gears)
     starts = group.start_index
     keys = _indexed(group, starts, "vary")
     if str(group.get("sample") or GRID).strip() != GRID:
         size = group.get("size")
         axes = tuple(PlannedAxis(key, _scale(group, starts, i), None) for i, key in sorted(keys.items()))
-        return Plan(SAMPLE, axes, size if isinstance(size, int) else None, part, parts)
+        size = size * max(len(gears), 1) if isinstance(size, int) else None
+        return Plan(SAMPLE, axes, size, part, parts, gears)
     axes = tuple(_axis(group, starts, i, str(key).strip()) for i, key in sorted(keys.items()))
+    if gears:
+        axes = (PlannedAxis(GEAR, LISTED, np.arange(1.0, len(gears) + 1.0)), *axes)
     sizes = [None if axis.values is None else axis.values.size for axis in axes]
     count = math.prod(sizes) if axes and None not in sizes else None
-    return Plan(GRID, axes, count, part, parts)
+    return Plan(GRID, axes, count, part, parts, gears)
+
+
+def gear_names(groups: Mapping[str, Any]) -> tuple[str, ...]:
+    """Names of the gear pairs where several stand, in their order."""
+    pairs = groups.get("gear")
+    if not isinstance(pairs, list):
+        return ()
+    return tuple(str(pair.get("name", "")).strip() for pair in pairs)
 
 
 def _count(group: Mapping[str, Any], key: str) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rattle.attributes import attributes
-from rattle.campaign_plan import GRID, LINEAR, Plan, PlannedAxis, read_plan
+from rattle.campaign_plan import GEAR, GRID, LINEAR, Plan, PlannedAxis, read_plan
 from rattle.codes import CODES, SUCCESSES, WORD_ENDING
 from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import CAMPAIGN, ResultError, ResultHeader, read_header
@@ -45,7 +46,8 @@ class Campaign(ResultFile):
     chunks : the chunk table: rows in a chunk, and the checksum of each
     done : for every scene, whether it is done
     kind : 'grid', 'sample' or 'csv'
-    varied : the varied keys, as group.key
+    varied : the varied keys, as group.key; 'gear' first where several pairs were solved
+    gears : names of these pairs, by the numbers 1, 2, ... in the column 'gear'
     part, parts : which part of how many this is; 1 and 1 for a whole campaign
     scene_count : scenes of the whole campaign, None where only its end tells
     and those of every `ResultFile`
@@ -68,7 +70,9 @@ class Campaign(ResultFile):
         self.scene_count = plan.scene_count
         if self.scene_count is None and self.closed and self.parts == 1:
             self.scene_count = self.row_count
-        self.varied = tuple(name for name in header.names if "." in name)
+        self.varied = tuple(name for name in header.names if is_varied(name))
+        self.gears = plan.gears
+        self._pair: int | None = None
         self._plan = plan
         self._rows = CheckedRows(path, header, rows, self.row_count)
 
@@ -91,12 +95,42 @@ class Campaign(ResultFile):
     def rows(self) -> np.ndarray:
         """All rows that the file holds, as they stand there; those not done hold nothing meaningful."""
         self._rows.verify()
-        return self._rows.mapped
+        if self._pair is None:
+            return self._rows.mapped
+        first = self._pair * self.row_count
+        return self._rows.mapped[first : first + self.row_count]
 
     @property
     def name(self) -> str:
-        """Name of the campaign, that of its base scene."""
-        return str(self.input.get("scene", {}).get("name", self.path.stem)).strip()
+        """Name of the campaign, that of its base scene; with that of the gear if it is of one pair alone."""
+        name = str(self.input.get("scene", {}).get("name", self.path.stem)).strip()
+        return name if self._pair is None else f"{name}.{self.gears[self._pair]}"
+
+    def pair(self, gear: str) -> Campaign:
+        """The campaign of one gear pair alone, as if no other had been in the input."""
+        if gear not in self.gears:
+            known = f"it has {', '.join(self.gears)}" if self.gears else "it has one pair only"
+            raise ResultError(f"{self.path} has no gear '{gear}'; {known}.")
+        if self.parts > 1:
+            raise ResultError(f"{self.path} is a part of a campaign; merge the parts to look at one gear.")
+        alone = copy.copy(self)
+        for name in ("failed", "axes", "places"):
+            alone.__dict__.pop(name, None)
+        alone._pair = self.gears.index(gear)
+        own = self.input["gear" if alone._pair == 0 else f"gear({alone._pair + 1})"]
+        others = {group: keys for group, keys in self.input.items() if not group.startswith("gear")}
+        alone.__dict__["input"] = others | {"gear": own}
+        alone.row_count = self.row_count // len(self.gears)
+        first = alone._pair * alone.row_count
+        alone.done = self.done[first : first + alone.row_count]
+        alone.varied = tuple(key for key in self.varied if key != GEAR)
+        alone.scene_count = alone.row_count
+        return alone
+
+    @property
+    def pairs(self) -> tuple[Campaign, ...]:
+        """The campaign of each gear pair alone; where there is one pair only, this campaign."""
+        return tuple(map(self.pair, self.gears)) if self.gears and self._pair is None else (self,)
 
     @cached_property
     def failed(self) -> np.ndarray:
@@ -148,6 +182,9 @@ class Campaign(ResultFile):
             if name in self:
                 dtype = pandas.CategoricalDtype(list(words.values()), ordered=False)
                 table[name + WORD_ENDING] = table[name].map(words).astype(dtype)
+        if GEAR in self:
+            names = dict(enumerate(self.gears, 1))
+            table[GEAR] = table[GEAR].map(names).astype(pandas.CategoricalDtype(list(self.gears)))
         table.attrs = {
             "campaign": self.name,
             "units": dict(self.units),
@@ -174,6 +211,9 @@ class Campaign(ResultFile):
             coordinates["scene"] = (dimensions, scenes, attributes("scene", self.units["scene"]))
             for key in self.varied:
                 coordinates[key] = (dimensions, self[key][self.done], attributes(key, self.units[key]))
+        if GEAR in coordinates:
+            along, numbers, _ = coordinates[GEAR]
+            coordinates[GEAR] = (along, [self.gears[int(number) - 1] for number in numbers])
         variables = {}
         for name in self.names:
             if name in coordinates:
@@ -224,11 +264,16 @@ def read_campaign(path: str | Path) -> Campaign:
         plan = read_plan(header.input_text)
     except ValueError as fault:
         raise ResultError(f"{path} is no campaign: {fault}") from None
-    if header.names[0] != SCENE or not any("." in name for name in header.names):
+    if header.names[0] != SCENE or not any(is_varied(name) for name in header.names):
         raise ResultError(f"{path} is no campaign: its columns are not a scene and the varied keys.")
     _check_rows(path, header, data_bytes)
     held = min(data_bytes // header.row_bytes, header.chunks.row_limit)
     return Campaign(path, header, map_rows(path, header, held), plan)
+
+
+def is_varied(name: str) -> bool:
+    """Whether a column of a campaign is a varied key."""
+    return "." in name or name == GEAR
 
 
 def _check_rows(path: Path, header: ResultHeader, data_bytes: int) -> None:

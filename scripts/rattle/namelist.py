@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any
 
 import f90nml
@@ -12,8 +13,13 @@ class NamelistError(Exception):
 
 
 def parse(text: str) -> dict[str, dict[str, Any]]:
-    """Parse namelist text into group, key, value."""
-    return {name: dict(group) for name, group in parse_groups(text).items()}
+    """Parse namelist text into group, key, value; groups of one name are NAME, NAME(2), NAME(3) and so on."""
+    groups: dict[str, dict[str, Any]] = {}
+    seen: Counter[str] = Counter()
+    for name, group in parse_groups(text).items():
+        seen[name] += 1
+        groups[name if seen[name] == 1 else f"{name}({seen[name]})"] = dict(group)
+    return groups
 
 
 def parse_groups(text: str) -> f90nml.Namelist:

@@ -8,6 +8,7 @@ from pathlib import Path
 import f90nml
 import numpy as np
 
+from rattle.campaign_plan import GEAR
 from rattle.campaign_result import SCENE, Campaign
 from rattle.command import CommandError
 from rattle.namelist import parse_groups
@@ -56,7 +57,13 @@ def input_text(campaign: Campaign, row: int, results: str) -> str:
     """The input of one scene. The base is the resolved input, so no default can change it."""
     groups = parse_groups(campaign.input_text)
     groups.pop("campaign", None)
+    if campaign.gears:
+        pair = groups["gear"][int(campaign[GEAR][row]) - 1]
+        del groups["gear"]
+        groups["gear"] = pair
     for name, value in scene_values(campaign, row).items():
+        if name == GEAR:
+            continue
         group, key = name.split(".", 1)
         groups.setdefault(group, f90nml.Namelist())
         groups[group][key] = _number(value, groups[group].get(key), name)

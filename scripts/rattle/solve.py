@@ -39,6 +39,12 @@ class Solved(NamedTuple):
     summary: dict[str, Any]
 
 
+class Gearbox(dict[str, Solved]):
+    """What each gear pair of an input left, by its name; `summary` has the table of all, None for sweeps."""
+
+    summary: dict[str, Any] | None = None
+
+
 class SceneFailed(RunError):
     """The scene did not reach its end; `solved` has what there is of it."""
 
@@ -74,8 +80,8 @@ def run(
     overwrite: bool = False,
     threads: int | None = None,
     program: str | Path | None = None,
-) -> Solved:
-    """Solve one input and return its result and its summary.
+) -> Solved | Gearbox:
+    """Solve one input and return its result and its summary; of several gear pairs a `Gearbox` by gear.
 
     Parameters
     ----------
@@ -91,7 +97,8 @@ def run(
     InputError
         Bad input, nothing was run; `faults` names file, line, group and key of each.
     SceneFailed
-        A motion that did not reach its end. Sweeps and campaigns tell it in their columns of status.
+        A motion that did not reach its end. Sweeps and campaigns tell it in their columns of status, a
+        `Gearbox` in its summaries.
     RunError
         Everything else, such as a full disk.
     """
@@ -117,10 +124,14 @@ def run(
             shutil.rmtree(place, ignore_errors=True)
         raise
     if folder is None:
-        if solved.result is None:
+        # A gearbox keeps its files until nobody holds it any more.
+        held = solved if isinstance(solved, Gearbox) else solved.result
+        if held is None:
             shutil.rmtree(place, ignore_errors=True)
         else:
-            weakref.finalize(solved.result, shutil.rmtree, place, ignore_errors=True)
+            weakref.finalize(held, shutil.rmtree, place, ignore_errors=True)
+    if isinstance(solved, Gearbox):
+        return solved
     if ended.returncode == SCENE_FAILED and solved.summary["status"] not in ("complete", "steady"):
         raise SceneFailed(solved)
     return solved
@@ -137,7 +148,7 @@ def sweep(
     spacing: str | None = None,
     turn: bool | None = None,
     **options: Any,
-) -> Solved:
+) -> Solved | Gearbox:
     """Follow steady motions along a key; None: as the input has it. `options` are those of `run`."""
     given = {"key": key, "first": first, "last": last, "count": count, "spacing": spacing, "turn": turn}
     asked = {f"sweep.{name}": value for name, value in given.items() if value is not None}
@@ -247,7 +258,7 @@ def literal(value: Any) -> str:
     raise TypeError(f"{value!r} is nothing that an input can hold")
 
 
-def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved:
+def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved | Gearbox:
     """Result and summary of a run that left them, by the names of files that end its log."""
     if ended.returncode not in (COMPLETE, SCENE_FAILED):
         kind = InputError if ended.returncode == BAD_INPUT else RunError
@@ -256,10 +267,24 @@ def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved:
     summaries = [path for path in told if path.name.endswith(".summary.nml")]
     if not summaries:
         raise RunError(read_faults(ended.stderr), ended.returncode, "The program left no summary.")
-    name = summaries[-1].name.removesuffix(".summary.nml")
-    path = summaries[-1].with_name(f"{name}.rattle")
+    if len(summaries) == 1:
+        return _solved(summaries[0], told)
+    gearbox = Gearbox()
+    for path in summaries:
+        solved = _solved(path, told)
+        if "gears" in solved.summary:
+            gearbox.summary = solved.summary
+        else:
+            gearbox[str(solved.summary["gear"]).strip()] = solved
+    return gearbox
+
+
+def _solved(summary: Path, told: Sequence[Path]) -> Solved:
+    """A summary with the result that stands beside it."""
+    name = summary.name.removesuffix(".summary.nml")
+    path = summary.with_name(f"{name}.rattle")
     result = None
     if path in told:
         opened = read(path)
         result = read_campaign(path) if opened.task == "campaign" else opened
-    return Solved(result, read_summary(summaries[-1]))
+    return Solved(result, read_summary(summary))

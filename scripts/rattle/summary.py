@@ -22,7 +22,10 @@ class SummaryError(Exception):
 
 
 def read_summary(path: str | Path) -> dict[str, Any]:
-    """The keys of a ``NAME.summary.nml``; what the run does not know is not in it."""
+    """The keys of a ``NAME.summary.nml``; what the run does not know is not in it.
+
+    That of a gearbox has the rows of its table as `gears`: the keys of each pair by its name.
+    """
     path = Path(path)
     try:
         raw = path.read_bytes()
@@ -39,6 +42,9 @@ def read_summary(path: str | Path) -> dict[str, Any]:
     if "summary" not in groups:
         raise SummaryError(f"{path} is not a summary: it has no group &summary.")
     summary = groups["summary"]
+    pairs = [keys for name, keys in groups.items() if name == "pair" or name.startswith("pair(")]
+    if pairs:
+        summary["gears"] = {str(keys.pop("gear")).strip(): keys for keys in pairs}
     summary.setdefault("name", path.name.removesuffix(".nml").removesuffix(".summary"))
     return summary
 

@@ -27,6 +27,11 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--columns", type=command.names, metavar="NAME,NAME", help="what is drawn; rattle_class for a map"
     )
+    parser.add_argument(
+        "--gear",
+        metavar="NAME",
+        help="draw this gear pair of several; by default each in a figure of its own",
+    )
     parser.add_argument("--x", metavar="KEY", help="varied key on the x axis, by default the first")
     parser.add_argument("--y", metavar="KEY", help="varied key on the y axis, by default the next")
     parser.add_argument("--along", metavar="KEY", help="draw columns along this key instead of a map")
@@ -72,12 +77,15 @@ def run(options: Namespace) -> None:
         raise command.CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
     slices = one_each(options.slice)
     with style.house_style():
-        if options.summary:
-            draw_summary(campaign, options)
-        elif options.along or (len(campaign.varied) == 1 and campaign.kind == GRID):
-            draw_slices(campaign, options, slices)
-        else:
-            draw_maps(campaign, options, slices)
+        for alone in (campaign.pair(options.gear),) if options.gear else campaign.pairs:
+            if not alone.done.any():
+                command.note(f"no scene of {alone.name} is done; it is left out.")
+            elif options.summary:
+                draw_summary(alone, options)
+            elif options.along or (len(alone.varied) == 1 and alone.kind == GRID):
+                draw_slices(alone, options, slices)
+            else:
+                draw_maps(alone, options, slices)
 
 
 def draw_maps(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> None:

@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 import rattle
 from rattle import command
 from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC, read_plan
-from rattle.campaign_result import Axis
+from rattle.campaign_result import Axis, is_varied
 from rattle.campaign_section import Section, new_section, short_name, spaced_unit
 from rattle.codes import CLASSES, STATUSES, SUCCESSES, quantity_of, word, words_of
 from rattle.figures import campaign_look as look
@@ -55,7 +55,7 @@ class Thresholds:
 
     @property
     def varied(self) -> tuple[str, ...]:
-        return tuple(name for name in self.result.names if "." in name)
+        return tuple(name for name in self.result.names if is_varied(name))
 
     def column(self, name: str) -> np.ndarray:
         return np.asarray(self.result[name])[self.rows]

@@ -8,16 +8,26 @@ from pathlib import Path
 import rattle
 from rattle.campaign_result import Campaign
 from rattle.codes import QUANTITIES, words_of
+from rattle.figures import campaign_look as look
 from rattle.figures import film, film_points
 from rattle.report import asked, campaign, motion, page, sweep, threshold
 from rattle.result import Result, read
 from rattle.result_file import ResultFile
-from rattle.summary import comparison_table
+from rattle.summary import comparison_table, read_summary
 
 ABOUT = (
     "A loose gear pair, shaken by the engine, hammers through its oil film. This page says how the tooth "
     "pair moves under "
     "the force given here, how it rattles, and how far that can be trusted. Computed with rattle."
+)
+# Columns of the table of a gearbox.
+TOGETHER = (
+    "film_minimum",
+    "acceleration_minimum",
+    "acceleration_maximum",
+    "acceleration_rms",
+    "film_force_rms",
+    "dissipated_power",
 )
 FILM_CAPTIONS = {
     "figure_03": "Pressure in the film between the flanks, oil of constant viscosity.",
@@ -164,4 +174,35 @@ def overview(results: Sequence[ResultFile], names: Sequence[str]) -> list[str]:
         head, *rows = comparison_table(summaries)
         kinds = ["", *("number" for _ in summaries)]
         parts += [page.heading(2, "Side by side"), page.table(head, rows, kinds=kinds)]
+    return [*parts, *gearboxes(motions)]
+
+
+def gearboxes(motions: Sequence[Result]) -> list[str]:
+    """What the gear pairs of an input do together, where the table of the program has all of them."""
+    paths = {
+        motion.path.with_name(motion.path.name.removesuffix(f".{gear}.rattle") + ".summary.nml")
+        for motion in motions
+        if (gear := str(motion.input.get("gear", {}).get("name", "")).strip())
+    }
+    parts = []
+    for path in sorted(paths):
+        summary = read_summary(path) if path.exists() else {}
+        if "gears" not in summary:
+            continue
+        heads = ("Gear", "Class", "Both flanks", *(look.short_name(name) for name in TOGETHER))
+        rows = []
+        for gear, told in (*summary["gears"].items(), ("together", summary)):
+            flanks = {True: "yes", False: "no"}.get(told.get("double_sided"), "-")
+            numbers = [
+                page.value(float(told[name]), QUANTITIES[name].unit) if name in told else "-"
+                for name in TOGETHER
+            ]
+            rows.append([gear, str(told.get("rattle_class", "-")), flanks, *numbers])
+        words = (
+            "Together the pairs add as the root of the sum of squares in the force on the bearings of the "
+            "shaft, and as the sum in the power that they turn into heat."
+        )
+        kinds = ("", "", "", *("number" for _ in TOGETHER))
+        parts += [page.heading(2, f"Gearbox {summary['name']}"), page.paragraph(words)]
+        parts.append(page.table(heads, rows, kinds=kinds))
     return parts

@@ -89,6 +89,17 @@ def counted(campaign: Campaign, column: str) -> Counter[str]:
 
 
 def figures(campaign: Campaign) -> list[str]:
+    """The pictures of each gear pair."""
+    if not campaign.gears:
+        return figures_of_pair(campaign)
+    drawn = []
+    for gear, alone in zip(campaign.gears, campaign.pairs, strict=True):
+        if alone.done.any():
+            drawn += [page.heading(3, f"Gear {gear}"), *figures_of_pair(alone)]
+    return drawn
+
+
+def figures_of_pair(campaign: Campaign) -> list[str]:
     """Maps over the first two varied keys, or slices along the only one."""
     if campaign.kind == GRID and len(campaign.varied) == 1:
         columns = [name for name in DRAWN if name in campaign and name != "certified"]

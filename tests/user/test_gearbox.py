@@ -1,0 +1,214 @@
+"""Several &gear in one input: each pair as if it stood alone, one table of all, and the pair as an axis of campaigns."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from outcomes import assert_faults, summary_of
+from script_calls import call_script
+
+import rattle as package
+from rattle import rerun
+
+FIRST = """&gear
+   name = '1st', teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96, face_width = 0.016
+   loose_inertia = 1.715e-3, drag_torque = 0.10, backlash = 1e-4, tooth_stiffness = 14e9
+/
+"""
+FOURTH = """&gear
+   name = '4th', teeth_1 = 33, teeth_2 = 32, normal_module = 1.85e-3, helix_angle_deg = 30.8, face_width = 0.016
+   loose_inertia = 2.8e-4, drag_torque = 0.05, backlash = 8e-5
+/
+"""
+SHARED = """&shaft speed_rpm = 800.0, orders = 2.0, 4.0, accelerations = 600.0, 100.0 /
+&oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 0.0 /
+&film law = 'iso-viscous', model = 'reynolds' /
+&solver periods = 8, accuracy = 1e-6, method = 'taylor' /
+&spectrum periods = 2 /
+"""
+BOTH = FIRST + FOURTH + SHARED
+CAMPAIGN = "&campaign record = 'rattle_class', 'double_sided', 'film_force_rms', 'deflection_share', "
+GRID = CAMPAIGN + (
+    "vary = 'shaft.speed_rpm', 'gear.drag_torque' first = 700.0, 0.05 last = 900.0, 0.1 count = 3, 2 /\n"
+)
+SAMPLE = CAMPAIGN + (
+    "vary = 'shaft.speed_rpm', 'oil.temperature_celsius' first = 700.0, -20.0 last = 900.0, 10.0 size = 5 "
+)
+PLANS = {
+    "grid": GRID,
+    "sobol": SAMPLE + "sample = 'sobol' /\n",
+    "latin-hypercube": SAMPLE + "sample = 'latin-hypercube' /\n",
+    "csv": CAMPAIGN + "csv = 'scenes.csv' /\n",
+}
+
+
+@pytest.fixture
+def solve(run, tmp_path: Path):
+    """Writes an input and runs it."""
+
+    def call(name: str, text: str, *arguments: object, ends: int = 0):
+        (tmp_path / f"{name}.nml").write_text(text)
+        (tmp_path / "scenes.csv").write_text(
+            "shaft.speed_rpm,gear.drag_torque\n800,0.05\n750,0.1\n900,0.07\n"
+        )
+        ended = run(f"{name}.nml", "--overwrite", *arguments, cwd=tmp_path, timeout=60.0)
+        assert ended.returncode == ends, ended.stderr
+        return ended
+
+    return call
+
+
+def campaign_text(pairs: str, plan: str) -> str:
+    return "&scene task = 'campaign' /\n" + pairs + SHARED + plan
+
+
+def test_each_pair_is_the_scene_of_its_own_input(solve, tmp_path: Path) -> None:
+    ended = solve("box", BOTH)
+    for gear, text in (("1st", FIRST), ("4th", FOURTH)):
+        solve("alone", f"&scene name = 'box.{gear}' /\n" + text + SHARED, "--output", "alone")
+        for ending in ("rattle", "state"):
+            name = f"box.{gear}.{ending}"
+            assert (tmp_path / "results" / name).read_bytes() == (tmp_path / "alone" / name).read_bytes(), (
+                name
+            )
+        assert summary_of(tmp_path / "results" / f"box.{gear}.summary.nml")["gear"] == gear
+    table = package.read_summary(tmp_path / "results" / "box.summary.nml")
+    assert list(table["gears"]) == ["1st", "4th"]
+    force, power = 0.0, 0.0
+    for gear, told in table["gears"].items():
+        summary = summary_of(tmp_path / "results" / f"box.{gear}.summary.nml")
+        for name, value in told.items():
+            if name != "certified":
+                assert summary[name] == value, name
+        force, power = force + told["film_force_rms"] ** 2, power + told["dissipated_power"]
+    assert table["film_force_rms"] == pytest.approx(force**0.5, rel=1e-14)
+    assert table["dissipated_power"] == pytest.approx(power, rel=1e-14)
+    assert re.search(r"^  together +[\d.]+ +[\d.]+$", ended.stdout, re.M)
+
+
+def test_one_gear_keeps_its_name(solve, tmp_path: Path) -> None:
+    solve("one", FIRST + SHARED)
+    assert (tmp_path / "results" / "one.rattle").exists()
+    assert not list(tmp_path.glob("results/one.1st*"))
+
+
+def test_check_tells_the_contact_of_each_pair(solve) -> None:
+    told = solve("box", BOTH, "--check").stdout
+    radii = [float(value) for value in re.findall(r"^! derived: gear.base_radius_2 = (\S+)", told, re.M)]
+    assert radii[0] == pytest.approx(0.05012440307, rel=1e-9)
+    assert len(radii) == 2
+
+
+@pytest.mark.parametrize("plan", PLANS)
+def test_the_pair_is_the_slowest_axis_of_a_campaign(solve, tmp_path: Path, plan: str) -> None:
+    solve("map", campaign_text(FIRST + FOURTH, PLANS[plan]), "--threads", 2)
+    solve("map", campaign_text(FIRST + FOURTH, PLANS[plan]), "--threads", 1, "--output", "again")
+    assert (tmp_path / "results" / "map.rattle").read_bytes() == (
+        tmp_path / "again" / "map.rattle"
+    ).read_bytes()
+    both = package.read_campaign(tmp_path / "results" / "map.rattle")
+    assert both.gears == ("1st", "4th")
+    assert both.varied[0] == "gear"
+    rows = []
+    for gear, text in (("1st", FIRST), ("4th", FOURTH)):
+        solve("alone", campaign_text(text, PLANS[plan]))
+        alone = package.read_campaign(tmp_path / "results" / "alone.rattle")
+        pair = both.pair(gear)
+        assert pair.varied == alone.varied
+        for name in alone.names[1:]:
+            np.testing.assert_array_equal(pair[name], alone[name], err_msg=name)
+        rows.append(alone.row_count)
+    assert both.row_count == sum(rows)
+    if plan == "grid":
+        assert both.grid("film_force_rms").shape == (2, 3, 2)
+        np.testing.assert_array_equal(both.grid("film_force_rms")[1], pair.grid("film_force_rms"))
+
+
+def test_python_names_the_gears(solve, tmp_path: Path) -> None:
+    solve("map", campaign_text(FIRST + FOURTH, GRID))
+    campaign = package.read_campaign(tmp_path / "results" / "map.rattle")
+    assert list(campaign.frame()["gear"].unique()) == ["1st", "4th"]
+    data = campaign.dataset()
+    assert data["film_force_rms"].sel(gear="4th").values.shape == (3, 2)
+    assert list(data.coords["gear"].values) == ["1st", "4th"]
+    row = campaign.row_count - 1
+    solve("again", rerun.input_text(campaign, row, "results"))
+    summary = summary_of(tmp_path / "results" / f"{rerun.scene_label(campaign, row)}.summary.nml")
+    assert summary["gear"] == "4th"
+    assert summary["film_force_rms"] == pytest.approx(campaign["film_force_rms"][row], rel=1e-5)
+
+
+def test_a_campaign_of_pairs_is_carried_on(solve, run, tmp_path: Path) -> None:
+    text = campaign_text(FIRST + FOURTH, GRID)
+    solve("map", text)
+    path = tmp_path / "results" / "map.rattle"
+    whole = path.read_bytes()
+    assert run("map.nml", "--resume", cwd=tmp_path).returncode == 0
+    assert path.read_bytes() == whole
+    (tmp_path / "map.nml").write_text(text.replace("teeth_2 = 32", "teeth_2 = 31"))
+    ended = run("map.nml", "--resume", cwd=tmp_path)
+    assert ended.returncode == 2
+    assert "gear(2).teeth_2 is 31 now and was 32" in ended.stderr
+
+
+def test_run_returns_a_mapping_by_gear(rattle: Path) -> None:
+    solved = package.run(BOTH, set={"scene.name": "box"}, program=rattle)
+    assert list(solved) == ["1st", "4th"]
+    assert solved["4th"].result.scene_name == "box.4th"
+    assert solved.summary["gears"]["1st"]["rattle_class"] == solved["1st"].summary["rattle_class"]
+
+
+def test_each_pair_has_its_sweep(solve, tmp_path: Path) -> None:
+    sweep = "&sweep key = 'speed_rpm', first = 700.0, last = 900.0, count = 3, turn = .false. /\n"
+    solve("box", "&scene task = 'sweep' /\n" + BOTH + sweep)
+    for gear in ("1st", "4th"):
+        assert package.read(tmp_path / "results" / f"box.{gear}.rattle").task == "sweep"
+    assert not (tmp_path / "results" / "box.summary.nml").exists()
+
+
+def test_every_fault_of_every_gear_is_told(run, tmp_path: Path) -> None:
+    bad = (
+        "&gear\n   name = '1st', teeth_1 = 11, teth_2 = 38, normal_module = 2e-3\n"
+        "   face_width = 0.02, loose_inertia = 1e-3, drag_torque = 0.1\n/\n"
+        "&gear\n   name = '1ST', teeth_1 = 11, teeth_2 = 38, normal_module = -1.0\n"
+        "   face_width = 0.02, loose_inertia = 1e-3, drag_torque = 0.1\n/\n"
+        "&gear\n   teeth_1 = 11, teeth_2 = 38, normal_module = 2e-3\n"
+        "   face_width = 0.02, loose_inertia = 1e-3, drag_torque = -0.1\n/\n"
+    )
+    (tmp_path / "bad.nml").write_text(bad + SHARED + "&spectra /\n")
+    ended = run("bad.nml", cwd=tmp_path)
+    assert_faults(
+        ended.stderr.splitlines(),
+        "bad.nml",
+        [
+            "1: &gear teeth_2: this key is required",
+            "2: &gear teth_2: unknown key; the nearest known key is teeth_2",
+            "6: &gear name: '1ST' is also the name of an earlier &gear",
+            "6: &gear normal_module: -1.0 is not allowed",
+            "9: &gear name: several &gear stand here; each needs a name",
+            "11: &gear drag_torque: without a backlash the drag torque must be positive",
+            "18: &spectra: unknown group",
+        ],
+    )
+
+
+def test_names_are_usable_as_files(run, tmp_path: Path) -> None:
+    (tmp_path / "bad.nml").write_text(BOTH.replace("'4th'", "'4/5'"))
+    ended = run("bad.nml", cwd=tmp_path)
+    expected = "6: &gear name: '4/5' is not allowed; allowed: 1 to 64 letters, digits, . _ -"
+    assert_faults(ended.stderr.splitlines(), "bad.nml", [expected])
+
+
+def test_ready_gearbox_has_a_map(run, repository: Path, tmp_path: Path) -> None:
+    ready = repository / "input" / "gearbox_map.nml"
+    ended = run(ready, "--set", "campaign.count=5,4", "--output", tmp_path, cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    path = tmp_path / "gearbox_map.rattle"
+    assert package.read_campaign(path).gears == ("1st", "2nd", "3rd", "4th")
+    drawn = call_script("plot.py", "campaign", path, "--output", tmp_path, "--format", "png")
+    assert drawn.returncode == 0, drawn.stderr
+    assert len(list(tmp_path.glob("gearbox_map.*_map_rattle_class.png"))) == 4
+    assert run("--check", repository / "input" / "gearbox.nml", cwd=tmp_path).returncode == 0
