@@ -1,7 +1,7 @@
 !> Thresholds from input to file: a scan of every line, then passes over all lines together, each the middles of all brackets
 !> that are still wide, solved as the scenes of a campaign are.
 module run_threshold
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use campaign_axis, only: grid_value
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
@@ -343,6 +343,7 @@ contains
       subroutine put(lower, upper)
          type(point_t), intent(in) :: lower
          type(point_t), intent(in) :: upper
+         logical :: stands
          integer :: axes
 
          k = k + 1
@@ -356,7 +357,9 @@ contains
          rows(axes + 9:axes + 10, k) = unknown
          if (crossing == 0) return
          rows(axes + 9:axes + 10, k) = certified(i, :)
-         if (.not. all(certified(i, :) > 0.0_dp)) outcome%uncertain = outcome%uncertain + 1_int64
+         stands = .not. any(ieee_is_nan(certified(i, :)))
+         if (stands) stands = all(certified(i, :) > 0.0_dp)
+         if (.not. stands) outcome%uncertain = outcome%uncertain + 1_int64
       end subroutine put
 
    end subroutine add_rows

@@ -92,9 +92,14 @@ say "64 x 256 scenes took $spent ms on one core; the long campaign has 64 x $spe
 write_input long 64 "$speeds"
 "$program" --quiet --threads 2 --output alone long.nml > alone.log 2>&1 || { tail alone.log; give_up 'long campaign'; }
 
+say 'thresholds on two ranks of two threads'
+"$program" --quiet --threads 1 --output thresholds "$repository/input/threshold.nml"
+mpirun -n 2 --bind-to none "$program" --quiet --threads 2 --output thresholds_of_ranks "$repository/input/threshold.nml"
+same 'thresholds, MPI job' thresholds_of_ranks/threshold.rattle thresholds/threshold.rattle
+
 say 'a motion under mpirun'
 mpirun -n 2 "$program" --quiet --output refused "$repository/input/creep.nml" > refused.log 2>&1 && fail 'a motion ran twice'
-grep -q 'only a campaign can be divided' refused.log && [ ! -e refused ] || { cat refused.log; fail 'no refusal of a motion'; }
+grep -q 'only a campaign or threshold can be divided' refused.log && [ ! -e refused ] || { cat refused.log; fail 'no refusal of a motion'; }
 
 say 'an array job of three parts'
 write_script array short --array 3 --time 00:10:00

@@ -117,6 +117,14 @@ def test_kinds_of_change_are_curves_of_their_own(tmp_path):
     assert "change of class" in made.axes[0].get_title(loc="left")
 
 
+def test_neighbours_with_other_counts_of_a_change_are_not_joined(tmp_path):
+    back = [2.0, 2.0, 2.0, 50.0, 52.0, 2.0, 1.0, 1.0, 1.0, 1.0, 1.0]
+    again = [2.0, 2.0, 3.0, 70.0, 72.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0]
+    made = figure(written(tmp_path / "edge.rattle", [ROWS[0], ROWS[2], back, again, ROWS[5]]))
+    joined = [y.tolist() for x, y in drawn.curves(made.axes[0]) if x.size == 1]
+    assert joined[:3] == [[41.0], [31.0], [71.0]] and drawn.legend_words(made)[0] == "quiet to creep (4)"
+
+
 def test_one_class_against_all_others(tmp_path):
     made = figure(written(tmp_path / "edge.rattle", ROWS[:3], criterion="quiet"))
     assert drawn.legend_words(made)[0] == "quiet to another class (2)"

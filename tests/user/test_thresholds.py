@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import signal
+import subprocess
+import time
 from pathlib import Path
 
 import numpy as np
@@ -191,6 +194,26 @@ def test_threads_and_another_run_give_the_same_bytes(found, run, scene_text, tmp
     assert contents(tmp_path) == before
     ended = run("--resume", "scene.nml", cwd=tmp_path, timeout=120.0)
     assert ended.returncode == 0 and "all is solved from the start" in ended.stdout
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT], ids=lambda n: n.name)
+def test_a_signal_ends_it_without_a_result(number, rattle, run, scene_text, tmp_path: Path) -> None:
+    """The result of an earlier run stays; the summary and the log say that all was cut."""
+    (tmp_path / "scene.nml").write_text(threshold_text(scene_text, threshold={"tolerance": "0.5"}))
+    assert run("scene.nml", cwd=tmp_path).returncode == 0
+    before = digest(tmp_path / "results" / "scene.rattle")
+    many = ["--set", "threshold.count=100000", "--set", "threshold.tolerance=1e-6"]
+    process = subprocess.Popen([rattle, "--overwrite", "--quiet", *many, "scene.nml"], cwd=tmp_path)
+    log = tmp_path / "results" / "scene.log"
+    started = time.monotonic()
+    while "100000 values a line" not in log.read_text() and time.monotonic() - started < 20.0:
+        time.sleep(0.01)
+    process.send_signal(number)
+    assert process.wait(20) == 128 + number
+    assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "interrupted"
+    assert "cut short: no result is written" in log.read_text()
+    assert digest(tmp_path / "results" / "scene.rattle") == before
+    assert not list((tmp_path / "results").glob("*.new"))
 
 
 def test_check_tells_lines_and_cost(run, scene_text, tmp_path: Path) -> None:

@@ -281,7 +281,7 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
     kinds = common if len(common) <= MOST_KINDS + 1 else [*common[:MOST_KINDS], None]
     for place, kind in enumerate(kinds):
         chosen = crossed & (found.kinds == kind if kind else ~np.isin(found.kinds, kinds[:-1]))
-        halo = look.HALO if section else None
+        halo = style.HALO if section else None
         colour = "black" if section else style.RUN_COLOURS[place]
         dashes = {"linewidth": 1.3, "linestyle": style.RUN_DASHES[place % len(style.RUN_DASHES)]}
         for part in curves(found, axis, chosen) if kind else ():
@@ -372,9 +372,9 @@ def draw_surface(figure: Figure, axes: Axes, found: Thresholds, x: Axis, y: Axis
         lines = axes.contour(
             x.values, y.values, np.ma.masked_invalid(values.T), levels=levels, colors="black", linewidths=0.9
         )
-        lines.set_path_effects(look.HALO)
+        lines.set_path_effects(style.HALO)
         for label in axes.clabel(lines, fontsize=7, fmt="%g"):
-            label.set_path_effects(look.HALO)
+            label.set_path_effects(style.HALO)
     look.set_axis(axes, "x", x, to_edges=True)
     look.set_axis(axes, "y", y, to_edges=True)
     figure.colorbar(drawn, ax=axes, label=look.axis_label(found.range), pad=0.02, aspect=30)
