@@ -53,6 +53,9 @@ def slurm(options: argparse.Namespace) -> None:
         time=options.time,
         signal_seconds=options.signal_seconds,
         partition=options.partition,
+        account=options.account,
+        memory=options.memory,
+        modules=options.module,
         launcher=options.launcher,
     )
     for place in (job.working_directory, job.log_directory):
@@ -239,6 +242,18 @@ def time_limit(text: str) -> str:
     raise argparse.ArgumentTypeError(f"'{text}' is not a time such as 02:30:00")
 
 
+def slurm_word(text: str) -> str:
+    if re.fullmatch(r"[\w.,:@+-]+", text):
+        return text
+    raise argparse.ArgumentTypeError(f"'{text}' is not a name that Slurm takes")
+
+
+def memory_limit(text: str) -> str:
+    if re.fullmatch(r"[1-9]\d*[KMGT]", text, re.ASCII):
+        return text
+    raise argparse.ArgumentTypeError(f"'{text}' is not an amount of memory such as 500M or 2G")
+
+
 def scene_numbers(text: str) -> list[int]:
     return [command.positive(part.strip()) for part in text.split(",")]
 
@@ -290,7 +305,12 @@ def add_slurm(commands: argparse._SubParsersAction) -> None:
         metavar="S",
         help="warning before the time limit in seconds; Slurm may be a minute early (120)",
     )
-    job.add_argument("--partition", metavar="P", help="partition of the cluster")
+    job.add_argument("--partition", type=slurm_word, metavar="P", help="partition of the cluster")
+    job.add_argument("--account", type=slurm_word, metavar="A", help="account that pays for the job")
+    job.add_argument("--memory", type=memory_limit, metavar="M", help="memory a thread, e.g. 500M or 2G")
+    job.add_argument(
+        "--module", action="append", default=[], metavar="M", help="environment module to load; several times"
+    )
     job.add_argument("--output", type=Path, metavar="DIR", help="where results, logs and the script go")
     job.add_argument("--script", type=Path, metavar="PATH", help="the script, by default NAME.slurm")
     job.add_argument("--program", metavar="PATH", help="the program rattle, by default that of this folder")

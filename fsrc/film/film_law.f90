@@ -340,7 +340,11 @@ contains
          velocity = a*sqrt(thickness)/film%squeeze_rate
       case (kernel_piezo)
          outcome = merge(load_carried, load_too_small, load > 0.0_dp)
-         if (load > 0.0_dp) velocity = -log(load/film%piezo*(thickness*thickness*thickness)*sqrt(thickness))/film%rate
+         if (.not. load > 0.0_dp) return
+         velocity = -log(load/film%piezo*(thickness*thickness*thickness)*sqrt(thickness))/film%rate
+         velocity_by_film = -3.5_dp/(film%rate*thickness)
+         velocity_by_load = -1.0_dp/(film%rate*load)
+         return
       case (kernel_reynolds_iso)
          call iso_viscous_squeeze(load*thickness/film%scale, a, outcome)
          velocity = a*sqrt(thickness)/film%squeeze_rate

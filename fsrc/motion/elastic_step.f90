@@ -139,7 +139,7 @@ contains
          call states(lane, force, block, trial)
          call equations(film_law, lane, block, trial, matrix(:n, :n), right(:n), found)
          if (.not. found) return
-         call eliminate(matrix(:n, :n), right(:n))
+         call eliminate(n, matrix, right)
          do flank = 1, trial%flanks
             associate (load => trial%load(:, flank), correction => right(stages*(flank - 1) + 1:stages*flank))
                if (never_pulls(film_law)) correction = max(correction, (least_ratio - 1.0_dp)*load)
@@ -239,32 +239,45 @@ contains
       end associate
    end subroutine equations
 
-   !> Solve linear equations; the solution replaces the right-hand side. Rows are exchanged for the largest pivot.
-   pure subroutine eliminate(matrix, right)
-      real(dp), intent(inout) :: matrix(:, :)
-      real(dp), intent(inout) :: right(:)
-      real(dp) :: row(size(right)), factor
-      integer :: n, i, largest
+   !> Solve linear equations; the solution replaces the right-hand side. Rows are exchanged for the largest pivot; all else goes
+   !> down columns, which lie side by side.
+   pure subroutine eliminate(last, matrix, right)
+      !> How many there are
+      integer, intent(in) :: last
+      real(dp), intent(inout) :: matrix(2*stages, 2*stages)
+      real(dp), intent(inout) :: right(2*stages)
+      real(dp) :: factor(2*stages), held
+      integer :: n, i, j, largest
 
-      do n = 1, size(right)
-         largest = n - 1 + maxloc(abs(matrix(n:, n)), dim=1)
+      do n = 1, last
+         largest = n
+         do i = n + 1, last
+            if (abs(matrix(i, n)) > abs(matrix(largest, n))) largest = i
+         end do
          if (largest /= n) then
-            row = matrix(n, :)
-            matrix(n, :) = matrix(largest, :)
-            matrix(largest, :) = row
-            factor = right(n)
+            do j = n, last
+               held = matrix(n, j)
+               matrix(n, j) = matrix(largest, j)
+               matrix(largest, j) = held
+            end do
+            held = right(n)
             right(n) = right(largest)
-            right(largest) = factor
+            right(largest) = held
          end if
          matrix(n, n) = 1.0_dp/matrix(n, n)
-         do i = n + 1, size(right)
-            factor = matrix(i, n)*matrix(n, n)
-            matrix(i, n + 1:) = matrix(i, n + 1:) - factor*matrix(n, n + 1:)
-            right(i) = right(i) - factor*right(n)
+         factor(n + 1:last) = matrix(n + 1:last, n)*matrix(n, n)
+         do j = n + 1, last
+            held = matrix(n, j)
+            !$omp simd
+            do i = n + 1, last
+               matrix(i, j) = matrix(i, j) - factor(i)*held
+            end do
          end do
+         right(n + 1:last) = right(n + 1:last) - factor(n + 1:last)*right(n)
       end do
-      do n = size(right), 1, -1
-         right(n) = (right(n) - dot_product(matrix(n, n + 1:), right(n + 1:)))*matrix(n, n)
+      do n = last, 1, -1
+         right(n) = right(n)*matrix(n, n)
+         right(:n - 1) = right(:n - 1) - matrix(:n - 1, n)*right(n)
       end do
    end subroutine eliminate
 

@@ -26,6 +26,9 @@ class Job:
     time: str | None
     signal_seconds: int
     partition: str | None
+    account: str | None
+    memory: str | None
+    modules: list[str]
     launcher: str
 
 
@@ -69,6 +72,10 @@ def _directives(job: Job) -> list[str]:
         lines.append(f"#SBATCH --time={job.time}")
     if job.partition:
         lines.append(f"#SBATCH --partition={job.partition}")
+    if job.account:
+        lines.append(f"#SBATCH --account={job.account}")
+    if job.memory:
+        lines.append(f"#SBATCH --mem-per-cpu={job.memory}")
     return lines
 
 
@@ -83,7 +90,9 @@ def _body(job: Job) -> list[str]:
     program = shlex.quote(job.program)
     launch = f"{job.launcher} {program}" if job.ranks else program
     this_job = '"${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"' if job.parts else '"$SLURM_JOB_ID"'
+    modules = [f"module load {shlex.quote(module)} || exit 1" for module in job.modules]
     return [
+        *modules,
         'export OMP_NUM_THREADS="${SLURM_CPUS_PER_TASK:-1}"',
         'export SRUN_CPUS_PER_TASK="$OMP_NUM_THREADS"',
         "",

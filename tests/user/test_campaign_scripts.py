@@ -80,6 +80,17 @@ def test_array_job(campaign_input, tmp_path):
     assert 'exec scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"' in text
 
 
+def test_account_memory_and_modules(campaign_input, tmp_path):
+    lines = script_text(
+        tmp_path, "--account", "nvh-7", "--memory", "500M", "--module", "gcc/12", "--module", "openmpi"
+    ).splitlines()
+    assert "#SBATCH --account=nvh-7" in lines and "#SBATCH --mem-per-cpu=500M" in lines
+    last_directive = max(i for i, line in enumerate(lines) if line.startswith("#SBATCH"))
+    loads = [lines.index(f"module load {name} || exit 1") for name in ("gcc/12", "openmpi")]
+    start = next(i for i, line in enumerate(lines) if line.startswith("/opt/rattle"))
+    assert last_directive < loads[0] < loads[1] < start
+
+
 def test_absurd_array_is_refused(campaign_input, tmp_path):
     command = ("campaign.py", "slurm", "map.nml", "--program", "/opt/rattle", "--array")
     refused = call_script(*command, 10_000_000, cwd=tmp_path)
@@ -151,6 +162,8 @@ def test_job_script_without_warning_keeps_the_exit_code(campaign_input, tmp_path
         (["map.nml", "--array", "2", "--ranks", "2"], "not allowed with argument"),
         (["map.nml", "--time", "90"], "'90' is not a time such as 02:30:00"),
         (["map.nml", "--time", "00:02:00"], "leaves no time to compute: Slurm may warn 180 s before it"),
+        (["map.nml", "--memory", "2 GB"], "'2 GB' is not an amount of memory such as 500M or 2G"),
+        (["map.nml", "--account", "a b"], "'a b' is not a name that Slurm takes"),
         (["plain.nml"], "plain.nml has no group &campaign."),
     ],
 )

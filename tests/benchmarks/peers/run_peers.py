@@ -10,9 +10,9 @@ may fill many lanes, longer than ten times that. --own adds a
 contender that is a command (protocol: command.py), run side by side with the peers; it may be given several
 times. A contender that is not installed, or that fails on a setting, is reported and left out.
 
---changed adds the published scenes changed by several orders, two flanks and teeth that give, and leaves the
-exact films away. Their references are made at the start: heyoka at its tightest tolerance, CVODE beside it says
-how sure that is. Peers without these equations are left out.
+--changed adds the published scenes changed by several orders, two flanks and teeth that give, and leaves out
+the exact films. Their references are made at the start: heyoka at its tightest tolerance, CVODE beside it
+says how sure that is. Peers without these equations are left out.
 """
 
 import argparse
@@ -116,7 +116,7 @@ def own_contender(text: str) -> Contender:
 
 
 def changed_references(chosen: list[scenes.Scene]) -> dict:
-    """Films of changed scenes by heyoka at its tightest; CVODE, another method in another language, for comparison."""
+    """Films of changed scenes by heyoka at its tightest, and by CVODE, another method, for comparison."""
     import cvode_peer
     import heyoka_peer
 

@@ -29,20 +29,21 @@ The six published scenes are also changed in four ways (CHANGES): a force of thr
 that give, and all three. With w the load of a film over the mean load, b the backlash over h0, z the
 position of the gear over h0 and e = (Q + m g)/(k h0) the compliance of a tooth,
 
-    v' = a (w_1 - w_2 - 1 - sum_n q_n cos(2 pi n tau + phi_n)),    z' = v,
+    v' = a (w_1 - w_2 - 1 - sum_n q_n cos(2 pi n tau + phi_n)),
     rigid teeth    w_1 = G(y, v),  w_2 = G(b - y, -v),  y = z,
-    teeth that give    e w_1 = y_1 - z,  e w_2 = y_2 - (b - z),        y_1' = g(y_1, w_1),  y_2' = g(y_2, w_2),
+    teeth that give    z' = v,  e w_1 = y_1 - z,  e w_2 = y_2 - (b - z),
+                       y_1' = g(y_1, w_1),  y_2' = g(y_2, w_2),
 
 where g is G solved for the velocity: sqrt(y) (1 - y w)/c for (35), -ln(w y^(7/2))/c for (37). With one
 flank w_2 = 0. The motion starts at y_1 = 1, v = 0, the films at no velocity. k is twice the stiffness of the
-steady film. At F0 = 3 Q the film of (37) lets the tooth that gives go: w falls towards 0, where g is
-infinitely steep, and explicit steps do not follow. That scene is a group of its own ("a film that lets go").
+steady film. At F0 = 3 Q the film of (37) lets the tooth go: w falls towards 0, g gets infinitely
+steep, and explicit steps do not follow. That scene is a group of its own ("a film that lets go").
 The motion of (35) with teeth that give at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is judged
 in the last ten of 20 periods, and timed over 200.
 
 Error measure: largest |h/h_reference - 1| over the last 10 periods at 64 points a period, that is at
-tau = 190 + k/64, k = 1 ... 640, against `../reference/film.csv`, and for the changed scenes against the tightest
-solution of a peer.
+tau = 190 + k/64, k = 1 ... 640, against `../reference/film.csv`, and for the changed scenes against the
+tightest solution of a peer.
 """
 
 import math
