@@ -38,8 +38,8 @@ where g is G solved for the velocity: sqrt(y) (1 - y w)/c for (35), -ln(w y^(7/2
 flank w_2 = 0. The motion starts at y_1 = 1, v = 0, the films at no velocity. k is twice the stiffness of the
 steady film. At F0 = 3 Q the film of (37) lets the tooth go: w falls towards 0, g gets infinitely
 steep, and explicit steps do not follow. That scene is a group of its own ("a film that lets go").
-The motion of (35) with teeth that give at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is judged
-in the last ten of 20 periods, and timed over 200.
+The motion of (35) with teeth that give at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is
+judged in the last ten of 20 periods, and timed over 200.
 
 Error measure: largest |h/h_reference - 1| over the last 10 periods at 64 points a period, that is at
 tau = 190 + k/64, k = 1 ... 640, against `../reference/film.csv`, and for the changed scenes against the
