@@ -186,8 +186,8 @@ def test_every_fault_of_every_gear_is_told(run, tmp_path: Path) -> None:
         [
             "1: &gear teeth_2: this key is required",
             "2: &gear teth_2: unknown key; the nearest known key is teeth_2",
-            "6: &gear name: '1ST' is also the name of an earlier &gear",
             "6: &gear normal_module: -1.0 is not allowed",
+            "6: &gear name: '1ST' is also the name of an earlier &gear",
             "9: &gear name: several &gear stand here; each needs a name",
             "11: &gear drag_torque: without a backlash the drag torque must be positive",
             "18: &spectra: unknown group",
