@@ -1,4 +1,4 @@
-"""Several &gear in one input: each pair as if it stood alone, one table of all, and the pair as an axis of campaigns."""
+"""Several &gear in one input: each pair as if it stood alone, one table of all, an axis of campaigns."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ import rattle as package
 from rattle import rerun
 
 FIRST = """&gear
-   name = '1st', teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96, face_width = 0.016
-   loose_inertia = 1.715e-3, drag_torque = 0.10, backlash = 1e-4, tooth_stiffness = 14e9
+   name = '1st', teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96
+   face_width = 0.016, loose_inertia = 1.715e-3, drag_torque = 0.10, backlash = 1e-4, tooth_stiffness = 14e9
 /
 """
 FOURTH = """&gear
-   name = '4th', teeth_1 = 33, teeth_2 = 32, normal_module = 1.85e-3, helix_angle_deg = 30.8, face_width = 0.016
-   loose_inertia = 2.8e-4, drag_torque = 0.05, backlash = 8e-5
+   name = '4th', teeth_1 = 33, teeth_2 = 32, normal_module = 1.85e-3, helix_angle_deg = 30.8
+   face_width = 0.016, loose_inertia = 2.8e-4, drag_torque = 0.05, backlash = 8e-5
 /
 """
 SHARED = """&shaft speed_rpm = 800.0, orders = 2.0, 4.0, accelerations = 600.0, 100.0 /
