@@ -1,75 +1,174 @@
-!> Whether the class of a scene of a campaign stands: the certificate of the single scene.
+!> Which classes of a group of scenes stand: all of them solved again from their start, tighter and side by side, and every window
+!> held against the tighter one by the certificate of the single scene.
+!>
+!> A single scene that is solved until it is steady is held against the same periods from its start. In a campaign both solutions go
+!> on until the motion repeats, the tighter one within its own accuracy, and their forecasts may save different periods: the
+!> orbits are held against each other, beginning with whichever of their periods fits best.
 module campaign_certificate
-   use certificate, only: certificate_t
-   use certify_scene, only: certify
-   use engine, only: ending_t, request_t, start_of
-   use errors, only: error_t
-   use fine_window, only: judge_window, window_t
+   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_strikes, windows_behind
+   use certify_scene, only: nearby_orbit, tighten
+   use engine, only: motion_state_t, request_t, start_of
    use kinds, only: dp
-   use loudness, only: loudness_of_record
-   use many_motions, only: solve_motions
-   use problem, only: accelerations_of_samples, state_size
-   use rattle_class, only: note_orbit, rattle_verdict_t
+   use node_extremes, only: seen_acceleration, seen_coast_film, seen_film, seen_quantities
+   use periodic_orbit, only: attracting_period
+   use problem, only: films_of, of_film, problem_t
+   use rattle_class, only: class_irregular, note_orbit
    use resolved_scene, only: resolved_scene_t
-   use scene_status, only: is_success
-   use scene_types, only: scene_t
+   use scene_group, only: classify_group, scene_group_t, solve_group
+   use scene_status, only: is_success, status_steady
+   use scene_types, only: scene_t, spectrum_choice_t
+   use signals, only: must_stop
    use window_extremes, only: extremes_of_record
-   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
-   public :: test_class
+   !> Extremes that windows are compared by
+   integer, parameter, public :: compared(3) = [seen_film, seen_coast_film, seen_acceleration]
+
+   public :: certify_group
 
 contains
 
-   !> The certificate holds the motion that follows from its start against the same periods solved tighter. So the periods
-   !> that a forecast has saved in the campaign are solved here.
-   subroutine test_class(scene, resolved, request, verdict, certificate, error)
-      !> The scene with its varied keys set
+   !> Whether the classes of a group stand. After a signal to stop the answer is of no use.
+   subroutine certify_group(scene, resolved, choices, request, group, tight, stands)
+      !> The scene with its varied keys set, of any scene of the group
       type(scene_t), intent(in) :: scene
-      !> What follows from it
-      type(resolved_scene_t), intent(in) :: resolved
-      !> What the campaign asked of the engine
+      !> What follows from the scenes, and the limits of their classes
+      type(resolved_scene_t), intent(in) :: resolved(:)
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      !> What was asked of the engine
       type(request_t), intent(in) :: request
-      !> Verdict to be tested
-      type(rattle_verdict_t), intent(in) :: verdict
-      !> Its certificate
-      type(certificate_t), intent(out) :: certificate
-      !> Set if there is not enough memory
-      type(error_t), allocatable, intent(out) :: error
-      type(request_t) :: from_start
-      type(ending_t) :: endings(1)
-      type(window_record_t) :: records(1)
-      type(rattle_verdict_t) :: own_verdict
-      type(window_t) :: window
-      real(dp), allocatable :: states(:, :, :)
-      integer :: samples
+      !> The scenes with their classes
+      type(scene_group_t), intent(in) :: group
+      !> Work space: the tighter solutions
+      type(scene_group_t), intent(inout) :: tight
+      logical, intent(out) :: stands(:)
+      type(request_t) :: tighter
+      type(motion_state_t) :: starts(size(resolved))
+      integer, allocatable :: irregular(:)
+      logical :: wants(seen_quantities), behind(size(resolved))
+      real(dp) :: noise(size(resolved))
+      integer :: i
 
-      certificate%exists = .true.
-      from_start = request
-      from_start%forecast = .false.
-      samples = request%sampled_periods*scene%campaign%samples_per_period
-      from_start%samples_per_period = scene%campaign%samples_per_period
-      allocate (states(samples, state_size(resolved%problem), 1))
-      call solve_motions([resolved%problem], [start_of(resolved%problem)], from_start, states, endings, &
-                         records=records)
-      if (.not. is_success(endings(1)%status)) return
-      samples = endings(1)%samples
-      window%periods = samples/request%samples_per_period
-      window%samples_per_period = request%samples_per_period
-      allocate (window%states, source=states(:samples, :, 1))
-      allocate (window%accelerations(samples))
-      call accelerations_of_samples(resolved%problem, request%samples_per_period, window%states, &
-                                    window%accelerations)
-      window%record = records(1)
-      call judge_window(scene, resolved%problem, request%accuracy, resolved%noise_floor, window, own_verdict, error)
-      if (allocated(error)) return
-      call note_orbit(own_verdict, endings(1)%orbit)
-      if (own_verdict%class /= verdict%class) return
-      call certify(scene, resolved, endings(1)%periods, window, extremes_of_record(records(1)), &
-                   loudness_of_record(records(1), resolved%problem%frequency), own_verdict, certificate, error)
-      ! An irregular class does not stand where the certificate has found that the motion repeats.
-      certificate%certified = certificate%certified .and. own_verdict%class == verdict%class
-   end subroutine test_class
+      tighter = request
+      starts = start_of(resolved%problem)
+      call tighten(scene, tighter%accuracy, starts(1)%implicit)
+      starts%implicit = starts(1)%implicit
+      noise = resolved%noise_floor_at(tighter%accuracy)
+      wants = .false.
+      wants(compared) = .true.
+      call solve_group(resolved%problem, starts, tighter, wants, tight)
+      call classify_group(resolved%problem, choices, noise, tighter, tight)
+      stands = .false.
+      behind = .false.
+      do i = 1, size(resolved)
+         if (must_stop()) return
+         if (.not. (is_success(group%endings(i)%status) .and. is_success(tight%endings(i)%status))) cycle
+         if (tight%verdicts(i)%class == class_irregular) &
+            call note_orbit(tight%verdicts(i), attracting_period(nearby_orbit(resolved(i)%problem, tight%endings(i))))
+         stands(i) = class_stands(resolved(i), choices(i), tighter, i, noise(i), group, tight)
+         behind(i) = stands(i) .and. group%verdicts(i)%class == class_irregular
+      end do
+      if (.not. any(behind)) return
+      irregular = pack([(i, i=1, size(resolved))], behind)
+      call look_behind(resolved(irregular)%problem, choices(irregular), noise(irregular), tighter, irregular, &
+                       tight%endings(irregular)%motion_state_t, tight, stands)
+   end subroutine certify_group
+
+   !> Whether the class of a scene stands as far as its window tells.
+   logical function class_stands(resolved, choice, tighter, place, tight_noise, group, tight)
+      type(resolved_scene_t), intent(in) :: resolved
+      type(spectrum_choice_t), intent(in) :: choice
+      !> What was asked of the tighter solution
+      type(request_t), intent(in) :: tighter
+      !> Of the scene in both groups
+      integer, intent(in) :: place
+      !> Acceleration that the errors of the tighter solution explain [m/s2]
+      real(dp), intent(in) :: tight_noise
+      type(scene_group_t), intent(in) :: group
+      type(scene_group_t), intent(in) :: tight
+      type(certificate_t) :: certificate
+      character(:), allocatable :: unclosed
+      integer, allocatable :: same(:)
+
+      associate (record => group%records(place), tight_record => tight%records(place), verdict => group%verdicts(place), &
+                 tight_verdict => tight%verdicts(place), problem => resolved%problem, &
+                 samples => group%endings(place)%samples, tight_samples => tight%endings(place)%samples)
+         unclosed = closing_sentence(record, problem%frequency, problem%mass, resolved%noise_floor)
+         if (len(unclosed) == 0) unclosed = closing_sentence(tight_record, problem%frequency, problem%mass, tight_noise)
+         if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, samples/tighter%samples_per_period)
+         class_stands = len(unclosed) == 0 .and. verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient
+         if (.not. class_stands) return
+         same = same_phase(group%states(:samples, of_film, place), tight%states(:tight_samples, of_film, place), &
+                           tighter%samples_per_period, &
+                           group%endings(place)%status == status_steady .or. tight%endings(place)%status == status_steady)
+         call compare_windows(films_of(problem, group%states(:samples, :, place)), &
+                              films_of(problem, tight%states(same, :, place)), extremes_of_record(record), &
+                              extremes_of_record(tight_record), verdict, tight_verdict, unclosed, choice, &
+                              choice%certificate_tolerance, tighter%accuracy, tight_noise, certificate)
+         class_stands = certificate%certified
+      end associate
+   end function class_stands
+
+   !> Which samples of the tighter solution stand at the times of those of the scene.
+   pure function same_phase(films, tight_films, samples_per_period, repeat) result(same)
+      !> Films of both windows [m]
+      real(dp), intent(in) :: films(:)
+      real(dp), intent(in) :: tight_films(:)
+      integer, intent(in) :: samples_per_period
+      !> Whether one of the motions repeats: then its window begins with any period of its orbit
+      logical, intent(in) :: repeat
+      integer :: same(size(films)), shifted(size(films)), shift, i
+      real(dp) :: nearest, distance
+
+      nearest = huge(1.0_dp)
+      do shift = 0, merge(size(tight_films)/samples_per_period - 1, 0, repeat)
+         shifted = [(modulo(i - 1 + shift*samples_per_period, size(tight_films)) + 1, i=1, size(films))]
+         distance = maxval(abs(films - tight_films(shifted)))
+         if (shift > 0 .and. .not. distance < nearest) cycle
+         nearest = distance
+         same = shifted
+      end do
+   end function same_phase
+
+   !> See that motions stay irregular behind their windows.
+   subroutine look_behind(problems, choices, noise_floors, request, place, states, group, stands)
+      !> The irregular motions
+      type(problem_t), intent(in) :: problems(:)
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      real(dp), intent(in) :: noise_floors(:)
+      !> What was asked of them before
+      type(request_t), intent(in) :: request
+      !> Places of their answers
+      integer, intent(in) :: place(:)
+      !> Where they stand
+      type(motion_state_t), intent(in) :: states(:)
+      !> Work space
+      type(scene_group_t), intent(inout) :: group
+      logical, intent(inout) :: stands(:)
+      type(request_t) :: window
+      type(motion_state_t), allocatable :: starts(:)
+      integer, allocatable :: left(:)
+      logical :: wants(seen_quantities)
+      integer :: i, k
+
+      window = request_t(accuracy=request%accuracy, periods=request%sampled_periods, &
+                         samples_per_period=request%samples_per_period, sampled_periods=request%sampled_periods)
+      wants = .false.
+      allocate (left, source=[(i, i=1, size(problems))])
+      starts = states
+      do k = 1, windows_behind(window%periods)
+         starts%periods = 0
+         call solve_group(problems(left), starts, window, wants, group)
+         call classify_group(problems(left), choices(left), noise_floors(left), window, group)
+         if (must_stop()) return
+         do i = 1, size(left)
+            stands(place(left(i))) = len(doubt_behind(k, group%endings(i)%status, group%verdicts(i))) == 0
+         end do
+         starts = pack(group%endings(:size(left))%motion_state_t, stands(place(left)))
+         left = pack(left, stands(place(left)))
+         if (size(left) == 0) return
+      end do
+   end subroutine look_behind
 
 end module campaign_certificate

@@ -1,7 +1,7 @@
 !> --check of a campaign or threshold: how many scenes, how large the result, how long it may take.
 module check_campaign
    use clock, only: wall_seconds
-   use errors, only: error_t, fault_list_t
+   use errors, only: fault_list_t
    use kinds, only: dp, int64
    use prepared_campaign, only: campaign_t, prepare_campaign
    use prepared_threshold, only: points_plan, prepare_threshold, prepared_threshold_t
@@ -99,7 +99,6 @@ contains
       type(campaign_t), intent(in) :: campaign
       character(:), allocatable :: sentence
       type(chunk_space_t) :: space
-      type(error_t), allocatable :: error
       real(dp), allocatable :: rows(:, :)
       real(dp) :: started, seconds
       integer(int64) :: trial
@@ -111,10 +110,10 @@ contains
       do
          allocate (rows(size(campaign%layout%names), trial))
          started = wall_seconds()
-         call solve_scenes(scene, campaign%plan, campaign%first + (campaign%seen - trial)/2_int64, space, rows, error)
+         call solve_scenes(scene, campaign%plan, campaign%first + (campaign%seen - trial)/2_int64, space, rows)
          seconds = (wall_seconds() - started)/real(trial, dp)*real(campaign%layout%scene_count, dp)
          deallocate (rows)
-         if (must_stop() .or. allocated(error)) exit
+         if (must_stop()) exit
          sentence = 'estimated '//short_text(seconds, 2)//' s, from '//integer_text(trial)//' scenes'
          if (trial == min(512_int64, campaign%seen)) exit
          trial = min(8_int64*trial, campaign%seen)

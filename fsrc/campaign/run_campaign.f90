@@ -157,10 +157,10 @@ contains
          chunk = pending(ticket)
          call results%chunk_bounds(chunk, first_row, last_row)
          allocate (rows(size(campaign%layout%names), last_row - first_row + 1_int64))
-         call solve_scenes(scene, campaign%plan, campaign%first + first_row - 1_int64, space, rows, own_error)
+         call solve_scenes(scene, campaign%plan, campaign%first + first_row - 1_int64, space, rows)
          ! A chunk that was stopped is not written: its scenes are solved again when the run is carried on.
          if (caught_signal() /= 0) exit
-         if (.not. allocated(own_error)) call results%write_chunk(chunk, rows, own_error)
+         call results%write_chunk(chunk, rows, own_error)
          if (.not. allocated(own_error)) &
             call progress%add(last_row - first_row + 1_int64, &
                               count(.not. is_success(nint(rows(status_column, :))), kind=int64), &

@@ -107,9 +107,8 @@ contains
       allocate (outcome%rows(size(column_names(scene, threshold)), 0))
       do first = 1_int64, line_count, max(1_int64, most_scanned/size(threshold%scan, kind=int64))
          last = min(line_count, first + max(1_int64, most_scanned/size(threshold%scan, kind=int64)) - 1_int64)
-         call search_lines(scene, threshold, first, last, progress, log, outcome, error)
-         if (allocated(error)) call abort_ranks(error)
-         if (allocated(error) .or. outcome%cut) exit
+         call search_lines(scene, threshold, first, last, progress, log, outcome)
+         if (outcome%cut) exit
       end do
       progress%done = sum_over_ranks(progress%done)
       progress%failed = sum_over_ranks(progress%failed)
@@ -142,7 +141,7 @@ contains
    end subroutine report_start
 
    !> All thresholds of some lines; all ranks find the same.
-   subroutine search_lines(scene, threshold, first, last, progress, log, outcome, error)
+   subroutine search_lines(scene, threshold, first, last, progress, log, outcome)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       !> First and last line
@@ -151,8 +150,6 @@ contains
       type(campaign_progress_t), intent(inout) :: progress
       type(log_t), intent(in) :: log
       type(outcome_t), intent(inout) :: outcome
-      !> Set if there is not enough memory
-      type(error_t), allocatable, intent(out) :: error
       type(bracket_t), allocatable :: brackets(:), wide(:)
       type(point_t), allocatable :: points(:), ends(:, :)
       real(dp), allocatable :: certified(:), both(:, :)
@@ -161,8 +158,8 @@ contains
 
       scanned = size(threshold%scan)
       call solve_points(scene, threshold, [((line, i=1, scanned), line=first, last)], &
-                        [((threshold%scan(i), i=1, scanned), line=first, last)], progress, log, outcome, points, certified, error)
-      if (allocated(error) .or. outcome%cut) return
+                        [((threshold%scan(i), i=1, scanned), line=first, last)], progress, log, outcome, points, certified)
+      if (outcome%cut) return
       allocate (ends(2, last - first + 1_int64), brackets(0))
       do line = 1_int64, last - first + 1_int64
          associate (scan => points((line - 1_int64)*scanned + 1_int64:line*scanned))
@@ -173,14 +170,14 @@ contains
       do
          wide = pack(brackets, is_wide(brackets))
          if (size(wide) == 0) exit
-         call solve_points(scene, threshold, wide%line, middle(wide), progress, log, outcome, points, certified, error)
-         if (allocated(error) .or. outcome%cut) return
+         call solve_points(scene, threshold, wide%line, middle(wide), progress, log, outcome, points, certified)
+         if (outcome%cut) return
          brackets = halved(brackets, points)
       end do
       if (scene%spectrum%certify) then
          call solve_points(certifying(scene), threshold, [brackets%line, brackets%line], &
-                           [brackets%lower%place, brackets%upper%place], progress, log, outcome, points, certified, error)
-         if (allocated(error) .or. outcome%cut) return
+                           [brackets%lower%place, brackets%upper%place], progress, log, outcome, points, certified)
+         if (outcome%cut) return
       end if
       allocate (both(size(brackets), 2), source=0.0_dp)
       if (scene%spectrum%certify) both = reshape(certified, [size(brackets), 2])
@@ -196,7 +193,7 @@ contains
    end function certifying
 
    !> Solve scenes at some places of some lines, on the threads of all ranks. What is found does not depend on their number.
-   subroutine solve_points(scene, threshold, lines, places, progress, log, outcome, points, certified, error)
+   subroutine solve_points(scene, threshold, lines, places, progress, log, outcome, points, certified)
       !> With what is to be recorded: the quantity, and `certified` or nothing behind it
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
@@ -210,15 +207,11 @@ contains
       type(point_t), allocatable, intent(out) :: points(:)
       !> Whether each class is certified: 1, 0, NaN: there is none; empty if that is not recorded
       real(dp), allocatable, intent(out) :: certified(:)
-      !> Set if there is not enough memory
-      type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: own_error
       type(sample_plan_t) :: plan
       type(chunk_space_t) :: space
       real(dp), allocatable :: rows(:, :), part(:, :)
       integer(int64) :: ticket, first, last, taken
       integer :: i, status
-      logical :: failed
 
       allocate (points(0), certified(0))
       if (size(lines) == 0) return
@@ -229,32 +222,24 @@ contains
       taken = max(int(fewest_taken, int64), min(int(most_taken, int64), taken))
       progress%scenes = progress%scenes + plan%size
       call renew_tickets()
-      failed = .false.
-      !$omp parallel default(shared) private(ticket, first, last, part, space, own_error)
+      !$omp parallel default(shared) private(ticket, first, last, part, space)
       do
-         if (caught_signal() /= 0 .or. failed) exit
+         if (caught_signal() /= 0) exit
          ticket = next_ticket()
          first = (ticket - 1_int64)*taken + 1_int64
          if (first > plan%size) exit
          last = min(plan%size, first + taken - 1_int64)
          allocate (part(size(rows, 1), last - first + 1_int64))
-         call solve_scenes(scene, plan, first, space, part, own_error)
+         call solve_scenes(scene, plan, first, space, part)
          if (caught_signal() /= 0) exit
          rows(:, first:last) = part
          call progress%add(last - first + 1_int64, count(.not. is_success(nint(part(status, :))), kind=int64), 0_int64, 0_int64)
          deallocate (part)
-         if (allocated(own_error)) then
-            !$omp critical (threshold_error)
-            failed = .true.
-            if (.not. allocated(error)) call move_alloc(own_error, error)
-            !$omp end critical (threshold_error)
-         end if
          if (this_rank() == 0) then
             if (omp_get_thread_num() == 0) call progress%tell(log)
          end if
       end do
       !$omp end parallel
-      if (allocated(error)) return
       call wait_for_ranks()
       outcome%cut = sum_over_ranks(int(merge(1, 0, caught_signal() /= 0), int64)) > 0_int64
       if (outcome%cut) return

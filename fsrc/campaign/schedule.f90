@@ -10,9 +10,9 @@ module schedule
    !> Chunks that a large campaign is cut into, at least
    integer(int64), parameter :: wanted_chunks = 512_int64
    !> Most periods of all scenes of a chunk together. A period takes 10 to 30 microseconds, one of long flights and hard
-   !> impacts up to 330; with a certificate it takes up to sixty times as long. So a chunk is done within a minute and a
+   !> impacts up to 330; with a certificate it takes up to four times as long. So a chunk is done within a minute and a
    !> half: a time limit of two minutes always lets a campaign go on.
-   real(dp), parameter :: most_periods = 2.0_dp**18, most_certified_periods = 2.0_dp**13
+   real(dp), parameter :: most_periods = 2.0_dp**18, most_certified_periods = 2.0_dp**16
 
    public :: chunk_rows_for, cost_order
 

@@ -2,20 +2,20 @@
 !> method solved it first, sampled finely enough for its lines; and the periodic motion behind it with its Floquet
 !> multipliers.
 module certify_scene
-   use certificate, only: certificate_t, closing_sentence, compare_windows, loudness_error, no_certificate
+   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_strikes, loudness_error, &
+      no_certificate, windows_behind
    use engine, only: ending_t, motion_state_t, numbers_of, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
    use loudness, only: loudness_of_record, loudness_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
-   use quantities, only: quantity_rattle_class, quantity_word
    use problem, only: films_of, problem_t
    use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
    use scene_types, only: method_newmark, method_taylor, scene_t
-   use text, only: counted, integer_text
+   use text, only: integer_text
    use window_extremes, only: extremes_of_record, window_extremes_t
    implicit none(type, external)
    private
@@ -24,13 +24,8 @@ module certify_scene
    real(dp), parameter :: tight_accuracy = 1.0e-10_dp, tightest_accuracy = 1.0e-12_dp
    !> A periodic motion farther away than this is not that of the scene [-].
    real(dp), parameter :: orbit_nearness = 0.02_dp
-   !> Windows behind the one that is judged, and periods of them together, at least, in which a motion has to be irregular too.
-   integer, parameter :: least_windows_behind = 4, least_periods_behind = 32
-   !> Reversals of the acceleration that an irregular window holds at least, four strikes: of fewer the next window, or the
-   !> same one solved otherwise, may hold none.
-   real(dp), parameter :: least_reversals = 8.0_dp
 
-   public :: certify
+   public :: certify, tighten, nearby_orbit
 
 contains
 
@@ -63,13 +58,8 @@ contains
       character(:), allocatable :: unclosed
       real(dp) :: accuracy
 
-      accuracy = tight_accuracy
       start = start_of(resolved%problem)
-      if (scene%solver%method == method_taylor) then
-         accuracy = min(accuracy, max(tightest_accuracy, 0.01_dp*scene%solver%accuracy))
-         ! Where there is no room for a tighter solution, another method tells the errors.
-         if (accuracy > 0.05_dp*scene%solver%accuracy) start%implicit = .true.
-      end if
+      call tighten(scene, accuracy, start%implicit)
       tight%periods = window%periods
       tight%samples_per_period = window%samples_per_period
       call solve_whole_window(scene, resolved%problem, start, accuracy, periods, resolved%noise_floor_at(accuracy), tight, &
@@ -80,7 +70,7 @@ contains
          return
       end if
       if (present(orbit) .or. tight_verdict%class == class_irregular) then
-         found = find_periodic_orbit(resolved%problem, numbers_of(ending), orbit_nearness)
+         found = nearby_orbit(resolved%problem, ending)
          call note_orbit(verdict, attracting_period(found))
          call note_orbit(tight_verdict, attracting_period(found))
       end if
@@ -91,12 +81,9 @@ contains
                                                             resolved%noise_floor_at(accuracy))
       if (len(unclosed) == 0 .and. .not. (verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient)) &
          unclosed = too_few_samples(scene, tight)
+      if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, window%periods)
       if (len(unclosed) == 0 .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
-         if (min(verdict%reversals_per_period, tight_verdict%reversals_per_period)*real(window%periods, dp) < least_reversals) &
-            unclosed = 'The window holds too few strikes to tell an irregular motion; more of spectrum.periods would.'
-         if (len(unclosed) == 0) &
-            call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, &
-                             error)
+         call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
          if (allocated(error)) return
       end if
       associate (stride => tight%samples_per_period/window%samples_per_period)
@@ -108,8 +95,34 @@ contains
       certificate%loudness_error = loudness_error(loudness, loudness_of_record(tight%record, resolved%problem%frequency), accuracy)
    end subroutine certify
 
-   !> Whether a motion stays irregular behind its window. One that strikes now and then may be quiet for a window and irregular
-   !> in the next: then the class is that of the window, not of the motion.
+   !> How a scene is solved tighter.
+   pure subroutine tighten(scene, accuracy, by_collocation)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Relative accuracy [-]
+      real(dp), intent(out) :: accuracy
+      !> Whether by the implicit method, whatever the film law
+      logical, intent(out) :: by_collocation
+
+      accuracy = tight_accuracy
+      by_collocation = .false.
+      if (scene%solver%method /= method_taylor) return
+      accuracy = min(accuracy, max(tightest_accuracy, 0.01_dp*scene%solver%accuracy))
+      ! Where there is no room for a tighter solution, another method tells the errors.
+      by_collocation = accuracy > 0.05_dp*scene%solver%accuracy
+   end subroutine tighten
+
+   !> The periodic motion at the end of a run, if there is one.
+   type(periodic_orbit_t) function nearby_orbit(problem, ending)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> Where its motion ended
+      type(ending_t), intent(in) :: ending
+
+      nearby_orbit = find_periodic_orbit(problem, numbers_of(ending), orbit_nearness)
+   end function nearby_orbit
+
+   !> Whether a motion stays irregular behind its window.
    subroutine look_behind(scene, problem, accuracy, noise_floor, judged, ending, reason, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
@@ -131,22 +144,16 @@ contains
       type(ending_t) :: last
       type(window_t) :: window
       type(rattle_verdict_t) :: verdict
-      integer :: windows, i
+      integer :: i
 
       last = ending
-      windows = max(least_windows_behind, (least_periods_behind - 1)/judged%periods + 1)
-      do i = 1, windows
+      do i = 1, windows_behind(judged%periods)
          window = window_t(periods=judged%periods, samples_per_period=judged%samples_per_period)
          start = last%motion_state_t
          start%periods = 0
          call solve_whole_window(scene, problem, start, accuracy, judged%periods, noise_floor, window, verdict, last, error)
          if (allocated(error)) return
-         if (.not. is_success(last%status)) then
-            reason = 'Behind the window the motion ends as '//status_name(last%status)//'.'
-         else if (verdict%class /= class_irregular) then
-            reason = 'The class is that of this window: '//counted(i, 'window')//' later the motion is '// &
-                     quantity_word(quantity_rattle_class, verdict%class)//'.'
-         end if
+         reason = doubt_behind(i, last%status, verdict)
          if (len(reason) > 0) return
       end do
    end subroutine look_behind

@@ -89,7 +89,7 @@ contains
       type(window_t) :: finer
       type(ending_t) :: ending
 
-      call classify_window(scene, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
+      call classify_window(scene%spectrum, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
       do while (.not. verdict%lines%sampling_sufficient .and. window%record%shortest_piece > least_piece)
          if (2*window%samples_per_period > most_samples_per_period .or. 2*size(window%accelerations) > most_samples) exit
          call expect_window_memory(2*size(window%accelerations), error)
@@ -100,7 +100,7 @@ contains
                            finer%states, finer%accelerations, ending, finer%record)
          if (.not. is_success(ending%status)) exit
          window = finer
-         call classify_window(scene, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
+         call classify_window(scene%spectrum, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
       end do
       window%by_integrals = .not. verdict%lines%sampling_sufficient
       if (window%by_integrals) call judge_by_integrals(scene, problem, accuracy, noise_floor, window, verdict)
@@ -144,9 +144,9 @@ contains
    end function integral_record
 
    !> Class of a window by its samples, and whether they are enough: their mean and their power must be those of the steps.
-   subroutine classify_window(scene, problem, periods, accelerations, record, noise_floor, verdict)
-      !> Checked scene
-      type(scene_t), intent(in) :: scene
+   subroutine classify_window(spectrum, problem, periods, accelerations, record, noise_floor, verdict)
+      !> Limits of the classes
+      type(spectrum_choice_t), intent(in) :: spectrum
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Periods of the window
@@ -161,7 +161,7 @@ contains
       type(rattle_verdict_t), intent(out) :: verdict
       type(spectrum_choice_t) :: choice
 
-      choice = scene%spectrum
+      choice = spectrum
       choice%periods = periods
       call classify(accelerations, choice, noise_floor, verdict)
       associate (lines => verdict%lines)

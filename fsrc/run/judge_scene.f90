@@ -57,7 +57,7 @@ contains
       allocate (window%states, source=recorder%states)
       allocate (window%accelerations, source=recorder%accelerations)
       window%record = record
-      call classify_window(scene, judged%resolved%problem, window%periods, window%accelerations, window%record, &
+      call classify_window(scene%spectrum, judged%resolved%problem, window%periods, window%accelerations, window%record, &
                            judged%resolved%noise_floor, judged%rattle)
       ! A signal ends the verdict on a long window here, between two stretches of some seconds.
       judged%judged = .not. must_stop()

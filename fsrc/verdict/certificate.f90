@@ -5,8 +5,9 @@ module certificate
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
    use quantities, only: quantity_rattle_class, quantity_word
    use rattle_class, only: class_irregular, class_subharmonic, rattle_verdict_t
+   use scene_status, only: is_success, status_name
    use scene_types, only: spectrum_choice_t
-   use text, only: integer_text, short_text
+   use text, only: counted, integer_text, short_text
    use window_extremes, only: window_extremes_t
    use window_record, only: energy_gap, momentum_gap, window_record_t
    implicit none(type, external)
@@ -44,8 +45,14 @@ module certificate
    real(dp), parameter :: tight_share = 10.0_dp
    !> Share of the flow of momentum, or of energy, by which a window that closes may miss.
    real(dp), parameter :: closing_share = 1.0e-3_dp
+   !> Windows behind the one that is judged, and periods of them together, at least, in which a motion has to be irregular too.
+   integer, parameter :: least_windows_behind = 4, least_periods_behind = 32
+   !> Reversals of the acceleration that an irregular window holds at least, four strikes: of fewer the next window, or the
+   !> same one solved otherwise, may hold none.
+   real(dp), parameter :: least_reversals = 8.0_dp
 
-   public :: compare_windows, loudness_error, no_certificate, certificate_word, closing_sentence
+   public :: compare_windows, loudness_error, no_certificate, certificate_word, closing_sentence, doubt_of_strikes, &
+             windows_behind, doubt_behind
 
 contains
 
@@ -202,6 +209,48 @@ contains
                   short_text(-record%force_work, 3)//' J.'
       end if
    end function closing_sentence
+
+   !> Why a window is too short to tell an irregular motion, empty if it is not, or the motion is another one.
+   pure function doubt_of_strikes(verdict, tight_verdict, periods) result(reason)
+      !> Verdicts of a scene and of its tighter solution
+      type(rattle_verdict_t), intent(in) :: verdict
+      type(rattle_verdict_t), intent(in) :: tight_verdict
+      !> Periods of the window
+      integer, intent(in) :: periods
+      character(:), allocatable :: reason
+
+      reason = ''
+      if (verdict%class /= class_irregular .or. tight_verdict%class /= class_irregular) return
+      if (min(verdict%reversals_per_period, tight_verdict%reversals_per_period)*real(periods, dp) < least_reversals) &
+         reason = 'The window holds too few strikes to tell an irregular motion; more of spectrum.periods would.'
+   end function doubt_of_strikes
+
+   !> How many windows behind the one that is judged a motion has to be irregular in too. One that strikes now and then may be
+   !> quiet for a window and irregular in the next: then the class is that of the window, not of the motion.
+   pure integer function windows_behind(periods)
+      !> Periods of a window
+      integer, intent(in) :: periods
+
+      windows_behind = max(least_windows_behind, (least_periods_behind - 1)/periods + 1)
+   end function windows_behind
+
+   !> Why a motion is not irregular behind its window, empty if it is.
+   pure function doubt_behind(windows, status, verdict) result(reason)
+      !> Windows behind the one that was judged
+      integer, intent(in) :: windows
+      !> How this one ended, and its verdict
+      integer, intent(in) :: status
+      type(rattle_verdict_t), intent(in) :: verdict
+      character(:), allocatable :: reason
+
+      reason = ''
+      if (.not. is_success(status)) then
+         reason = 'Behind the window the motion ends as '//status_name(status)//'.'
+      else if (verdict%class /= class_irregular) then
+         reason = 'The class is that of this window: '//counted(windows, 'window')//' later the motion is '// &
+                  quantity_word(quantity_rattle_class, verdict%class)//'.'
+      end if
+   end function doubt_behind
 
    !> Whether a limit of the classes lies within the errors of the lines.
    pure function doubt_of_limits(verdict, tight_verdict, errors, choice) result(reason)

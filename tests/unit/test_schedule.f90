@@ -62,7 +62,7 @@ contains
 
    end subroutine test_chunk_rows
 
-   !> Long scenes make small chunks, 262144 periods at most, 8192 with certificates, but never fewer than 8 scenes.
+   !> Long scenes make small chunks, 262144 periods at most, 65536 with certificates, but never fewer than 8 scenes.
    subroutine test_long_scenes(checks)
       type(check_list_t), intent(inout) :: checks
 
@@ -70,8 +70,8 @@ contains
       call checks%check(chunk_rows_for(1_int64, 1025.0_dp, .false.) == 128, '128 scenes of 1025 periods')
       call checks%check(chunk_rows_for(huge(1_int64), 400.0_dp, .false.) == 512, '512 scenes of 400 periods')
       call checks%check(chunk_rows_for(1_int64, 1.0e9_dp, .false.) == 8, '8 scenes at least')
-      call checks%check(chunk_rows_for(1_int64, 32.0_dp, .true.) == 256, '256 certified scenes of 32 periods')
-      call checks%check(chunk_rows_for(1_int64, 33.0_dp, .true.) == 128, '128 certified scenes of 33 periods')
+      call checks%check(chunk_rows_for(1_int64, 256.0_dp, .true.) == 256, '256 certified scenes of 256 periods')
+      call checks%check(chunk_rows_for(1_int64, 257.0_dp, .true.) == 128, '128 certified scenes of 257 periods')
    end subroutine test_long_scenes
 
 end module test_schedule

@@ -1,0 +1,147 @@
+!> Scenes that are solved side by side: the samples of their windows, what the steps tell of them, and their classes.
+module scene_group
+   use engine, only: ending_t, motion_state_t, request_t
+   use fine_window, only: classify_window, integral_record
+   use kinds, only: dp
+   use many_motions, only: solve_motions
+   use node_extremes, only: seen_quantities
+   use problem, only: accelerations_of_samples, problem_t, state_size
+   use rattle_class, only: classify_steps, note_orbit, rattle_verdict_t
+   use scene_status, only: is_success
+   use scene_types, only: spectrum_choice_t
+   use signals, only: must_stop
+   use window_record, only: window_record_t
+   implicit none(type, external)
+   private
+
+   !> Solved scenes. The arrays are kept from group to group, since the system takes its time to hand out fresh memory: they may
+   !> be longer than the group.
+   type, public :: scene_group_t
+      !> Sample, number of its state, scene
+      real(dp), allocatable :: states(:, :, :)
+      !> How the motions ended
+      type(ending_t), allocatable :: endings(:)
+      !> What the steps of the windows tell
+      type(window_record_t), allocatable :: records(:)
+      !> Classes of the motions that have a window
+      type(rattle_verdict_t), allocatable :: verdicts(:)
+      !> z'' of one scene [m/s2]
+      real(dp), allocatable, private :: accelerations(:)
+   end type scene_group_t
+
+   public :: solve_group, classify_group
+
+contains
+
+   !> Solve scenes side by side.
+   subroutine solve_group(problems, starts, request, wants, group)
+      !> What moves, and where each motion starts
+      type(problem_t), intent(in) :: problems(:)
+      type(motion_state_t), intent(in) :: starts(:)
+      !> What is asked of the engine
+      type(request_t), intent(in) :: request
+      !> Extremes that are asked for, by the codes of node_extremes
+      logical, intent(in) :: wants(seen_quantities)
+      !> The scenes, without their classes
+      type(scene_group_t), intent(inout) :: group
+      type(window_record_t) :: blank
+      integer :: samples, numbers, n, i
+
+      n = size(problems)
+      samples = max(1, request%sampled_periods*request%samples_per_period)
+      numbers = maxval(state_size(problems))
+      if (allocated(group%states)) then
+         if (size(group%states, 1) < samples .or. size(group%states, 2) /= numbers .or. size(group%states, 3) < n) &
+            deallocate (group%states, group%endings, group%records, group%verdicts, group%accelerations)
+      end if
+      if (.not. allocated(group%states)) &
+         allocate (group%states(samples, numbers, n), group%endings(n), group%records(n), group%verdicts(n), &
+                   group%accelerations(samples))
+      blank%wants = wants
+      do i = 1, n
+         group%records(i) = blank
+      end do
+      call solve_motions(problems, starts, request, group%states(:, :, :n), group%endings(:n), records=group%records(:n))
+   end subroutine solve_group
+
+   !> Classes of the windows, by their samples, and where these are too few by integrals over the steps. After a signal to stop
+   !> they are of no use.
+   subroutine classify_group(problems, choices, noise_floors, request, group)
+      !> What moves
+      type(problem_t), intent(in) :: problems(:)
+      !> Limits of the classes, scene by scene
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      !> Accelerations that the errors of the solutions explain [m/s2]
+      real(dp), intent(in) :: noise_floors(:)
+      !> What was asked of the engine
+      type(request_t), intent(in) :: request
+      !> The solved scenes; their classes are added
+      type(scene_group_t), intent(inout) :: group
+      type(window_record_t), allocatable :: windows(:)
+      integer, allocatable :: number(:)
+      logical :: coarse(size(problems))
+      integer :: i
+
+      coarse = .false.
+      do i = 1, size(problems)
+         if (must_stop()) return
+         if (.not. is_success(group%endings(i)%status)) cycle
+         associate (samples => group%endings(i)%samples, verdict => group%verdicts(i))
+            call accelerations_of_samples(problems(i), request%samples_per_period, group%states(:samples, :, i), &
+                                          group%accelerations(:samples))
+            call classify_window(choices(i), problems(i), samples/request%samples_per_period, group%accelerations(:samples), &
+                                 group%records(i), noise_floors(i), verdict)
+            coarse(i) = .not. verdict%lines%sampling_sufficient
+         end associate
+      end do
+      if (any(coarse)) then
+         number = pack([(i, i=1, size(problems))], coarse)
+         windows = integral_windows(choices(number), problems(number), group%endings(number), group%records(number), request)
+         do i = 1, size(number)
+            if (windows(i)%periods > 0) &
+               call classify_steps(windows(i), problems(number(i))%frequency, choices(number(i)), noise_floors(number(i)), &
+                                   group%verdicts(number(i)))
+         end do
+      end if
+      do i = 1, size(problems)
+         if (is_success(group%endings(i)%status)) call note_orbit(group%verdicts(i), group%endings(i)%orbit)
+      end do
+   end subroutine classify_group
+
+   !> Records of some windows with Fourier integrals. The windows are solved again from where they begin, side by side; a window
+   !> that cannot be has no periods in its record.
+   function integral_windows(choices, problems, endings, records, asked) result(windows)
+      !> Limits of the classes
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      !> The motions, how they ended and what the steps of their windows told
+      type(problem_t), intent(in) :: problems(:)
+      type(ending_t), intent(in) :: endings(:)
+      type(window_record_t), intent(in) :: records(:)
+      !> What was asked of the engine
+      type(request_t), intent(in) :: asked
+      type(window_record_t) :: windows(size(problems))
+      type(motion_state_t) :: starts(size(problems))
+      type(request_t) :: request
+      type(ending_t) :: ended(size(problems))
+      integer :: periods(size(problems)), i
+      real(dp), allocatable :: states(:, :, :)
+
+      periods = endings%samples/asked%samples_per_period
+      request%accuracy = asked%accuracy
+      request%periods = maxval(periods)
+      request%sampled_periods = request%periods
+      request%samples_per_period = 1
+      request%every_period = .true.
+      do i = 1, size(problems)
+         starts(i) = records(i)%start
+         starts(i)%periods = request%periods - periods(i)
+         windows(i) = integral_record(choices(i))
+      end do
+      allocate (states(request%periods, maxval(state_size(problems)), size(problems)), source=0.0_dp)
+      call solve_motions(problems, starts, request, states, ended, records=windows)
+      do i = 1, size(problems)
+         if (.not. is_success(ended(i)%status)) windows(i)%periods = 0
+      end do
+   end function integral_windows
+
+end module scene_group
