@@ -153,8 +153,32 @@ def test_gaps_cover_the_scenes_that_failed_or_are_not_done(made, tmp_path):
         f"film lost ({look.share(int(lost.sum()), 300)})",
         f"no rigid film ({look.share(int(rigid.sum()), 300)})",
         f"not done ({look.share(20, 300)})",
+        f"not certified ({look.share(int((done & (shown_grid(made, 'certified') == 0.0)).sum()), 300)})",
     ]
     assert axes.get_title(loc="left") == "Rattle class, campaign map, 280 of 300 scenes"
+
+
+@pytest.mark.parametrize("column", ["rattle_class", "film_minimum"])
+def test_what_is_not_certified_is_hatched_over_its_colour(made, tmp_path, column):
+    figure = draw_map(read(made, tmp_path), column, contours=())
+    axes, lacking = figure.axes[0], shown_grid(made, "certified") == 0.0
+    np.testing.assert_array_equal(hatched(axes)[look.UNCERTAIN_HATCH], lacking)
+    for area in axes.collections:
+        if isinstance(area, QuadContourSet) and area.filled and area.hatches[0] == look.UNCERTAIN_HATCH:
+            assert (area.get_facecolor()[:, 3] == 0.0).all()
+    assert f"not certified ({look.share(int(lacking.sum()), 300)})" in drawn.legend_words(figure)
+
+
+def test_a_map_of_certificates_needs_no_hatch(made, tmp_path):
+    figure = draw_map(read(made, tmp_path), "certified", contours=())
+    assert look.UNCERTAIN_HATCH not in hatched(figure.axes[0])
+
+
+def test_every_class_certified_leaves_no_hatch(made, tmp_path):
+    made.column("certified")[:] = 1.0
+    figure = draw_map(read(made, tmp_path), "rattle_class", contours=())
+    assert look.UNCERTAIN_HATCH not in hatched(figure.axes[0])
+    assert not any("certified" in words for words in drawn.legend_words(figure))
 
 
 def bilinear(x: np.ndarray, y: np.ndarray, values: np.ndarray, point: np.ndarray) -> float:
@@ -164,6 +188,7 @@ def bilinear(x: np.ndarray, y: np.ndarray, values: np.ndarray, point: np.ndarray
 
 
 def test_contours_lie_where_their_labels_say(made, tmp_path):
+    made.column("certified")[:] = 1.0
     figure = draw_map(read(made, tmp_path), "rattle_class")
     (axes,) = figure.axes
     sets = [one for one in axes.collections if isinstance(one, QuadContourSet) and not one.filled]
@@ -221,7 +246,7 @@ def test_dots_stand_at_their_scenes(tmp_path):
             read(made, tmp_path), FORCE, SPEED, "film_minimum", campaign_map.Options(contours=())
         )
     axes, bar = figure.axes
-    dots, *crosses = (one for one in axes.collections if isinstance(one, PathCollection))
+    dots, *crosses, rings = (one for one in axes.collections if isinstance(one, PathCollection))
     status, film = made.column("status"), made.column("film_minimum")
     places = np.column_stack([made.column(FORCE), made.column(SPEED)])
     known = status == 1.0
@@ -229,9 +254,13 @@ def test_dots_stand_at_their_scenes(tmp_path):
     np.testing.assert_allclose(dots.get_array(), 1e6 * film[known])
     for marks, code in zip(crosses, (3.0, 4.0), strict=True):
         np.testing.assert_allclose(marks.get_offsets(), places[status == code])
+    lacking = made.column("certified") == 0.0
+    np.testing.assert_allclose(rings.get_offsets(), places[lacking])
+    assert rings.get_facecolor().size == 0
     assert bar.get_ylabel() == "Film minimum [\N{MICRO SIGN}m]"
     lost, rigid = (int((status == code).sum()) for code in (3.0, 4.0))
-    assert drawn.legend_words(figure) == [f"film lost ({lost})", f"no rigid film ({rigid})"]
+    gaps = [f"film lost ({lost})", f"no rigid film ({rigid})"]
+    assert drawn.legend_words(figure) == [*gaps, f"not certified ({int(lacking.sum())})"]
     assert (axes.get_xscale(), axes.get_yscale()) == ("linear", "log")
     forces, speeds = made.column(FORCE), np.log(made.column(SPEED))
     room = 0.03 * np.ptp(forces)
@@ -282,6 +311,8 @@ def test_a_slice_shows_its_columns_over_bands_of_the_classes(made, tmp_path):
         assert bands.get((colour, None), []) == list(expected)
     assert bands[(look.GAP_COLOUR, look.HATCHES[0])] == list(np.flatnonzero(status == 3.0))
     assert bands[(look.GAP_COLOUR, look.NOT_DONE_HATCH)] == [14]
+    lacking = np.flatnonzero(shown_grid(made, "certified")[:14, 19] == 0.0)
+    assert lacking.size and bands[("#000000", look.UNCERTAIN_HATCH)] == list(lacking)
 
 
 def test_a_slice_is_logarithmic_over_more_than_two_decades(made, tmp_path):

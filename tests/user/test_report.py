@@ -254,7 +254,7 @@ def test_a_campaign_is_counted(run, scene_text, tmp_path, record):
     if with_certificates:
         certified = int((campaign["certified"] == 1.0).sum())
         assert f"certified in {certified} scenes" in page.verdicts[0]
-        assert f"In {20 - certified} it is uncertain" in page.verdicts[0]
+        assert f"{20 - certified} of 20 scenes are not certified." in page.verdicts[0]
     else:
         assert "was not recorded" in page.verdicts[0]
         assert "certified" not in page.verdicts[0]

@@ -42,6 +42,8 @@ HATCH_COLOUR = "#777777"
 HATCHES = ("xxxx", "////", "\\\\\\\\", "++++", "||||", "----", "oo")
 NOT_DONE_HATCH = "...."
 UNKNOWN_HATCH = "**"
+UNCERTAIN_HATCH = "//////"
+UNCERTAIN_WORDS = "not certified"
 MICROMETRES = "\N{MICRO SIGN}m"
 
 
@@ -80,6 +82,18 @@ def gaps(campaign: Campaign, column: str) -> list[Gap]:
     if rest.any():
         found.append(Gap(f"{short_name(column)} unknown", UNKNOWN_HATCH, rest))
     return found
+
+
+def uncertain(campaign: Campaign, column: str) -> np.ndarray:
+    """Scenes whose class is not certified, for a map of what their motion is."""
+    if column in ("certified", "status") or "certified" not in campaign:
+        return np.zeros(campaign.row_count, dtype=bool)
+    return campaign.done & (campaign["certified"] == 0.0)
+
+
+def uncertain_patch(words: str) -> Patch:
+    """What a scene that is not certified looks like in a legend: hatched, whatever its colour."""
+    return Patch(facecolor="none", edgecolor="black", hatch=UNCERTAIN_HATCH, linewidth=0.6, label=words)
 
 
 def gap_patch(words: str, hatch: str) -> Patch:

@@ -68,7 +68,7 @@ def draw_points(campaign: Campaign, x: str, y: str, column: str, options: Option
 def draw_cells(
     axes: Axes, section: Section, column: str, colours: str = "auto"
 ) -> tuple[list[Patch], ScalarMappable | None]:
-    """Coloured cells and hatched gaps; returns legend entries, or what a colour bar needs."""
+    """Coloured cells, gaps and doubts hatched; returns legend entries, or what a colour bar needs."""
     campaign = section.campaign
     x, y = section.free
     factor, _ = look.column_scale(campaign, column)
@@ -86,6 +86,7 @@ def draw_cells(
     for gap in look.gaps(campaign, column):
         handles += _hatch(axes, edges, section.mask(gap.scenes), gap.words, gap.hatch)
     handles += _hatch(axes, edges, ~done, "not done", look.NOT_DONE_HATCH)
+    handles += _hatch_uncertain(axes, edges, section.mask(look.uncertain(campaign, column)))
     look.set_axis(axes, "x", x, to_edges=True)
     look.set_axis(axes, "y", y, to_edges=True)
     return handles, drawn
@@ -94,7 +95,7 @@ def draw_cells(
 def scatter(
     axes: Axes, campaign: Campaign, x: str, y: str, column: str, colours: str = "auto"
 ) -> tuple[list, ScalarMappable | None]:
-    """A coloured dot for each scene, a cross for each that failed."""
+    """A coloured dot for each scene, a cross for each that failed, a ring for each not certified."""
     factor, _ = look.column_scale(campaign, column)
     values = factor * campaign[column]
     known = campaign.done & ~campaign.failed & np.isfinite(values)
@@ -124,6 +125,14 @@ def scatter(
         )
         words = f"{gap.words} ({int(gap.scenes.sum())})"
         handles.append(Line2D([], [], marker=marker, linestyle="", color="black", markersize=5, label=words))
+    uncertain = look.uncertain(campaign, column)
+    if uncertain.any():
+        ring = {"marker": "o", "facecolors": "none", "edgecolors": "black"}
+        axes.scatter(
+            campaign[x][uncertain], campaign[y][uncertain], s=3 * size, linewidths=0.7, zorder=3, **ring
+        )
+        words = f"{look.UNCERTAIN_WORDS} ({int(uncertain.sum())})"
+        handles.append(Line2D([], [], marker="o", linestyle="", color="black", fillstyle="none", label=words))
     for which, key in (("x", x), ("y", y)):
         look.set_axis(axes, which, campaign.axis(key), to_edges=False)
     return handles, drawn
@@ -267,12 +276,30 @@ def _hatch(axes: Axes, edges: Sequence[np.ndarray], where: np.ndarray, words: st
     """Hatch the cells where a condition holds; `where` has the indices x, y."""
     if not where.any():
         return []
-    # Every cell becomes a square of four equal corners, so the border follows the cells exactly.
-    corners = [np.repeat(edge, 2)[1:-1] for edge in edges]
-    cells = np.repeat(np.repeat(where.T, 2, axis=0), 2, axis=1).astype(float)
-    area = axes.contourf(*corners, cells, levels=(0.5, 1.5), colors=[look.GAP_COLOUR], hatches=[hatch])
+    area = axes.contourf(
+        *_squares(edges, where), levels=(0.5, 1.5), colors=[look.GAP_COLOUR], hatches=[hatch]
+    )
     area.set(edgecolor=look.HATCH_COLOUR, linewidth=0.0, hatch_linewidth=0.5)
     return [look.gap_patch(f"{words} ({look.share(int(where.sum()), where.size)})", hatch)]
+
+
+def _hatch_uncertain(axes: Axes, edges: Sequence[np.ndarray], where: np.ndarray) -> list[Patch]:
+    """Hatch and frame cells over their colours, black on white, which every colour leaves legible."""
+    if not where.any():
+        return []
+    squares = _squares(edges, where)
+    for colour, width in (("white", 1.4), ("black", 0.5)):
+        area = axes.contourf(*squares, levels=(0.5, 1.5), colors=["none"], hatches=[look.UNCERTAIN_HATCH])
+        area.set(edgecolor=colour, linewidth=0.0, hatch_linewidth=width)
+        axes.contour(*squares, levels=(0.5,), colors=[colour], linewidths=[width])
+    words = f"{look.UNCERTAIN_WORDS} ({look.share(int(where.sum()), where.size)})"
+    return [look.uncertain_patch(words)]
+
+
+def _squares(edges: Sequence[np.ndarray], where: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Every cell as a square of four equal corners, so that borders follow the cells exactly."""
+    x, y = (np.repeat(edge, 2)[1:-1] for edge in edges)
+    return x, y, np.repeat(np.repeat(where.T, 2, axis=0), 2, axis=1).astype(float)
 
 
 def _new_figure() -> tuple[Figure, Axes]:

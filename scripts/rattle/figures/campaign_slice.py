@@ -60,7 +60,7 @@ def _draw_column(panel: Axes, section: Section, column: str) -> None:
 
 
 def _draw_bands(panel: Axes, section: Section, handles: dict[str, Patch]) -> None:
-    """The class of each scene as a band behind the line, gaps hatched."""
+    """The class of each scene as a band behind the line; gaps and what is not certified are hatched."""
     campaign = section.campaign
     edges = look.cell_edges(section.free[0])
     if "rattle_class" in campaign:
@@ -85,6 +85,10 @@ def _draw_bands(panel: Axes, section: Section, handles: dict[str, Patch]) -> Non
                 zorder=0,
             )
             handles.setdefault(words, look.gap_patch(words, hatch))
+    for first, last in _runs(section.mask(look.uncertain(campaign, "rattle_class"))):
+        area = {"facecolor": "none", "edgecolor": "black", "alpha": LIGHTENED, "linewidth": 0.0}
+        panel.axvspan(edges[first], edges[last], hatch=look.UNCERTAIN_HATCH, zorder=0, **area)
+        handles.setdefault(look.UNCERTAIN_WORDS, look.uncertain_patch(look.UNCERTAIN_WORDS))
 
 
 def _runs(where: np.ndarray) -> list[tuple[int, int]]:

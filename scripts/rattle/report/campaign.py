@@ -19,8 +19,8 @@ from rattle.report import motion, page
 
 # Columns that are drawn where they are recorded, and what their picture shows.
 DRAWN = {
-    "rattle_class": "Class of the motion over the varied keys. Hatched: no class, because the scene failed "
-    "or is not done.",
+    "rattle_class": "Class of the motion over the varied keys. Hatched in grey: no class, because the scene "
+    "failed or is not done; hatched in colour: not certified.",
     "certified": "Whether the class stands when the scene is solved again, tighter.",
     "acceleration_maximum": "Largest acceleration: how hard the tooth is thrown back by the film.",
     "film_minimum": "Thinnest film: how close the flanks come.",
@@ -36,6 +36,7 @@ def verdict(campaign: Campaign) -> list[str]:
     done = int(campaign.done.sum())
     most = [f"{name} in {look.share(count, done)} of the scenes" for name, count in counts.most_common(1)]
     doubt = not campaign.done.all() or bool(campaign.failed.any())
+    doubt = doubt or ("certified" in campaign and certificates(campaign)[1] > 0)
     box = page.verdict_box("".join(most) or "no class", None, list(sentences_on(campaign)), doubt=doubt)
     return [box, motion.class_meanings(name for name, _ in counts.most_common())]
 
@@ -53,7 +54,7 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
         certified, lacking = certificates(campaign)
         yield (
             f"The class is certified in {certified} scenes: solved again, tighter, it is the same. "
-            f"In {lacking} it is uncertain."
+            f"{lacking} of {certified + lacking} scenes are not certified."
         )
     else:
         yield "Whether the classes stand when the scenes are solved again, tighter, was not recorded."
