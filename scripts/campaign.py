@@ -189,7 +189,7 @@ def state_rows(campaign: Campaign) -> list[list[str]]:
         rows.append(["failed", f"{failures}{percent(failures, done)}"])
     if "certified" in campaign:
         lacking = int((campaign["certified"][campaign.done] == 0.0).sum())
-        rows.append(["without certificate", f"{lacking}{percent(lacking, done)}"])
+        rows.append(["not certified", f"{lacking}{percent(lacking, done)}"])
     return rows + progress_rows(campaign.path.with_suffix(".progress.nml"))
 
 

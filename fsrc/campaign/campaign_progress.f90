@@ -18,6 +18,8 @@ module campaign_progress
       integer(int64) :: scenes = 0_int64, done_before = 0_int64, done = 0_int64, failed = 0_int64
       !> Scenes whose motion leaves what the model can mean, and whose lines no samples follow and no integrals could be had for
       integer(int64) :: beyond_model = 0_int64, undersampled = 0_int64
+      !> Scenes whose class was put to the test, and those of them whose class does not stand
+      integer(int64) :: tested = 0_int64, uncertain = 0_int64
       logical :: quiet = .false.
       character(:), allocatable :: path
       logical, private :: on_terminal = .false.
@@ -53,7 +55,7 @@ contains
    end subroutine start
 
    !> Count solved scenes.
-   subroutine add(self, done, failed, beyond_model, undersampled)
+   subroutine add(self, done, failed, beyond_model, undersampled, tested, uncertain)
       class(campaign_progress_t), intent(inout) :: self
       !> Scenes solved, and those of them that failed
       integer(int64), intent(in) :: done
@@ -61,6 +63,9 @@ contains
       !> Scenes that leave what the model can mean, and scenes whose lines are not resolved
       integer(int64), intent(in) :: beyond_model
       integer(int64), intent(in) :: undersampled
+      !> Scenes whose class was put to the test, and those of them whose class does not stand
+      integer(int64), intent(in) :: tested
+      integer(int64), intent(in) :: uncertain
 
       !$omp atomic
       self%done = self%done + done
@@ -70,6 +75,10 @@ contains
       self%beyond_model = self%beyond_model + beyond_model
       !$omp atomic
       self%undersampled = self%undersampled + undersampled
+      !$omp atomic
+      self%tested = self%tested + tested
+      !$omp atomic
+      self%uncertain = self%uncertain + uncertain
    end subroutine add
 
    !> Tell, if it is time to.
@@ -105,7 +114,7 @@ contains
       call log%line('  '//words(self, wall_seconds()))
    end subroutine finish
 
-   !> How far, how fast, how long still, how many failures.
+   !> How far, how fast, how long still, how many failures and doubts.
    function words(self, now) result(line)
       class(campaign_progress_t), intent(in) :: self
       real(dp), intent(in) :: now
@@ -118,6 +127,7 @@ contains
       if (self%done > 0 .and. self%done_before + self%done < self%scenes) line = line//', '// &
          short_text(real(self%scenes - self%done_before - self%done, dp)/rate, 2)//' s left'
       line = line//', '//integer_text(self%failed)//' failed'
+      if (self%tested > 0) line = line//', '//integer_text(self%uncertain)//' not certified'
    end function words
 
    !> File for watchers; trouble with it is no trouble of the campaign.

@@ -121,6 +121,8 @@ contains
       progress%failed = sum_over_ranks(progress%failed)
       progress%beyond_model = sum_over_ranks(progress%beyond_model)
       progress%undersampled = sum_over_ranks(progress%undersampled)
+      progress%tested = sum_over_ranks(progress%tested)
+      progress%uncertain = sum_over_ranks(progress%uncertain)
       if (this_rank() == 0) then
          call close_campaign(scene, campaign, started, results, progress, log, allocated(error), exit_code, close_error)
          if (allocated(error)) exit_code = error%exit_code
@@ -165,7 +167,9 @@ contains
             call progress%add(last_row - first_row + 1_int64, &
                               count(.not. is_success(nint(rows(status_column, :))), kind=int64), &
                               flagged(campaign%layout%names == 'model_limit', rows, 1.0_dp), &
-                              flagged(campaign%layout%names == 'sampling_sufficient', -rows, 0.0_dp))
+                              flagged(campaign%layout%names == 'sampling_sufficient', -rows, 0.0_dp), &
+                              flagged(campaign%layout%names == 'certified', rows, 0.0_dp), &
+                              flagged(campaign%layout%names == 'certified', -rows, 0.0_dp))
          deallocate (rows)
          if (allocated(own_error)) then
             !$omp critical (campaign_error)
@@ -228,6 +232,8 @@ contains
       call summary%add('scenes_failed_in_this_run', progress%failed)
       call summary%add('scenes_beyond_model_in_this_run', progress%beyond_model)
       call summary%add('scenes_undersampled_in_this_run', progress%undersampled)
+      if (any(campaign%layout%names == 'certified')) &
+         call summary%add('scenes_not_certified_in_this_run', progress%uncertain)
       call summary%add('wall_seconds', wall_seconds() - started)
       call summary%write(summary_path(scene), summary_error)
       if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
@@ -235,6 +241,8 @@ contains
          'model can mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
       if (progress%undersampled > 0) call log%line('  warning: the lines of '//integer_text(progress%undersampled)// &
          ' scenes are not resolved (column sampling_sufficient); raise campaign.samples_per_period')
+      if (progress%tested > 0) call log%line('  '//integer_text(progress%uncertain)//' of '//integer_text(progress%tested)// &
+         ' scenes are not certified: solved again, tighter, their class is another or close to a limit (column certified)')
       call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
       call log%close()

@@ -233,7 +233,8 @@ contains
          call solve_scenes(scene, plan, first, space, part)
          if (caught_signal() /= 0) exit
          rows(:, first:last) = part
-         call progress%add(last - first + 1_int64, count(.not. is_success(nint(part(status, :))), kind=int64), 0_int64, 0_int64)
+         call progress%add(last - first + 1_int64, count(.not. is_success(nint(part(status, :))), kind=int64), &
+                            0_int64, 0_int64, 0_int64, 0_int64)
          deallocate (part)
          if (this_rank() == 0) then
             if (omp_get_thread_num() == 0) call progress%tell(log)

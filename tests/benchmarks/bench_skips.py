@@ -27,6 +27,13 @@ TAYLOR = [
     *("--set", "film.law=iso-viscous", "--set", "solver.periods=4000"),
 ]
 MAP = ["--threads", "1", "--set", "campaign.count=101, 101", "input/map.nml"]
+# The columns of the map, all but `certified`
+PLAIN = [
+    "--set",
+    "campaign.record=film_minimum,film_maximum,acceleration_minimum,acceleration_maximum,natural_frequency,"
+    "damping_ratio,line_count,harmonic_distortion,irregular_fraction,reversals_per_period,rattle_class,"
+    "sampling_sufficient,film_regime,alpha_p_maximum,model_limit,harmonics",
+]
 LEAN = ["--set", "campaign.record=film_minimum,film_maximum"]
 BARE = "tests/benchmarks/bare.nml"
 
@@ -57,10 +64,11 @@ ROWS = (
         [*TAYLOR, BARE],
         [*TAYLOR, "--set", "solver.until=steady", BARE],
     ),
+    ("certificate of every scene", "`certified` not in `record`", MAP, [*PLAIN, *MAP]),
     (
         "spectrum and pressure scan",
         "columns of a campaign that need none",
-        MAP,
+        [*PLAIN, *MAP],
         [*LEAN, *MAP],
     ),
     (

@@ -204,7 +204,7 @@ def test_status_of_a_finished_campaign(made, whole):
     assert "300 of 300 (100 %)" in done.stdout
     assert "status film_lost" in done.stdout
     certified, failed = made.column("certified"), int((made.column("status") > 1.0).sum())
-    for words, count in (("without certificate", int((certified == 0.0).sum())), ("failed", failed)):
+    for words, count in (("not certified", int((certified == 0.0).sum())), ("failed", failed)):
         assert rows[words] == f"{count} ({100.0 * count / 300.0:.3g} %)"
 
 

@@ -192,6 +192,22 @@ def test_certified_scene_is_the_certified_single_scene(
     assert min(compared.values()) >= fewest, compared
 
 
+def test_log_and_summary_count_what_is_not_certified(run, scene_text, tmp_path: Path) -> None:
+    loose = {**BASE["solver"], "accuracy": "1e-2", "periods": "200"}
+    campaign = {"record": "'rattle_class', 'certified'"}
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 6, 6, solver=loose, campaign=campaign))
+    path = solve(run, tmp_path)
+    failing = int((package.read(path)["certified"] == 0.0).sum())
+    assert 0 < failing < 36
+    log = path.with_suffix(".log").read_text()
+    assert f", 0 failed, {failing} not certified" in log
+    assert f"{failing} of 36 scenes are not certified" in log
+    assert summary_of(path.with_suffix(".summary.nml"))["scenes_not_certified_in_this_run"] == failing
+    plain = solve(run, tmp_path, "--set", "campaign.record='rattle_class'", name="plain")
+    assert "certified" not in plain.with_suffix(".log").read_text()
+    assert "scenes_not_certified_in_this_run" not in summary_of(plain.with_suffix(".summary.nml"))
+
+
 def test_certificate_of_a_scene_does_not_depend_on_its_company(run, scene_text, tmp_path: Path) -> None:
     """Solved with others, irregular ones among them, and with hardly any: the same bits."""
     recorded = "'rattle_class', 'acceleration_maximum', 'harmonics', 'certified'"
