@@ -26,12 +26,12 @@ LENGTH = 0.010
 STEADY_FORCE = 199.2
 # The default columns of a campaign; those of the map are these and `certified`
 RECORDED = (
-    "film_minimum film_maximum acceleration_minimum acceleration_maximum natural_frequency damping_ratio line_count "
-    "harmonic_distortion irregular_fraction reversals_per_period rattle_class sampling_sufficient film_regime "
-    "alpha_p_maximum model_limit harmonics"
-).split()
-PLAIN = ["--set", f"campaign.record={','.join(RECORDED)}"]
-CERTIFIED = ["--set", f"campaign.record={','.join([*RECORDED, 'certified'])}"]
+    "film_minimum,film_maximum,acceleration_minimum,acceleration_maximum,natural_frequency,damping_ratio,"
+    "line_count,harmonic_distortion,irregular_fraction,reversals_per_period,rattle_class,sampling_sufficient,"
+    "film_regime,alpha_p_maximum,model_limit,harmonics"
+)
+PLAIN = ["--set", f"campaign.record={RECORDED}"]
+CERTIFIED = ["--set", f"campaign.record={RECORDED},certified"]
 HEYOKA_TOLERANCE, CVODE_TOLERANCE = 1e-7, 1e-8
 
 
