@@ -13,6 +13,8 @@ from campaign_runs import BASE
 from outcomes import assert_faults, contents, digest, summary_of
 
 import rattle as package
+from rattle.campaign_plan import read_plan
+from rattle.figures import threshold
 
 THRESHOLD = {"key": "'load.force_amplitude'", "first": "5.0", "last": "455.0", "count": "17"}
 SPEEDS = {"vary": "'kinematics.entrainment_speed'", "values(:, 1)": "0.8, 1.9, 9.5"}
@@ -304,3 +306,35 @@ def test_lines_that_are_no_scenes(run, found, scene_text, tmp_path: Path) -> Non
     weight = 3.0 * 9.80665
     first = rows.groupby("line").first()
     assert ((first["lower"] <= -weight) & (-weight <= first["upper"])).all()
+
+
+def test_every_gear_of_a_box_has_its_curve(run, repository: Path, tmp_path: Path) -> None:
+    """The thresholds of a pair in a box are those of its campaign alone; the figure names the pairs."""
+    text = (repository / "input" / "gearbox_map.nml").read_text().partition("&campaign")[0]
+    changes = ["scene.task='threshold'", "threshold.key='load.force_scale'", "threshold.first=0.05"]
+    changes += ["threshold.last=5.0", "threshold.criterion='double_sided'", "threshold.tolerance=1e-2"]
+    changes += [
+        "threshold.scale='logarithmic'",
+        "campaign.vary='shaft.speed_rpm'",
+        "spectrum.certify=.false.",
+    ]
+    changes += ["campaign.first=800.0", "campaign.last=1600.0", "campaign.count=3"]
+    options = [part for change in changes for part in ("--set", change)]
+    (tmp_path / "box.nml").write_text(text)
+    ended = run(*options, "box.nml", cwd=tmp_path, timeout=120.0)
+    assert ended.returncode == 0, ended.stderr
+    result = package.read(tmp_path / "results" / "box.rattle")
+    rows = result.frame()
+    assert rows["gear"].tolist() == np.repeat([1.0, 2.0, 3.0, 4.0], 3).tolist()
+    assert (rows["crossing"] == 1).all() and rows["lower"].nunique() > 4
+    first = text.index("&gear")
+    parts = [f"&gear{part}" for part in text[first:].split("&gear")[1:]]
+    rest = text[:first] + parts[-1].partition("\n/\n")[2]
+    (tmp_path / "alone.nml").write_text(rest + parts[1].partition("\n/\n")[0] + "\n/\n")
+    ended = run(*options, "alone.nml", cwd=tmp_path, timeout=120.0)
+    assert ended.returncode == 0, ended.stderr
+    alone = package.read(tmp_path / "results" / "alone.rattle").frame()
+    np.testing.assert_array_equal(alone["lower"], rows["lower"][3:6])
+    found, held = threshold.cut(threshold.thresholds(result), {}, 2)
+    words = [text.get_text() for text in threshold.draw(found, held).legends[0].get_texts()]
+    assert words[:4] == [f"gear {name}" for name in read_plan(result.input_text).gears]

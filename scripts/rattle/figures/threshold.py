@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 
 import rattle
 from rattle import command
-from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC, read_plan
+from rattle.campaign_plan import GEAR, GRID, LINEAR, LOGARITHMIC, read_plan
 from rattle.campaign_result import Axis, is_varied
 from rattle.campaign_section import Section, new_section, short_name, spaced_unit
 from rattle.codes import CLASSES, STATUSES, SUCCESSES, quantity_of, word, words_of
@@ -128,6 +128,12 @@ class Thresholds:
             for key in self.varied
         )
 
+    def words_of_value(self, key: str, value: float) -> str:
+        """A value of a varied key with its unit, or the name of a gear pair."""
+        if key == GEAR:
+            return read_plan(self.result.input_text).gears[int(value) - 1]
+        return f"{value:.4g}{spaced_unit(self.result.units[key])}"
+
     @property
     def on_grid(self) -> bool:
         return read_plan(self.result.input_text).kind == GRID
@@ -189,7 +195,8 @@ def cut(found: Thresholds, slices: Mapping[str, float], most: int) -> tuple[Thre
     for key in slices:
         if key not in found.varied:
             raise command.CommandError(f"{found.result.path} does not vary '{key}'.")
-    free = [key for key in found.varied if key not in slices][:most]
+    # Gear pairs have no order in which a curve could run.
+    free = sorted((key for key in found.varied if key not in slices), key=lambda key: key == GEAR)[:most]
     if not free:
         raise command.CommandError("all varied keys are sliced: one has to stay free.")
     if len(found.varied) > 1 and not found.on_grid:
@@ -231,7 +238,9 @@ def draw(
     if len(free) == 1:
         handles = draw_points(axes, found, free[0], section)
     elif min(axis.values.size for axis in free) <= MOST_CURVES:
-        handles = draw_curves(axes, found, *sorted(free, key=lambda axis: -axis.values.size), crossing)
+        handles = draw_curves(
+            axes, found, *sorted(free, key=lambda axis: (axis.key == GEAR, -axis.values.size)), crossing
+        )
     else:
         handles = draw_surface(figure, axes, found, *free[:2], crossing)
     if handles:
@@ -239,10 +248,7 @@ def draw(
     what = words_of_criterion(found)
     if len(free) > 1:
         what = f"{ordinal(crossing)} {what}"
-    parts = [
-        f"{short_name(key)} = {value:.4g}{spaced_unit(found.result.units[key])}"
-        for key, value in (held or {}).items()
-    ]
+    parts = [f"{short_name(key)} = {found.words_of_value(key, value)}" for key, value in (held or {}).items()]
     lines = [
         f"{look.capital(short_name(found.key))}: {what}",
         f"Scene {found.result.scene_name}, {style.film_words(found.result)}",
@@ -347,7 +353,7 @@ def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossin
     values, uncertain = on_plane(found, along, other, crossing)
     for place, value in enumerate(other.values):
         column, unsure = values[:, place], uncertain[:, place]
-        label = f"{short_name(other.key)} {value:.4g}{spaced_unit(other.unit)}"
+        label = f"{short_name(other.key)} {found.words_of_value(other.key, value)}"
         mark = {"marker": style.RUN_MARKS[place], "markersize": 3.0}
         line = style.run_line(place)
         axes.plot(along.values, column, label=label, **line, **mark)

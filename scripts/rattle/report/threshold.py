@@ -80,7 +80,7 @@ def tables(result: Result) -> list[str]:
         parts.append(page.paragraph(words, "note"))
     lines = []
     for row in range(min(result.row_count, MOST_ROWS)):
-        axes = [page.value(float(found.column(key)[row]), result.units[key]) for key in found.varied]
+        axes = [found.words_of_value(key, float(found.column(key)[row])) for key in found.varied]
         ends = [page.value(float(found.column(name)[row]), unit) for name in ("lower", "upper")]
         kind = found.kinds[row] if crossed[row] else f"{found.kinds[row]} throughout"
         sure = (
