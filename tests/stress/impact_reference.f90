@@ -2,10 +2,10 @@
 !> the rules of rattle_class. Lines are known up to a number, power to all; where that leaves more than one class
 !> possible, all of them are.
 module impact_reference
-   use impact_steps, only: tooth_state_t, tooth_t
+   use impact_steps, only: has_coast, tooth_state_t, tooth_t
    use impact_window, only: impact_window_t, integrated_lines, solve_impact_window, solve_periods
    use kinds, only: dp
-   use lobatto_rule, only: lobatto_rule_t
+   use lobatto_rule, only: lobatto_rule_t, nodes, solve_linear
    use scene_types, only: spectrum_choice_t
    implicit none(type, external)
    private
@@ -17,8 +17,9 @@ module impact_reference
    !> The true motion.
    type, public :: impact_reference_t
       logical :: solved = .false.
-      !> film_minimum, film_maximum [m], acceleration_minimum, acceleration_maximum [m/s2]
-      real(dp) :: extremes(4) = 0.0_dp
+      !> film_minimum, film_maximum [m], acceleration_minimum, acceleration_maximum [m/s2], coast_film_minimum, coast_film_maximum
+      !> [m]; the last two 0 where there is one flank
+      real(dp) :: extremes(6) = 0.0_dp
       !> [m/s2]
       real(dp) :: harmonics(compared_harmonics) = 0.0_dp
       !> Which of `possible_classes` it may have
@@ -60,14 +61,12 @@ contains
       state = start
       call solve_impact_window(tooth, rule, tolerance, periods, 1, state, window, reference%solved)
       if (.not. reference%solved) return
-      reference%extremes = [exp(window%logarithm), window%acceleration]
+      reference%extremes(:4) = [exp(window%logarithm), window%acceleration]
+      if (has_coast(tooth)) reference%extremes(5:) = exp(window%coast)
       reference%harmonics = window%amplitudes(:compared_harmonics)
       periodic = .true.
       do period = 1, periods
-         periodic = periodic .and. distance(tooth, tooth_state_t(film=window%films(period - 1), &
-                                                                 velocity=window%velocities(period - 1)), &
-                                            tooth_state_t(film=window%films(period), &
-                                                          velocity=window%velocities(period))) < repeats
+         periodic = periodic .and. distance(tooth, window%states(period - 1), window%states(period)) < repeats
       end do
       if (.not. periodic) then
          state = start
@@ -128,7 +127,8 @@ contains
       type(tooth_state_t), intent(in) :: one
       type(tooth_state_t), intent(in) :: other
 
-      distance = max(abs(log(one%film/other%film)), abs(one%velocity - other%velocity)/velocity_unit(tooth, one))
+      distance = max(abs(log(one%film/other%film)), abs(log(one%coast/other%coast)), &
+                     abs(one%velocity - other%velocity)/velocity_unit(tooth, one))
    end function distance
 
    !> What a velocity is small against [m/s].
@@ -136,7 +136,7 @@ contains
       type(tooth_t), intent(in) :: tooth
       type(tooth_state_t), intent(in) :: state
 
-      velocity_unit = abs(state%velocity) + two_pi*tooth%frequency*state%film
+      velocity_unit = abs(state%velocity) + two_pi*tooth%frequency*min(state%film, state%coast)
    end function velocity_unit
 
    !> The motion that repeats after so many periods, by Newton's method from a state near it.
@@ -150,38 +150,75 @@ contains
       type(tooth_state_t), intent(inout) :: state
       logical, intent(out) :: found
       real(dp), parameter :: offset = 1.0e-6_dp, reached = 1.0e-10_dp, farthest = 0.5_dp
-      type(tooth_state_t) :: ends(3), starts(3)
-      real(dp) :: slope(2, 2), gap(2), correction(2), unit, determinant
-      integer :: pass, i
+      type(tooth_state_t) :: ends(0:4), moved
+      real(dp) :: slope(nodes, nodes), correction(nodes), unit
+      integer :: pass, numbers, i, n
       logical :: solved
 
       found = .false.
+      numbers = 2
+      if (tooth%compliance > 0.0_dp) numbers = merge(4, 3, has_coast(tooth))
       do pass = 1, 8
          unit = velocity_unit(tooth, state)
-         starts = state
-         starts(2)%film = state%film*exp(offset)
-         starts(3)%velocity = state%velocity + offset*unit
-         do i = 1, 3
-            ends(i) = starts(i)
+         do i = 0, numbers
+            correction = [(merge(offset, 0.0_dp, n == i), n=1, nodes)]
+            call move(correction, state, ends(i))
             call solve_periods(tooth, rule, tolerance, periods, ends(i), solved)
             if (.not. solved) return
          end do
-         gap = [log(ends(1)%film/state%film), (ends(1)%velocity - state%velocity)/unit]
-         do i = 1, 2
-            slope(:, i) = [log(ends(i + 1)%film/ends(1)%film), (ends(i + 1)%velocity - ends(1)%velocity)/unit]/offset
+         slope = 0.0_dp
+         do i = 1, nodes
+            slope(i, i) = 1.0_dp
+         end do
+         correction = 0.0_dp
+         correction(:numbers) = -apart(ends(0), state)
+         do i = 1, numbers
+            slope(:numbers, i) = apart(ends(i), ends(0))/offset
             slope(i, i) = slope(i, i) - 1.0_dp
          end do
-         determinant = slope(1, 1)*slope(2, 2) - slope(1, 2)*slope(2, 1)
-         if (.not. abs(determinant) > 1.0e-9_dp) return
-         correction = -[slope(2, 2)*gap(1) - slope(1, 2)*gap(2), slope(1, 1)*gap(2) - slope(2, 1)*gap(1)]/determinant
-         if (.not. maxval(abs(correction)) < farthest) return
-         state%film = state%film*exp(correction(1))
-         state%velocity = state%velocity + correction(2)*unit
+         call solve_linear(slope, correction, solved)
+         if (.not. (solved .and. maxval(abs(correction)) < farthest)) return
+         call move(correction, state, moved)
+         if (.not. min(moved%film, moved%coast) > 0.0_dp) return
+         state = moved
          if (maxval(abs(correction)) < reached) then
             found = .true.
             return
          end if
       end do
+
+   contains
+
+      !> Differences of two states: films over the thinner one, velocities over their unit, compressions over themselves.
+      pure function apart(one, other) result(differences)
+         type(tooth_state_t), intent(in) :: one
+         type(tooth_state_t), intent(in) :: other
+         real(dp) :: differences(numbers), all_of_them(4)
+
+         ! The thinner film has all digits.
+         all_of_them(1) = (one%film - other%film)/min(state%film, state%coast)
+         if (state%coast < state%film) all_of_them(1) = (other%coast - one%coast + &
+            sum(one%compression - other%compression))/state%coast
+         all_of_them(2) = (one%velocity - other%velocity)/unit
+         all_of_them(3:) = (one%compression - other%compression)/max(abs(state%compression), tiny(1.0_dp))
+         differences = all_of_them(:numbers)
+      end function apart
+
+      !> A state at such differences from another one.
+      pure subroutine move(differences, from, there)
+         real(dp), intent(in) :: differences(nodes)
+         type(tooth_state_t), intent(in) :: from
+         type(tooth_state_t), intent(out) :: there
+         real(dp) :: change
+
+         there = from
+         change = differences(1)*min(from%film, from%coast)
+         there%film = from%film + change
+         there%velocity = from%velocity + differences(2)*unit
+         there%compression = from%compression + differences(3:4)*abs(from%compression)
+         if (has_coast(tooth)) there%coast = from%coast - change + sum(there%compression - from%compression)
+      end subroutine move
+
    end subroutine find_orbit
 
 end module impact_reference

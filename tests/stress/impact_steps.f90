@@ -2,13 +2,24 @@
 !>
 !>     (ln h)' = v/h ,   v' = (W(h, v) - F(t))/m - g ,
 !>
-!> so that an impact down to films of less than a picometre is a matter of more steps and of nothing else. The
+!> so that an impact down to films of less than a picometre is a matter of more steps and of nothing else. Between two flanks
+!> the variable is ln(h/(b - h)), so that both films have all their digits. The
 !> time is in periods of the force. A step keeps its values at the nodes: what happens within it is their polynomial.
+!>
+!> Where teeth give, each film has its logarithm and its spring a compression d,
+!>
+!>     h' = w(h, d k) ,   d' = h' - v ,   v' = (d_1 k - d_2 k - F(t))/m - g ,
+!>
+!> with w the velocity at which the film carries the load, or W(h, h') = d k where it may pull; at the coast flank the
+!> velocity of the gear counts backwards. After each step the thicker film is what the thinner one, the springs and the backlash
+!> leave of the play.
 module impact_steps
-   use film_law, only: film_load, film_t, overflow_load
+   use engine, only: motion_state_t, start_of
+   use film_law, only: film_load, film_t, never_pulls, overflow_load, squeeze_velocity
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t, nodes, solve_linear
    use problem, only: problem_t
+   use squeeze_of_load, only: load_carried
    implicit none(type, external)
    private
 
@@ -17,14 +28,18 @@ module impact_steps
       type(film_t) :: film
       !> Mass [kg], static load Q + m g [N], frequency of the force [Hz]
       real(dp) :: mass = 0.0_dp, static_load = 0.0_dp, frequency = 0.0_dp
+      !> Backlash [m], huge: one flank; compliance of a tooth [m/N], 0: rigid
+      real(dp) :: backlash = huge(1.0_dp), compliance = 0.0_dp
       !> Orders of the force that oscillates, from the first on: amplitudes [N] and phases [rad]
       real(dp), allocatable :: amplitudes(:), phases(:)
    end type tooth_t
 
    !> Where it is, and how far the next step is likely to go.
    type, public :: tooth_state_t
-      !> h [m], v [m/s]
+      !> h [m], v of the gear [m/s]
       real(dp) :: film = 0.0_dp, velocity = 0.0_dp
+      !> Film of the coast flank, huge where there is none, and compressions of the springs [m]
+      real(dp) :: coast = huge(1.0_dp), compression(2) = 0.0_dp
       !> Time since the start of the period, and length of the next step [periods]
       real(dp) :: phase = 0.0_dp, step = 1.0e-4_dp
    end type tooth_state_t
@@ -35,13 +50,15 @@ module impact_steps
       real(dp) :: phase = 0.0_dp, length = 0.0_dp
       !> At the nodes: h [m], v [m/s], z'' [m/s2]
       real(dp), dimension(nodes) :: film = 0.0_dp, velocity = 0.0_dp, acceleration = 0.0_dp
+      !> Film of the coast flank and compressions [m]
+      real(dp) :: coast(nodes) = huge(1.0_dp), compression(nodes, 2) = 0.0_dp
    end type tooth_step_t
 
    !> A film and its velocity may be off by the tolerance within a step; at its end they are far better.
    integer, parameter :: most_passes = 12
    real(dp), parameter :: converged = 1.0e-10_dp, shortest = 1.0e-15_dp, two_pi = 6.28318530717958647692_dp
 
-   public :: take_step, tooth_of_lane, acceleration_of, disturb
+   public :: take_step, tooth_of_lane, start_of_tooth, disturb, has_coast
 
 contains
 
@@ -55,6 +72,8 @@ contains
       tooth%film = lane%film
       tooth%mass = lane%mass
       tooth%static_load = lane%force%steady + lane%weight
+      tooth%backlash = lane%backlash
+      tooth%compliance = lane%compliance
       allocate (tooth%amplitudes(lane%force%highest), tooth%phases(lane%force%highest))
       call set_order(1, lane%force%cosine, lane%force%sine)
       do n = 2, lane%force%highest
@@ -77,14 +96,37 @@ contains
 
    end function tooth_of_lane
 
+   !> Where a motion starts, its film disturbed.
+   pure function start_of_tooth(lane, offset) result(state)
+      !> A scene
+      type(problem_t), intent(in) :: lane
+      !> [-]
+      real(dp), intent(in) :: offset
+      type(tooth_state_t) :: state
+      type(motion_state_t) :: start
+
+      start = start_of(lane)
+      state%film = start%film*(1.0_dp + offset)
+      state%velocity = start%velocity
+      state%compression = start%compression
+      if (lane%backlash < huge(1.0_dp)) state%coast = lane%backlash - state%film + sum(state%compression)
+   end function start_of_tooth
+
    !> Disturb the force by a share of all of it.
    pure subroutine disturb(offset, tooth)
       !> [-]
       real(dp), intent(in) :: offset
       type(tooth_t), intent(inout) :: tooth
 
-      tooth%static_load = tooth%static_load + offset*(tooth%static_load + sum(tooth%amplitudes))
+      tooth%static_load = tooth%static_load + offset*(abs(tooth%static_load) + sum(tooth%amplitudes))
    end subroutine disturb
+
+   !> Whether there is a coast flank.
+   pure logical function has_coast(tooth)
+      type(tooth_t), intent(in) :: tooth
+
+      has_coast = tooth%backlash < huge(1.0_dp)
+   end function has_coast
 
    !> Static load and force [N].
    elemental real(dp) function force_of_tooth(tooth, phase) result(force)
@@ -99,21 +141,6 @@ contains
             force = force + tooth%amplitudes(n)*cos(two_pi*real(n, dp)*phase + tooth%phases(n))
       end do
    end function force_of_tooth
-
-   !> z'' [m/s2].
-   pure real(dp) function acceleration_of(tooth, phase, film, velocity) result(acceleration)
-      !> The tooth
-      type(tooth_t), intent(in) :: tooth
-      !> Time [periods]
-      real(dp), intent(in) :: phase
-      !> h [m], v [m/s]
-      real(dp), intent(in) :: film
-      real(dp), intent(in) :: velocity
-      real(dp) :: load, by_film, by_velocity
-
-      call film_load(tooth%film, film, velocity, load, by_film, by_velocity)
-      acceleration = (load - force_of_tooth(tooth, phase))/tooth%mass
-   end function acceleration_of
 
    !> Take the next step, as long as the tolerance allows and not beyond the end of the period.
    pure subroutine take_step(tooth, rule, tolerance, longest, state, step, taken)
@@ -136,7 +163,11 @@ contains
       length = min(state%step, longest)
       do
          if (state%phase + 1.01_dp*length > 1.0_dp) length = 1.0_dp - state%phase
-         call solve_step(tooth, rule, length, state, step, trial, error, solved)
+         if (tooth%compliance > 0.0_dp) then
+            call solve_elastic_step(tooth, rule, length, state, step, trial, error, solved)
+         else
+            call solve_step(tooth, rule, length, state, step, trial, error, solved)
+         end if
          taken = solved .and. error <= tolerance
          if (taken) exit
          if (solved) then
@@ -149,6 +180,15 @@ contains
       step = trial
       state%film = step%film(nodes)
       state%velocity = step%velocity(nodes)
+      state%coast = step%coast(nodes)
+      state%compression = step%compression(nodes, :)
+      if (has_coast(tooth) .and. tooth%compliance > 0.0_dp) then
+         if (state%film > state%coast) then
+            state%film = tooth%backlash - state%coast + sum(state%compression)
+         else
+            state%coast = tooth%backlash - state%film + sum(state%compression)
+         end if
+      end if
       state%phase = state%phase + length
       if (1.0_dp - state%phase < shortest) state%phase = 1.0_dp
       length = length*min(4.0_dp, 0.85_dp*(tolerance/max(error, 1.0e-30_dp))**(1.0_dp/real(nodes, dp)))
@@ -169,7 +209,8 @@ contains
       !> Relative error between the ends [-]
       real(dp), intent(out) :: error
       logical, intent(out) :: solved
-      real(dp), dimension(nodes) :: growth, gain, force, load, by_film, by_velocity, residual, slope
+      real(dp), dimension(nodes) :: growth, gain, force, load, by_film, by_velocity, residual, slope, scale
+      real(dp) :: coast_load, coast_by_film, coast_by_velocity
       real(dp) :: matrix(nodes, nodes), seconds, unit, change, last_change
       integer :: pass, i, j
       logical :: regular
@@ -183,25 +224,34 @@ contains
       call first_iterate(rule, length, state, before, growth, gain)
       last_change = huge(1.0_dp)
       do pass = 1, most_passes
-         step%film = state%film*exp(growth)
+         call set_films(tooth, state, growth, step)
          step%velocity = state%velocity + gain
+         scale = step%film
+         if (has_coast(tooth)) scale = step%film*(step%coast/tooth%backlash)
          do i = 1, nodes
             call film_load(tooth%film, step%film(i), step%velocity(i), load(i), by_film(i), by_velocity(i))
+            if (.not. has_coast(tooth)) cycle
+            call film_load(tooth%film, step%coast(i), -step%velocity(i), coast_load, coast_by_film, coast_by_velocity)
+            if (.not. (abs(coast_load) < overflow_load .and. abs(load(i)) < overflow_load)) return
+            load(i) = load(i) - coast_load
+            by_film(i) = by_film(i) + coast_by_film
+            by_velocity(i) = by_velocity(i) + coast_by_velocity
          end do
          if (.not. all(abs(load) < overflow_load) .or. .not. all(step%film > 0.0_dp)) return
          ! differentiate*growth = seconds*v/h is solved for the change of v; that goes into
          ! differentiate*gain = seconds*acceleration, which is left for the change of growth.
-         residual = matmul(rule%differentiate, growth) - seconds*step%velocity/step%film
-         slope = seconds*step%velocity/step%film
+         residual = matmul(rule%differentiate, growth) - seconds*step%velocity/scale
+         slope = seconds*step%velocity/scale
+         if (has_coast(tooth)) slope = slope*((step%coast - step%film)/tooth%backlash)
          do j = 1, nodes
-            matrix(:, j) = rule%differentiate(:, j)*step%film/seconds
-            matrix(j, j) = matrix(j, j) + slope(j)*step%film(j)/seconds
+            matrix(:, j) = rule%differentiate(:, j)*scale/seconds
+            matrix(j, j) = matrix(j, j) + slope(j)*scale(j)/seconds
          end do
-         residual = residual*step%film/seconds
+         residual = residual*scale/seconds
          step%acceleration = (load - force)/tooth%mass
          call correct(rule, seconds, residual, matrix, matmul(rule%differentiate, gain) - seconds*step%acceleration, &
-                      seconds*by_velocity/tooth%mass, seconds*by_film*step%film/tooth%mass, growth, gain, change, regular, &
-                      unit_of_velocity(tooth, step))
+                      seconds*by_velocity/tooth%mass, seconds*by_film*scale/tooth%mass, growth, gain, change, regular, &
+                      unit_of_velocity(tooth, step, reshape([step%film, step%coast], [nodes, 2])))
          if (.not. regular) return
          if (change < converged .or. (change < 1.0e-7_dp .and. change > 0.3_dp*last_change)) then
             solved = .true.
@@ -210,21 +260,272 @@ contains
          last_change = change
       end do
       if (.not. solved) return
-      step%film = state%film*exp(growth)
+      call set_films(tooth, state, growth, step)
       step%velocity = state%velocity + gain
       step%acceleration = matmul(rule%differentiate, gain)/seconds
-      unit = unit_of_velocity(tooth, step)
+      unit = unit_of_velocity(tooth, step, reshape([step%film, step%coast], [nodes, 2]))
       error = max(tail(rule, matmul(rule%differentiate, growth)), tail(rule, matmul(rule%differentiate, gain))/unit)
       solved = error < huge(1.0_dp)
    end subroutine solve_step
 
+   !> Films of a rigid tooth, from what its variable has grown by.
+   pure subroutine set_films(tooth, state, growth, step)
+      type(tooth_t), intent(in) :: tooth
+      type(tooth_state_t), intent(in) :: state
+      real(dp), intent(in) :: growth(nodes)
+      type(tooth_step_t), intent(inout) :: step
+      real(dp) :: share(nodes)
+
+      step%film = state%film*exp(growth)
+      if (.not. has_coast(tooth)) return
+      ! h/(b - h) grows by exp(growth).
+      share = 1.0_dp/(state%film*exp(growth) + state%coast)
+      step%film = tooth%backlash*(state%film*exp(growth)*share)
+      step%coast = tooth%backlash*(state%coast*share)
+   end subroutine set_films
+
+   !> Solve the equations of a step of a tooth that gives by Newton's method, and estimate its error. The unknowns are, node by
+   !> node, what has been added to v, to ln h and d of the drive flank, and to those of the coast flank.
+   pure subroutine solve_elastic_step(tooth, rule, length, state, before, step, error, solved)
+      type(tooth_t), intent(in) :: tooth
+      type(lobatto_rule_t), intent(in) :: rule
+      !> [periods]
+      real(dp), intent(in) :: length
+      type(tooth_state_t), intent(in) :: state
+      type(tooth_step_t), intent(in) :: before
+      type(tooth_step_t), intent(out) :: step
+      !> Relative error between the ends [-]
+      real(dp), intent(out) :: error
+      logical, intent(out) :: solved
+      real(dp), allocatable :: added(:, :), correction(:), matrix(:, :), residual(:)
+      real(dp), dimension(nodes) :: force, drift, wanted, by_film, by_load
+      real(dp) :: films(nodes, 2), loads(nodes, 2), starts(2), unit, seconds, change, last_change, turn, spring(2), largest, load, &
+                  load_by_film, load_by_velocity
+      integer :: flanks, flank, logarithm, compression, pass, i, outcome
+      logical :: regular, failed
+
+      solved = .false.
+      error = huge(1.0_dp)
+      step%phase = state%phase
+      step%length = length
+      seconds = length/tooth%frequency
+      flanks = merge(2, 1, has_coast(tooth))
+      starts = [state%film, state%coast]
+      force = force_of_tooth(tooth, state%phase + rule%node*length)
+      allocate (added(nodes, 1 + 2*flanks), source=0.0_dp)
+      call first_added(rule, length, state, before, flanks, added)
+      allocate (matrix(size(added), size(added)), residual(size(added)), correction(size(added)))
+      last_change = huge(1.0_dp)
+      do pass = 1, 2*most_passes
+         step%velocity = state%velocity + added(:, 1)
+         do flank = 1, flanks
+            films(:, flank) = starts(flank)*exp(added(:, 2*flank))
+            loads(:, flank) = (state%compression(flank) + added(:, 2*flank + 1))/tooth%compliance
+         end do
+         matrix = 0.0_dp
+         residual(:nodes) = matmul(rule%differentiate, added(:, 1)) - seconds*(loads(:, 1) - force)/tooth%mass
+         if (flanks == 2) residual(:nodes) = residual(:nodes) + seconds*loads(:, 2)/tooth%mass
+         call add_slopes(1, 1, [(1.0_dp, i=1, nodes)], matrix)
+         do flank = 1, flanks
+            turn = real(3 - 2*flank, dp)
+            logarithm = 2*flank
+            compression = 2*flank + 1
+            call add_diagonal(1, compression, [(-turn*seconds/(tooth%mass*tooth%compliance), i=1, nodes)], matrix)
+            ! Drift: h' of the polynomial.
+            drift = films(:, flank)*matmul(rule%differentiate, added(:, logarithm))/seconds
+            do i = 1, nodes
+               if (never_pulls(tooth%film)) then
+                  call squeeze_velocity(tooth%film, films(i, flank), loads(i, flank), wanted(i), by_film(i), by_load(i), outcome)
+                  if (outcome /= load_carried) return
+               else
+                  call film_load(tooth%film, films(i, flank), drift(i), load, load_by_film, load_by_velocity)
+                  if (.not. (abs(load) < overflow_load .and. load_by_velocity < 0.0_dp)) return
+                  wanted(i) = drift(i) + (loads(i, flank) - load)/load_by_velocity
+                  by_film(i) = -load_by_film/load_by_velocity
+                  by_load(i) = 1.0_dp/load_by_velocity
+               end if
+            end do
+            call put_rows(residual, logarithm, matmul(rule%differentiate, added(:, logarithm)) - seconds*wanted/films(:, flank))
+            call add_slopes(logarithm, logarithm, [(1.0_dp, i=1, nodes)], matrix)
+            call add_diagonal(logarithm, logarithm, seconds*(drift/films(:, flank) - by_film), matrix)
+            call add_diagonal(logarithm, compression, -seconds*by_load/(films(:, flank)*tooth%compliance), matrix)
+            ! d' = h' - v
+            call put_rows(residual, compression, matmul(rule%differentiate, added(:, compression)) &
+                          - seconds*(drift - turn*step%velocity))
+            call add_slopes(compression, compression, [(1.0_dp, i=1, nodes)], matrix)
+            call add_slopes(compression, logarithm, -films(:, flank), matrix)
+            call add_diagonal(compression, logarithm, -seconds*drift, matrix)
+            call add_diagonal(compression, 1, [(turn*seconds, i=1, nodes)], matrix)
+         end do
+         if (.not. all(abs(residual) < huge(1.0_dp))) return
+         correction = -residual
+         call solve_dense(matrix, correction, regular)
+         if (.not. regular) return
+         unit = unit_of_velocity(tooth, step, films)
+         change = maxval(abs(correction(:nodes)))/unit
+         largest = 1.0_dp
+         do flank = 1, flanks
+            spring(flank) = maxval(abs(loads(:, flank)))*tooth%compliance
+            associate (grown => correction(nodes*(2*flank - 1) + 1:nodes*2*flank), &
+                       pressed => correction(nodes*2*flank + 1:nodes*(2*flank + 1)))
+               change = max(change, maxval(abs(grown)), maxval(abs(pressed))/max(spring(flank), 1.0e-12_dp*minval(films)))
+               largest = min(largest, 2.0_dp/max(2.0_dp, maxval(abs(grown))))
+               ! The load of a film that never pulls stays one.
+               if (never_pulls(tooth%film)) then
+                  failed = any(loads(:, flank) <= 0.0_dp)
+                  if (failed) return
+                  largest = min(largest, 0.9_dp/max(0.9_dp, maxval(-pressed/(tooth%compliance*loads(:, flank)))))
+               end if
+            end associate
+         end do
+         if (.not. change < huge(1.0_dp)) return
+         added = added + largest*reshape(correction, shape(added))
+         if (change < converged .or. (change < 1.0e-7_dp .and. change > 0.3_dp*last_change)) then
+            solved = .true.
+            exit
+         end if
+         if (pass > most_passes .and. change > 0.5_dp*last_change .and. largest >= 1.0_dp) return
+         last_change = change
+      end do
+      if (.not. solved) return
+      step%velocity = state%velocity + added(:, 1)
+      step%acceleration = matmul(rule%differentiate, added(:, 1))/seconds
+      do flank = 1, flanks
+         films(:, flank) = starts(flank)*exp(added(:, 2*flank))
+         step%compression(:, flank) = state%compression(flank) + added(:, 2*flank + 1)
+      end do
+      step%film = films(:, 1)
+      if (flanks == 2) step%coast = films(:, 2)
+      unit = unit_of_velocity(tooth, step, films)
+      error = tail(rule, matmul(rule%differentiate, added(:, 1)))/unit
+      do flank = 1, flanks
+         error = max(error, tail(rule, matmul(rule%differentiate, added(:, 2*flank))), &
+                     tail(rule, matmul(rule%differentiate, added(:, 2*flank + 1)))/minval(films(:, :flanks)))
+      end do
+      solved = error < huge(1.0_dp)
+
+   contains
+
+      !> Residual of the equations of an unknown.
+      pure subroutine put_rows(residual, unknown, values)
+         real(dp), intent(inout) :: residual(:)
+         integer, intent(in) :: unknown
+         real(dp), intent(in) :: values(nodes)
+
+         residual(nodes*(unknown - 1) + 1:nodes*unknown) = values
+      end subroutine put_rows
+
+      !> Slopes in the derivative of an unknown, times a factor at each node.
+      pure subroutine add_slopes(row, column, factor, matrix)
+         integer, intent(in) :: row
+         integer, intent(in) :: column
+         real(dp), intent(in) :: factor(nodes)
+         real(dp), intent(inout) :: matrix(:, :)
+         integer :: n
+
+         do n = 1, nodes
+            associate (place => matrix(nodes*(row - 1) + n, nodes*(column - 1) + 1:nodes*column))
+               place = place + factor(n)*rule%differentiate(n, :)
+            end associate
+         end do
+      end subroutine add_slopes
+
+      !> Slopes in an unknown at the same node.
+      pure subroutine add_diagonal(row, column, values, matrix)
+         integer, intent(in) :: row
+         integer, intent(in) :: column
+         real(dp), intent(in) :: values(nodes)
+         real(dp), intent(inout) :: matrix(:, :)
+         integer :: n
+
+         do n = 1, nodes
+            associate (place => matrix(nodes*(row - 1) + n, nodes*(column - 1) + n))
+               place = place + values(n)
+            end associate
+         end do
+      end subroutine add_diagonal
+
+   end subroutine solve_elastic_step
+
+   !> The polynomials of the step before, carried on, or a standstill.
+   pure subroutine first_added(rule, length, state, before, flanks, added)
+      type(lobatto_rule_t), intent(in) :: rule
+      real(dp), intent(in) :: length
+      type(tooth_state_t), intent(in) :: state
+      type(tooth_step_t), intent(in) :: before
+      integer, intent(in) :: flanks
+      real(dp), intent(inout) :: added(:, :)
+      real(dp) :: basis(nodes)
+      integer :: i, flank
+
+      if (.not. before%length > 0.0_dp) return
+      if (length > 1.5_dp*before%length) return
+      do i = 1, nodes
+         basis = lagrange(rule, 1.0_dp + rule%node(i)*length/before%length)
+         added(i, 1) = dot_product(basis, before%velocity - state%velocity)
+         added(i, 2) = dot_product(basis, log(before%film/before%film(nodes)))
+         if (flanks == 2) added(i, 4) = dot_product(basis, log(before%coast/before%coast(nodes)))
+         do flank = 1, flanks
+            added(i, 2*flank + 1) = dot_product(basis, before%compression(:, flank) - state%compression(flank))
+         end do
+      end do
+      do flank = 1, flanks
+         if (maxval(abs(added(:, 2*flank))) > 1.0_dp) added = 0.0_dp
+         if (any(state%compression(flank) > 0.0_dp .and. added(:, 2*flank + 1) < -0.9_dp*state%compression(flank))) added = 0.0_dp
+      end do
+   end subroutine first_added
+
+   !> Gauss's elimination with a search for the pivot; rows are scaled by their largest number first.
+   pure subroutine solve_dense(matrix, unknown, solved)
+      real(dp), intent(inout) :: matrix(:, :)
+      !> Right-hand side, on return the solution
+      real(dp), intent(inout) :: unknown(:)
+      logical, intent(out) :: solved
+      real(dp) :: row(size(unknown)), held, factor
+      integer :: n, k, i, pivot
+
+      n = size(unknown)
+      solved = .false.
+      do i = 1, n
+         held = maxval(abs(matrix(i, :)))
+         if (.not. (held > 0.0_dp .and. held < huge(1.0_dp))) return
+         matrix(i, :) = matrix(i, :)/held
+         unknown(i) = unknown(i)/held
+      end do
+      do k = 1, n
+         pivot = k - 1 + maxloc(abs(matrix(k:, k)), dim=1)
+         if (.not. abs(matrix(pivot, k)) > 0.0_dp) return
+         if (pivot /= k) then
+            row = matrix(k, :)
+            matrix(k, :) = matrix(pivot, :)
+            matrix(pivot, :) = row
+            held = unknown(k)
+            unknown(k) = unknown(pivot)
+            unknown(pivot) = held
+         end if
+         do i = k + 1, n
+            factor = matrix(i, k)/matrix(k, k)
+            if (.not. abs(factor) > 0.0_dp) cycle
+            matrix(i, k + 1:) = matrix(i, k + 1:) - factor*matrix(k, k + 1:)
+            unknown(i) = unknown(i) - factor*unknown(k)
+         end do
+      end do
+      do k = n, 1, -1
+         unknown(k) = (unknown(k) - dot_product(matrix(k, k + 1:), unknown(k + 1:)))/matrix(k, k)
+      end do
+      solved = .true.
+   end subroutine solve_dense
+
    !> What a velocity is small against [m/s]: the largest of the step, and what changes the film within a period, or the load
    !> of (37), whose exponent counts velocities.
-   pure real(dp) function unit_of_velocity(tooth, step) result(unit)
+   pure real(dp) function unit_of_velocity(tooth, step, films) result(unit)
       type(tooth_t), intent(in) :: tooth
       type(tooth_step_t), intent(in) :: step
+      !> Of both flanks [m]
+      real(dp), intent(in) :: films(nodes, 2)
 
-      unit = two_pi*tooth%frequency*maxval(step%film)
+      unit = two_pi*tooth%frequency*maxval(films(:, 1))
+      if (has_coast(tooth)) unit = two_pi*tooth%frequency*maxval(minval(films, dim=2))
       if (tooth%film%rate > 0.0_dp) unit = min(unit, 1.0_dp/tooth%film%rate)
       unit = unit + maxval(abs(step%velocity))
    end function unit_of_velocity
@@ -301,7 +602,7 @@ contains
       gain = 0.0_dp
       if (.not. before%length > 0.0_dp) return
       if (length > 1.5_dp*before%length) return
-      logarithm = log(before%film/state%film)
+      logarithm = log(before%film/state%film) - log(before%coast/state%coast)
       do i = 1, nodes
          basis = lagrange(rule, 1.0_dp + rule%node(i)*length/before%length)
          growth(i) = dot_product(basis, logarithm)

@@ -1,6 +1,6 @@
 !> What a window of the reference motion amounts to: extremes within the steps, lines and power by integrals over them.
 module impact_window
-   use impact_steps, only: tooth_state_t, tooth_step_t, tooth_t, take_step
+   use impact_steps, only: has_coast, tooth_state_t, tooth_step_t, tooth_t, take_step
    use kinds, only: dp
    use lobatto_rule, only: legendre, lobatto_rule_t, nodes
    implicit none(type, external)
@@ -20,13 +20,15 @@ module impact_window
       integer :: periods = 0
       !> ln h, least and largest; z'' [m/s2]
       real(dp) :: logarithm(2) = [huge(1.0_dp), -huge(1.0_dp)], acceleration(2) = [huge(1.0_dp), -huge(1.0_dp)]
+      !> and of the coast film
+      real(dp) :: coast(2) = [huge(1.0_dp), -huge(1.0_dp)]
       !> Amplitudes of z'' at multiples of the frequency of the force over `divisions` [m/s2]
       integer :: divisions = 1
       real(dp), allocatable :: amplitudes(:)
       !> Twice the mean square of z'' about its mean, and its mean [m2/s4], [m/s2]
       real(dp) :: power = 0.0_dp, mean = 0.0_dp
-      !> h [m] and v [m/s] at its start and after each period
-      real(dp), allocatable :: films(:), velocities(:)
+      !> States at its start and after each period
+      type(tooth_state_t), allocatable :: states(:)
    end type impact_window_t
 
    public :: solve_periods, solve_impact_window
@@ -77,9 +79,8 @@ contains
 
       window%periods = periods
       window%divisions = divisions
-      allocate (window%films(0:periods), window%velocities(0:periods))
-      window%films(0) = state%film
-      window%velocities(0) = state%velocity
+      allocate (window%states(0:periods))
+      window%states(0) = state
       allocate (lines(integrated_lines*divisions), source=(0.0_dp, 0.0_dp))
       solved = .true.
       square = 0.0_dp
@@ -92,15 +93,15 @@ contains
             solved = solved .and. steps <= most_steps
             if (.not. solved) return
             call note_extremes(rule, log(step%film), window%logarithm)
+            if (has_coast(tooth)) call note_extremes(rule, log(step%coast), window%coast)
             call note_extremes(rule, step%acceleration, window%acceleration)
             square = square + step%length*dot_product(rule%weight, step%acceleration**2)
             call add_lines(rule, step, real(period - 1, dp), divisions, lines)
          end do
-         window%films(period) = state%film
-         window%velocities(period) = state%velocity
+         window%states(period) = state
       end do
       ! The line of z'' is that of v, times its angular frequency, and what v has gained over the window.
-      gained = window%velocities(periods) - window%velocities(0)
+      gained = window%states(periods)%velocity - window%states(0)%velocity
       window%mean = gained*tooth%frequency/real(periods, dp)
       window%power = 2.0_dp*(square/real(periods, dp) - window%mean**2)
       allocate (window%amplitudes(size(lines)))

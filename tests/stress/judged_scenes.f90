@@ -25,7 +25,9 @@ module judged_scenes
    integer, parameter :: windows(4) = [1, 4, 8, 16], samples(8) = [512, 512, 512, 512, 512, 512, 128, 2048]
    !> Law of a scene, by chance; successive substitution costs most and comes least.
    integer, parameter :: law_turns(16) = [1, 2, 4, 5, 6, 1, 5, 5, 2, 1, 4, 5, 2, 6, 5, 3]
-   integer(int64), parameter :: gear_stream = 2_int64**40, order_stream = 2_int64**43
+   integer(int64), parameter :: gear_stream = 2_int64**40, order_stream = 2_int64**43, flank_stream = 2_int64**45
+   !> Backlash [m] and stiffness of a tooth [N/m]
+   real(dp), parameter :: backlashes(2) = [1.0e-6_dp, 5.0e-4_dp], stiffnesses(2) = [1.0e6_dp, 1.0e11_dp]
    !> Highest order of a force
    integer, parameter :: most_orders = 32
 
@@ -69,6 +71,7 @@ contains
       drawn%number = number
       call draw_solver(state, drawn%scene)
       call draw_orders(random_state_t(seed=seed, stream=order_stream + number), drawn%scene)
+      call draw_flanks(random_state_t(seed=seed, stream=flank_stream + number), drawn%scene)
       drawn%resolved = resolve(drawn%scene)
    end subroutine draw_judged_scene
 
@@ -89,6 +92,7 @@ contains
       integer(int64), parameter :: campaign_stream = 2_int64**41
       type(random_state_t) :: state
       real(dp) :: ratio
+      logical :: turned
       integer :: i
 
       state = random_state_t(seed=seed, stream=campaign_stream + number)
@@ -98,10 +102,13 @@ contains
       base%film%initial_film = 0.0_dp
       base%load%force_amplitude = 1.0_dp
       call draw_orders(random_state_t(seed=seed, stream=2_int64*order_stream + number), base)
+      base%load%steady_force = 0.0_dp
+      call draw_flanks(random_state_t(seed=seed, stream=2_int64*flank_stream + number), base, turned)
       do i = 1, campaign_rows
          call draw(state, loads, values(1, i))
          call draw(state, ratios, ratio)
          values(2, i) = ratio*(values(1, i) + base%load%weight())
+         if (turned) values(1, i) = -values(1, i)
          call draw(state, frequencies, values(3, i))
          call draw(state, viscosities, values(4, i))
          associate (scene => drawn(i)%scene)
@@ -249,6 +256,36 @@ contains
          scene%spectrum%forced = forced_orders(load%force_orders, load%force_amplitudes)
       end associate
    end subroutine draw_orders
+
+   !> A coast flank in every other scene, half of these with the steady force turned, and teeth that give in every other scene.
+   pure subroutine draw_flanks(start, scene, turned)
+      !> Where the numbers come from
+      type(random_state_t), intent(in) :: start
+      type(scene_t), intent(inout) :: scene
+      !> Whether the steady force is
+      logical, intent(out), optional :: turned
+      type(random_state_t) :: state
+      real(dp) :: number(3), backlash, stiffness
+      integer :: i
+
+      state = start
+      do i = 1, size(number)
+         call next_uniform(state, number(i))
+      end do
+      call draw(state, backlashes, backlash)
+      call draw(state, stiffnesses, stiffness)
+      if (present(turned)) turned = number(1) < 0.5_dp .and. number(2) < 0.5_dp
+      if (number(1) < 0.5_dp) then
+         scene%contact%backlash = backlash
+         if (number(2) < 0.5_dp) scene%load%steady_force = -scene%load%steady_force
+         ! A film to start from lies between the flanks.
+         if (.not. scene%film%initial_film < backlash) scene%film%initial_film = 0.0_dp
+      end if
+      if (number(3) < 0.5_dp) then
+         scene%contact%stiffness = stiffness
+         scene%solver%iteration = iteration_newton
+      end if
+   end subroutine draw_flanks
 
    !> Solver and window.
    pure subroutine draw_solver(state, scene)

@@ -28,7 +28,7 @@ contains
          write (unit, '(a)') '! '//remark
          write (unit, '(a)') "&scene task = 'motion' /"
          write (unit, '(a)') '&contact radius = '//real_text(scene%contact%radius)//', length = '// &
-            real_text(scene%contact%length)//' /'
+            real_text(scene%contact%length)//flank_keys(scene)//' /'
          write (unit, '(a)') '&lubricant viscosity = '//real_text(scene%lubricant%viscosity)// &
             ', pressure_viscosity = '// &
             real_text(scene%lubricant%pressure_viscosity)//' /'
@@ -44,6 +44,16 @@ contains
          write (unit, '(a)') ''
       end associate
    end subroutine print_namelist
+
+   !> Keys of the coast flank and of teeth that give.
+   function flank_keys(scene) result(words)
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: words
+
+      words = ''
+      if (scene%contact%backlash > 0.0_dp) words = ', backlash = '//real_text(scene%contact%backlash)
+      if (scene%contact%stiffness > 0.0_dp) words = words//', stiffness = '//real_text(scene%contact%stiffness)
+   end function flank_keys
 
    !> Keys of the force that oscillates.
    function force_keys(scene) result(words)

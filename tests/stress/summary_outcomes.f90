@@ -16,7 +16,7 @@
 module summary_outcomes
    use force, only: largest_oscillation
    use impact_reference, only: compared_harmonics, find_orbit, impact_reference_t, possible_classes, solve_reference
-   use impact_steps, only: disturb, tooth_of_lane, tooth_state_t, tooth_t
+   use impact_steps, only: disturb, start_of_tooth, tooth_of_lane, tooth_state_t, tooth_t
    use impact_window, only: solve_periods
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t
@@ -33,9 +33,9 @@ module summary_outcomes
       'uncertain', 'error understated', 'status', 'unjudged', 'SILENT FAILURE']
 
    !> Quantities that are compared, and their names.
-   integer, parameter :: quantities = 4 + compared_harmonics
-   character(*), parameter :: extreme_names(4) = [character(20) :: 'film_minimum', 'film_maximum', 'acceleration_minimum', &
-      'acceleration_maximum']
+   integer, parameter :: quantities = 6 + compared_harmonics
+   character(*), parameter :: extreme_names(6) = [character(20) :: 'film_minimum', 'film_maximum', 'acceleration_minimum', &
+      'acceleration_maximum', 'coast_film_minimum', 'coast_film_maximum']
 
    !> Tolerances of the reference: the usual one, and that of the second look. What each may be off at least [-].
    real(dp), parameter :: usual = 1.0e-9_dp, second = 1.0e-11_dp, usual_error = 3.0e-9_dp, second_error = 1.0e-10_dp
@@ -160,10 +160,11 @@ contains
       row = told
       allowed = noise(drawn) + drawn%resolved%noise_floor
       allowed(:2) = row_ratio*drawn%scene%solver%accuracy*reference%extremes(:2)
-      allowed(3:4) = allowed(3:4) + row_error*maxval(abs(reference%extremes(3:)))
-      allowed(5:) = allowed(5:) + row_error*maxval(reference%harmonics)
-      row%extreme_errors = allowed(:4)
-      row%harmonic_errors = allowed(5:)
+      allowed(3:4) = allowed(3:4) + row_error*maxval(abs(reference%extremes(3:4)))
+      allowed(5:6) = row_ratio*drawn%scene%solver%accuracy*reference%extremes(5:)
+      allowed(7:) = allowed(7:) + row_error*maxval(reference%harmonics)
+      row%extreme_errors = allowed(:6)
+      row%harmonic_errors = allowed(7:)
       fault = fault_of(row, reference, 0.0_dp*allowed, .true.)
       if (len(fault) == 0) return
       outcome%fault = fault
@@ -179,6 +180,7 @@ contains
       outcome%code = told_sensitive
       if (row_ratio*drawn%scene%solver%accuracy*grown > row_unforeseeable .or. .not. is_known(tight, reference)) return
       row%extreme_errors(:2) = allowed(:2)*grown
+      row%extreme_errors(5:) = allowed(5:6)*grown
       if (len(fault_of(row, reference, 0.0_dp*allowed, .true.)) == 0) return
       outcome%code = merge(told_silent, told_uncertain, told%sampling_sufficient)
       outcome%fault = outcome%fault//', growth '//short_text(grown, 3)
@@ -227,8 +229,7 @@ contains
 
       tooth = tooth_of_lane(drawn%resolved%problem)
       call disturb(offset, tooth)
-      state%film = drawn%resolved%problem%initial_film*(1.0_dp + offset)
-      state%velocity = drawn%resolved%problem%initial_velocity
+      state = start_of_tooth(drawn%resolved%problem, offset)
       call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)
       if (solved) call solve_reference(tooth, rule, tolerance, told%window, drawn%scene%spectrum, drawn%resolved%noise_floor, &
                                        margin, state, reference)
@@ -239,9 +240,10 @@ contains
       type(drawn_scene_t), intent(in) :: drawn
       real(dp) :: noise(quantities)
 
-      noise = 1.0e-11_dp*(drawn%scene%load%static_load() + largest_oscillation(drawn%resolved%problem%force))/ &
+      noise = 1.0e-11_dp*(abs(drawn%scene%load%static_load()) + largest_oscillation(drawn%resolved%problem%force))/ &
               drawn%scene%load%mass
       noise(:2) = 0.0_dp
+      noise(5:6) = 0.0_dp
    end function noise
 
    !> Whether two solutions of the reference come to the same films.
@@ -303,12 +305,12 @@ contains
       values = [told%extremes, told%harmonics]
       stated = [told%extreme_errors, told%harmonic_errors]
       true_values = values_of(reference)
-      do i = 1, 4 + told%harmonic_count
+      do i = 1, 6 + told%harmonic_count
          if (abs(values(i) - true_values(i)) <= stated(i) + own_errors(i)) cycle
-         if (i <= 4) then
+         if (i <= 6) then
             fault = fault//trim(extreme_names(i))
          else
-            fault = fault//'harmonic '//integer_text(i - 4)
+            fault = fault//'harmonic '//integer_text(i - 6)
          end if
          fault = fault//' '//short_text(values(i), 9)//' +- '//short_text(stated(i), 3)//', truly '// &
                  short_text(true_values(i), 9)//' +- '//short_text(own_errors(i), 3)

@@ -7,11 +7,12 @@ module told_summary
    use errors, only: error_t
    use impact_reference, only: compared_harmonics
    use judge_scene, only: judge, note_ending
-   use judged_scene, only: judged_scene_t
+   use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp, int64
    use newmark_engine, only: solve_newmark
-   use node_extremes, only: seen_acceleration, seen_film
+   use problem, only: has_two_flanks
    use quantities, only: quantity_acceleration_maximum, quantity_acceleration_minimum, quantity_certified, &
+                         quantity_coast_film_maximum, quantity_coast_film_minimum, &
                          quantity_film_maximum, quantity_film_minimum, quantity_harmonics, quantity_orbit_period, &
                          quantity_periods_solved, quantity_rattle_class, quantity_sampling_sufficient, quantity_word
    use random_scenes, only: drawn_scene_t
@@ -36,8 +37,9 @@ module told_summary
       logical :: certificate_asked = .true.
       character(16) :: class = ''
       character(160) :: reason = ''
-      !> film_minimum, film_maximum [m], acceleration_minimum, acceleration_maximum [m/s2], with the errors stated
-      real(dp) :: extremes(4) = 0.0_dp, extreme_errors(4) = 0.0_dp
+      !> film_minimum, film_maximum [m], acceleration_minimum, acceleration_maximum [m/s2], coast_film_minimum, coast_film_maximum
+      !> [m], with the errors stated
+      real(dp) :: extremes(6) = 0.0_dp, extreme_errors(6) = 0.0_dp
       !> [m/s2], with the errors stated; beyond `harmonic_count` none is listed
       real(dp) :: harmonics(compared_harmonics) = 0.0_dp, harmonic_errors(compared_harmonics) = 0.0_dp
       integer :: harmonic_count = 0
@@ -88,10 +90,7 @@ contains
       told%window = result%window_periods
       told%orbit = result%repeats_after
       told%sampling_sufficient = result%rattle%lines%sampling_sufficient
-      associate (lowest => result%extremes%lowest, highest => result%extremes%highest)
-         told%extremes = [lowest(seen_film)%value, highest(seen_film)%value, lowest(seen_acceleration)%value, &
-                          highest(seen_acceleration)%value]
-      end associate
+      told%extremes = extremes_of(result)
       n = min(compared_harmonics, size(result%rattle%lines%harmonics))
       told%harmonic_count = n
       told%harmonics(:n) = result%rattle%lines%harmonics(:n)
@@ -105,9 +104,24 @@ contains
          told%harmonic_errors(:n) = certificate%harmonic_errors(:n)
          if (n == 0) return
          told%extreme_errors = [certificate%film_minimum_error, certificate%film_maximum_error, &
-                                certificate%acceleration_minimum_error, certificate%acceleration_maximum_error]
+                                certificate%acceleration_minimum_error, certificate%acceleration_maximum_error, &
+                                certificate%film_error*told%extremes(5:)]
       end associate
    end subroutine summary_told
+
+   !> Extremes of a judged scene.
+   pure function extremes_of(judged) result(extremes)
+      type(judged_scene_t), intent(in) :: judged
+      real(dp) :: extremes(6)
+      integer, parameter :: codes(6) = [quantity_film_minimum, quantity_film_maximum, quantity_acceleration_minimum, &
+         quantity_acceleration_maximum, quantity_coast_film_minimum, quantity_coast_film_maximum]
+      integer :: i
+
+      do i = 1, size(codes)
+         extremes(i) = quantity_value(codes(i), judged)
+      end do
+      if (.not. has_two_flanks(judged%resolved%problem)) extremes(5:) = 0.0_dp
+   end function extremes_of
 
    !> What a campaign tells of scenes that differ from a base in some keys.
    subroutine rows_told(base, keys, values, certified, told)
@@ -121,10 +135,9 @@ contains
       logical, intent(in) :: certified
       !> What is told of each scene
       type(told_t), intent(out) :: told(:)
-      integer, parameter :: recorded(9) = [quantity_film_minimum, quantity_film_maximum, quantity_acceleration_minimum, &
-         quantity_acceleration_maximum, quantity_rattle_class, quantity_sampling_sufficient, quantity_orbit_period, &
-         quantity_periods_solved, &
-         quantity_harmonics], row_harmonics = 8
+      integer, parameter :: recorded(11) = [quantity_film_minimum, quantity_film_maximum, quantity_acceleration_minimum, &
+         quantity_acceleration_maximum, quantity_coast_film_minimum, quantity_coast_film_maximum, quantity_rattle_class, &
+         quantity_sampling_sufficient, quantity_orbit_period, quantity_periods_solved, quantity_harmonics], row_harmonics = 8
       integer, allocatable :: record(:)
       type(scene_t) :: scene
       type(sample_plan_t) :: plan
@@ -139,7 +152,7 @@ contains
       scene = base
       scene%task = task_campaign
       record = recorded
-      if (certified) record = [recorded(:8), quantity_certified, quantity_harmonics]
+      if (certified) record = [recorded(:10), quantity_certified, quantity_harmonics]
       scene%campaign%record = record
       scene%resolved_input = ''
       table = values
@@ -152,16 +165,17 @@ contains
             told(i)%status = status_name(nint(row(1)))
             told(i)%judged = is_success(nint(row(1)))
             if (.not. told(i)%judged) cycle
-            told(i)%extremes = row(2:5)
-            told(i)%class = quantity_word(quantity_rattle_class, nint(row(6)))
-            told(i)%sampling_sufficient = row(7) > 0.5_dp
-            told(i)%orbit = nint(row(8))
-            told(i)%periods = nint(row(9))
+            told(i)%extremes = row(2:7)
+            if (.not. scene%contact%backlash > 0.0_dp) told(i)%extremes(5:) = 0.0_dp
+            told(i)%class = quantity_word(quantity_rattle_class, nint(row(8)))
+            told(i)%sampling_sufficient = row(9) > 0.5_dp
+            told(i)%orbit = nint(row(10))
+            told(i)%periods = nint(row(11))
             told(i)%window = scene%spectrum%periods
             if (scene%solver%until == until_steady) told(i)%window = reserved_periods(scene%spectrum%periods)
             if (told(i)%orbit > 0) told(i)%window = told(i)%orbit
             told(i)%certificate_asked = certified
-            if (certified) told(i)%certified = row(10) > 0.5_dp
+            if (certified) told(i)%certified = row(12) > 0.5_dp
             associate (before => size(record))
                told(i)%harmonics(:row_harmonics) = row(before + 1:before + row_harmonics)
             end associate
@@ -185,10 +199,7 @@ contains
       told%judged = is_success(judged%status) .and. .not. allocated(error)
       told%certificate_asked = .false.
       if (.not. told%judged) return
-      associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
-         told%extremes = [lowest(seen_film)%value, highest(seen_film)%value, lowest(seen_acceleration)%value, &
-                          highest(seen_acceleration)%value]
-      end associate
+      told%extremes = extremes_of(judged)
       told%class = quantity_word(quantity_rattle_class, judged%rattle%class)
       ! The window is the orbit of a motion found steady; it begins where the motion ended.
       told%window = scene%spectrum%periods
