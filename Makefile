@@ -272,6 +272,10 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@for map in map_idle map_creep; do \
 	  $(PYTHON) scripts/plot.py campaign $(PICTURE_RUNS)/$$map.rattle --output $(PICTURE_RUNS) && \
 	  cp $(PICTURE_RUNS)/$${map}_map_rattle_class.png $(PICTURES)/$$map.png; done
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set campaign.count=61,57 input/gearbox_map.nml
+	@$(PYTHON) scripts/plot.py campaign --together --columns rattle_class,acceleration_rms --output $(PICTURE_RUNS) \
+	  $(PICTURE_RUNS)/gearbox_map.rattle
+	@cp $(PICTURE_RUNS)/gearbox_map_pairs.png $(PICTURES)/gearbox.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/sweep.nml
 	@$(PYTHON) scripts/plot.py sweep $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
 	@cp $(PICTURE_RUNS)/sweep_sweep.png $(PICTURES)/sweep.png

@@ -12,6 +12,8 @@ from script_calls import call_script
 
 import rattle as package
 from rattle import rerun
+from rattle.campaign_section import new_section
+from rattle.figures import campaign_map, style
 
 FIRST = """&gear
    name = '1st', teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96
@@ -212,3 +214,27 @@ def test_ready_gearbox_has_a_map(run, repository: Path, tmp_path: Path) -> None:
     assert drawn.returncode == 0, drawn.stderr
     assert len(list(tmp_path.glob("gearbox_map.*_map_rattle_class.png"))) == 4
     assert run("--check", repository / "input" / "gearbox.nml", cwd=tmp_path).returncode == 0
+
+
+def test_all_pairs_stand_together_in_one_figure(solve, tmp_path: Path) -> None:
+    solve("box", BOTH + "&scene task = 'campaign' /\n" + GRID)
+    path = tmp_path / "results" / "box.rattle"
+    campaign = package.read_campaign(path)
+    sections = {
+        gear: new_section(alone, ("shaft.speed_rpm", "gear.drag_torque"), {})
+        for gear, alone in zip(campaign.gears, campaign.pairs, strict=True)
+    }
+    with style.house_style(own=False):
+        figure = campaign_map.draw_pairs(sections, ("rattle_class", "film_force_rms"), "auto")
+    first, second, loud, louder, bar = figure.axes
+    assert [axes.get_title(loc="left") for axes in (first, second)] == ["1st", "4th"]
+    assert [axes.get_ylabel() for axes in (first, loud)] == ["Drag torque [N m]"] * 2
+    assert loud.get_xlabel() == "Speed [1/min]" and bar.get_ylabel() == "Film force rms [N]"
+    meshes = [axes.collections[0] for axes in (loud, louder)]
+    assert meshes[0].norm.vmin == meshes[1].norm.vmin and meshes[0].norm.vmax == meshes[1].norm.vmax
+    for mesh, alone in zip(meshes, campaign.pairs, strict=True):
+        assert np.array_equal(np.ravel(mesh.get_array()), alone.grid("film_force_rms").T.ravel())
+    drawn = call_script("plot.py", "campaign", path, "--together", "--output", tmp_path, "--format", "png")
+    assert drawn.returncode == 0 and (tmp_path / "box_pairs.png").exists(), drawn.stderr
+    refused = call_script("plot.py", "campaign", path, "--together", "--summary")
+    assert refused.returncode == 2 and "--together draws the maps of a grid campaign" in refused.stderr

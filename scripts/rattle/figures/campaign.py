@@ -32,6 +32,9 @@ def add_options(parser: ArgumentParser) -> None:
         metavar="NAME",
         help="draw this gear pair of several; by default each in a figure of its own",
     )
+    parser.add_argument(
+        "--together", action="store_true", help="all gear pairs in one figure, a row of maps for each column"
+    )
     parser.add_argument("--x", metavar="KEY", help="varied key on the x axis, by default the first")
     parser.add_argument("--y", metavar="KEY", help="varied key on the y axis, by default the next")
     parser.add_argument("--along", metavar="KEY", help="draw columns along this key instead of a map")
@@ -77,6 +80,9 @@ def run(options: Namespace) -> None:
         raise command.CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
     slices = one_each(options.slice)
     with style.house_style():
+        if options.together:
+            draw_together(campaign, options, slices)
+            return
         for alone in (campaign.pair(options.gear),) if options.gear else campaign.pairs:
             if not alone.done.any():
                 command.note(f"no scene of {alone.name} is done; it is left out.")
@@ -110,6 +116,19 @@ def draw_maps(campaign: Campaign, options: Namespace, slices: dict[str, float]) 
         else:
             figure = campaign_map.draw_points(campaign, x, y, column, overlay)
         save(figure, options, f"{campaign.name}_map_{column}")
+
+
+def draw_together(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> None:
+    """Maps of all gear pairs in one figure."""
+    if not campaign.gears or campaign.kind != GRID or options.summary or options.along or options.gear:
+        raise command.CommandError("--together draws the maps of a grid campaign of several gear pairs.")
+    columns = options.columns or ["rattle_class"]
+    check_columns(campaign, columns)
+    sections = {}
+    for gear, alone in zip(campaign.gears, campaign.pairs, strict=True):
+        sections[gear] = new_section(alone, plane(alone, options.x, options.y, slices), slices)
+    figure = campaign_map.draw_pairs(sections, columns, options.colours)
+    save(figure, options, f"{campaign.name}_pairs")
 
 
 def draw_slices(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> None:

@@ -44,6 +44,7 @@ NOT_DONE_HATCH = "...."
 UNKNOWN_HATCH = "**"
 UNCERTAIN_HATCH = "//////"
 UNCERTAIN_WORDS = "not certified"
+UNIT_ENDINGS = (" celsius", " rpm", " cst", " deg")
 MICROMETRES = "\N{MICRO SIGN}m"
 
 
@@ -127,7 +128,11 @@ def column_label(campaign: Campaign, column: str) -> str:
 
 
 def axis_label(axis: Axis) -> str:
-    return _with_unit(short_name(axis.key), axis.unit)
+    """Name and unit; a name that ends with its unit is told without it."""
+    words = short_name(axis.key)
+    for unit in UNIT_ENDINGS:
+        words = words.removesuffix(unit)
+    return _with_unit(words, axis.unit)
 
 
 def _with_unit(words: str, unit: str) -> str:

@@ -52,6 +52,36 @@ def draw(section: Section, column: str, options: Options) -> Figure:
     return figure
 
 
+def draw_pairs(sections: Mapping[str, Section], columns: Sequence[str], colours: str) -> Figure:
+    """Gear pairs side by side, a row of maps for each column."""
+    figure = Figure(figsize=(style.WIDTH, 0.9 + 1.75 * len(columns)))
+    grid = figure.subplots(len(columns), len(sections), sharex=True, sharey=True, squeeze=False)
+    handles: dict[str, object] = {}
+    figure.get_layout_engine().set(w_pad=0.03)
+    for place, (column, row) in enumerate(zip(columns, grid, strict=True)):
+        drawn = []
+        for (name, section), axes in zip(sections.items(), row, strict=True):
+            entries, mesh = draw_cells(axes, section, column, colours)
+            drawn += [mesh] if mesh else []
+            handles |= {patch.get_label().rpartition(" (")[0]: patch for patch in entries}
+            axes.set_title(name if place == 0 else "")
+            axes.set_xlabel("")
+            axes.set_ylabel(axes.get_ylabel() if axes is row[0] else "")
+            axes.tick_params(axis="x", rotation=90)
+        campaign = section.campaign
+        if drawn:
+            norm = look.colour_norm(
+                np.concatenate([mesh.get_array().compressed() for mesh in drawn]), colours
+            )
+            for mesh in drawn:
+                mesh.set_norm(norm)
+            figure.colorbar(drawn[0], ax=row, label=look.column_label(campaign, column), pad=0.02, aspect=14)
+    middle = (len(sections) - 1) // 2
+    grid[-1, middle].set_xlabel(look.axis_label(section.free[0]), x=0.5 if len(sections) % 2 else 1.05)
+    figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=3)
+    return figure
+
+
 def draw_points(campaign: Campaign, x: str, y: str, column: str, options: Options) -> Figure:
     """The map of a campaign that is no grid: a dot for each scene."""
     figure, axes = _new_figure()
