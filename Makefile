@@ -276,6 +276,9 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(PYTHON) scripts/plot.py campaign --together --columns rattle_class,acceleration_rms --output $(PICTURE_RUNS) \
 	  $(PICTURE_RUNS)/gearbox_map.rattle
 	@cp $(PICTURE_RUNS)/gearbox_map_pairs.png $(PICTURES)/gearbox.png
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/gearbox_threshold.nml
+	@$(PYTHON) scripts/plot.py threshold --no-title --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_threshold.rattle
+	@cp $(PICTURE_RUNS)/threshold_gearbox_threshold.png $(PICTURES)/gearbox_threshold.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/sweep.nml
 	@$(PYTHON) scripts/plot.py sweep $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
 	@cp $(PICTURE_RUNS)/sweep_sweep.png $(PICTURES)/sweep.png

@@ -207,6 +207,13 @@ contains
          'of the orders: `signal` names its CSV file. With `load.force_scale` campaigns vary all accelerations at '// &
          'once.'//end_of_line// &
          end_of_line// &
+         'Several `&gear` are a gearbox: each pair is a scene NAME.GEAR, and one table tells class, film, acceleration, '// &
+         'film force and'//end_of_line// &
+         'power of all, with the root of the sum of the squares of their forces and the sum of their powers '// &
+         '(`gearbox.nml`). In campaigns and'//end_of_line// &
+         'thresholds the pair is the first axis (`gearbox_map.nml`). `task = ''threshold''` finds at which speed, oil or '// &
+         'drag the motion changes.'//end_of_line// &
+         end_of_line// &
          'Which film law? At rest the four films of this pair are 2.86 um (published iso-viscous), 0.23 um '// &
          '(published piezo-viscous) and'//end_of_line// &
          '4.89 and 4.90 um (exact, `model = ''reynolds''`, iso- and piezo-viscous). Where alpha p at the steady '// &
