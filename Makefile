@@ -41,7 +41,7 @@ ifneq ($(findstring flang,$(FC)),)
 else
   WARNINGS := -std=f2018 -Wall -Wextra $(if $(STRICT),-Werror)
   RELEASE_FLAGS := -O3 $(ARCHITECTURE) -fno-math-errno -fno-trapping-math -flto=auto -fopenmp -fPIC
-  DEBUG_FLAGS := -O1 -g -fcheck=all -finit-real=snan -ffpe-trap=invalid,overflow,zero -fbacktrace -fopenmp -fPIC
+  DEBUG_FLAGS := -O1 -g -fcheck=all,no-array-temps -finit-real=snan -ffpe-trap=invalid,overflow,zero -fbacktrace -fopenmp -fPIC
   LANE_FLAGS := $(if $(DEBUG),,-fno-inline)
   ELEMENTARY_FLAGS := -finline-limit=4000
   WIDENING := -Wconversion-extra
