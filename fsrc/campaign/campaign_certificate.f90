@@ -11,7 +11,8 @@ module campaign_certificate
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film, seen_quantities
    use periodic_orbit, only: attracting_period
-   use problem, only: films_of, of_film, problem_t
+   use carried_loads, only: films_of
+   use problem, only: of_film, problem_t
    use rattle_class, only: class_irregular, note_orbit
    use resolved_scene, only: resolved_scene_t
    use scene_group, only: classify_group, scene_group_t, solve_group

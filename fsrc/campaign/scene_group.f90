@@ -5,7 +5,8 @@ module scene_group
    use kinds, only: dp
    use many_motions, only: solve_motions
    use node_extremes, only: seen_quantities
-   use problem, only: accelerations_of_samples, problem_t, state_size
+   use carried_loads, only: accelerations_of_samples
+   use problem, only: problem_t, state_size
    use rattle_class, only: classify_steps, note_orbit, rattle_verdict_t
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t

@@ -11,7 +11,7 @@ module solve_chunk
    use loudness, only: loudness_of_record
    use memory_need, only: window_bytes
    use node_extremes, only: seen_pressure, seen_quantities
-   use problem, only: thinnest_film
+   use carried_loads, only: thinnest_film
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: need_count, needs_certificate, needs_coast_film_range, needs_coast_load_range, needs_deflection, &
       needs_film_range, needs_load_range, needs_regime, needs_spectrum, quantity_table

@@ -11,7 +11,8 @@ module controlled_engine
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
-   use problem, only: acceleration_at, accelerations_of_samples, largest_state, problem_t, state_size
+   use carried_loads, only: acceleration_at, accelerations_of_samples
+   use problem, only: largest_state, problem_t, state_size
    use repetition, only: longest_orbit, orbit_watch_t
    use scene_status, only: is_success, status_complete, status_interrupted, status_steady
    use window_record, only: window_record_t

@@ -4,7 +4,8 @@ module engine
    use clock, only: wall_seconds
    use errors, only: error_t
    use kinds, only: dp, int64
-   use problem, only: has_elastic_teeth, largest_state, problem_t, start_springs
+   use carried_loads, only: start_springs
+   use problem, only: has_elastic_teeth, largest_state, problem_t
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_interrupted, status_time_limit
    use signals, only: caught_signal

@@ -15,8 +15,9 @@ module lane_block
    use lane_functions, only: lanes
    use load_expansion, only: load_expansion_t
    use memory, only: allocate_lines
-   use problem, only: has_elastic_teeth, has_two_flanks, net_load, problem_t, reference_film, reference_films, settling_of, &
-                      settling_t, static_load, thinner_film
+   use carried_loads, only: net_load
+   use problem, only: has_elastic_teeth, has_two_flanks, problem_t, reference_film, reference_films, settling_of, settling_t, &
+      static_load, thinner_film
    use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow

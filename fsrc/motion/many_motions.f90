@@ -8,7 +8,8 @@ module many_motions
    use kinds, only: dp
    use lane_block, only: lane_accuracy, start_status
    use lane_integration, only: integrate_lanes
-   use problem, only: has_elastic_teeth, has_two_flanks, net_load, problem_t, static_load, thinner_film
+   use carried_loads, only: net_load
+   use problem, only: has_elastic_teeth, has_two_flanks, problem_t, static_load, thinner_film
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_film_lost, status_not_converged
    use window_record, only: window_record_t

@@ -5,7 +5,8 @@ module newmark
    use force, only: force_at
    use kinds, only: dp, int64
    use newmark_step, only: newmark_state_t, take_step
-   use problem, only: has_elastic_teeth, net_load, problem_t, start_springs
+   use carried_loads, only: net_load, start_springs
+   use problem, only: has_elastic_teeth, problem_t
    use scene_status, only: status_complete, status_interrupted, status_not_converged
    use signals, only: must_stop
    implicit none(type, external)

@@ -13,7 +13,8 @@ module newmark_step
    use engine, only: request_t
    use film_law, only: film_kernel, never_pulls, overflow_load
    use kinds, only: dp
-   use problem, only: has_elastic_teeth, has_two_flanks, net_load, problem_t, thinner_film
+   use carried_loads, only: net_load
+   use problem, only: has_elastic_teeth, has_two_flanks, problem_t, thinner_film
    use scene_status, only: status_complete, status_film_lost, status_not_converged
    implicit none(type, external)
    private

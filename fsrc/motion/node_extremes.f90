@@ -7,8 +7,9 @@ module node_extremes
    use film_law, only: film_load
    use film_pressure, only: exact_pressure
    use kinds, only: dp
-   use problem, only: acceleration_at, coast_films, coast_loads, drive_loads, gear_positions, has_elastic_teeth, has_two_flanks, &
-      largest_pressures, largest_state, net_loads, of_film, of_velocity, problem_t
+   use carried_loads, only: acceleration_at, coast_films, coast_loads, drive_loads, gear_positions, largest_pressures, &
+      net_loads
+   use problem, only: has_elastic_teeth, has_two_flanks, largest_state, of_film, of_velocity, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    use value_range, only: range_of
    implicit none(type, external)

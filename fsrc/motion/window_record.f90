@@ -21,8 +21,8 @@ module window_record
    use lane_functions, only: lane_cosine_sine, lanes
    use node_extremes, only: block_nodes, block_pieces, extreme_t, find_extremes, seen_acceleration, seen_coast_film, &
       seen_coast_load, seen_film, seen_load, seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
-   use problem, only: coast_films, coast_loads, drive_loads, gear_positions, has_elastic_teeth, has_two_flanks, &
-      largest_pressures, of_film, of_velocity, problem_t, static_load
+   use carried_loads, only: coast_films, coast_loads, drive_loads, gear_positions, largest_pressures
+   use problem, only: has_elastic_teeth, has_two_flanks, of_film, of_velocity, problem_t, static_load
    use step_nodes, only: node_place, node_weight, nodes_per_piece, step_nodes_t
    implicit none(type, external)
    private

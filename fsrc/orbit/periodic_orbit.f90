@@ -5,8 +5,8 @@ module periodic_orbit
    use kinds, only: dp
    use period_map, only: map_states
    use force, only: largest_oscillation
-   use problem, only: has_elastic_teeth, largest_state, of_drive_compression, of_velocity, problem_t, state_size, static_load, &
-                      thinnest_film
+   use carried_loads, only: thinnest_film
+   use problem, only: has_elastic_teeth, largest_state, of_drive_compression, of_velocity, problem_t, state_size, static_load
    use scene_types, only: least_static_load
    implicit none(type, external)
    private

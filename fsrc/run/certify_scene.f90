@@ -10,7 +10,8 @@ module certify_scene
    use kinds, only: dp
    use loudness, only: loudness_of_record, loudness_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
-   use problem, only: films_of, problem_t
+   use carried_loads, only: films_of
+   use problem, only: problem_t
    use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name

@@ -7,7 +7,8 @@ module fine_window
    use kinds, only: dp
    use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
-   use problem, only: acceleration_at, problem_t, state_size
+   use carried_loads, only: acceleration_at
+   use problem, only: problem_t, state_size
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use scene_status, only: is_success
    use scene_types, only: scene_t, spectrum_choice_t

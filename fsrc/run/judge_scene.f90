@@ -7,7 +7,8 @@ module judge_scene
    use judged_scene, only: judged_scene_t
    use loudness, only: loudness_of_record, loudness_of_samples
    use node_extremes, only: seen_pressure
-   use problem, only: of_velocity, thinnest_film
+   use carried_loads, only: thinnest_film
+   use problem, only: of_velocity
    use rattle_class, only: note_orbit
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t

@@ -25,7 +25,8 @@ module judged_scene
       quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, quantity_sampling_sufficient, &
       quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, quantity_steps_cut, &
       quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, quantity_window_periods
-   use problem, only: coast_films, has_elastic_teeth, has_two_flanks, largest_state, of_film
+   use carried_loads, only: coast_films
+   use problem, only: has_elastic_teeth, has_two_flanks, largest_state, of_film
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit
    use regime_check, only: model_limit, regime_verdict_t

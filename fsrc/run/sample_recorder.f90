@@ -6,8 +6,8 @@ module sample_recorder
    use force, only: force_at
    use kinds, only: dp, int64
    use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_velocity
-   use problem, only: acceleration_at, coast_films, coast_loads, gear_positions, has_two_flanks, largest_state, of_film, &
-                      of_velocity, problem_t, state_size
+   use carried_loads, only: acceleration_at, coast_films, coast_loads, gear_positions
+   use problem, only: has_two_flanks, largest_state, of_film, of_velocity, problem_t, state_size
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use scene_types, only: column_acceleration, column_applied_force, column_coast_load, column_coast_film, &

@@ -4,8 +4,8 @@ module window_extremes
    use kinds, only: dp
    use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
       seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
-   use problem, only: coast_films, coast_loads, drive_loads, gear_positions, has_elastic_teeth, has_two_flanks, &
-      largest_pressures, net_loads, of_film, of_velocity, problem_t
+   use carried_loads, only: coast_films, coast_loads, drive_loads, gear_positions, largest_pressures, net_loads
+   use problem, only: has_elastic_teeth, has_two_flanks, of_film, of_velocity, problem_t
    use value_range, only: range_of
    use window_record, only: window_record_t
    implicit none(type, external)

@@ -12,8 +12,9 @@ module test_elastic_teeth
    use newmark, only: advance_period, newmark_state_t, start_motion
    use node_extremes, only: seen_coast_film, seen_coast_load, seen_load, seen_position
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use problem, only: coast_films, film_at_rest, gear_positions, loads_at_rest, of_drive_compression, of_film, of_velocity, &
-      problem_of, problem_t, static_load
+   use carried_loads, only: coast_films, gear_positions
+   use problem, only: film_at_rest, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, problem_t, &
+      static_load
    use scene_status, only: is_success, status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
    use window_record, only: energy_gap, window_record_t

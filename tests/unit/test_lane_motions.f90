@@ -11,7 +11,8 @@ module test_lane_motions
    use lane_block, only: lane_block_t
    use lane_functions, only: lane_count => lanes
    use many_motions, only: solve_motions
-   use problem, only: accelerations_of_samples, of_film, problem_of, problem_t
+   use carried_loads, only: accelerations_of_samples
+   use problem, only: of_film, problem_of, problem_t
    use radau_nodes, only: stages
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_steady

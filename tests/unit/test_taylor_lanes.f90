@@ -16,7 +16,8 @@ module test_taylor_lanes
       whole_below
    use lane_rows, only: interleave_rows
    use many_motions, only: solve_motions
-   use problem, only: accelerations_of_samples, of_film, of_velocity, problem_t
+   use carried_loads, only: accelerations_of_samples
+   use problem, only: of_film, of_velocity, problem_t
    use published_iso_viscous, only: rolling_coefficient, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, squeeze_exponent_rate
    use reynolds_load, only: pressure_rate, squeeze_rate

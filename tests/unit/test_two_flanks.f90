@@ -9,7 +9,8 @@ module test_two_flanks
    use many_motions, only: solve_motions
    use loudness, only: loudness_of_record, loudness_of_samples, loudness_t
    use node_extremes, only: seen_acceleration, seen_coast_load, seen_film, seen_load, seen_net_load
-   use problem, only: film_at_rest, net_load, of_film, of_velocity, problem_of, problem_t, static_load
+   use carried_loads, only: net_load
+   use problem, only: film_at_rest, of_film, of_velocity, problem_of, problem_t, static_load
    use scene_status, only: is_success, status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
                           scene_t

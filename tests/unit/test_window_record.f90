@@ -9,7 +9,8 @@ module test_window_record
    use many_motions, only: solve_motions
    use node_extremes, only: extreme_t, find_extremes, seen_acceleration, seen_film, seen_load, seen_pressure, seen_quantities, &
                             seen_velocity
-   use problem, only: accelerations_of_samples, of_film, of_velocity, problem_of, problem_t
+   use carried_loads, only: accelerations_of_samples
+   use problem, only: of_film, of_velocity, problem_of, problem_t
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use scene_status, only: status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t, spectrum_choice_t
