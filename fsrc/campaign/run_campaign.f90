@@ -9,7 +9,7 @@ module run_campaign
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
    use output_lock, only: output_lock_t
-   use output_place, only: check_output_place, log_path, progress_path, result_path, stem, summary_path
+   use output_place, only: claim_output_place, log_path, progress_path, result_path, summary_path
    use prepared_campaign, only: campaign_t, prepare_campaign
    use ranks, only: abort_ranks, next_ticket, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
    use scene_report, only: law_sentence
@@ -62,10 +62,7 @@ contains
       exit_code = faults%exit_code
       spoilt = 0_int64
       if (this_rank() == 0) then
-         if (faults%count() == 0) call check_output_place(scene, file, .true., faults)
-         if (faults%count() == 0) call lock%take(stem(scene), error)
-         ! Another run may have written these files since they were looked at.
-         if (faults%count() == 0 .and. .not. allocated(error)) call check_output_place(scene, file, .false., faults)
+         call claim_output_place(scene, file, lock, faults, error)
          if (caught_signal() /= 0) then
             ! The look at the scenes was cut short: there may be faults that are not known.
             exit_code = 128 + caught_signal()

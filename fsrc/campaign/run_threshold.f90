@@ -11,7 +11,7 @@ module run_threshold
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
    use output_lock, only: output_lock_t
-   use output_place, only: check_output_place, log_path, progress_path, result_path, stem, summary_path
+   use output_place, only: claim_output_place, log_path, progress_path, result_path, summary_path
    use prepared_threshold, only: points_plan, prepare_threshold, prepared_threshold_t
    use quantities, only: quantity_certified, quantity_table
    use ranks, only: abort_ranks, add_over_ranks, next_ticket, rank_count, renew_tickets, share_number, sum_over_ranks, this_rank, &
@@ -81,10 +81,7 @@ contains
       call prepare_threshold(scene, file, .false., threshold, faults)
       exit_code = faults%exit_code
       if (this_rank() == 0) then
-         if (faults%count() == 0) call check_output_place(scene, file, .true., faults)
-         if (faults%count() == 0) call lock%take(stem(scene), error)
-         ! Another run may have written these files since they were looked at.
-         if (faults%count() == 0 .and. .not. allocated(error)) call check_output_place(scene, file, .false., faults)
+         call claim_output_place(scene, file, lock, faults, error)
          if (faults%count() == 0 .and. .not. allocated(error)) call log%open(log_path(scene), quiet, error)
          exit_code = merge(faults%exit_code, exit_complete, faults%count() > 0)
          if (allocated(error)) exit_code = error%exit_code

@@ -1,10 +1,10 @@
 !> Where the files of a scene go, and whether they may go there. Looked at before anything runs.
 module output_place
-   use errors, only: fault_list_t
+   use errors, only: error_t, fault_list_t
    use byte_file, only: new_path
    use file_system, only: file_state_t, first_bytes, is_directory, is_writable, make_directory, path_exists, state_of_path
    use log_file, only: log_magic
-   use output_lock, only: lock_path
+   use output_lock, only: lock_path, output_lock_t
    use result_format, only: result_magic
    use scene_types, only: compute_profile, scene_t, task_campaign, task_film, task_motion, task_threshold
    use summary_file, only: summary_magic
@@ -12,7 +12,8 @@ module output_place
    implicit none(type, external)
    private
 
-   public :: stem, result_path, profiles_path, state_path, summary_path, log_path, progress_path, check_output_place
+   public :: stem, result_path, profiles_path, state_path, summary_path, log_path, progress_path, check_output_place, &
+             claim_output_place
 
 contains
 
@@ -169,5 +170,23 @@ contains
       end function is_writable_file
 
    end subroutine check_output_place
+
+   !> Look at the place of a scene's files and take their lock, if there are no faults yet.
+   subroutine claim_output_place(scene, file, lock, faults, error)
+      type(scene_t), intent(in) :: scene
+      !> Its input, for the faults
+      character(*), intent(in) :: file
+      !> The lock; the caller gives it back
+      type(output_lock_t), intent(inout) :: lock
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      !> Set if another run has the lock, or it cannot be made
+      type(error_t), allocatable, intent(out) :: error
+
+      if (faults%count() == 0) call check_output_place(scene, file, .true., faults)
+      if (faults%count() == 0) call lock%take(stem(scene), error)
+      ! Another run may have written these files since they were looked at.
+      if (faults%count() == 0 .and. .not. allocated(error)) call check_output_place(scene, file, .false., faults)
+   end subroutine claim_output_place
 
 end module output_place
