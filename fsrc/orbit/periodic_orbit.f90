@@ -1,8 +1,9 @@
-!> The periodic motion next to a state: found by Newton's method on the period map, from period 1 to 8.
+!> The periodic motion next to a state: found by Newton's method on the period map, from period 1 to 8. What its Floquet
+!> multipliers, the eigenvalues of the Jacobian of that map, say of its stability.
 module periodic_orbit
    use constants, only: two_pi
-   use floquet, only: floquet_multipliers, orbit_stability, orbit_unstable
    use kinds, only: dp
+   use matrix_values, only: eigenvalues
    use period_map, only: map_states
    use force, only: largest_oscillation
    use carried_loads, only: thinnest_film
@@ -17,6 +18,14 @@ module periodic_orbit
    !> Step of the differences: their error is about its square, and map_accuracy over it.
    real(dp), parameter :: difference_step = 1.0e-4_dp
    integer, parameter :: most_newton_steps = 8
+
+   integer, parameter, public :: orbit_stable = 1, orbit_doubling_near = 2, orbit_fold_near = 3, orbit_torus_near = 4, &
+                         orbit_unstable = 5
+
+   !> A multiplier beyond this is near the unit circle.
+   real(dp), parameter :: near = 0.9_dp
+   !> Error of the multipliers themselves.
+   real(dp), parameter :: tolerance = 1.0e-6_dp
 
    !> A periodic motion.
    type, public :: periodic_orbit_t
@@ -45,7 +54,7 @@ module periodic_orbit
       end subroutine dgesv
    end interface
 
-   public :: find_periodic_orbit, attracting_period
+   public :: find_periodic_orbit, attracting_period, orbit_stability
 
 contains
 
@@ -87,6 +96,25 @@ contains
       if (orbit%period == 0) return
       if (orbit_stability(orbit%multipliers) /= orbit_unstable) period = orbit%period
    end function attracting_period
+
+   !> Stability of a periodic motion by its multipliers.
+   pure integer function orbit_stability(multipliers) result(code)
+      !> Largest one first
+      complex(dp), intent(in) :: multipliers(:)
+
+      code = orbit_stable
+      if (abs(multipliers(1)) > 1.0_dp + tolerance) then
+         code = orbit_unstable
+      else if (abs(multipliers(1)) > near) then
+         if (abs(multipliers(1)%im) > 0.0_dp) then
+            code = orbit_torus_near
+         else if (multipliers(1)%re < 0.0_dp) then
+            code = orbit_doubling_near
+         else
+            code = orbit_fold_near
+         end if
+      end if
+   end function orbit_stability
 
    !> Fixed point of the map of some periods, and the multipliers there.
    function newton(problem, period, start, scale) result(orbit)
@@ -130,10 +158,12 @@ contains
          thickness = thinnest_film(problem, state)
          if (.not. thickness > 0.0_dp) return
          if (maxval(abs(change)*scale) > converged*thickness) cycle
+         orbit%multipliers = eigenvalues(jacobian*spread(scale, 2, n)/spread(scale, 1, n))
+         ! A motion of whose stability nothing is known counts as none.
+         if (size(orbit%multipliers) == 0) return
          orbit%period = period
          orbit%state(:n) = state
          orbit%distance = maxval(abs(state - start)*scale)/thickness
-         orbit%multipliers = floquet_multipliers(jacobian*spread(scale, 2, n)/spread(scale, 1, n))
          return
       end do
    end function newton

@@ -18,6 +18,7 @@ module linear_motion
 contains
 
    !> Natural frequency and damping ratio of the pair of eigenvalues that swings, or where none does of the two slowest ones.
+   !> Both are 0 where no eigenvalues are found.
    pure subroutine natural_motion(problem, natural_frequency, damping_ratio)
       !> With teeth that give, and a film at rest
       type(problem_t), intent(in) :: problem
@@ -50,7 +51,11 @@ contains
             matrix(own, own) = -(stiffness(flank) + 1.0_dp/problem%compliance)/(damping(flank)*rate)
          end associate
       end do
-      values = eigenvalues(matrix(:n, :n))*cmplx(rate, 0.0_dp, dp)
+      allocate (values, source=eigenvalues(matrix(:n, :n)))
+      natural_frequency = 0.0_dp
+      damping_ratio = 0.0_dp
+      if (size(values) == 0) return
+      values = values*cmplx(rate, 0.0_dp, dp)
       i = minloc(-values%re/abs(values), dim=1, mask=abs(values%im) > 0.0_dp)
       if (i > 0) then
          natural_frequency = abs(values(i))/two_pi

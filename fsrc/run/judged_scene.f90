@@ -3,12 +3,11 @@ module judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use certificate, only: certificate_t
    use engine, only: motion_count_t
-   use floquet, only: orbit_stability
    use kinds, only: dp
    use loudness, only: loudness_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
       seen_net_load, seen_position, seen_velocity
-   use periodic_orbit, only: periodic_orbit_t
+   use periodic_orbit, only: orbit_stability, periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
       quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_certified, quantity_coast_film_maximum, &
@@ -78,9 +77,9 @@ contains
       case (quantity_steady_film)
          if (judged%resolved%steady_film > 0.0_dp) value = judged%resolved%steady_film
       case (quantity_natural_frequency)
-         if (judged%resolved%steady_film > 0.0_dp) value = judged%resolved%natural_frequency
+         if (judged%resolved%natural_frequency > 0.0_dp) value = judged%resolved%natural_frequency
       case (quantity_damping_ratio)
-         if (judged%resolved%steady_film > 0.0_dp) value = judged%resolved%damping_ratio
+         if (judged%resolved%natural_frequency > 0.0_dp) value = judged%resolved%damping_ratio
       case (quantity_orbit_period)
          value = real(merge(judged%orbit%period, judged%repeats_after, judged%orbit%period > 0), dp)
       case (quantity_periods_solved)

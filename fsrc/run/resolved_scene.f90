@@ -20,7 +20,7 @@ module resolved_scene
       type(problem_t) :: problem = problem_t()
       !> Film that carries Q + m g [m]; 0 where no rigid film does: then nothing that rests on it is known
       real(dp) :: steady_film = 0.0_dp
-      !> sqrt(k/m)/(2 pi) and c/(2 sqrt(k m)) with the total derivatives of the scene's own film
+      !> sqrt(k/m)/(2 pi) and c/(2 sqrt(k m)) with the total derivatives of the scene's own film; 0: not known
       real(dp) :: natural_frequency = 0.0_dp
       real(dp) :: damping_ratio = 0.0_dp
       !> Squeeze group A at t = 0 [-]

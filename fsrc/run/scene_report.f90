@@ -150,9 +150,11 @@ contains
          thinner = reference_film(resolved%problem)
          call film_load(resolved%problem%film, thinner, 0.0_dp, load, by_film, by_velocity)
          share = resolved%tooth_compliance*load/thinner
-         lines = '! steady film                          '//short_text(resolved%steady_film, 10)//' m'//end_of_line// &
+         lines = '! steady film                          '//short_text(resolved%steady_film, 10)//' m'//end_of_line
+         if (resolved%natural_frequency > 0.0_dp) lines = lines// &
                  '! natural frequency                    '//short_text(resolved%natural_frequency, 6)//' Hz'//end_of_line// &
-                 '! damping ratio                        '//short_text(resolved%damping_ratio, 5)//end_of_line// &
+                 '! damping ratio                        '//short_text(resolved%damping_ratio, 5)//end_of_line
+         lines = lines// &
                  '! pressure group B at the steady film  '//short_text(resolved%pressure_group, 5)//end_of_line// &
                  '! largest alpha p at the steady film   '//short_text(resolved%alpha_p, 5)//end_of_line// &
                  '! deflection share at the steady film  '//short_text(share, 3)//end_of_line

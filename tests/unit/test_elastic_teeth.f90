@@ -1,5 +1,6 @@
 !> Tests of teeth that give: references of independent codes, the limit of stiff teeth, small motions, order of Newmark's method.
 module test_elastic_teeth
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t
    use controlled_engine, only: find_steady_motion, solve_window
@@ -7,6 +8,7 @@ module test_elastic_teeth
    use film_law, only: film_load, kernel_of
    use force, only: force_of_period
    use fourier, only: amplitude_spectrum
+   use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp
    use linear_motion, only: natural_motion
    use newmark, only: advance_period, newmark_state_t, start_motion
@@ -15,6 +17,8 @@ module test_elastic_teeth
    use carried_loads, only: coast_films, gear_positions
    use problem, only: film_at_rest, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, problem_t, &
       static_load
+   use quantities, only: quantity_damping_ratio, quantity_natural_frequency
+   use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_complete
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
    use window_record, only: energy_gap, window_record_t
@@ -182,6 +186,8 @@ contains
    !> Natural frequencies and damping ratios of the cubic, and that of stiff teeth.
    subroutine test_small_motions(checks)
       type(check_list_t), intent(inout) :: checks
+      type(problem_t) :: problem
+      type(judged_scene_t) :: judged
       real(dp) :: frequency, ratio
 
       call natural_motion(canonical(law_iso_viscous, model_reynolds, 3.0e8_dp), frequency, ratio)
@@ -193,6 +199,13 @@ contains
       call natural_motion(canonical(law_iso_viscous, model_reynolds, 1.0e14_dp), frequency, ratio)
       call checks%check_close(frequency, 1114.5_dp, 0.05_dp, 'natural frequency of stiff teeth')
       call checks%check_close(ratio, 0.3454_dp, 5.0e-4_dp, 'damping ratio')
+      problem = canonical(law_iso_viscous, model_reynolds, 1.0e8_dp)
+      problem%mass = ieee_value(1.0_dp, ieee_quiet_nan)
+      call natural_motion(problem, frequency, ratio)
+      call checks%check(max(frequency, ratio) <= 0.0_dp, 'no eigenvalues: nothing is known')
+      judged%resolved = resolved_scene_t(steady_film=1.0e-6_dp)
+      call checks%check(ieee_is_nan(quantity_value(quantity_natural_frequency, judged)) .and. &
+                        ieee_is_nan(quantity_value(quantity_damping_ratio, judged)), 'nothing known is no number')
    end subroutine test_small_motions
 
    !> Teeth of 1e15 N/m are rigid, and the difference falls as one over the stiffness.

@@ -1,10 +1,11 @@
 !> Tests of the Floquet multipliers of known Jacobians, and of the stability that they mean.
 module test_floquet
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use checks, only: check_list_t
-   use floquet, only: floquet_multipliers, orbit_doubling_near, orbit_fold_near, orbit_stability, orbit_stable, &
-      orbit_torus_near, orbit_unstable
-   use quantities, only: quantity_orbit_stability, quantity_word
    use kinds, only: dp
+   use matrix_values, only: eigenvalues
+   use periodic_orbit, only: orbit_doubling_near, orbit_fold_near, orbit_stability, orbit_stable, orbit_torus_near, orbit_unstable
+   use quantities, only: quantity_orbit_stability, quantity_word
    implicit none(type, external)
    private
 
@@ -25,7 +26,7 @@ contains
    subroutine test_multipliers(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      complex(dp) :: found(2)
+      complex(dp), allocatable :: found(:)
 
       call expect_real(-0.5_dp, 0.2_dp)
       call expect_real(0.5_dp, -0.2_dp)
@@ -33,12 +34,14 @@ contains
       call expect_real(-0.9_dp, 1.0e-12_dp)
       call expect_real(0.3_dp, 0.0_dp)
       ! A turn by 60 degrees, shrunk to 0.8.
-      found = floquet_multipliers(0.8_dp*reshape([0.5_dp, sqrt(0.75_dp), -sqrt(0.75_dp), 0.5_dp], [2, 2]))
+      found = eigenvalues(0.8_dp*reshape([0.5_dp, sqrt(0.75_dp), -sqrt(0.75_dp), 0.5_dp], [2, 2]))
       call checks%check_close(found(1)%re, 0.4_dp, 1.0e-15_dp, 'pair: real part')
       call checks%check_close(abs(found(1)%im), 0.8_dp*sqrt(0.75_dp), 1.0e-15_dp, 'pair: imaginary part')
       call checks%check_close(abs(found(1) - conjg(found(2))), 0.0_dp, 0.0_dp, 'pair: conjugate')
-      found = floquet_multipliers(reshape([0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], [2, 2]))
+      found = eigenvalues(reshape([0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], [2, 2]))
       call checks%check_close(maxval(abs(found)), 0.0_dp, 0.0_dp, 'no memory at all')
+      found = eigenvalues(reshape([1.0_dp, ieee_value(1.0_dp, ieee_quiet_nan), 0.0_dp, 1.0_dp], [2, 2]))
+      call checks%check(size(found) == 0, 'a matrix without eigenvalues has none')
 
    contains
 
@@ -48,7 +51,7 @@ contains
          real(dp), intent(in) :: smaller  !> The other one
 
          ! Triangular: the eigenvalues stand on the diagonal, to the last bit.
-         found = floquet_multipliers(reshape([smaller, 0.0_dp, 3.0_dp, larger], [2, 2]))
+         found = eigenvalues(reshape([smaller, 0.0_dp, 3.0_dp, larger], [2, 2]))
          call checks%check_close(found(1)%re, larger, 4.0_dp*epsilon(1.0_dp), 'the larger multiplier')
          call checks%check_close(found(2)%re, smaller, 4.0_dp*epsilon(1.0_dp)*abs(smaller), 'the smaller multiplier')
          call checks%check_close(maxval(abs(found%im)), 0.0_dp, 0.0_dp, 'no imaginary part')
