@@ -37,7 +37,7 @@ module newmark_step
 
 contains
 
-   !> One step by the iteration that is asked for.
+   !> One step of whichever teeth.
    pure subroutine take_step(kernel, problem, request, time_step, force, state, next, passes, status)
       !> Kernel of the film
       procedure(film_kernel) :: kernel
@@ -57,15 +57,13 @@ contains
 
       if (has_elastic_teeth(problem)) then
          call spring_step(kernel, problem, request, time_step, force, state, next, passes, status)
-      else if (request%by_newton) then
-         call newton_step(kernel, problem, request, time_step, force, state, next, passes, status)
       else
-         call successive_step(kernel, problem, request, time_step, force, state, next, passes, status)
+         call rigid_step(kernel, problem, request, time_step, force, state, next, passes, status)
       end if
    end subroutine take_step
 
-   !> One step, each pass one evaluation of load and slopes and one linear equation for z''.
-   pure subroutine newton_step(kernel, problem, request, time_step, force, state, next, passes, status)
+   !> One step of rigid teeth.
+   pure subroutine rigid_step(kernel, problem, request, time_step, force, state, next, passes, status)
       procedure(film_kernel) :: kernel
       type(problem_t), intent(in) :: problem
       type(request_t), intent(in) :: request
@@ -81,99 +79,45 @@ contains
       real(dp) :: load, load_by_film, load_by_velocity, known_film, known_velocity, old_film, film_weight, velocity_weight, &
                   smallest_film
 
-      call begin_step(request, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
-      smallest_film = smallest_film_ratio*thinner_film(problem, state%film)
-      status = status_film_lost
-      passes = 0
-      if (thinner_film(problem, next%film) <= smallest_film) return
-      do passes = 1, request%iteration_limit
-         call net_load(problem, next%film, next%velocity, load, load_by_film, load_by_velocity, kernel)
-         if (.not. load < overflow_load) then
-            status = problem%film%status_without_load
-            return
-         end if
-         next%acceleration = (load + load_by_film*(known_film - next%film) + &
-                              load_by_velocity*(known_velocity - next%velocity) - force - problem%weight)/ &
-                             (problem%mass - load_by_film*film_weight - load_by_velocity*velocity_weight)
-         old_film = next%film
-         next%film = known_film + film_weight*next%acceleration
-         next%velocity = known_velocity + velocity_weight*next%acceleration
-         if (thinner_film(problem, next%film) <= smallest_film) return
-         if (abs(next%film - old_film) < request%tolerance) then
-            status = status_complete
-            return
-         end if
-      end do
-      passes = request%iteration_limit
-      status = status_not_converged
-   end subroutine newton_step
-
-   !> One step of the paper's iteration: z'' of a pass is that of the equation of motion at the iterate.
-   pure subroutine successive_step(kernel, problem, request, time_step, force, state, next, passes, status)
-      procedure(film_kernel) :: kernel
-      type(problem_t), intent(in) :: problem
-      type(request_t), intent(in) :: request
-      !> Step [s]
-      real(dp), intent(in) :: time_step
-      !> Applied force at its end [N]
-      real(dp), intent(in) :: force
-      type(newmark_state_t), intent(in) :: state
-      !> State at its end
-      type(newmark_state_t), intent(out) :: next
-      integer, intent(out) :: passes
-      integer, intent(out) :: status
-      real(dp) :: load, load_by_film, load_by_velocity, known_film, known_velocity, old_film, film_weight, velocity_weight, &
-                  smallest_film
-
-      call begin_step(request, time_step, state, next, known_film, known_velocity, film_weight, velocity_weight)
-      smallest_film = smallest_film_ratio*thinner_film(problem, state%film)
-      status = status_film_lost
-      passes = 0
-      if (thinner_film(problem, next%film) <= smallest_film) return
-      do passes = 1, request%iteration_limit
-         call net_load(problem, next%film, next%velocity, load, load_by_film, load_by_velocity, kernel)
-         if (.not. load < overflow_load) then
-            status = problem%film%status_without_load
-            return
-         end if
-         next%acceleration = (load - force - problem%weight)/problem%mass
-         old_film = next%film
-         next%film = known_film + film_weight*next%acceleration
-         next%velocity = known_velocity + velocity_weight*next%acceleration
-         if (thinner_film(problem, next%film) <= smallest_film) return
-         if (abs(next%film - old_film) < request%tolerance) then
-            status = status_complete
-            return
-         end if
-      end do
-      passes = request%iteration_limit
-      status = status_not_converged
-   end subroutine successive_step
-
-   !> Known part of Newmark's formulas and the first iterate.
-   pure subroutine begin_step(request, time_step, state, first, known_film, known_velocity, film_weight, velocity_weight)
-      type(request_t), intent(in) :: request
-      real(dp), intent(in) :: time_step
-      type(newmark_state_t), intent(in) :: state
-      !> First iterate
-      type(newmark_state_t), intent(out) :: first
-      !> h and z' at the end of the step were z'' zero there
-      real(dp), intent(out) :: known_film
-      real(dp), intent(out) :: known_velocity
-      !> Factors of z'' at the end of the step: dt^2/4 and dt/2
-      real(dp), intent(out) :: film_weight
-      real(dp), intent(out) :: velocity_weight
-
+      ! Factors of z'' at the end of the step, and what h and z' would be there if it were zero.
       velocity_weight = 0.5_dp*time_step
       film_weight = velocity_weight*velocity_weight
       known_film = state%film + time_step*state%velocity + film_weight*state%acceleration
       known_velocity = state%velocity + velocity_weight*state%acceleration
-      first = state
+      next = state
       if (request%extrapolate) then
-         first%film = known_film + film_weight*state%acceleration
-         first%velocity = known_velocity + velocity_weight*state%acceleration
+         next%film = known_film + film_weight*state%acceleration
+         next%velocity = known_velocity + velocity_weight*state%acceleration
       end if
-   end subroutine begin_step
+      smallest_film = smallest_film_ratio*thinner_film(problem, state%film)
+      status = status_film_lost
+      passes = 0
+      if (thinner_film(problem, next%film) <= smallest_film) return
+      do passes = 1, request%iteration_limit
+         call net_load(problem, next%film, next%velocity, load, load_by_film, load_by_velocity, kernel)
+         if (.not. load < overflow_load) then
+            status = problem%film%status_without_load
+            return
+         end if
+         if (request%by_newton) then
+            next%acceleration = (load + load_by_film*(known_film - next%film) + &
+                                 load_by_velocity*(known_velocity - next%velocity) - force - problem%weight)/ &
+                                (problem%mass - load_by_film*film_weight - load_by_velocity*velocity_weight)
+         else
+            next%acceleration = (load - force - problem%weight)/problem%mass
+         end if
+         old_film = next%film
+         next%film = known_film + film_weight*next%acceleration
+         next%velocity = known_velocity + velocity_weight*next%acceleration
+         if (thinner_film(problem, next%film) <= smallest_film) return
+         if (abs(next%film - old_film) < request%tolerance) then
+            status = status_complete
+            return
+         end if
+      end do
+      passes = request%iteration_limit
+      status = status_not_converged
+   end subroutine rigid_step
 
    !> One step where teeth give: Newton's method for the loads of both films.
    pure subroutine spring_step(kernel, problem, request, time_step, force, state, next, passes, status)
