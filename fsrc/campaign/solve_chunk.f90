@@ -238,9 +238,10 @@ contains
 
       likely_cost = 0.0_dp
       if (.not. resolved%steady_film > 0.0_dp) return
-      oscillations = resolved%natural_frequency/scene%load%frequency
+      oscillations = resolved%natural_frequency/scene%excitation%frequency
       settling = 1.0_dp/max(resolved%damping_ratio*oscillations, 1.0e-3_dp)
-      ratio = min(largest_oscillation(force_of(scene%load))/max(abs(scene%load%static_load()), least_static_load), largest_ratio)
+      ratio = min(largest_oscillation(force_of(scene%excitation))/max(abs(scene%excitation%static_load()), least_static_load), &
+                  largest_ratio)
       likely_cost = (1.0_dp + oscillations*(1.0_dp + resolved%damping_ratio))* &
                     (4.0_dp + settling + irregular_share*ratio**5*settling**2)
    end function likely_cost

@@ -44,9 +44,9 @@ contains
       scene%contact%backlash = scene%gear%backlash
       scene%contact%stiffness = scene%gear%tooth_stiffness*scene%gear%face_width
       scene%kinematics%entrainment_speed = contact%entrainment_speed
-      scene%load%mass = contact%mass
-      scene%load%steady_force = contact%steady_force
-      scene%load%gravity = 0.0_dp
+      scene%excitation%mass = contact%mass
+      scene%excitation%steady_force = contact%steady_force
+      scene%excitation%gravity = 0.0_dp
       call derive_force(scene, contact%force_per_acceleration)
    end subroutine derive
 
@@ -59,11 +59,11 @@ contains
 
       base = base_order(scene%shaft%orders)
       if (.not. base > 0.0_dp) return
-      scene%load%frequency = base*scene%shaft%speed_rpm/60.0_dp
-      scene%load%force_orders = nint(scene%shaft%orders/base)
-      scene%load%force_amplitudes = force_per_acceleration*scene%shaft%accelerations
-      scene%load%force_phases = scene%shaft%phases
-      scene%spectrum%forced = forced_orders(scene%load%force_orders, scene%load%force_amplitudes)
+      scene%excitation%frequency = base*scene%shaft%speed_rpm/60.0_dp
+      scene%excitation%force_orders = nint(scene%shaft%orders/base)
+      scene%excitation%force_amplitudes = force_per_acceleration*scene%shaft%accelerations
+      scene%excitation%force_phases = scene%shaft%phases
+      scene%spectrum%forced = forced_orders(scene%excitation%force_orders, scene%excitation%force_amplitudes)
    end subroutine derive_force
 
    !> Viscosity of the oil at a temperature [degC].
@@ -108,16 +108,16 @@ contains
       call demand(broken, 'contact', 'radius', scene%contact%radius, 'gear.contact_position')
       call demand(broken, 'contact', 'length', scene%contact%length, 'gear.face_width')
       call demand(broken, 'kinematics', 'entrainment_speed', scene%kinematics%entrainment_speed, 'shaft.speed_rpm')
-      call demand(broken, 'load', 'mass', scene%load%mass, 'gear.loose_inertia')
+      call demand(broken, 'load', 'mass', scene%excitation%mass, 'gear.loose_inertia')
       base = base_order(scene%shaft%orders)
       if (.not. base > 0.0_dp) then
          call add(broken, 'shaft.orders', 'they have no common divisor to repeat with; halves, thirds and the like have')
          return
       end if
-      call demand(broken, 'load', 'frequency', scene%load%frequency, 'shaft.speed_rpm')
-      if (maxval(scene%load%force_orders) > highest_order) &
+      call demand(broken, 'load', 'frequency', scene%excitation%frequency, 'shaft.speed_rpm')
+      if (maxval(scene%excitation%force_orders) > highest_order) &
          call add(broken, 'shaft.orders', 'the highest is too large a multiple of their common divisor')
-      if (scene%solver%samples_per_period() < 4*maxval(scene%load%force_orders)) &
+      if (scene%solver%samples_per_period() < 4*maxval(scene%excitation%force_orders)) &
          call add(broken, 'solver.samples_per_period', 'at least four for each multiple of the base frequency are needed')
    end function derived_rules
 
@@ -261,10 +261,11 @@ contains
       character(:), allocatable :: wrong, message
 
       call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
-      associate (load => scene%load)
-         if (load%steady_force >= load%force_scale*sum(load%force_amplitudes)) scene%warnings = [scene%warnings, &
-            word_t('warning: the drag of '//short_text(load%steady_force, 4)//' N is larger than the inertia force of '// &
-                   short_text(load%force_scale*sum(load%force_amplitudes), 4)//' N at most: nothing drives the teeth apart')]
+      associate (excitation => scene%excitation)
+         if (excitation%steady_force >= excitation%force_scale*sum(excitation%force_amplitudes)) scene%warnings = [scene%warnings, &
+            word_t('warning: the drag of '//short_text(excitation%steady_force, 4)//' N is larger than the inertia force of '// &
+                   short_text(excitation%force_scale*sum(excitation%force_amplitudes), 4)// &
+                   ' N at most: nothing drives the teeth apart')]
          call tell(scene, 'gear.base_radius_1', [contact%base_radius_1], 'm')
          call tell(scene, 'gear.base_radius_2', [contact%base_radius_2], 'm')
          call tell(scene, 'gear.centre_distance', [contact%centre_distance], 'm')
@@ -275,13 +276,13 @@ contains
          if (scene%contact%backlash > 0.0_dp) call tell(scene, 'contact.backlash', [scene%contact%backlash], 'm')
          if (scene%contact%stiffness > 0.0_dp) call tell(scene, 'contact.stiffness', [scene%contact%stiffness], 'N/m')
          call tell(scene, 'kinematics.entrainment_speed', [scene%kinematics%entrainment_speed], 'm/s')
-         call tell(scene, 'load.mass', [load%mass], 'kg')
-         call tell(scene, 'load.steady_force', [load%steady_force], 'N')
-         call tell(scene, 'load.force_orders', real(load%force_orders, dp), '')
-         call tell(scene, 'load.force_amplitudes', load%force_amplitudes, 'N')
-         call tell(scene, 'load.force_phases', load%force_phases, 'rad')
-         call tell(scene, 'load.frequency', [load%frequency], 'Hz')
-         call tell(scene, 'load.gravity', [load%gravity], 'm/s2')
+         call tell(scene, 'load.mass', [excitation%mass], 'kg')
+         call tell(scene, 'load.steady_force', [excitation%steady_force], 'N')
+         call tell(scene, 'load.force_orders', real(excitation%force_orders, dp), '')
+         call tell(scene, 'load.force_amplitudes', excitation%force_amplitudes, 'N')
+         call tell(scene, 'load.force_phases', excitation%force_phases, 'rad')
+         call tell(scene, 'load.frequency', [excitation%frequency], 'Hz')
+         call tell(scene, 'load.gravity', [excitation%gravity], 'm/s2')
       end associate
    end subroutine tell_gear
 

@@ -6,7 +6,7 @@
 module force
    use elementary_functions, only: cosine_sine
    use kinds, only: dp
-   use scene_types, only: load_t
+   use scene_types, only: excitation_t
    implicit none(type, external)
    private
 
@@ -37,20 +37,21 @@ contains
    end function cosine_force
 
    !> The force of a scene.
-   pure type(force_t) function force_of(load) result(force)
+   pure type(force_t) function force_of(excitation) result(force)
       !> Group &load of the scene
-      type(load_t), intent(in) :: load
+      type(excitation_t), intent(in) :: excitation
       integer :: k
 
-      force%steady = load%steady_force + load%force_mean
-      if (.not. allocated(load%force_orders)) then
-         force = cosine_force(force%steady, load%force_scale*load%force_amplitude)
+      force%steady = excitation%steady_force + excitation%force_mean
+      if (.not. allocated(excitation%force_orders)) then
+         force = cosine_force(force%steady, excitation%force_scale*excitation%force_amplitude)
          return
       end if
-      force%highest = maxval(load%force_orders)
+      force%highest = maxval(excitation%force_orders)
       if (force%highest > 1) allocate (force%others(2, 2:force%highest), source=0.0_dp)
-      do k = 1, size(load%force_orders)
-         associate (n => load%force_orders(k), a => load%force_scale*load%force_amplitudes(k), phi => load%force_phases(k))
+      do k = 1, size(excitation%force_orders)
+         associate (n => excitation%force_orders(k), a => excitation%force_scale*excitation%force_amplitudes(k), &
+                    phi => excitation%force_phases(k))
             if (n == 1) then
                force%cosine = a*cos(phi)
                force%sine = -a*sin(phi)

@@ -62,14 +62,14 @@ contains
       type(scene_t), intent(in) :: scene
 
       problem%film = new_film(scene)
-      problem%force = force_of(scene%load)
-      problem%mass = scene%load%mass
-      problem%weight = scene%load%weight()
-      problem%frequency = scene%load%frequency
+      problem%force = force_of(scene%excitation)
+      problem%mass = scene%excitation%mass
+      problem%weight = scene%excitation%weight()
+      problem%frequency = scene%excitation%frequency
       if (scene%contact%backlash > 0.0_dp) problem%backlash = scene%contact%backlash
       if (scene%contact%stiffness > 0.0_dp) problem%compliance = 1.0_dp/scene%contact%stiffness
       problem%initial_film = scene%film%initial_film
-      if (.not. problem%initial_film > 0.0_dp) problem%initial_film = film_at_rest(problem, scene%load%static_load())
+      if (.not. problem%initial_film > 0.0_dp) problem%initial_film = film_at_rest(problem, scene%excitation%static_load())
       problem%initial_velocity = scene%film%initial_velocity
    end function problem_of
 

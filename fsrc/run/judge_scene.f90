@@ -76,7 +76,7 @@ contains
       judged%lines_by_integrals = window%by_integrals
       if (window%record%periods > 0) then
          judged%extremes = extremes_of_record(record)
-         judged%loudness = loudness_of_record(record, scene%load%frequency)
+         judged%loudness = loudness_of_record(record, scene%excitation%frequency)
       else
          judged%extremes = extremes_of_samples(judged%resolved%problem, window%states, &
                                                window%accelerations)

@@ -53,7 +53,7 @@ contains
       resolved%problem = problem_of(scene)
       resolved%tooth_compliance = 1.0_dp/(steel_tooth*scene%contact%length)
       if (scene%contact%stiffness > 0.0_dp) resolved%tooth_compliance = 1.0_dp/scene%contact%stiffness
-      static_load = scene%load%static_load()
+      static_load = scene%excitation%static_load()
       rest = films_at_rest(resolved%problem, static_load)
       resolved%steady_film = rest(1)
       associate (problem => resolved%problem, film => resolved%problem%film, mass => resolved%problem%mass)

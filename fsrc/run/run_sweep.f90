@@ -236,7 +236,7 @@ contains
       judged%orbit = find_periodic_orbit(judged%resolved%problem, numbers_of(ending), orbit_nearness)
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
       judged%extremes = extremes_of_record(window%record)
-      judged%loudness = loudness_of_record(window%record, scene%load%frequency)
+      judged%loudness = loudness_of_record(window%record, scene%excitation%frequency)
    end subroutine solve_value
 
    !> What the sweep did.

@@ -59,9 +59,9 @@ contains
       integer :: samples
 
       samples = scene%solver%samples_per_period()
-      self%steps_per_second = scene%load%frequency*real(samples, dp)
+      self%steps_per_second = scene%excitation%frequency*real(samples, dp)
       self%problem = problem
-      self%gravity = scene%load%gravity
+      self%gravity = scene%excitation%gravity
       self%series = scene%output%series
       if (.not. self%series) return
       self%stride = scene%output%stride

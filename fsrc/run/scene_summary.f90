@@ -76,12 +76,12 @@ contains
          if (scene%contact%backlash > 0.0_dp) call summary%add('backlash', scene%contact%backlash)
          if (scene%contact%stiffness > 0.0_dp) call summary%add('stiffness', scene%contact%stiffness)
          call summary%add('entrainment_speed', scene%kinematics%entrainment_speed)
-         call summary%add('mass', scene%load%mass)
-         call summary%add('steady_force', scene%load%steady_force)
-         call summary%add('force_orders', real(scene%load%force_orders, dp))
-         call summary%add('force_amplitudes', scene%load%force_amplitudes)
-         call summary%add('force_phases', scene%load%force_phases)
-         call summary%add('frequency', scene%load%frequency)
+         call summary%add('mass', scene%excitation%mass)
+         call summary%add('steady_force', scene%excitation%steady_force)
+         call summary%add('force_orders', real(scene%excitation%force_orders, dp))
+         call summary%add('force_amplitudes', scene%excitation%force_amplitudes)
+         call summary%add('force_phases', scene%excitation%force_phases)
+         call summary%add('frequency', scene%excitation%frequency)
       end if
       if (scene%oil%given) then
          call summary%add('viscosity', scene%lubricant%viscosity)

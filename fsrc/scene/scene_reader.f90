@@ -246,14 +246,14 @@ contains
       type(scene_input_t), intent(in) :: input
       type(scene_t), intent(inout) :: scene
 
-      associate (film => scene%film, solver => scene%solver, load => scene%load, spectrum => scene%spectrum)
+      associate (film => scene%film, solver => scene%solver, excitation => scene%excitation, spectrum => scene%spectrum)
          scene%lubricant%viscosity_law = input%choice('lubricant', 'viscosity_law')
          if (input%is_given('load', 'force_orders')) then
-            load%force_orders = nint(input%numbers('load', 'force_orders'))
-            load%force_amplitudes = input%numbers('load', 'force_amplitudes')
-            load%force_phases = 0.0_dp*load%force_amplitudes
-            if (input%is_given('load', 'force_phases')) load%force_phases = input%numbers('load', 'force_phases')
-            spectrum%forced = forced_orders(load%force_orders, load%force_amplitudes)
+            excitation%force_orders = nint(input%numbers('load', 'force_orders'))
+            excitation%force_amplitudes = input%numbers('load', 'force_amplitudes')
+            excitation%force_phases = 0.0_dp*excitation%force_amplitudes
+            if (input%is_given('load', 'force_phases')) excitation%force_phases = input%numbers('load', 'force_phases')
+            spectrum%forced = forced_orders(excitation%force_orders, excitation%force_amplitudes)
          end if
          if (input%has_group('shaft')) then
             scene%shaft%orders = input%numbers('shaft', 'orders')

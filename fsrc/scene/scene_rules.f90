@@ -26,10 +26,10 @@ contains
       type(rule_t) :: rules(5)
       logical :: holds(5)
 
-      associate (contact => scene%contact, load => scene%load, solver => scene%solver, spectrum => scene%spectrum)
+      associate (contact => scene%contact, excitation => scene%excitation, solver => scene%solver, spectrum => scene%spectrum)
          rules(1) = rule_t('load.steady_force load.mass load.gravity', &
                            'the static load steady_force + mass*gravity must be positive, at least 1e-12 N')
-         holds(1) = contact%backlash > 0.0_dp .or. load%static_load() >= least_static_load
+         holds(1) = contact%backlash > 0.0_dp .or. excitation%static_load() >= least_static_load
          rules(2) = rule_t('film.initial_film contact.backlash', &
                            'the film must be below the backlash, so that the coast flank has one')
          holds(2) = .not. (contact%backlash > 0.0_dp .and. scene%film%initial_film >= contact%backlash)

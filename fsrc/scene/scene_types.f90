@@ -86,8 +86,8 @@ module scene_types
    !> Highest order of a force that a scene may have
    integer, parameter, public :: highest_order = 128
 
-   !> &load
-   type, public :: load_t
+   !> &load: the mass that moves and the forces on it; `load` alone is the film's
+   type, public :: excitation_t
       !> Equivalent mass m [kg]
       real(dp) :: mass = 0.0_dp
       !> Steady force Q [N]
@@ -108,7 +108,7 @@ module scene_types
    contains
       procedure :: weight
       procedure :: static_load
-   end type load_t
+   end type excitation_t
 
    !> &gear: a loose gear and the gear that drives it, of which the contact follows
    type, public :: gear_t
@@ -310,7 +310,7 @@ module scene_types
       type(contact_t) :: contact
       type(lubricant_t) :: lubricant
       type(kinematics_t) :: kinematics
-      type(load_t) :: load
+      type(excitation_t) :: excitation
       type(gear_t) :: gear
       !> All pairs of a campaign over several, of which the gear is one
       type(gear_t), allocatable :: pairs(:)
@@ -359,8 +359,9 @@ contains
       logical, intent(out), optional :: known
 
       if (present(known)) known = .true.
-      associate (contact => scene%contact, lubricant => scene%lubricant, kinematics => scene%kinematics, load => scene%load, &
-                 film => scene%film, solver => scene%solver, spectrum => scene%spectrum, gear => scene%gear, oil => scene%oil)
+      associate (contact => scene%contact, lubricant => scene%lubricant, kinematics => scene%kinematics, &
+                 excitation => scene%excitation, film => scene%film, &
+                 solver => scene%solver, spectrum => scene%spectrum, gear => scene%gear, oil => scene%oil)
          select case (trim(group)//'.'//name)
          case ('contact.radius')
             contact%radius = value
@@ -393,19 +394,19 @@ contains
             kinematics%surface_speed_2 = value
             kinematics%entrainment_speed = 0.5_dp*kinematics%surface_speed_1 + 0.5_dp*kinematics%surface_speed_2
          case ('load.mass')
-            load%mass = value
+            excitation%mass = value
          case ('load.steady_force')
-            load%steady_force = value
+            excitation%steady_force = value
          case ('load.force_amplitude')
-            load%force_amplitude = value
+            excitation%force_amplitude = value
          case ('load.force_mean')
-            load%force_mean = value
+            excitation%force_mean = value
          case ('load.force_scale')
-            load%force_scale = value
+            excitation%force_scale = value
          case ('load.frequency')
-            load%frequency = value
+            excitation%frequency = value
          case ('load.gravity')
-            load%gravity = value
+            excitation%gravity = value
          case ('gear.name')
             ! The key that stands for the whole pair.
             if (allocated(scene%pairs)) gear = scene%pairs(nint(value))
@@ -485,14 +486,14 @@ contains
 
    !> Weight m g of the tooth pair [N].
    elemental real(dp) function weight(self)
-      class(load_t), intent(in) :: self
+      class(excitation_t), intent(in) :: self
 
       weight = self%mass*self%gravity
    end function weight
 
    !> Static load Q + m g [N], with the mean of the force, which the steady film carries.
    elemental real(dp) function static_load(self)
-      class(load_t), intent(in) :: self
+      class(excitation_t), intent(in) :: self
 
       static_load = fma(self%mass, self%gravity, self%steady_force + self%force_mean)
    end function static_load

@@ -115,15 +115,15 @@ contains
          case ('entrainment_speed')
             read (value, *) scene%kinematics%entrainment_speed
          case ('mass')
-            read (value, *) scene%load%mass
+            read (value, *) scene%excitation%mass
          case ('gravity')
-            read (value, *) scene%load%gravity
+            read (value, *) scene%excitation%gravity
          case ('static_force')
-            read (value, *) scene%load%steady_force
+            read (value, *) scene%excitation%steady_force
          case ('force_amplitude')
-            read (value, *) scene%load%force_amplitude
+            read (value, *) scene%excitation%force_amplitude
          case ('frequency')
-            read (value, *) scene%load%frequency
+            read (value, *) scene%excitation%frequency
          case ('initial_film')
             read (value, *) scene%film%initial_film
          case ('periods')
@@ -143,12 +143,12 @@ contains
       ! In units of the first film, and of the stiffness under which the static load gives way by it.
       scene%contact%backlash = backlash*scene%film%initial_film
       if (compliance > 0.0_dp) &
-         scene%contact%stiffness = scene%load%static_load()/(compliance*scene%film%initial_film)
+         scene%contact%stiffness = scene%excitation%static_load()/(compliance*scene%film%initial_film)
       if (any(ratio > 0.0_dp)) then
-         scene%load%force_orders = pack([(order, order=1, highest)], ratio > 0.0_dp .or. [(order == 1, order=1, highest)])
-         ratio(1) = scene%load%force_amplitude/scene%load%static_load()
-         scene%load%force_amplitudes = ratio(scene%load%force_orders)*scene%load%static_load()
-         scene%load%force_phases = phase(scene%load%force_orders)
+         scene%excitation%force_orders = pack([(order, order=1, highest)], ratio > 0.0_dp .or. [(order == 1, order=1, highest)])
+         ratio(1) = scene%excitation%force_amplitude/scene%excitation%static_load()
+         scene%excitation%force_amplitudes = ratio(scene%excitation%force_orders)*scene%excitation%static_load()
+         scene%excitation%force_phases = phase(scene%excitation%force_orders)
       end if
       scene%contact%young_modulus = 2.0e11_dp
    end subroutine read_scene_file

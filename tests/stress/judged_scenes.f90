@@ -113,9 +113,9 @@ contains
          call draw(state, viscosities, values(4, i))
          associate (scene => drawn(i)%scene)
             scene = base
-            scene%load%steady_force = values(1, i)
-            scene%load%force_scale = values(2, i)
-            scene%load%frequency = values(3, i)
+            scene%excitation%steady_force = values(1, i)
+            scene%excitation%force_scale = values(2, i)
+            scene%excitation%frequency = values(3, i)
             scene%lubricant%viscosity = values(4, i)
          end associate
          drawn(i)%number = number*int(campaign_rows, int64) + int(i - 1, int64)
@@ -153,14 +153,14 @@ contains
          drawn(i) = drawn(1)
          drawn(i)%number = number*int(sweep_values, int64) + int(i - 1, int64)
          factor = span**(real(i - 1, dp)/real(sweep_values - 1, dp))
-         associate (load => drawn(i)%scene%load)
+         associate (excitation => drawn(i)%scene%excitation)
             select case (int(3.0_dp*number_of_key))
             case (0)
-               load%frequency = factor*load%frequency
+               excitation%frequency = factor*excitation%frequency
             case (1)
-               load%force_scale = factor
+               excitation%force_scale = factor
             case default
-               load%steady_force = factor*load%steady_force
+               excitation%steady_force = factor*excitation%steady_force
             end select
          end associate
          drawn(i)%resolved = resolve(drawn(i)%scene)
@@ -192,17 +192,17 @@ contains
       scene%contact%young_modulus = 205.66e9_dp
       scene%contact%poisson_ratio = 0.3_dp
       call next_uniform(state, number)
-      scene%load%gravity = merge(standard_gravity, 0.0_dp, number < 0.5_dp)
+      scene%excitation%gravity = merge(standard_gravity, 0.0_dp, number < 0.5_dp)
       call draw(state, radii, scene%contact%radius)
       call draw(state, lengths, scene%contact%length)
-      call draw(state, masses, scene%load%mass)
-      call draw(state, loads, scene%load%steady_force)
+      call draw(state, masses, scene%excitation%mass)
+      call draw(state, loads, scene%excitation%steady_force)
       call draw(state, viscosities, scene%lubricant%viscosity)
       call draw(state, coefficients, scene%lubricant%pressure_viscosity)
       call draw(state, speeds, scene%kinematics%entrainment_speed)
-      call draw(state, frequencies, scene%load%frequency)
+      call draw(state, frequencies, scene%excitation%frequency)
       call draw(state, ratios, ratio)
-      scene%load%force_amplitude = ratio*scene%load%static_load()
+      scene%excitation%force_amplitude = ratio*scene%excitation%static_load()
       if (scene%film%law == law_piezo_viscous .and. scene%film%model == model_reynolds) then
          ! With an oil of today few of these films would stand the first impact.
          call draw(state, [1.0e-3_dp, 1.0_dp], ratio)
@@ -214,7 +214,7 @@ contains
       scene%film%initial_velocity = 0.0_dp
       if (number < 0.8_dp) return
       ! Without a steady film there is none to start off from, and the scene says so.
-      scene%film%initial_film = max(0.0_dp, ratio*steady_film(new_film(scene), scene%load%static_load()))
+      scene%film%initial_film = max(0.0_dp, ratio*steady_film(new_film(scene), scene%excitation%static_load()))
    end subroutine draw_gear
 
    !> Share the amplitude of every other force out among orders: from the first on, or any, their amplitudes even or falling with
@@ -230,7 +230,7 @@ contains
 
       state = start
       call next_uniform(state, number)
-      if (number < 0.5_dp .or. .not. scene%load%force_amplitude > 0.0_dp) return
+      if (number < 0.5_dp .or. .not. scene%excitation%force_amplitude > 0.0_dp) return
       call draw(state, [2.0_dp, real(most_orders + 1, dp)], number)
       orders = min(int(number), most_orders)
       call next_uniform(state, number)
@@ -249,11 +249,11 @@ contains
          call next_uniform(state, number)
          phases(n) = 6.28_dp*number
       end do
-      associate (load => scene%load)
-         load%force_orders = pack([(n, n=1, most_orders)], is_there)
-         load%force_amplitudes = pack(weights, is_there)*(load%force_amplitude/sum(weights))
-         load%force_phases = pack(phases, is_there)
-         scene%spectrum%forced = forced_orders(load%force_orders, load%force_amplitudes)
+      associate (excitation => scene%excitation)
+         excitation%force_orders = pack([(n, n=1, most_orders)], is_there)
+         excitation%force_amplitudes = pack(weights, is_there)*(excitation%force_amplitude/sum(weights))
+         excitation%force_phases = pack(phases, is_there)
+         scene%spectrum%forced = forced_orders(excitation%force_orders, excitation%force_amplitudes)
       end associate
    end subroutine draw_orders
 
@@ -277,7 +277,7 @@ contains
       if (present(turned)) turned = number(1) < 0.5_dp .and. number(2) < 0.5_dp
       if (number(1) < 0.5_dp) then
          scene%contact%backlash = backlash
-         if (number(2) < 0.5_dp) scene%load%steady_force = -scene%load%steady_force
+         if (number(2) < 0.5_dp) scene%excitation%steady_force = -scene%excitation%steady_force
          ! A film to start from lies between the flanks.
          if (.not. scene%film%initial_film < backlash) scene%film%initial_film = 0.0_dp
       end if

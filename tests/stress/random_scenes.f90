@@ -110,7 +110,7 @@ contains
          call choose_law(group%law, scene)
          scene%contact%young_modulus = 205.66e9_dp
          scene%contact%poisson_ratio = 0.3_dp
-         scene%load%gravity = standard_gravity
+         scene%excitation%gravity = standard_gravity
          call draw(state, radii, scene%contact%radius)
          call draw(state, speeds, scene%kinematics%entrainment_speed)
          call draw(state, films, film)
@@ -124,10 +124,10 @@ contains
             scene%lubricant%pressure_viscosity = share*critical_group/unit_group
          end if
          call draw(state, loads, static_load)
-         call draw(state, [masses(1), min(masses(2), 0.999_dp*static_load/standard_gravity)], scene%load%mass)
-         scene%load%steady_force = static_load - scene%load%mass*standard_gravity
-         call draw(state, frequencies, scene%load%frequency)
-         call draw_amplitude(state, static_load, scene%load%force_amplitude)
+         call draw(state, [masses(1), min(masses(2), 0.999_dp*static_load/standard_gravity)], scene%excitation%mass)
+         scene%excitation%steady_force = static_load - scene%excitation%mass*standard_gravity
+         call draw(state, frequencies, scene%excitation%frequency)
+         call draw_amplitude(state, static_load, scene%excitation%force_amplitude)
          scene%contact%length = 1.0_dp
          law = new_film(scene)
          call film_load(law, film, 0.0_dp, load, by_film, by_velocity)

@@ -89,29 +89,29 @@ contains
          scene%lubricant%viscosity = 0.3_dp
          scene%lubricant%pressure_viscosity = 2.0e-8_dp
          scene%kinematics%entrainment_speed = known(i)%speed
-         scene%load%mass = 3.0_dp
-         scene%load%steady_force = 199.2_dp
-         scene%load%force_amplitude = 205.7_dp
-         scene%load%frequency = 600.0_dp
-         scene%load%gravity = 9.80665_dp
+         scene%excitation%mass = 3.0_dp
+         scene%excitation%steady_force = 199.2_dp
+         scene%excitation%force_amplitude = 205.7_dp
+         scene%excitation%frequency = 600.0_dp
+         scene%excitation%gravity = 9.80665_dp
          if (known(i)%three_orders) then
-            scene%load%force_orders = [1, 2, 3]
-            scene%load%force_amplitudes = [150.0_dp, 60.0_dp, 25.0_dp]
-            scene%load%force_phases = [0.0_dp, 0.7_dp, -1.2_dp]
+            scene%excitation%force_orders = [1, 2, 3]
+            scene%excitation%force_amplitudes = [150.0_dp, 60.0_dp, 25.0_dp]
+            scene%excitation%force_phases = [0.0_dp, 0.7_dp, -1.2_dp]
          end if
          if (known(i)%loose) then
             scene%contact%radius = 7.5e-3_dp
             scene%contact%length = 0.02_dp
             scene%lubricant%viscosity = 0.05_dp
-            scene%load%mass = 0.45_dp
-            scene%load%gravity = 0.0_dp
-            scene%load%frequency = 26.7_dp
-            scene%load%steady_force = 5.0_dp
-            scene%load%force_orders = [1, 2, 3]
-            scene%load%force_amplitudes = [7.9_dp, 2.0_dp, 0.8_dp]
-            scene%load%force_phases = [0.0_dp, 0.5_dp, 1.1_dp]
-         else if (allocated(scene%load%force_orders) .and. .not. known(i)%three_orders) then
-            deallocate (scene%load%force_orders, scene%load%force_amplitudes, scene%load%force_phases)
+            scene%excitation%mass = 0.45_dp
+            scene%excitation%gravity = 0.0_dp
+            scene%excitation%frequency = 26.7_dp
+            scene%excitation%steady_force = 5.0_dp
+            scene%excitation%force_orders = [1, 2, 3]
+            scene%excitation%force_amplitudes = [7.9_dp, 2.0_dp, 0.8_dp]
+            scene%excitation%force_phases = [0.0_dp, 0.5_dp, 1.1_dp]
+         else if (allocated(scene%excitation%force_orders) .and. .not. known(i)%three_orders) then
+            deallocate (scene%excitation%force_orders, scene%excitation%force_amplitudes, scene%excitation%force_phases)
          end if
          scene%contact%backlash = known(i)%backlash
          scene%contact%stiffness = known(i)%stiffness

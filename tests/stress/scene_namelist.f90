@@ -34,9 +34,9 @@ contains
             real_text(scene%lubricant%pressure_viscosity)//' /'
          write (unit, '(a)') '&kinematics entrainment_speed = '// &
             real_text(scene%kinematics%entrainment_speed)//' /'
-         write (unit, '(a)') '&load mass = '//real_text(scene%load%mass)//', steady_force = '// &
-            real_text(scene%load%steady_force)//force_keys(scene)// &
-            ', frequency = '//real_text(scene%load%frequency)//', gravity = '//real_text(scene%load%gravity)//' /'
+         write (unit, '(a)') '&load mass = '//real_text(scene%excitation%mass)//', steady_force = '// &
+            real_text(scene%excitation%steady_force)//force_keys(scene)// &
+            ', frequency = '//real_text(scene%excitation%frequency)//', gravity = '//real_text(scene%excitation%gravity)//' /'
          write (unit, '(a)') film_group(scene)
          write (unit, '(a)') solver_group(scene)
          write (unit, '(a)') '&spectrum periods = '//integer_text(scene%spectrum%periods)//' /'
@@ -60,14 +60,14 @@ contains
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: words
 
-      associate (load => scene%load)
-         if (allocated(load%force_orders)) then
-            words = ', force_orders = '//numbers_text(real(load%force_orders, dp))//', force_amplitudes = '// &
-                    numbers_text(load%force_amplitudes)//', force_phases = '//numbers_text(load%force_phases)
+      associate (excitation => scene%excitation)
+         if (allocated(excitation%force_orders)) then
+            words = ', force_orders = '//numbers_text(real(excitation%force_orders, dp))//', force_amplitudes = '// &
+                    numbers_text(excitation%force_amplitudes)//', force_phases = '//numbers_text(excitation%force_phases)
          else
-            words = ', force_amplitude = '//real_text(load%force_amplitude)
+            words = ', force_amplitude = '//real_text(excitation%force_amplitude)
          end if
-         words = words//', force_scale = '//real_text(load%force_scale)
+         words = words//', force_scale = '//real_text(excitation%force_scale)
       end associate
    end function force_keys
 

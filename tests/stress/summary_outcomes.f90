@@ -240,8 +240,8 @@ contains
       type(drawn_scene_t), intent(in) :: drawn
       real(dp) :: noise(quantities)
 
-      noise = 1.0e-11_dp*(abs(drawn%scene%load%static_load()) + largest_oscillation(drawn%resolved%problem%force))/ &
-              drawn%scene%load%mass
+      noise = 1.0e-11_dp*(abs(drawn%scene%excitation%static_load()) + largest_oscillation(drawn%resolved%problem%force))/ &
+              drawn%scene%excitation%mass
       noise(:2) = 0.0_dp
       noise(5:6) = 0.0_dp
    end function noise

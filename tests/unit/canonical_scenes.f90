@@ -44,11 +44,11 @@ contains
       scene%lubricant%viscosity = 0.3_dp
       scene%lubricant%pressure_viscosity = 2.0e-8_dp
       scene%kinematics%entrainment_speed = 1.905_dp
-      scene%load%mass = 3.0_dp
-      scene%load%steady_force = 199.2_dp
-      scene%load%force_amplitude = 205.7_dp
-      scene%load%frequency = 600.0_dp
-      scene%load%gravity = standard_gravity
+      scene%excitation%mass = 3.0_dp
+      scene%excitation%steady_force = 199.2_dp
+      scene%excitation%force_amplitude = 205.7_dp
+      scene%excitation%frequency = 600.0_dp
+      scene%excitation%gravity = standard_gravity
       scene%film%law = law
       scene%solver%tolerance = 1.0e-14_dp
       scene%solver%iteration_limit = 100

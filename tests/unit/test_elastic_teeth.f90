@@ -73,8 +73,8 @@ contains
       scene = canonical_scene(law, 256)
       scene%film%model = model
       scene%film%initial_film = 0.0_dp
-      scene%load%steady_force = 199.2_dp
-      scene%load%gravity = 9.80665_dp
+      scene%excitation%steady_force = 199.2_dp
+      scene%excitation%gravity = 9.80665_dp
       scene%contact%stiffness = stiffness
       canonical = problem_of(scene)
    end function canonical
@@ -90,13 +90,13 @@ contains
       scene%contact%stiffness = 5.0e7_dp
       scene%lubricant%viscosity = 0.05_dp
       scene%kinematics%entrainment_speed = 1.07_dp
-      scene%load%mass = 0.45_dp
-      scene%load%gravity = 0.0_dp
-      scene%load%frequency = 26.7_dp
-      scene%load%steady_force = 5.0_dp
-      scene%load%force_orders = [1, 2, 3]
-      scene%load%force_amplitudes = [7.9_dp, 2.0_dp, 0.8_dp]
-      scene%load%force_phases = [0.0_dp, 0.5_dp, 1.1_dp]
+      scene%excitation%mass = 0.45_dp
+      scene%excitation%gravity = 0.0_dp
+      scene%excitation%frequency = 26.7_dp
+      scene%excitation%steady_force = 5.0_dp
+      scene%excitation%force_orders = [1, 2, 3]
+      scene%excitation%force_amplitudes = [7.9_dp, 2.0_dp, 0.8_dp]
+      scene%excitation%force_phases = [0.0_dp, 0.5_dp, 1.1_dp]
       scene%film%model = model_reynolds
       scene%film%initial_film = 0.0_dp
       problem = problem_of(scene)

@@ -191,7 +191,7 @@ contains
       call checks%check(ending%time > 0.0_dp .and. ending%time < 1.0_dp/600.0_dp, 'within the first period')
       call checks%check(film%pressure_viscosity*exact_pressure(film%radius, film%speed, film%viscosity, ending%film, &
          0.0_dp) < 1.0_dp, 'the last film exists')
-      scene%load%steady_force = 5000.0_dp
+      scene%excitation%steady_force = 5000.0_dp
       call checks%check(.not. steady_film(film, 5000.0_dp) > 0.0_dp, 'no steady film under 5000 N')
    end subroutine test_no_rigid_film
 

@@ -357,13 +357,13 @@ contains
             scene%lubricant%viscosity = input(3)
             scene%lubricant%pressure_viscosity = input(4)
             scene%kinematics%entrainment_speed = input(5)
-            scene%load%mass = input(6)
-            scene%load%steady_force = input(7)
-            scene%load%force_amplitude = input(8)
-            scene%load%frequency = input(9)
+            scene%excitation%mass = input(6)
+            scene%excitation%steady_force = input(7)
+            scene%excitation%force_amplitude = input(8)
+            scene%excitation%frequency = input(9)
          end associate
          film = new_film(scene)
-         scene%load%gravity = 0.0_dp
+         scene%excitation%gravity = 0.0_dp
          lanes = problem_of(scene)
          starts = start_of(lanes)
          starts%implicit = [.true., .false.]

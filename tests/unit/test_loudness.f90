@@ -43,9 +43,9 @@ contains
       scene%film%rupture = merge(rupture_solved, rupture_half_pi, any(law == [2, 3]))
       scene%film%rupture_solver = merge(rupture_solver_successive, rupture_solver_fast, law == 3)
       if (law == 6) scene%lubricant%pressure_viscosity = 1.0e-9_dp
-      scene%load%force_orders = [1, 2, 3]
-      scene%load%force_amplitudes = [150.0_dp, 60.0_dp, 25.0_dp]
-      scene%load%force_phases = [0.0_dp, 0.7_dp, -1.2_dp]
+      scene%excitation%force_orders = [1, 2, 3]
+      scene%excitation%force_amplitudes = [150.0_dp, 60.0_dp, 25.0_dp]
+      scene%excitation%force_phases = [0.0_dp, 0.7_dp, -1.2_dp]
    end function scene_of
 
    !> Solve and hand out the last periods.

@@ -111,8 +111,8 @@ contains
 
       scene = canonical_scene(law_piezo_viscous, steps)
       scene%contact%length = 1.6e-3_dp
-      scene%load%steady_force = 25.88_dp
-      scene%load%force_amplitude = 5.530_dp
+      scene%excitation%steady_force = 25.88_dp
+      scene%excitation%force_amplitude = 5.530_dp
       scene%film%initial_film = 0.889e-6_dp
       scene%solver%iteration = iteration_successive
       scene%solver%predictor = predictor_previous
@@ -131,8 +131,8 @@ contains
 
       scene = canonical_scene(law_piezo_viscous, 2048)
       scene%contact%length = 1.958e-3_dp
-      scene%load%steady_force = 38.27_dp
-      scene%load%force_amplitude = 203.1_dp
+      scene%excitation%steady_force = 38.27_dp
+      scene%excitation%force_amplitude = 203.1_dp
       scene%film%initial_film = 0.889e-6_dp
       scene%solver%iteration = iteration_newton
       scene%solver%periods = 240

@@ -36,7 +36,7 @@ contains
       type(scene_t) :: scene
 
       scene = canonical_scene(law_iso_viscous, 512)
-      scene%load%force_amplitude = amplitude
+      scene%excitation%force_amplitude = amplitude
       scene%kinematics%entrainment_speed = speed
       lane = problem_of(scene)
    end function lane_of

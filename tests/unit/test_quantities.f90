@@ -139,7 +139,7 @@ contains
       integer, allocatable :: recorded(:)
 
       scene = canonical_scene(law_iso_viscous, 512)
-      scene%load%force_amplitude = 100.0_dp
+      scene%excitation%force_amplitude = 100.0_dp
       scene%contact%backlash = 1.0e-4_dp
       scene%solver%method = method_taylor
       scene%solver%until = until_steady
@@ -188,7 +188,7 @@ contains
       type(sample_plan_t) :: plan
       real(dp), allocatable :: values(:, :), rows(:, :)
 
-      allocate (values(1, 1), source=scene%load%force_amplitude)
+      allocate (values(1, 1), source=scene%excitation%force_amplitude)
       call plan_table([find_key('load', 'force_amplitude')], values, plan)
       allocate (rows(3 + size(scene%campaign%record) + 7, 1), space)
       call solve_scenes(scene, plan, 1_int64, space, rows)

@@ -177,7 +177,7 @@ contains
 
       scene = canonical_scene(law_iso_viscous, 64)
       scene%kinematics%entrainment_speed = speed
-      scene%load%force_amplitude = force
+      scene%excitation%force_amplitude = force
       lane = problem_of(scene)
    end function canonical_lane
 

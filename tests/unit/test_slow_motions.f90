@@ -39,16 +39,16 @@ contains
       scene%contact%radius = 0.01_dp
       scene%lubricant%viscosity = 0.1_dp
       scene%kinematics%entrainment_speed = 0.40697359310498676_dp
-      scene%load%mass = 0.0053950761602586375_dp
-      scene%load%steady_force = 99.94709237637299_dp
-      scene%load%force_amplitude = 90.26714103778565_dp
-      scene%load%frequency = 67471871.51652412_dp
+      scene%excitation%mass = 0.0053950761602586375_dp
+      scene%excitation%steady_force = 99.94709237637299_dp
+      scene%excitation%force_amplitude = 90.26714103778565_dp
+      scene%excitation%frequency = 67471871.51652412_dp
       call check_steady(scene, 0.012489684314513562_dp, 1.0e-4_dp, 45000, .true., 'creeping, large force', checks)
       scene%kinematics%entrainment_speed = 0.3421500519277709_dp
-      scene%load%mass = 0.02161460902130761_dp
-      scene%load%steady_force = 99.78803309444119_dp
-      scene%load%force_amplitude = 3.531398262729351_dp
-      scene%load%frequency = 16587384.93909263_dp
+      scene%excitation%mass = 0.02161460902130761_dp
+      scene%excitation%steady_force = 99.78803309444119_dp
+      scene%excitation%force_amplitude = 3.531398262729351_dp
+      scene%excitation%frequency = 16587384.93909263_dp
       call check_steady(scene, 0.0002145920046477532_dp, 1.0e-6_dp, 16000, .true., 'creeping, small force', checks)
    end subroutine test_creeping_scenes
 
@@ -106,14 +106,14 @@ contains
       scene%film%model = merge(model_published, model_reynolds, law <= 3)
       scene%film%rupture = merge(rupture_half_pi, rupture_solved, law /= 2)
       scene%lubricant%pressure_viscosity = 1.0e-9_dp
-      scene%load%gravity = 0.0_dp
+      scene%excitation%gravity = 0.0_dp
       film = new_film(scene)
-      call film_load(film, steady_film(film, scene%load%static_load()), 0.0_dp, load, load_by_film, load_by_velocity)
-      scene%load%mass = (0.5_dp*load_by_velocity/damping_ratio)**2/(-load_by_film)
-      natural = sqrt(-load_by_film/scene%load%mass)
-      scene%load%frequency = natural/rate
-      if (damping_ratio > 1.0_dp) scene%load%frequency = natural/rate/(damping_ratio + sqrt(damping_ratio**2 - 1.0_dp))
-      scene%load%force_amplitude = 0.8_dp*scene%load%steady_force
+      call film_load(film, steady_film(film, scene%excitation%static_load()), 0.0_dp, load, load_by_film, load_by_velocity)
+      scene%excitation%mass = (0.5_dp*load_by_velocity/damping_ratio)**2/(-load_by_film)
+      natural = sqrt(-load_by_film/scene%excitation%mass)
+      scene%excitation%frequency = natural/rate
+      if (damping_ratio > 1.0_dp) scene%excitation%frequency = natural/rate/(damping_ratio + sqrt(damping_ratio**2 - 1.0_dp))
+      scene%excitation%force_amplitude = 0.8_dp*scene%excitation%steady_force
    end function slow_scene
 
    !> Lane of a scene, from its steady film.

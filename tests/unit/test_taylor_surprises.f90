@@ -152,11 +152,11 @@ contains
       scenes%contact%length = [2.482650588895104_dp, 1.3145276388388247e1_dp]
       scenes%lubricant%viscosity = [1.4116535368984156e-3_dp, 2.2617399322324586e-1_dp]
       scenes%kinematics%entrainment_speed = [1.4556216504284314e-1_dp, 2.6123350837128096e-2_dp]
-      scenes%load%mass = [3.0481749918051043e-1_dp, 1.9599910303633315e1_dp]
-      scenes%load%steady_force = [2.6476179534595015_dp, 2.0093811269988987e2_dp]
-      scenes%load%force_amplitude = [1.3731101564097994e1_dp, 3.12891527894301e2_dp]
-      scenes%load%frequency = [3.3203726876730893e3_dp, 4.565151742131865e3_dp]
-      scenes%load%gravity = standard_gravity
+      scenes%excitation%mass = [3.0481749918051043e-1_dp, 1.9599910303633315e1_dp]
+      scenes%excitation%steady_force = [2.6476179534595015_dp, 2.0093811269988987e2_dp]
+      scenes%excitation%force_amplitude = [1.3731101564097994e1_dp, 3.12891527894301e2_dp]
+      scenes%excitation%frequency = [3.3203726876730893e3_dp, 4.565151742131865e3_dp]
+      scenes%excitation%gravity = standard_gravity
       do i = 1, 2
          call largest_error(problem_of(scenes(i)), accuracy(i), periods(i), .false., error, ending)
          call checks%check(error < 50.0_dp*accuracy(i), 'solved rupture: error')
@@ -181,11 +181,11 @@ contains
       scenes%lubricant%viscosity = [9.100549814564605e-2_dp, 2.466993085450881e-1_dp]
       scenes%lubricant%pressure_viscosity = [1.0184313417353531e-9_dp, 2.389375542836103e-6_dp]
       scenes%kinematics%entrainment_speed = [8.901207788764973e-2_dp, 1.0392731254470945e-1_dp]
-      scenes%load%mass = [4.658884809511463e-2_dp, 5.168492983542199e-1_dp]
-      scenes%load%steady_force = [9.791663787723879e-1_dp, 8.695342057114708e-2_dp]
-      scenes%load%force_amplitude = [1.8799435966339346_dp, 4.333756218537626e1_dp]
-      scenes%load%frequency = [2.3111980781663406e3_dp, 2.935898664916683e3_dp]
-      scenes%load%gravity = standard_gravity
+      scenes%excitation%mass = [4.658884809511463e-2_dp, 5.168492983542199e-1_dp]
+      scenes%excitation%steady_force = [9.791663787723879e-1_dp, 8.695342057114708e-2_dp]
+      scenes%excitation%force_amplitude = [1.8799435966339346_dp, 4.333756218537626e1_dp]
+      scenes%excitation%frequency = [2.3111980781663406e3_dp, 2.935898664916683e3_dp]
+      scenes%excitation%gravity = standard_gravity
       do i = 1, 2
          call largest_error(problem_of(scenes(i)), accuracy, periods(i), .false., error, ending)
          call checks%check(.not. ending%implicit, 'slow drift: by series')

@@ -51,13 +51,13 @@ contains
       scene%lubricant%viscosity = 0.05_dp
       scene%lubricant%pressure_viscosity = 2.0e-8_dp
       scene%kinematics%entrainment_speed = 1.07_dp
-      scene%load%mass = 0.45_dp
-      scene%load%frequency = 26.7_dp
-      scene%load%steady_force = 5.0_dp
+      scene%excitation%mass = 0.45_dp
+      scene%excitation%frequency = 26.7_dp
+      scene%excitation%steady_force = 5.0_dp
       ! Allocated by name: gfortran 12 takes what an assignment would find for uninitialised.
-      allocate (scene%load%force_orders, source=[1, 2, 3])
-      allocate (scene%load%force_amplitudes, source=[7.9_dp, 2.0_dp, 0.8_dp])
-      allocate (scene%load%force_phases, source=[0.0_dp, 0.5_dp, 1.1_dp])
+      allocate (scene%excitation%force_orders, source=[1, 2, 3])
+      allocate (scene%excitation%force_amplitudes, source=[7.9_dp, 2.0_dp, 0.8_dp])
+      allocate (scene%excitation%force_phases, source=[0.0_dp, 0.5_dp, 1.1_dp])
       scene%film%law = law_iso_viscous
       scene%film%model = model_reynolds
    end function loose_gear
@@ -76,10 +76,10 @@ contains
       scene%lubricant%viscosity = 0.3_dp
       scene%lubricant%pressure_viscosity = 2.0e-8_dp
       scene%kinematics%entrainment_speed = 1.905_dp
-      scene%load%mass = 3.0_dp
-      scene%load%frequency = 600.0_dp
-      scene%load%steady_force = 20.0_dp
-      scene%load%force_amplitude = 205.7_dp
+      scene%excitation%mass = 3.0_dp
+      scene%excitation%frequency = 600.0_dp
+      scene%excitation%steady_force = 20.0_dp
+      scene%excitation%force_amplitude = 205.7_dp
       scene%film%law = law
       scene%film%model = model
       scene%film%rupture = rupture
@@ -194,10 +194,10 @@ contains
       scene = loose_gear()
       scene%film%model = model_published
       scene%contact%backlash = 8.0e-5_dp
-      scene%load%steady_force = 0.0_dp
-      scene%load%force_orders = [1, 4]
-      scene%load%force_amplitudes = [6.0_dp, 3.0_dp]
-      scene%load%force_phases = [0.0_dp, 0.3_dp]
+      scene%excitation%steady_force = 0.0_dp
+      scene%excitation%force_orders = [1, 4]
+      scene%excitation%force_amplitudes = [6.0_dp, 3.0_dp]
+      scene%excitation%force_phases = [0.0_dp, 0.3_dp]
       call compare(checks, 'R4', problem_of(scene), [1.0214233e-06_dp, 7.9708353e-05_dp], [-466.402023_dp, 55.880566_dp], &
                    [1.1560955_dp, 1.0103131_dp, 1.8883829_dp, 4.4178161_dp, 2.4031906_dp, 4.9109625_dp, 1.7944560_dp, &
                     3.6924518_dp], [32.4707_dp, 217.1656_dp], &
@@ -262,19 +262,19 @@ contains
       real(dp), allocatable :: states(:, :), z(:), other_states(:, :)
 
       scene = canonical_between_flanks(law_piezo_viscous, model_published, rupture_half_pi)
-      scene%load%steady_force = 0.0_dp
+      scene%excitation%steady_force = 0.0_dp
       problem = problem_of(scene)
       call find_steady_motion(problem, start_of(problem), accuracy, 400, 1, found)
       call solve_window(problem, start_of(problem), accuracy, samples, found%periods + 1, 1, states, z, found, record)
       call checks%check(maxval(abs(cshift(states(:, of_film), samples/2) - (problem%backlash - states(:, of_film)))) &
                         < 1.0e-7_dp*problem%backlash, 'mirror: its own image half a period later')
       ! A motion under the mirrored force is the mirrored motion.
-      scene%load%steady_force = 20.0_dp
+      scene%excitation%steady_force = 20.0_dp
       problem = problem_of(scene)
-      scene%load%steady_force = -20.0_dp
-      scene%load%force_orders = [1]
-      scene%load%force_amplitudes = [scene%load%force_amplitude]
-      scene%load%force_phases = [acos(-1.0_dp)]
+      scene%excitation%steady_force = -20.0_dp
+      scene%excitation%force_orders = [1]
+      scene%excitation%force_amplitudes = [scene%excitation%force_amplitude]
+      scene%excitation%force_phases = [acos(-1.0_dp)]
       mirrored = problem_of(scene)
       call solve_window(problem, start_of(problem), accuracy, 64, 5, 5, states, z, found, record)
       call solve_window(mirrored, start_of(mirrored), accuracy, 64, 5, 5, other_states, z, found, record)

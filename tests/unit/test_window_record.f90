@@ -222,8 +222,8 @@ contains
       real(dp) :: states(8, 2, 1)
 
       scene = canonical_scene(law_iso_viscous, 512)
-      scene%load%force_amplitude = 700.0_dp
-      scene%load%frequency = 15.0_dp
+      scene%excitation%force_amplitude = 700.0_dp
+      scene%excitation%frequency = 15.0_dp
       lane = problem_of(scene)
       choice%periods = 8
       records(1) = integral_record(choice)
