@@ -172,9 +172,12 @@ def test_figure_10_shows_harmonics_and_what_is_between_them(idle, window):
     )
 
 
-@pytest.mark.parametrize(("last", "end"), [(9.0, 10.5), (14.0, 14.5), (60.0, 40.5)])
-def test_figure_10_ends_behind_the_last_line_within_limits(tmp_path, last, end):
-    path = write_motion(tmp_path / "a.rattle", lines={1.0: 5.0, last: 0.1})
+@pytest.mark.parametrize(
+    ("last", "amplitude", "end"),
+    [(9.0, 0.1, 10.5), (14.0, 0.01, 14.5), (60.0, 0.1, 60.5), (60.0, 0.01, 40.5), (60.25, 0.1, 40.5)],
+)
+def test_figure_10_ends_behind_the_last_line_that_counts_or_is_near(tmp_path, last, amplitude, end):
+    path = write_motion(tmp_path / "a.rattle", lines={1.0: 5.0, last: amplitude})
     linear, _ = figure(10, path).axes
     assert linear.get_xlim() == (0.0, end)
 

@@ -22,7 +22,7 @@ SUBJECT = "Spectrum of the acceleration"
 FLOOR = 1e-5  # of the largest line; below it the logarithmic panel ends
 GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-integer lines
 SMALLEST_LAST_RATIO = 10.0
-LARGEST_LAST_RATIO = 40.0
+LARGEST_FAINT_RATIO = 40.0  # up to which lines below the threshold have room
 FREQUENCY_LABELS = {
     "ratio": style.RATIO_LABEL,
     "hz": r"Frequency [Hz]",
@@ -148,7 +148,7 @@ def draw_acceleration(
         first.set_title(style.overlay_title(SUBJECT, results))
         last.set_xlabel(f"{scale}; runs side by side")
         style.legend_below(figure, first, labels=handles)
-    end = max(_last_ratio(spectra), 0.5 + max(map(_last_order, results)))
+    end = max(map(_last_ratio, results, spectra))
     first.set_xlim(0.0, end * max(factors))
     first.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
     last.set_ylim(first.get_ylim())
@@ -287,14 +287,16 @@ def _draw_overlay(
     return handles
 
 
-def _last_ratio(spectra: Sequence[tuple[np.ndarray, np.ndarray]]) -> float:
-    """The axis ends behind the last line that the logarithmic panel shows, within limits."""
-    last = 0.0
-    for ratio, amplitude in spectra:
-        shown = np.flatnonzero(amplitude[1:] > FLOOR * amplitude[1:].max())
-        if shown.size:
-            last = max(last, float(ratio[1:][shown[-1]]))
-    return min(max(math.ceil(last) + 0.5, SMALLEST_LAST_RATIO + 0.5), LARGEST_LAST_RATIO + 0.5)
+def _last_ratio(result: Result, spectrum: tuple[np.ndarray, np.ndarray]) -> float:
+    """Where the axis ends: behind the last line that counts, and within limits behind fainter ones."""
+    ratio, amplitude = spectrum[0][1:], spectrum[1][1:]
+    orders = _orders(result) if _orders(result).size else [1.0]
+    forced_line = amplitude[np.isin(ratio, orders)].max(initial=0.0)
+    least = thresholds(result)["line_threshold"] * forced_line
+    counted = ratio[(amplitude > least) & (ratio % 1.0 == 0.0) & (forced_line > 0.0)]
+    faint = ratio[amplitude > FLOOR * amplitude.max()]
+    ends = (SMALLEST_LAST_RATIO, max(orders), counted.max(initial=0.0))
+    return math.ceil(max(*ends, min(faint.max(initial=0.0), LARGEST_FAINT_RATIO))) + 0.5
 
 
 def better_summary(result: Result, window: int | None) -> Summary | None:
