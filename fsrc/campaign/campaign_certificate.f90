@@ -76,7 +76,8 @@ contains
                        tight%endings(irregular)%motion_state_t, tight, stands)
    end subroutine certify_group
 
-   !> Whether the class of a scene stands as far as its window tells.
+   !> Whether the class of a scene stands as far as its window tells. One thread at a time finds words for doubts: gfortran keeps
+   !> the length of a text that a function allocates for all of them.
    logical function class_stands(resolved, choice, tighter, place, tight_noise, group, tight)
       type(resolved_scene_t), intent(in) :: resolved
       type(spectrum_choice_t), intent(in) :: choice
@@ -95,18 +96,22 @@ contains
       associate (record => group%records(place), tight_record => tight%records(place), verdict => group%verdicts(place), &
                  tight_verdict => tight%verdicts(place), problem => resolved%problem, &
                  samples => group%endings(place)%samples, tight_samples => tight%endings(place)%samples)
+         !$omp critical (sentences)
          unclosed = closing_sentence(record, problem%frequency, problem%mass, resolved%noise_floor)
          if (len(unclosed) == 0) unclosed = closing_sentence(tight_record, problem%frequency, problem%mass, tight_noise)
          if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, samples/tighter%samples_per_period)
+         !$omp end critical (sentences)
          class_stands = len(unclosed) == 0 .and. verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient
          if (.not. class_stands) return
          same = same_phase(group%states(:samples, of_film, place), tight%states(:tight_samples, of_film, place), &
                            tighter%samples_per_period, &
                            group%endings(place)%status == status_steady .or. tight%endings(place)%status == status_steady)
+         !$omp critical (sentences)
          call compare_windows(films_of(problem, group%states(:samples, :, place)), &
                               films_of(problem, tight%states(same, :, place)), extremes_of_record(record), &
                               extremes_of_record(tight_record), verdict, tight_verdict, unclosed, choice, &
                               choice%certificate_tolerance, tighter%accuracy, tight_noise, certificate)
+         !$omp end critical (sentences)
          class_stands = certificate%certified
       end associate
    end function class_stands
@@ -163,9 +168,11 @@ contains
          call solve_group(problems(left), starts, window, wants, group)
          call classify_group(problems(left), choices(left), noise_floors(left), window, group)
          if (must_stop()) return
+         !$omp critical (sentences)
          do i = 1, size(left)
             stands(place(left(i))) = len(doubt_behind(k, group%endings(i)%status, group%verdicts(i))) == 0
          end do
+         !$omp end critical (sentences)
          starts = pack(group%endings(:size(left))%motion_state_t, stands(place(left)))
          left = pack(left, stands(place(left)))
          if (size(left) == 0) return

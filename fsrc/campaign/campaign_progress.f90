@@ -81,17 +81,27 @@ contains
       self%uncertain = self%uncertain + uncertain
    end subroutine add
 
-   !> Tell, if it is time to.
+   !> Tell, if it is time to, and no other thread finds words.
    subroutine tell(self, log)
       class(campaign_progress_t), intent(inout) :: self
       !> Log of the campaign
       type(log_t), intent(in) :: log
       real(dp) :: now
-      integer :: ignored
 
       now = wall_seconds()
+      !$omp critical (sentences)
       if (now - self%written > file_interval) call write_progress(self, now)
-      if (now - self%told < merge(terminal_interval, line_interval, self%on_terminal)) return
+      if (now - self%told >= merge(terminal_interval, line_interval, self%on_terminal)) call tell_line(self, log, now)
+      !$omp end critical (sentences)
+   end subroutine tell
+
+   !> A line that is written over on a terminal, one more elsewhere.
+   subroutine tell_line(self, log, now)
+      class(campaign_progress_t), intent(inout) :: self
+      type(log_t), intent(in) :: log
+      real(dp), intent(in) :: now
+      integer :: ignored
+
       self%told = now
       if (.not. self%on_terminal) then
          call log%line('  '//words(self, now))
@@ -99,7 +109,7 @@ contains
          write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//'  '//words(self, now)//'   '
          flush (output_unit, iostat=ignored)
       end if
-   end subroutine tell
+   end subroutine tell_line
 
    !> The last word.
    subroutine finish(self, log)
