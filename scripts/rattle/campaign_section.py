@@ -10,6 +10,18 @@ import numpy as np
 from rattle.campaign_result import Axis, Campaign
 from rattle.command import CommandError
 
+# Words of keys whose names carry their unit or leave out whose they are.
+KEY_WORDS = {
+    "speed_rpm": "shaft speed",
+    "temperature_celsius": "oil temperature",
+    "viscosity_40_cst": "oil viscosity at 40 degC",
+    "viscosity_100_cst": "oil viscosity at 100 degC",
+    "density_15": "oil density at 15 degC",
+    "pressure_angle_deg": "pressure angle",
+    "helix_angle_deg": "helix angle",
+    "frequency": "excitation frequency",
+}
+
 
 @dataclass(frozen=True)
 class Held:
@@ -100,7 +112,8 @@ def new_section(campaign: Campaign, free: Sequence[str], slices: Mapping[str, fl
 
 def short_name(key: str) -> str:
     """The words of a key or column, as in 'force amplitude'."""
-    return key.rpartition(".")[2].replace("_", " ")
+    name = key.rpartition(".")[2]
+    return KEY_WORDS.get(name, name.replace("_", " "))
 
 
 def spaced_unit(unit: str) -> str:

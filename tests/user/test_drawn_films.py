@@ -171,7 +171,7 @@ def test_figure_4_shows_the_slopes_of_the_kernels_over_micrometres(film, number)
     assert below.get_xlim() == pytest.approx((1e6 * thickness[0], 1e6 * thickness[-1]))
     assert drawn.rules(below, "y") == [1.0]
     assert below.get_xlabel() == r"Film thickness $h_0$ [$\mathrm{\mu}$m]"
-    assert below.get_ylabel() == "Published/exact\niso-viscous [-]"
+    assert below.get_ylabel() == "Published\nover exact [-]"
     assert (
         above.get_ylabel()
         == (
@@ -238,7 +238,7 @@ def test_the_fit_figure_shows_the_fitted_laws(tmp_path):
     ]
     assert [axes.get_yscale() for axes in made.axes] == ["linear"] * 3 + ["log"] + ["linear"] * 2
     assert [axes.get_ylim()[0] for axes in made.axes[4:]] == [0.0, 0.0]
-    assert made.axes[3].get_xlabel() == r"Lower end of the window of $\alpha p$"
+    assert made.axes[3].get_xlabel() == r"Least $\alpha p$ of the window"
     words = drawn.legend_words(made)
     assert words == ["p as printed", "p halved", "p and W halved", "(32) as printed"]
     handles = made.legends[0].legend_handles

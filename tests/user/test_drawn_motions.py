@@ -230,7 +230,8 @@ def test_the_tolerance_figure_puts_each_run_where_its_words_are(tmp_path):
         assert_curve(drawn.curves(axes)[1], history(loose_path, "acceleration", 3))
         assert drawn.labels(axes) == ("Time within the last 3 excitation periods [ms]", ACCELERATION)
         assert axes.get_title(loc="left") == (
-            f"({'ab'[column]}) {('First', 'Second')[column]}\nsuccessive, previous, 128 steps a period"
+            f"({'ab'[column]}) {('First', 'Second')[column]}\n"
+            "iteration successive, predictor previous, 128 steps a period"
         )
         last = (6.0, 32.0)[column]
         assert_lines(spectrum, 0, {r: a for r, a in {1.0: 4.0, 2.5: 9.0, 7.0: 1.0}.items() if r <= last})
@@ -254,7 +255,11 @@ def test_the_tolerance_figure_says_where_samples_are_too_few(tmp_path):
         made = tolerance.draw([pair], 3, 16)
     words = [text.get_text() for text in made.axes[1].get_legend().get_texts()]
     assert [word.split(", ")[-1] for word in words] == ["class quiet", "class quiet"]
-    assert made.axes[0].get_title(loc="left").endswith("\nsuccessive, previous, 128 steps a period, too few")
+    assert (
+        made.axes[0]
+        .get_title(loc="left")
+        .endswith("\niteration successive, predictor previous, 128 steps a period, too few")
+    )
 
 
 # --- sweeps --------------------------------------------------------------------------------------------

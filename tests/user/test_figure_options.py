@@ -18,10 +18,11 @@ from result_writer import write_motion
 from script_calls import call_script
 
 import rattle
-from rattle.campaign_section import new_section
+from rattle.campaign_section import new_section, short_name
 from rattle.command import CommandError
-from rattle.figures import campaign_map, campaign_slice, histories, motion, spectra, style, sweep
-from rattle.figures.fit import fit
+from rattle.figures import campaign_map, campaign_slice, histories, motion, spectra, style, sweep, tolerance
+from rattle.figures.campaign_look import with_unit
+from rattle.figures.fit import fit, is_narrow
 
 LINES = {1.0: 10.0, 2.0: 8.0, 3.0: 0.5}
 IMPACT = {float(n): 5.0 for n in range(1, 60)}
@@ -298,3 +299,27 @@ def test_settings_of_the_user_count(idle, tmp_path):
     before, after = ((folder / "figure_08_idle.svg").read_text() for folder in (plain, own))
     assert "#ff0000" in after and "#ff0000" not in before
     assert "scale(0.14" in after and "scale(0.14" not in before
+
+
+def test_pairs_of_runs_stand_below_each_other_in_a_column(tmp_path):
+    loose = write_motion(tmp_path / "loose.rattle", lines={1.0: 4.0}, tolerance=1e-7)
+    tight = write_motion(tmp_path / "tight.rattle", lines={1.0: 5.0})
+    pairs = [
+        tolerance.Pair(name, rattle.read(loose), rattle.read(tight), 6.0) for name in ("First", "Second")
+    ]
+    for width, columns in ((80.0, 1), (160.0, 2)):
+        with style.house_style(own=False):
+            made = tolerance.draw(pairs, 3, 16, is_narrow(width / 25.4))
+        fitted(made, width=width)
+        assert len({round(axes.get_position().x0, 2) for axes in made.axes}) == columns
+        (legend,) = made.legends
+        words = [text.get_text() for text in legend.get_texts()]
+        assert [words[0], words[3]] == ["(a) First", "(b) Second"] and len(words) == 6
+
+
+def test_names_of_keys_are_those_that_people_use():
+    assert short_name("oil.temperature_celsius") == "oil temperature"
+    assert short_name("shaft.speed_rpm") == "shaft speed"
+    assert short_name("gear.helix_angle_deg") == "helix angle"
+    assert short_name("load.force_amplitude") == "force amplitude"
+    assert with_unit("oil density", "kg/m3") == "Oil density [kg/m$^3$]"

@@ -229,7 +229,7 @@ def test_all_pairs_stand_together_in_one_figure(solve, tmp_path: Path) -> None:
     first, second, loud, louder, bar = figure.axes
     assert [axes.get_title(loc="left") for axes in (first, second)] == ["1st", "4th"]
     assert [axes.get_ylabel() for axes in (first, loud)] == ["Drag torque [N m]"] * 2
-    assert loud.get_xlabel() == "Speed [1/min]" and bar.get_ylabel() == "Film force rms [N]"
+    assert loud.get_xlabel() == "Shaft speed [1/min]" and bar.get_ylabel() == "Film force rms [N]"
     meshes = [axes.collections[0] for axes in (loud, louder)]
     assert meshes[0].norm.vmin == meshes[1].norm.vmin and meshes[0].norm.vmax == meshes[1].norm.vmax
     for mesh, alone in zip(meshes, campaign.pairs, strict=True):

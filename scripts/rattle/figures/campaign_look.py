@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -44,7 +45,6 @@ NOT_DONE_HATCH = "...."
 UNKNOWN_HATCH = "**"
 UNCERTAIN_HATCH = "//////"
 UNCERTAIN_WORDS = "not certified"
-UNIT_ENDINGS = (" celsius", " rpm", " cst", " deg")
 MICROMETRES = "\N{MICRO SIGN}m"
 
 
@@ -124,19 +124,17 @@ def column_scale(campaign: Campaign, column: str) -> tuple[float, str]:
 def column_label(campaign: Campaign, column: str) -> str:
     """As in 'Acceleration maximum [m/s2]'."""
     unit = "" if words_of(column) else column_scale(campaign, column)[1]
-    return _with_unit(short_name(column), unit)
+    return with_unit(short_name(column), unit)
 
 
 def axis_label(axis: Axis) -> str:
-    """Name and unit; a name that ends with its unit is told without it."""
-    words = short_name(axis.key)
-    for unit in UNIT_ENDINGS:
-        words = words.removesuffix(unit)
-    return _with_unit(words, axis.unit)
+    """As in 'Oil temperature [degC]'."""
+    return with_unit(short_name(axis.key), axis.unit)
 
 
-def _with_unit(words: str, unit: str) -> str:
-    unit = unit.replace("m/s2", r"m/s$^2$")
+def with_unit(words: str, unit: str) -> str:
+    """The label of an axis: words and unit."""
+    unit = re.sub(r"(?<=[a-z])([23])\b", r"$^\1$", unit)
     return capital(words) if unit == "" else f"{capital(words)} [{unit}]"
 
 

@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 
 from rattle import command, kernels, table
 from rattle.figures import style
+from rattle.figures.fit import is_narrow
 
 DESCRIPTION = (
     "Fit the film-thickness law (32) to exact piezo-viscous films over windows of alpha p, and judge the "
@@ -115,7 +116,8 @@ def run(options: Namespace) -> None:
     except ValueError as fault:
         raise command.CommandError(f"The ranges cannot be used: {fault}.") from None
     with style.house_style():
-        for path in style.save(draw(curves, ranges, upper), options, "film_fit"):
+        made = draw(curves, ranges, upper, is_narrow(options.width))
+        for path in style.save(made, options, "film_fit"):
             command.note(str(path))
     rows = table_rows(fits)
     print(table.markdown(rows) if options.markdown else table.plain(rows))
@@ -184,25 +186,26 @@ def table_rows(fits: Sequence[Fit]) -> list[list[str]]:
     return rows
 
 
-def draw(fits: Sequence[Fit], ranges: Ranges, upper_end: float) -> Figure:
+def draw(fits: Sequence[Fit], ranges: Ranges, upper_end: float, narrow: bool = False) -> Figure:
     """Coefficients and errors over the lower end of the window; a curve for each reading."""
     printed = kernels.PUBLISHED_FILM_LAW
-    figure = Figure(figsize=(7.4, 5.0))
-    panels = figure.subplots(2, 3, sharex=True)
-    _panel(panels[0, 0], "(a) Exponent $a$ of $u^*$", fits, lambda one: one.fit.law.speed_exponent)
-    _panel(panels[0, 1], "(b) Exponent $b$ of $\\bar{W}$", fits, lambda one: one.fit.law.load_exponent)
-    _panel(panels[0, 2], "(c) Factor $s$ of $w^*$", fits, lambda one: one.fit.law.squeeze_factor)
-    _panel(panels[1, 0], "(d) Factor $c$", fits, lambda one: one.fit.law.factor)
-    _panel(panels[1, 1], "(e) rms of $\\ln h^*$, fitted law", fits, lambda one: one.fit.error.rms)
-    _panel(panels[1, 2], "(f) rms of $\\ln h^*$, printed law", fits, lambda one: one.printed.rms)
+    figure = Figure(figsize=(5.0, 7.4) if narrow else (7.4, 5.0))
+    grid = figure.subplots(*((3, 2) if narrow else (2, 3)), sharex=True)
+    panels = list(grid.flat)
+    _panel(panels[0], "(a) Exponent $a$ of $u^*$", fits, lambda one: one.fit.law.speed_exponent)
+    _panel(panels[1], "(b) Exponent $b$ of $\\bar{W}$", fits, lambda one: one.fit.law.load_exponent)
+    _panel(panels[2], "(c) Factor $s$ of $w^*$", fits, lambda one: one.fit.law.squeeze_factor)
+    _panel(panels[3], "(d) Factor $c$", fits, lambda one: one.fit.law.factor)
+    _panel(panels[4], "(e) rms of $\\ln h^*$, fitted law", fits, lambda one: one.fit.error.rms)
+    _panel(panels[5], "(f) rms of $\\ln h^*$, printed law", fits, lambda one: one.printed.rms)
     values = (printed.speed_exponent, printed.load_exponent, printed.squeeze_factor, printed.factor)
-    for axes, value in zip(panels.flat, values, strict=False):
+    for axes, value in zip(panels, values, strict=False):
         axes.axhline(value, **_PRINTED_LINE)
-    panels[1, 0].set_yscale("log")
-    for axes in panels.flat[4:]:
+    panels[3].set_yscale("log")
+    for axes in panels[4:]:
         axes.set_ylim(bottom=0.0)
-    for axes in panels[1]:
-        axes.set_xlabel(r"Lower end of the window of $\alpha p$")
+    for axes in grid[-1]:
+        axes.set_xlabel(r"Least $\alpha p$ of the window")
     handles = [Line2D([], [], **reading.line) for reading in READINGS] + [Line2D([], [], **_PRINTED_LINE)]
     words = [reading.words for reading in READINGS] + ["(32) as printed"]
     figure.legend(handles, words, loc="outside lower center", ncols=4)

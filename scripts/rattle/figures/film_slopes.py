@@ -24,8 +24,14 @@ class Slope:
     label: str
 
 
-STIFFNESS = Slope("stiffness", "Stiffness of the film", r"Stiffness $-\partial W/\partial h_0$ [N/m]")
-DAMPING = Slope("damping", "Damping of the film", r"Damping $-\partial W/\partial \dot{h}_0$ [N s/m]")
+STIFFNESS = Slope(
+    "stiffness", "Stiffness of the film, positive is resisting", r"Stiffness $-\partial W/\partial h_0$ [N/m]"
+)
+DAMPING = Slope(
+    "damping",
+    "Damping of the film, positive is resisting",
+    r"Damping $-\partial W/\partial \dot{h}_0$ [N s/m]",
+)
 
 EXACT, PUBLISHED, PIEZO = "iso_viscous", "published", "piezo_viscous"
 LINES = {EXACT: "-", PUBLISHED: (0, (5, 2)), PIEZO: (0, (1, 1.2))}
@@ -60,12 +66,12 @@ def draw(points: Result, slope: Slope, choice: Choice) -> Figure:
     above.set_xscale("log")
     _film_axis(below, found)
     below.axhline(1.0, color=style.FAINT_COLOUR, linewidth=0.7, zorder=0)
-    below.set_ylabel("Published/exact\niso-viscous [-]")
+    below.set_ylabel("Published\nover exact [-]")
     above.set_ylabel(slope.label)
     _legends(above, found, models)
     figure.align_ylabels()
     held = film_points.scene_line(
-        points, [style.power_words(speed_group, "u^*"), "the same $u$ in every film, positive is resisting"]
+        points, [style.power_words(speed_group, "u^*"), "the same $u$ in every film"]
     )
     above.set_title(f"{slope.subject}\n{held}{_remarks(found, names)}")
     return figure

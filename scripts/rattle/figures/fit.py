@@ -20,6 +20,7 @@ COLORBAR = "<colorbar>"  # matplotlib's name of axes that hold one
 LEAST_TYPE = 7.0  # points
 WRAPS = 3  # broken words move the panels, and with them the room for words
 NARROW = 0.8  # of the width that a figure is drawn for; below it legends leave the axes
+COLUMN = 4.7  # inches; in narrower figures panels stand below each other
 WORD = re.compile(r"\$[^$]*\$\S*|\S+")  # mathematics is not broken
 
 
@@ -50,6 +51,11 @@ def fit(figure: Figure, options: Namespace) -> None:
         wrap_words(figure, words)
         added = max(rows_of_text(figure) - before, 0) * 1.25 * size / 72.0
         figure.set_figheight(height + added)
+
+
+def is_narrow(width: float | None) -> bool:
+    """Whether a figure of a width [inches] has no room for panels beside each other."""
+    return width is not None and width < COLUMN
 
 
 def panels(figure: Figure) -> list[Axes]:
@@ -97,7 +103,8 @@ def scale_type(figure: Figure, factor: float) -> None:
 def rows_of_text(figure: Figure) -> int:
     """Rows that titles, labels and legends take below and above the panels."""
     titles = sum(_rows(axes.get_title(loc="left")) + _rows(axes.get_xlabel()) for axes in panels(figure))
-    legends = sum(-(-len(legend.get_texts()) // legend._ncols) for legend in figure.legends)
+    below = [legend for legend in figure.legends if legend._outside_loc != "right"]
+    legends = sum(-(-len(legend.get_texts()) // legend._ncols) for legend in below)
     return titles + legends + _rows(figure.get_suptitle())
 
 
@@ -108,7 +115,8 @@ def move_legends(figure: Figure) -> None:
     several = sum(bool(legends) for _, legends in own) > 1
     for axes, legends in own:
         if several and legends:
-            entries.append((_nothing(), axes.get_title(loc="left").split("\n")[-1]))
+            name = axes.get_title(loc="left").split("\n")[-1]
+            entries += [(_nothing(), name)] if name else []
         for legend in legends:
             entries += entries_of(legend)
             legend.remove()

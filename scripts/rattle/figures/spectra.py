@@ -21,6 +21,7 @@ LAST_FORCE_RATIO = 5.0
 SUBJECT = "Spectrum of the acceleration"
 FLOOR = 1e-5  # of the largest line; below it the logarithmic panel ends
 GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-integer lines
+ROOM_FOR_LINES = 100.0  # points that harmonics may cover, also in a column
 SMALLEST_LAST_RATIO = 10.0
 LARGEST_FAINT_RATIO = 40.0  # up to which lines below the threshold have room
 FREQUENCY_LABELS = {
@@ -131,11 +132,12 @@ def draw_acceleration(
         for result, summary in zip(results, summaries, strict=True)
     ]
     largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
+    end = max(map(_last_ratio, results, spectra))
     factors = [view.factor(result) for result in results]
     if len(results) == 1:
         unknown = results[0].coarse and not summaries[0]
         verdict = None if unknown else summaries[0] or classify(results[0], window)
-        _draw_single(figure, panels, results[0], spectra[0], verdict, factors[0])
+        _draw_single(figure, panels, results[0], spectra[0], verdict, factors[0], end)
         words = _verdict_words(verdict, summaries[0])
         first.set_title(f"{style.title(SUBJECT, results[0], labels[0])}; {words}")
         last.set_xlabel(scale)
@@ -148,7 +150,6 @@ def draw_acceleration(
         first.set_title(style.overlay_title(SUBJECT, results))
         last.set_xlabel(f"{scale}; runs side by side")
         style.legend_below(figure, first, labels=handles)
-    end = max(map(_last_ratio, results, spectra))
     first.set_xlim(0.0, end * max(factors))
     first.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
     last.set_ylim(first.get_ylim())
@@ -179,8 +180,10 @@ def _draw_single(
     spectrum: tuple[np.ndarray, np.ndarray],
     verdict: Mapping[str, Any] | None,
     factor: float,
+    end: float,
 ) -> None:
     ratio, amplitude = spectrum
+    thick = {"linewidth": min(1.8, max(ROOM_FOR_LINES / end, 0.3))}
     place = factor * ratio
     periods = round(1.0 / ratio[1])
     harmonic = np.arange(amplitude.size) % periods == 0
@@ -195,10 +198,10 @@ def _draw_single(
     for axes in panels:
         axes.vlines(place[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
         handles[f"harmonics of {result.frequency:g} Hz"] = axes.vlines(
-            place[harmonic & ~driven], 0.0, amplitude[harmonic & ~driven], color=colour, linewidth=1.8
+            place[harmonic & ~driven], 0.0, amplitude[harmonic & ~driven], color=colour, **thick
         )
         if driven.any():
-            axes.vlines(place[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, linewidth=1.8)
+            axes.vlines(place[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, **thick)
             (handles["at orders of the force"],) = axes.plot(
                 place[driven],
                 amplitude[driven],

@@ -15,8 +15,10 @@ from matplotlib.lines import Line2D
 
 import rattle
 from rattle import command
+from rattle.campaign_section import short_name
 from rattle.codes import SUCCESSES
 from rattle.figures import style
+from rattle.figures.campaign_look import with_unit
 from rattle.result import Result
 
 DESCRIPTION = (
@@ -260,8 +262,7 @@ def key_of(result: Result) -> str:
 def _key_label(result: Result) -> str:
     """Symbols where they are known, else name and unit."""
     name = result.names[0]
-    plain = f"{name.replace('_', ' ').capitalize()} [{result.units[name]}]"
-    return KEY_LABELS.get(key_of(result), plain)
+    return KEY_LABELS.get(key_of(result)) or with_unit(short_name(name), result.units[name])
 
 
 def way(result: Result, direction: float) -> np.ndarray:

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 import rattle
 from rattle import command
 from rattle.figures import style
+from rattle.figures.fit import is_narrow
 from rattle.figures.histories import last_periods, period_rules, time_label
 from rattle.figures.spectra import column_spectrum
 from rattle.result import Result, ResultError
@@ -77,21 +78,27 @@ def run(options: Namespace) -> None:
     if not pairs:
         raise command.CommandError("Nothing to draw: give --forged-line, --false-reversals or both.")
     with style.house_style():
-        for path in style.save(draw(pairs, options.periods, options.window), options, "tolerance"):
+        made = draw(pairs, options.periods, options.window, is_narrow(options.width))
+        for path in style.save(made, options, "tolerance"):
             print(path)
 
 
-def draw(pairs: Sequence[Pair], periods: int, window: int | None) -> Figure:
-    """Histories above, spectra below; a column for each pair."""
-    figure = Figure(figsize=(max(style.WIDTH, 4.1 * len(pairs)), 4.4))
-    columns = figure.subplots(2, len(pairs), squeeze=False).T
+def draw(pairs: Sequence[Pair], periods: int, window: int | None, narrow: bool = False) -> Figure:
+    """Histories above, spectra below; a column for each pair, in a narrow figure one below the other."""
+    if narrow:
+        figure = Figure(figsize=(4.1, 4.4 * len(pairs)))
+        columns = figure.subplots(2 * len(pairs), 1).reshape(len(pairs), 2)
+    else:
+        figure = Figure(figsize=(max(style.WIDTH, 4.1 * len(pairs)), 4.4))
+        columns = figure.subplots(2, len(pairs), squeeze=False).T
     for position, (pair, (history, spectrum)) in enumerate(zip(pairs, columns, strict=True)):
         pair.check()
         _draw_histories(history, pair, periods, window)
         _draw_spectra(spectrum, pair, window)
         handles = history.get_legend_handles_labels()
-        spectrum.legend(*handles, loc="upper center", bbox_to_anchor=(0.5, -0.3))
         letter = f"({chr(ord('a') + position)}) " if len(pairs) > 1 else ""
+        place = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.3), "alignment": "left"}
+        spectrum.legend(*handles, title=f"{letter}{pair.name}" if letter else None, **place)
         history.set_title(f"{letter}{pair.name}\n{_scheme(pair)}")
     figure.align_ylabels()
     return figure
@@ -136,7 +143,7 @@ def _power(tolerance: float) -> str:
 
 def _scheme(pair: Pair) -> str:
     solver = pair.loose.input.get("solver", {})
-    words = [str(solver[key]).strip() for key in ("iteration", "predictor") if key in solver]
+    words = [f"{key} {str(solver[key]).strip()}" for key in ("iteration", "predictor") if key in solver]
     words.append(f"{solver.get('steps_per_period')} steps a period")
     if pair.loose.coarse or pair.tight.coarse:
         words.append("too few")
