@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from outcomes import assert_faults, summary_of
+from report_reader import read_page
 from script_calls import call_script
 
 import rattle as package
@@ -238,3 +239,27 @@ def test_all_pairs_stand_together_in_one_figure(solve, tmp_path: Path) -> None:
     assert drawn.returncode == 0 and (tmp_path / "box_pairs.png").exists(), drawn.stderr
     refused = call_script("plot.py", "campaign", path, "--together", "--summary")
     assert refused.returncode == 2 and "--together draws the maps of a grid campaign" in refused.stderr
+
+
+def test_the_page_on_all_pairs_names_them_and_the_loudest(solve, tmp_path: Path) -> None:
+    solve("box", BOTH)
+    solve("axes", campaign_text(FIRST + FOURTH, GRID))
+    output = tmp_path / "page.html"
+    results = [tmp_path / "results" / f"box.{gear}.rattle" for gear in ("1st", "4th")]
+    assert call_script("report.py", *results, "--output", output).returncode == 0
+    page = read_page(output)
+    assert page.headings[:2] == ["Rattle of the gear pairs of box", "Gear pairs of box"]
+    told = {gear: summary_of(tmp_path / "results" / f"box.{gear}.summary.nml") for gear in ("1st", "4th")}
+    loudest = max(told, key=lambda gear: told[gear]["film_force_rms"])
+    assert f"{loudest} is the loudest: it shakes its bearings with" in page.words
+    assert (
+        "Asked: gear pair 1st (11 teeth drive 38, module 2.5 mm); speed of the shaft 800 1/min;" in page.words
+    )
+    assert "film by the exact iso-viscous law. This makes: mass of the tooth pair 0.86" in page.words
+    assert call_script("report.py", tmp_path / "results" / "axes.rattle", "--output", output).returncode == 0
+    page = read_page(output)
+    assert "gear pairs 1st (11 teeth drive 38, module 2.5 mm), 4th (33 teeth drive 32" in page.words
+    assert "This makes" not in page.words
+    assert ["gear", "1st", "4th", "values", "2"] in page.rows
+    (second,) = [row for row in page.rows if row[:2] == ["name", "4th"]]
+    assert "each is solved as a scene NAME.GEAR" in second[2]

@@ -67,7 +67,9 @@ def test_all_numbers_are_shown_as_their_digits_say(motion):
     page = read_page(report(motion))
     assert len(page.numbers) > 80
     for digits, shown in page.numbers:
-        assert number(shown) == pytest.approx(float(digits), rel=1e-5), (digits, shown)
+        # Errors have two digits, all else six.
+        rounded = [float(f"{float(digits):.{count}g}") for count in (2, 6)]
+        assert any(number(shown) == pytest.approx(value, rel=1e-9) for value in rounded), (digits, shown)
 
 
 def test_every_input_stands_there_with_unit_and_meaning(motion):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import rattle
@@ -13,7 +13,7 @@ from rattle.figures import film, film_points
 from rattle.report import asked, campaign, motion, page, sweep, threshold
 from rattle.result import Result, read
 from rattle.result_file import ResultFile
-from rattle.summary import comparison_table, read_summary
+from rattle.summary import Summary, comparison_table, read_summary
 
 ABOUT = (
     "A loose gear pair, shaken by the engine, hammers through its oil film. This page says how the tooth "
@@ -41,10 +41,13 @@ def report(paths: Sequence[Path]) -> str:
     """The page on all results, in the order given."""
     results = [opened(path) for path in paths]
     names = [path.name.removesuffix(".rattle") for path in paths]
+    boxes = gearboxes(results)
     title = f"Rattle of {names[0]}" if len(names) == 1 else f"Rattle of {len(names)} results"
+    if len(boxes) == 1 and len(next(iter(boxes.values()))["gears"]) == len(names):
+        title = f"Rattle of the gear pairs of {next(iter(boxes))}"
     body = [page.heading(1, title), page.paragraph(ABOUT, "lead")]
     if len(results) > 1:
-        body += overview(results, names)
+        body += overview(results, names, boxes)
     for place, (result, name) in enumerate(zip(results, names, strict=True), 1):
         if len(results) > 1:
             body.append(page.heading(1, name, f"result-{place}"))
@@ -162,47 +165,54 @@ def table_part(result: Result) -> list[str]:
     ]
 
 
-def overview(results: Sequence[ResultFile], names: Sequence[str]) -> list[str]:
-    """Links to all parts, and the summaries of motions side by side."""
+def overview(results: Sequence[ResultFile], names: Sequence[str], boxes: Mapping[str, Summary]) -> list[str]:
+    """Links to all parts, the pairs of gearboxes, and the summaries of motions side by side."""
     links = "".join(
         f'<a href="#result-{place}">{page.escape(name)}</a>' for place, name in enumerate(names, 1)
     )
     motions = [result for result in results if isinstance(result, Result) and result.task == "motion"]
     summaries = [summary for result in motions if (summary := motion.summary_of(result))]
     parts = [f"<nav>{links}</nav>"]
+    for name, box in boxes.items():
+        parts += [page.heading(2, f"Gear pairs of {name}"), *together(box)]
     if len(summaries) > 1:
         head, *rows = comparison_table(summaries)
         kinds = ["", *("number" for _ in summaries)]
         parts += [page.heading(2, "Side by side"), page.table(head, rows, kinds=kinds)]
-    return [*parts, *gearboxes(motions)]
-
-
-def gearboxes(motions: Sequence[Result]) -> list[str]:
-    """What the gear pairs of an input do together, where the table of the program has all of them."""
-    paths = {
-        motion.path.with_name(motion.path.name.removesuffix(f".{gear}.rattle") + ".summary.nml")
-        for motion in motions
-        if (gear := str(motion.input.get("gear", {}).get("name", "")).strip())
-    }
-    parts = []
-    for path in sorted(paths):
-        summary = read_summary(path) if path.exists() else {}
-        if "gears" not in summary:
-            continue
-        heads = ("Gear", "Class", "Both flanks", *(look.short_name(name) for name in TOGETHER))
-        rows = []
-        for gear, told in (*summary["gears"].items(), ("together", summary)):
-            flanks = {True: "yes", False: "no"}.get(told.get("double_sided"), "-")
-            numbers = [
-                page.value(float(told[name]), QUANTITIES[name].unit) if name in told else "-"
-                for name in TOGETHER
-            ]
-            rows.append([gear, str(told.get("rattle_class", "-")), flanks, *numbers])
-        words = (
-            "Together the pairs add as the root of the sum of squares in the force on the bearings of the "
-            "shaft, and as the sum in the power that they turn into heat."
-        )
-        kinds = ("", "", "", *("number" for _ in TOGETHER))
-        parts += [page.heading(2, f"Gearbox {summary['name']}"), page.paragraph(words)]
-        parts.append(page.table(heads, rows, kinds=kinds))
     return parts
+
+
+def gearboxes(results: Sequence[ResultFile]) -> dict[str, Summary]:
+    """The tables of the program of all gear pairs of an input, by the name of the input."""
+    paths = {
+        result.path.with_name(result.path.name.removesuffix(f".{gear}.rattle") + ".summary.nml")
+        for result in results
+        if result.task == "motion" and (gear := str(result.input.get("gear", {}).get("name", "")).strip())
+    }
+    summaries = [read_summary(path) for path in sorted(paths) if path.exists()]
+    return {str(summary["name"]): summary for summary in summaries if "gears" in summary}
+
+
+def together(box: Summary) -> list[str]:
+    """What the gear pairs of an input do, each and together."""
+    heads = ("Gear", "Class", "Both flanks", *(look.capital(look.short_name(name)) for name in TOGETHER))
+    rows = []
+    for gear, told in (*box["gears"].items(), ("together", box)):
+        flanks = {True: "yes", False: "no"}.get(told.get("double_sided"), "-")
+        numbers = [
+            page.value(float(told[name]), QUANTITIES[name].unit, 4) if name in told else "-"
+            for name in TOGETHER
+        ]
+        rows.append([gear, str(told.get("rattle_class", "-")), flanks, *numbers])
+    known = {
+        gear: float(told["film_force_rms"]) for gear, told in box["gears"].items() if "film_force_rms" in told
+    }
+    words = (
+        "Together the pairs add as the root of the sum of squares in the force on the bearings of the "
+        "shaft, and as the sum in the power that they turn into heat."
+    )
+    if known:
+        loudest = max(known, key=known.get)
+        words = f"{loudest} is the loudest: it shakes its bearings with {known[loudest]:.3g} N rms. {words}"
+    kinds = ("", "", "", *("number" for _ in TOGETHER))
+    return [page.paragraph(words), page.table(heads, rows, kinds=kinds)]

@@ -24,6 +24,12 @@ IN_SHORT = (
     ("contact", "backlash", "play between the flanks"),
     ("contact", "stiffness", "stiffness of the teeth"),
 )
+# Of a scene that is described by its gears, and what then follows.
+DRIVEN = (
+    ("shaft", "speed_rpm", "speed of the shaft"),
+    ("oil", "temperature_celsius", "temperature of the oil"),
+)
+FOLLOWING = ("load", "lubricant", "kinematics", "contact")
 
 
 def in_short(result: ResultFile) -> str:
@@ -34,20 +40,33 @@ def in_short(result: ResultFile) -> str:
         varied.add(result.names[0])
     if result.task == "threshold":
         varied.add(str(result.value("threshold", "key")).strip().rpartition(".")[2])
-    parts = []
-    for group, name, words in IN_SHORT:
+    parts, told = pairs(result), []
+    for group, name, words in (*DRIVEN, *IN_SHORT):
         given = result.input.get(group, {}).get(name)
         if given is None or name in varied:
             continue
         unit = known[group, name].unit if (group, name) in known else ""
         numbers = given if isinstance(given, list) else [given]
-        parts.append(f"{words} {', '.join(page.plain(number, unit) for number in numbers)}")
+        follows = parts and "gear" in result.input and group in FOLLOWING
+        sentence = f"{words} {', '.join(page.plain(number, unit) for number in numbers)}"
+        (told if follows else parts).append(sentence)
     film = result.input.get("film", {})
     law = " ".join(str(film[name]).strip() for name in ("model", "law") if name in film)
     if law:
-        parts.append(f"film by the {law} law")
-    words = "; ".join(parts)
-    return f"Asked: {words}. All inputs stand below." if parts else "All inputs stand below."
+        parts.append(f"film by the {law.replace('reynolds', 'exact')} law")
+    asked = f"Asked: {'; '.join(parts)}. " if parts else ""
+    made = f"This makes: {'; '.join(told)}. " if told else ""
+    return f"{asked}{made}All inputs stand below."
+
+
+def pairs(result: ResultFile) -> list[str]:
+    """Each gear pair by its teeth and module."""
+    gears = [keys for group, keys in result.input.items() if group.partition("(")[0] == "gear"]
+    words = "{name} ({teeth_1} teeth drive {teeth_2}, module {module:g} mm)"
+    names = [
+        words.format(**{"name": "gear"} | keys, module=1e3 * keys["normal_module"]).strip() for keys in gears
+    ]
+    return [f"gear pair{'s' * (len(names) > 1)} {', '.join(names)}"] if names else []
 
 
 def inputs(result: ResultFile) -> list[str]:
@@ -57,7 +76,7 @@ def inputs(result: ResultFile) -> list[str]:
     for group, keys in result.input.items():
         rows.append([page.code(f"&{group}")])
         for name, given in keys.items():
-            key = known.get((group, name))
+            key = known.get((group.partition("(")[0], name))
             unit = key.unit if key else ""
             meaning = key.meaning.replace("`", "") if key else ""
             rows.append([page.code(name), page.value(given, unit), meaning.partition(" Only with ")[0]])

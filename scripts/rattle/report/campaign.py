@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from rattle import rerun
-from rattle.campaign_plan import GRID
+from rattle.campaign_plan import GEAR, GRID
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
 from rattle.codes import QUANTITIES, word, words_of
@@ -66,13 +66,18 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
         yield f"Regime of the film: {', '.join(f'{name} in {count}' for name, count in regimes)}."
     for name, sentence in (
         (
+            "model_limit",
+            "In {count} scenes the film leaves what the model can mean: below 1 nm, or beyond a tenth of the "
+            "radius.",
+        ),
+        (
             "stiffness_matters",
             "In {count} scenes the stiffness of the teeth matters: a rigid tooth is no fair assumption.",
         ),
         ("double_sided", "In {count} scenes the tooth strikes both flanks of its gap."),
     ):
         if name in campaign:
-            yield sentence.format(count=int((campaign[name][campaign.done] == 1.0).sum()))
+            yield sentence.format(count=int((campaign[name][campaign.done] >= 1.0).sum()))
 
 
 def certificates(campaign: Campaign) -> tuple[int, int]:
@@ -138,6 +143,8 @@ def keys_table(campaign: Campaign) -> str:
             else ["-", "-"]
         )
         count = str(axis.values.size) if campaign.kind == GRID else "-"
+        if axis.key == GEAR:
+            ends = [campaign.gears[0], campaign.gears[-1]]
         rows.append([page.code(axis.key), *ends, axis.scale, count])
     kinds = ("", "number", "number", "", "number")
     return page.table(("Varied key", "First", "Last", "Scale", "Values"), rows, kinds=kinds)
@@ -147,7 +154,7 @@ def tables(campaign: Campaign) -> list[str]:
     """The worst scenes, and the range of every quantity."""
     parts = []
     if WORST_BY in campaign:
-        parts += [page.heading(3, f"Scenes with the largest {look.short_name(WORST_BY)}"), worst(campaign)]
+        parts += [page.heading(3, "Scenes with the largest acceleration"), worst(campaign)]
     kept = campaign.done & ~campaign.failed
     rows = [
         (name, QUANTITIES[name].meaning, campaign.units[name], campaign[name][kept])
@@ -168,7 +175,10 @@ def worst(campaign: Campaign) -> str:
     rows = []
     for row in rerun.extreme_rows(campaign, WORST_BY, WORST_COUNT):
         numbers = [
-            page.value(float(campaign[key][row]), campaign.units[key]) for key in (*campaign.varied, WORST_BY)
+            campaign.gears[int(campaign[key][row]) - 1]
+            if key == GEAR
+            else page.value(float(campaign[key][row]), campaign.units[key])
+            for key in (*campaign.varied, WORST_BY)
         ]
         rows.append(
             [str(int(campaign["scene"][row])), *numbers, *(word(name, campaign[name][row]) for name in extra)]

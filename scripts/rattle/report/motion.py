@@ -205,7 +205,7 @@ def key_figures(summary: Summary) -> str:
     for name, error in ERRORS.items():
         if name in summary:
             unit = QUANTITIES[name].unit
-            known = page.value(summary[error], unit) if error in summary else "not known"
+            known = page.value(summary[error], unit, 2) if error in summary else "not known"
             rows.append([_meaning(name).rstrip("."), page.value(summary[name], unit), known])
     extremes = page.table(("", "Value", "Error at most"), rows, kinds=("", "number", "number"))
     window = (

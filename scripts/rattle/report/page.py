@@ -161,7 +161,7 @@ def named(name: str, meaning: str) -> Cell:
     return Cell(f'{code(name)}<br><span class="note">{escape(meaning)}</span>') if meaning else code(name)
 
 
-def value(given: Any, unit: str = "") -> Cell:
+def value(given: Any, unit: str = "", digits: int = DIGITS) -> Cell:
     """A number or word with its unit as people read it; all digits are in the title of the cell."""
     if isinstance(given, bool):
         return Cell("yes" if given else "no")
@@ -169,7 +169,7 @@ def value(given: Any, unit: str = "") -> Cell:
         return Cell(f"{', '.join(map(value, given))}{_behind(UNIT_WORDS.get(unit, unit))}")
     if isinstance(given, str):
         return Cell(escape(given.strip()))
-    words, name = number_words(given, unit)
+    words, name = number_words(given, unit, digits)
     exact = str(given) if isinstance(given, int) else repr(float(given))
     return Cell(f'<span data-value="{exact}" title="{exact} {escape(unit)}">{words}{_behind(name)}</span>')
 
@@ -180,7 +180,7 @@ def plain(given: float, unit: str) -> str:
     return re.sub(r"&times;10<sup>(.*?)</sup>", r"e\1", words) + (f" {name}" if name else "")
 
 
-def number_words(given: float, unit: str) -> tuple[str, str]:
+def number_words(given: float, unit: str, digits: int = DIGITS) -> tuple[str, str]:
     """The digits of a number, as HTML, and the unit that they are in."""
     if isinstance(given, int):
         return str(given), UNIT_WORDS.get(unit, unit)
@@ -191,7 +191,7 @@ def number_words(given: float, unit: str) -> tuple[str, str]:
         if abs(number) >= least:
             number, name = factor * number, other
             break
-    words = f"{number:.{DIGITS}g}"
+    words = f"{number:.{digits}g}"
     power = POWER.search(words)
     if power:
         sign = "\N{MINUS SIGN}" if power[1] == "-" else ""

@@ -35,7 +35,8 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
     crossed = found.column("crossing") > 0
     lines = int(np.unique(found.column("line")).size)
     first, last = (page.plain(float(end), unit) for end in found.range.values)
-    of_lines = "" if lines == 1 else f" on {lines} lines"
+    keys = " and ".join(map(short_name, found.varied))
+    of_lines = "" if lines == 1 else f", on {lines} lines, one for each value of {keys}"
     yield (
         f"Looked for: {picture.words_of_criterion(found)}, along the {short_name(found.key)} from {first} to "
         f"{last}{of_lines}."
@@ -46,7 +47,12 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
         where = f"at {least}" if count == 1 else f"{count} times, between {least} and {largest}"
         yield f"From {kind}: {where}."
     if lines > 1 or not crossed.any():
-        yield f"{int((~crossed).sum())} of {lines} lines have no threshold in this range."
+        none = int((~crossed).sum())
+        yield (
+            f"{none} of {lines} lines have no threshold in this range."
+            if none
+            else "Every line has a threshold in this range."
+        )
     if "certified_below" in found.result:
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
