@@ -14,7 +14,7 @@
 !> velocity of the gear counts backwards. After each step the thicker film is what the thinner one, the springs and the backlash
 !> leave of the play.
 module impact_steps
-   use engine, only: motion_state_t, start_of
+   use engine, only: motion_state_t
    use film_law, only: film_load, film_t, never_pulls, overflow_load, squeeze_velocity
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t, nodes, solve_linear
@@ -97,15 +97,15 @@ contains
    end function tooth_of_lane
 
    !> Where a motion starts, its film disturbed.
-   pure function start_of_tooth(lane, offset) result(state)
+   pure function start_of_tooth(lane, start, offset) result(state)
       !> A scene
       type(problem_t), intent(in) :: lane
+      !> Film, velocity and compressions
+      type(motion_state_t), intent(in) :: start
       !> [-]
       real(dp), intent(in) :: offset
       type(tooth_state_t) :: state
-      type(motion_state_t) :: start
 
-      start = start_of(lane)
       state%film = start%film*(1.0_dp + offset)
       state%velocity = start%velocity
       state%compression = start%compression

@@ -7,6 +7,7 @@ module random_scenes
    use kinds, only: dp, int64
    use random_walk, only: next_uniform, random_state_t
    use resolved_scene, only: resolve, resolved_scene_t
+   use run_sweep, only: carried_state_t
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, &
       rupture_half_pi, &
                           rupture_solved, rupture_solver_fast, rupture_solver_successive, scene_t
@@ -54,6 +55,8 @@ module random_scenes
       integer(int64) :: number = 0
       type(scene_t) :: scene
       type(resolved_scene_t) :: resolved
+      !> What the value before has left, where a sweep carries on
+      type(carried_state_t) :: before
    end type drawn_scene_t
 
    public :: choose_law, draw, draw_group, draw_scene, group_of

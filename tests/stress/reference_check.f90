@@ -1,5 +1,6 @@
 !> Holds the reference itself against motions that other programs have solved, before it judges anything.
 module reference_check
+   use engine, only: start_of
    use impact_reference, only: impact_reference_t, solve_reference
    use impact_steps, only: start_of_tooth, tooth_of_lane, tooth_state_t, tooth_t
    use impact_window, only: solve_periods
@@ -117,7 +118,7 @@ contains
          scene%contact%stiffness = known(i)%stiffness
          resolved = resolve(scene)
          tooth = tooth_of_lane(resolved%problem)
-         state = start_of_tooth(resolved%problem, 0.0_dp)
+         state = start_of_tooth(resolved%problem, start_of(resolved%problem), 0.0_dp)
          call solve_periods(tooth, rule, tolerance, 119, state, solved)
          if (solved) call solve_reference(tooth, rule, tolerance, 1, scene%spectrum, resolved%noise_floor, 0.0_dp, state, &
                                           reference)

@@ -136,11 +136,10 @@ contains
       call draw_sweep(seed, number, drawn, law)
       do i = 1, sweep_values
          associate (value => drawn(i))
+            value%before = state
             if (state%film > 0.0_dp) then
                value%scene%film%initial_film = state%film
                value%scene%film%initial_velocity = state%velocity
-               value%resolved%problem%initial_film = state%film
-               value%resolved%problem%initial_velocity = state%velocity
             end if
          end associate
          times(1) = wall_seconds()

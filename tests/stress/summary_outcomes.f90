@@ -14,6 +14,7 @@
 !> failure. Where a row was asked for a certificate, a wrong class is one only if it is certified. A value of a sweep is held
 !> against the truth as a row is.
 module summary_outcomes
+   use engine, only: motion_state_t, start_of
    use force, only: largest_oscillation
    use impact_reference, only: compared_harmonics, find_orbit, impact_reference_t, possible_classes, solve_reference
    use impact_steps, only: disturb, start_of_tooth, tooth_of_lane, tooth_state_t, tooth_t
@@ -225,11 +226,16 @@ contains
       type(impact_reference_t), intent(out) :: reference
       type(tooth_t) :: tooth
       type(tooth_state_t) :: state
+      type(motion_state_t) :: start
       logical :: solved
 
       tooth = tooth_of_lane(drawn%resolved%problem)
       call disturb(offset, tooth)
-      state = start_of_tooth(drawn%resolved%problem, offset)
+      start = start_of(drawn%resolved%problem)
+      if (drawn%before%film > 0.0_dp) &
+         start = motion_state_t(film=drawn%before%film, velocity=drawn%before%velocity, &
+                                compression=tooth%compliance*drawn%before%spring_loads)
+      state = start_of_tooth(drawn%resolved%problem, start, offset)
       call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)
       if (solved) call solve_reference(tooth, rule, tolerance, told%window, drawn%scene%spectrum, drawn%resolved%noise_floor, &
                                        margin, state, reference)
