@@ -10,16 +10,16 @@ module film_series
    use lane_block, only: lane_block_t, slip_velocity
    use lane_force, only: force_derivatives, force_values, lane_phase_t, move_forces, turn_to
    use lane_functions, only: lanes
-   use load_expansion, only: expand_load
-   use load_pieces, only: exact_load, published_load
+   use load_expansion, only: expand_load, expand_squeeze
+   use load_pieces, only: exact_load, load_limit, published_load
    use problem, only: has_elastic_teeth, has_two_flanks, problem_t
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
    use taylor_iso_viscous, only: iso_viscous_series, iso_viscous_series_of_two
    use taylor_piezo_viscous, only: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
    use taylor_reynolds_piezo, only: reynolds_piezo_series, reynolds_piezo_series_of_two
-   use taylor_rupture, only: reject_large_defect, rupture_order, rupture_series, rupture_series_of_two
-   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, shortest_rest
-   use taylor_step_control, only: order
+   use taylor_rupture, only: equation_rounding, reject_large_defect, rupture_order, rupture_series, rupture_series_of_two
+   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, rupture_springs, shortest_rest
+   use taylor_step_control, only: film_weight, order, rounding
    implicit none(type, external)
    private
 
@@ -52,7 +52,7 @@ module film_series
    !> Damping rate that no step follows [1/periods]
    real(dp), parameter :: unfollowable_rate = 1.0e30_dp
 
-   public :: series_of, has_series, set_coefficients, expand_motion, expand_springs, check_ends
+   public :: series_of, has_series, set_coefficients, expand_motion, expand_springs, check_ends, check_springs
 
 contains
 
@@ -83,7 +83,7 @@ contains
       end select
       series%never_pulls = problem%film%kernel == kernel_piezo
       series%springs = has_elastic_teeth(problem)
-      if (series%springs .and. series%checked_at_end) series%exists = .false.
+      if (series%springs .and. problem%film%kernel == kernel_reynolds_piezo) series%exists = .false.
    end function series_of
 
    !> Whether a problem has a Taylor series that is good enough.
@@ -197,7 +197,7 @@ contains
       !> Series of H and, between two flanks, of C [-]
       real(dp), intent(out) :: films(lanes, 0:order, 2)
       real(dp) :: force(lanes, order)
-      integer :: flanks
+      integer :: flanks, flank
 
       call force_derivatives(series%last_order, block%oscillation, force)
       flanks = merge(2, 1, series%two_flanks)
@@ -217,6 +217,14 @@ contains
                                     block%momentum, block%compression)
          block%damping_rate = merge(0.0_dp, unfollowable_rate, block%damping*minval(block%compression(:, :flanks, 0), dim=2) &
                                     > shortest_rest)
+      case (kernel_solved_fast, kernel_reynolds_iso)
+         do flank = 1, flanks
+            call expand_squeeze(series%pieces, load_group(series, films(:, 0, flank), block%compression(:, flank, 0), block), &
+                                block%squeeze(flank))
+            block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
+         end do
+         call rupture_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, block%squeeze, &
+                              films, block%momentum, block%compression)
       case default
          films(:, 1:, :) = 0.0_dp
          block%momentum(:, 1:) = 0.0_dp
@@ -224,6 +232,62 @@ contains
       end select
       block%film(:, 1:) = films(:, 1:, 1)
    end subroutine expand_springs
+
+   !> Load group W H/a of films with rupture under their springs, less its limit on separation [-].
+   pure function load_group(series, film, compression, block) result(group)
+      type(film_series_t), intent(in) :: series
+      !> Film and its spring [-]
+      real(dp), intent(in) :: film(lanes)
+      real(dp), intent(in) :: compression(lanes)
+      type(lane_block_t), intent(in) :: block
+      real(dp) :: group(lanes)
+      integer :: l
+
+      !$omp simd
+      do l = 1, lanes
+         group(l) = compression(l)*film(l)/(block%compliance(l)*block%strength(l)) - load_limit(series%pieces)
+      end do
+   end function load_group
+
+   !> Reject the steps of teeth that give at whose end the series violates the film law. The squeeze group is expanded there, for the
+   !> next step to begin with. The defect D of a film's velocity is that of the first terms left out, so D x/(n + 1) estimates the
+   !> local error of the film: it must not exceed what the step control grants the last term.
+   pure subroutine check_springs(series, films, next_films, block)
+      type(film_series_t), intent(in) :: series
+      !> Series of H and C [-]
+      real(dp), intent(in) :: films(lanes, 0:order, 2)
+      !> H and C at the end of the step [-]
+      real(dp), intent(in) :: next_films(lanes, 2)
+      type(lane_block_t), intent(inout) :: block
+      real(dp), dimension(lanes) :: place, start, rise, thinner
+      real(dp) :: velocity, defect, granted
+      integer :: flank, k, l
+
+      if (.not. series%checked_at_end) return
+      thinner = next_films(:, 1)
+      if (series%two_flanks) thinner = min(thinner, next_films(:, 2))
+      do flank = 1, merge(2, 1, series%two_flanks)
+         start = load_group(series, films(:, 0, flank), block%compression(:, flank, 0), block)
+         place = load_group(series, next_films(:, flank), block%next_compression(:, flank), block)
+         place = merge(place, start, block%trust > 0.0_dp)
+         call expand_squeeze(series%pieces, place, block%squeeze(flank))
+         rise = real(series%last_order, dp)*films(:, series%last_order, flank)
+         do k = series%last_order - 1, 1, -1
+            rise = rise*block%step + real(k, dp)*films(:, k, flank)
+         end do
+         associate (there => block%squeeze(flank))
+            !$omp simd private(velocity, defect, granted)
+            do l = 1, lanes
+               velocity = sqrt(max(next_films(l, flank), 0.0_dp))/block%damping(l)
+               defect = abs(velocity*there%terms(l, 0) - rise(l)) - equation_rounding*velocity &
+                  *(abs(there%terms(l, 0)) + abs(there%terms(l, 1))*there%inverse_unit(l)*(place(l) + load_limit(series%pieces)))
+               granted = (real(series%last_order + 1, dp)*series%share) &
+                  *max(block%accuracy(l)*film_weight(thinner(l)), rounding*next_films(l, flank))
+               block%trust(l) = block%trust(l)*there%inside(l)*merge(1.0_dp, 0.0_dp, defect <= granted)
+            end do
+         end associate
+      end do
+   end subroutine check_springs
 
    !> Reject the steps at whose end the series does not hold.
    pure subroutine check_ends(series, rise, block)

@@ -1,6 +1,6 @@
 !> One step of all lanes of a block by Taylor series, and the bookkeeping of a step by any method.
 module lane_advance
-   use film_series, only: check_ends, expand_motion, expand_springs, film_series_t
+   use film_series, only: check_ends, check_springs, expand_motion, expand_springs, film_series_t
    use kinds, only: dp
    use lane_block, only: lane_block_t, lost_film
    use lane_force, only: turn_to
@@ -58,7 +58,7 @@ contains
    pure subroutine take_springs_step(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
-      real(dp) :: films(lanes, 0:order, 2), largest(lanes, 0:order), changed(lanes, 2), undamped(lanes)
+      real(dp) :: films(lanes, 0:order, 2), largest(lanes, 0:order), next_films(lanes, 2), changed(lanes, 2), undamped(lanes)
       integer :: flanks, flank, k, l
 
       call turn_to(block%phase, block%oscillation%phase)
@@ -88,12 +88,15 @@ contains
             end do
          end do
       end do
+      next_films(:, 1) = block%next_film
+      if (flanks == 2) then
+         next_films(:, 2) = block%backlash - block%next_film + (block%next_compression(:, 1) + block%next_compression(:, 2))
+         ! A lane that rests has no backlash.
+         next_films(:, 2) = merge(next_films(:, 2), films(:, 0, 2), block%backlash < huge(1.0_dp))
+      end if
       block%trust = 1.0_dp
       do flank = 1, flanks
-         if (flank == 1) changed(:, 1) = block%next_film/block%film(:, 0)
-         if (flank == 2) changed(:, 1) = ((block%backlash - block%next_film) + (block%next_compression(:, 1) &
-                                                                                + block%next_compression(:, 2)))/films(:, 0, 2)
-         if (flank == 2) changed(:, 1) = merge(changed(:, 1), 1.0_dp, block%backlash < huge(1.0_dp))
+         changed(:, 1) = next_films(:, flank)/films(:, 0, flank)
          changed(:, 2) = 1.0_dp
          if (series%never_pulls) changed(:, 2) = block%next_compression(:, flank)/block%compression(:, flank, 0)
          do k = 1, 2
@@ -104,7 +107,9 @@ contains
             end do
          end do
       end do
-      block%trust = block%trust*merge(1.0_dp, 0.0_dp, abs(block%next_momentum) < huge(1.0_dp))
+      block%trust = block%trust*merge(1.0_dp, 0.0_dp, abs(block%next_momentum) < huge(1.0_dp)) &
+         *merge(1.0_dp, 0.0_dp, block%damping_rate < largest_series_rate)
+      call check_springs(series, films, next_films, block)
    end subroutine take_springs_step
 
    !> Advance all lanes whose step is accepted; the others try again with a shorter one.

@@ -13,7 +13,7 @@ module lane_block
    use kinds, only: dp
    use lane_force, only: lane_force_t, no_forces, set_force, start_force
    use lane_functions, only: lanes
-   use load_expansion, only: load_expansion_t
+   use load_expansion, only: load_expansion_t, squeeze_expansion_t
    use memory, only: allocate_lines
    use carried_loads, only: net_load
    use problem, only: has_elastic_teeth, has_two_flanks, problem_t, reference_film, reference_films, settling_of, settling_t, &
@@ -66,6 +66,8 @@ module lane_block
       real(dp) :: period_steps(lanes)
       !> Of films with rupture: the load expanded last, of both flanks
       type(load_expansion_t) :: expansion(2)
+      !> and where teeth give, the squeeze groups
+      type(squeeze_expansion_t) :: squeeze(2)
       !> Of the exact piezo-viscous film: b, where the pressure group is b H^(-3/2), and its load expanded last
       real(dp) :: pressing(lanes)
       type(reynolds_piezo_expansion_t) :: piezo_expansion(2)
@@ -134,6 +136,7 @@ contains
       call allocate_lines(storage_size(block), room, place)
       call c_f_pointer(place, block)
       block%expansion = load_expansion_t()
+      block%squeeze = squeeze_expansion_t()
       block%piezo_expansion = reynolds_piezo_expansion_t()
       call no_forces(block%oscillation)
    end subroutine place_block

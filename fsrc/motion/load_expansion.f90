@@ -1,5 +1,6 @@
 !> Load of films with rupture about the states of a block of lanes, in powers of the squeeze group: what the Taylor series of
-!> module taylor_rupture starts from.
+!> module taylor_rupture starts from. Where teeth give, the squeeze group in powers of the load: what those of module
+!> taylor_springs start from.
 !>
 !> The polynomials of module load_pieces, moved to where the films are. A step ends where the next one starts. It is looked up
 !> once for both: to hold the end of the step against the equation of motion, and to begin the next series.
@@ -7,7 +8,7 @@ module load_expansion
    use kinds, only: dp
    use lane_functions, only: coarse_log, half_block, lanes, log_of_one, octave
    use lane_rows, only: interleave_rows
-   use load_pieces, only: last_piece, octave_pieces, piece_degree, piece_size, pieces
+   use load_pieces, only: first_load, last_load_piece, last_piece, octave_pieces, piece_degree, piece_size, pieces, squeezes
    implicit none(type, external)
    private
 
@@ -28,7 +29,19 @@ module load_expansion
       real(dp) :: load_slope(lanes) = 0.0_dp
    end type load_expansion_t
 
-   public :: expand_load
+   !> Squeeze groups of a block that follow from loads, all of one law.
+   type, public :: squeeze_expansion_t
+      !> Load group W H/a less its limit on separation, what all else follows from. It is positive: none has been looked up yet
+      real(dp) :: load(lanes) = 0.0_dp
+      !> 1 where there is an expansion, else 0
+      real(dp) :: inside(lanes) = 0.0_dp
+      !> Deviations of the load group are counted in units: one over that
+      real(dp) :: inverse_unit(lanes) = 1.0_dp
+      !> A in powers of the deviation
+      real(dp) :: terms(lanes, 0:highest_power) = 0.0_dp
+   end type squeeze_expansion_t
+
+   public :: expand_load, expand_squeeze
 
 contains
 
@@ -70,33 +83,74 @@ contains
          row(l) = int(piece + merge(real(last_piece + 1, dp), 0.0_dp, expansion%group(l) < 0.0_dp))
       end do
       do l = 1, lanes, half_block
-         call expand_half(law, l, row(l:l + half_block - 1), expansion)
+         call expand_half(pieces(:, :, law), 2*last_piece + 1, l, row(l:l + half_block - 1), expansion%group, &
+                          expansion%inverse_unit, expansion%terms)
       end do
+      expansion%load_slope = expansion%terms(:, 1)*expansion%inverse_unit
    end subroutine expand_load
 
-   !> Expand the load about the films of half a block.
-   pure subroutine expand_half(law, first, row, expansion)
-      !> Load, as module load_pieces numbers it
+   !> Expand the squeeze group about the loads of films, unless they are what it was last expanded about. There is no expansion where
+   !> a load is none, or beyond the pieces.
+   pure subroutine expand_squeeze(law, load, expansion)
+      !> Load: exact_load or published_load of module load_pieces, the one of the films before
       integer, intent(in) :: law
+      !> Load group W H/a less its limit on separation [-]
+      real(dp), intent(in) :: load(lanes)
+      !> The films
+      type(squeeze_expansion_t), intent(inout) :: expansion
+      real(dp), parameter :: pieces_per_log = real(octave_pieces, dp)/octave, first_log = log_of_one + real(first_load, dp)*octave
+      real(dp) :: place(lanes), changed, piece
+      integer :: row(lanes), l
+
+      changed = 0.0_dp
+      !$omp simd reduction(+: changed)
+      do l = 1, lanes
+         changed = changed + merge(0.0_dp, 1.0_dp, abs(load(l) - expansion%load(l)) <= 0.0_dp)
+      end do
+      if (.not. changed > 0.0_dp) return
+      !$omp simd private(piece)
+      do l = 1, lanes
+         expansion%load(l) = load(l)
+         ! The coarse log of NaN and of a negative load is a large number.
+         piece = (coarse_log(load(l)) - first_log)*pieces_per_log
+         expansion%inside(l) = merge(1.0_dp, 0.0_dp, piece >= 0.0_dp)*merge(1.0_dp, 0.0_dp, piece < real(last_load_piece + 1, dp))
+         ! Where there is no expansion, numbers that do not overflow
+         place(l) = merge(load(l), 1.0_dp, expansion%inside(l) > 0.0_dp)
+         row(l) = int(merge(piece, -real(octave_pieces*first_load, dp), expansion%inside(l) > 0.0_dp))
+      end do
+      do l = 1, lanes, half_block
+         call expand_half(squeezes(:, :, law), last_load_piece, l, row(l:l + half_block - 1), place, &
+                          expansion%inverse_unit, expansion%terms)
+      end do
+   end subroutine expand_squeeze
+
+   !> Move the polynomials of half a block to where it stands.
+   pure subroutine expand_half(table, last_row, first, row, place, inverse_unit, terms)
+      integer, intent(in) :: last_row
+      !> Centre, one over unit and coefficients of every piece
+      real(dp), intent(in) :: table(piece_size, 0:last_row)
       !> Its first lane
       integer, intent(in) :: first
       !> Pieces of its lanes
       integer, intent(in) :: row(half_block)
-      !> The films, A known
-      type(load_expansion_t), intent(inout) :: expansion
-      !> Centre of the piece, one over its unit, and the load
+      !> Where the lanes stand
+      real(dp), intent(in) :: place(lanes)
+      !> One over the units of their pieces
+      real(dp), intent(inout) :: inverse_unit(lanes)
+      !> Terms in ascending powers of the deviation from there, in units
+      real(dp), intent(inout) :: terms(lanes, 0:highest_power)
+      !> Centre of the piece, one over its unit, and the polynomial
       real(dp) :: c(half_block, -2:piece_size - 3)
       real(dp) :: deviation
       integer :: last, l, i, j
 
       last = first + half_block - 1
-      call interleave_rows(piece_size, pieces(:, row(1), law), pieces(:, row(2), law), pieces(:, row(3), law), &
-                           pieces(:, row(4), law), pieces(:, row(5), law), pieces(:, row(6), law), pieces(:, row(7), law), &
-                           pieces(:, row(8), law), c)
+      call interleave_rows(piece_size, table(:, row(1)), table(:, row(2)), table(:, row(3)), table(:, row(4)), &
+                           table(:, row(5)), table(:, row(6)), table(:, row(7)), table(:, row(8)), c)
       ! Division by z - deviation, again and again: the remainders are the terms.
       !$omp simd private(deviation)
       do l = 1, half_block
-         deviation = (expansion%group(first - 1 + l) - c(l, -2))*c(l, -1)
+         deviation = (place(first - 1 + l) - c(l, -2))*c(l, -1)
          !GCC$ unroll 24
          do j = 0, highest_power
             !GCC$ unroll 24
@@ -105,9 +159,8 @@ contains
             end do
          end do
       end do
-      expansion%inverse_unit(first:last) = c(:, -1)
-      expansion%load_slope(first:last) = c(:, 1)*c(:, -1)
-      expansion%terms(first:last, :) = c(:, 0:highest_power)
+      inverse_unit(first:last) = c(:, -1)
+      terms(first:last, :) = c(:, 0:highest_power)
    end subroutine expand_half
 
 end module load_expansion

@@ -28,7 +28,8 @@ module taylor_rupture
    integer, parameter, public :: rupture_order = highest_power + 1
 
    !> Local error over that of the step control above which a step is rejected, and rounding of the equation of motion.
-   real(dp), parameter :: most_defect = 1.0_dp, equation_rounding = 64.0_dp*epsilon(1.0_dp)
+   real(dp), parameter :: most_defect = 1.0_dp
+   real(dp), parameter, public :: equation_rounding = 64.0_dp*epsilon(1.0_dp)
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
    !> Names as above; square = z**2, nest + i: T_i.

@@ -6,6 +6,9 @@ in A on pieces of the line, four from each 2 + |A| = 2**n to the next. No piece 
 its distance from +-2i, so a term of its Chebyshev series is worth a factor of 17, and the polynomial can be
 followed well beyond its piece, as a step of the motion does.
 
+Where teeth give, the load is known and A is not. The same loads are tabulated turned round: A as polynomials in the
+load less its limit on separation, four pieces from each power of two to the next.
+
 For the piezo-viscous film the same is done in A and sigma, in cells: powers of both up to a total degree,
 about the centre of a piece of A and an interval of sigma, from the table of S in film_tables. They are good
 to 1e-11, enough for a Taylor series of the motion, and reach to |A| = 14. max p*(A), which leads to
@@ -15,11 +18,13 @@ side by side.
 
 from film_functions import (
     COMMAND,
+    DIGITS,
     SCALE,
     Film,
     array_text,
     chebyshev_coefficients,
     chebyshev_nodes,
+    moments,
     powers,
 )
 from mpmath import mp, mpf
@@ -28,7 +33,9 @@ PIECE_DEGREE = 12
 PIECE_NODES = 18
 OCTAVE_PIECES = 4
 OCTAVES = 24
+LOAD_OCTAVES = range(-32, 16)
 ARRAY_OCTAVES = 8
+ARRAY_ROWS = ARRAY_OCTAVES * OCTAVE_PIECES
 CELL_DEGREE = 9
 CELL_NODES = 14
 CELL_OCTAVE_PIECES = 6
@@ -45,6 +52,62 @@ def exact_load(a):
 def published_load(a):
     """Load of the published film (24), rupture solved, over its rolling term."""
     return 1 - 3 / (4 * mpf("2.8")) * a * (Film(a).x + mp.pi / 2)
+
+
+def exact_of_tangent(t):
+    """A and Phi of the exact film whose tangent of the rupture angle is t, and the slopes of both."""
+    a, slope, x = group_of_tangent(t)
+    swept = x + mp.pi / 2 + mp.sin(x) * mp.cos(x)
+    quarter = mp.cos(x) ** 4 / 4
+    load = mp.cos(x) ** 2 / 4 - a / 8 * swept
+    return a, load, slope, slope * (-swept / 8 + quarter * (quarter + t * moments(x)[1]) / moments(x)[1])
+
+
+def published_of_tangent(t):
+    """The same of the published film, its load less the limit on separation."""
+    a, slope, x = group_of_tangent(t)
+    factor = 3 / (4 * mpf("2.8"))
+    width = x + mp.pi / 2
+    return a, factor * (mpf(8) / 3 - a * width), slope, -factor * (slope * width + a / (1 + t * t))
+
+
+def group_of_tangent(t):
+    """A of the rupture condition, its slope, and the rupture angle."""
+    x = mp.atan(t)
+    j, k = moments(x)
+    quarter = mp.cos(x) ** 4 / 4
+    a = (j - t * t * k) / (quarter + t * k)
+    return a, -k * (2 * t + a) / (quarter + t * k), x
+
+
+def group_of_load(load_of_tangent, wanted, t):
+    """A at which a load has a value, and the tangent there, by Newton's method for its logarithm from a tangent nearby."""
+    place = mp.asinh(t)
+    for _ in range(200):
+        t = mp.sinh(place)
+        a, load, _, slope = load_of_tangent(t)
+        step = load * mp.log(load / wanted) / (slope * mp.cosh(place))
+        if abs(step) < mpf(10) ** (-DIGITS // 3):
+            return a, t
+        place -= max(min(step, 1), -1)
+    raise ArithmeticError(f"no film carries {wanted}")
+
+
+def squeeze_rows(load_of_tangent):
+    """Rows of A in powers of the load: centre, inverse unit and coefficients of each piece."""
+    rows, t = [], mpf(0)
+    for octave in LOAD_OCTAVES:
+        for piece in range(OCTAVE_PIECES):
+            unit = mpf(2) ** octave
+            half = unit / (2 * OCTAVE_PIECES)
+            centre = unit + (2 * piece + 1) * half
+            values = []
+            for node in chebyshev_nodes(PIECE_NODES):
+                a, t = group_of_load(load_of_tangent, centre + half * node, t)
+                values.append(a)
+            factors = powers(chebyshev_coefficients(values, PIECE_DEGREE + 1))
+            rows.append(filled([centre, 1 / unit, *(f * (unit / half) ** j for j, f in enumerate(factors))]))
+    return rows
 
 
 def piece_of(side, octave, piece, octave_pieces):
@@ -108,6 +171,8 @@ def pieces_module():
         "   !> Loads: Phi of the exact film, eq (21) corrected; the published one, eq (24) with its rupture",
         "   !> from (18), over its rolling term.",
         "   integer, parameter, public :: exact_load = 1, published_load = 2",
+        "   !> Their limits when the film separates fast",
+        "   real(dp), parameter, public :: load_limit(2) = [0.0_dp, 2.0_dp/7.0_dp]",
         "   !> Highest power in a piece.",
         f"   integer, parameter, public :: piece_degree = {PIECE_DEGREE}",
         "   !> Numbers of a piece; those beyond the coefficients are zero.",
@@ -115,14 +180,30 @@ def pieces_module():
         "   !> Pieces in an octave of 2 + |A|, and number of the last one, counted from 0.",
         f"   integer, parameter, public :: octave_pieces = {OCTAVE_PIECES}",
         f"   integer, parameter, public :: last_piece = {OCTAVES * OCTAVE_PIECES}",
+        "   !> The loads turned round: A in ascending powers of (load - limit - centre)/unit. Binary logarithm of the least load,",
+        "   !> and number of the last piece, counted from 0.",
+        f"   integer, parameter, public :: first_load = {LOAD_OCTAVES[0]}",
+        f"   integer, parameter, public :: last_load_piece = {len(LOAD_OCTAVES) * OCTAVE_PIECES - 1}",
     ]
     names = []
     for name, load in (("exact", exact_load), ("published", published_load)):
         arrays, parts = piece_arrays(name, load)
         text += arrays
         names += parts
+    turned = []
+    for name, load_of_tangent in (("exact", exact_of_tangent), ("published", published_of_tangent)):
+        rows = squeeze_rows(load_of_tangent)
+        for first in range(0, len(rows), ARRAY_ROWS):
+            turned.append(f"{name}_squeeze_{first // ARRAY_ROWS + 1}")
+            text += piece_array(turned[-1], rows[first : first + ARRAY_ROWS])
+    squeezes = ", &\n      ".join(", ".join(turned[i : i + 4]) for i in range(0, len(turned), 4))
     body = ", &\n      ".join(", ".join(names[i : i + 4]) for i in range(0, len(names), 4))
     text += [
+        "",
+        "   !> Centre, one over unit and coefficients of A in powers of the load; piece; load.",
+        "   real(dp), parameter, public :: squeezes(piece_size, 0:last_load_piece, 2) = reshape([ &",
+        f"      {squeezes}], &",
+        "      [piece_size, last_load_piece + 1, 2])",
         "",
         "   !> Centre, one over unit and coefficients; piece; load.",
         "   real(dp), parameter, public :: pieces(piece_size, 0:2*last_piece + 1, 2) = reshape([ &",
