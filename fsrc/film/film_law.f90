@@ -325,7 +325,7 @@ contains
       real(dp), intent(out) :: velocity_by_load
       !> Whether some velocity gives the load, one of load_... of module squeeze_of_load
       integer, intent(out) :: outcome
-      real(dp) :: a, width_factor, carried, load_by_film, load_by_velocity
+      real(dp) :: a, a_by_load, width_factor, carried, load_by_film, load_by_velocity
 
       velocity = 0.0_dp
       velocity_by_film = 0.0_dp
@@ -346,8 +346,12 @@ contains
          velocity_by_load = -1.0_dp/(film%rate*load)
          return
       case (kernel_reynolds_iso)
-         call iso_viscous_squeeze(load*thickness/film%scale, a, outcome)
+         call iso_viscous_squeeze(load*thickness/film%scale, a, a_by_load, outcome)
          velocity = a*sqrt(thickness)/film%squeeze_rate
+         if (outcome /= load_carried) return
+         velocity_by_film = (a_by_load*load/film%scale*sqrt(thickness) + 0.5_dp*a/sqrt(thickness))/film%squeeze_rate
+         velocity_by_load = a_by_load*thickness/film%scale*sqrt(thickness)/film%squeeze_rate
+         return
       case (kernel_reynolds_piezo)
          call piezo_viscous_squeeze(load*thickness/film%scale, film%pressure_rate/(thickness*sqrt(thickness)), a, outcome)
          velocity = a*sqrt(thickness)/film%squeeze_rate

@@ -59,42 +59,58 @@ contains
       real(dp), intent(inout) :: films(lanes, 0:order, 2)
       real(dp), intent(inout) :: momentum(lanes, 0:order)
       real(dp), intent(inout) :: compression(lanes, 2, 0:order)
-      real(dp) :: r(lanes, 0:order, 2), stiffness(lanes), share(lanes), product
-      integer :: flank, k, j, l
+      !> Lane, series, flank, coefficient
+      integer, parameter :: h = 1, d = 2, r = 3, series = 3
+      real(dp) :: c(lanes, series, 2, 0:order)
+      real(dp) :: stiffness(lanes), share(lanes), twice_root(lanes, 2), product
+      integer :: once, flank, k, j, l
 
       stiffness = 1.0_dp/compliance
       share = 1.0_dp/squeeze
       do flank = 1, flanks
-         r(:, 0, flank) = sqrt(films(:, 0, flank))
+         c(:, h, flank, 0) = films(:, 0, flank)
+         c(:, d, flank, 0) = compression(:, flank, 0)
+         c(:, r, flank, 0) = sqrt(films(:, 0, flank))
+         twice_root(:, flank) = 2.0_dp*c(:, r, flank, 0)
       end do
-      !GCC$ unroll 24
-      do k = 0, order - 1
-         !$omp simd
-         do l = 1, lanes
-            momentum(l, k + 1) = -factor(k + 1)*force(l, k + 1)
-            if (k == 0) momentum(l, 1) = momentum(l, 1) - load(l)
-         end do
-         do flank = 1, flanks
-            !$omp simd private(product)
+      ! Products with the newest coefficients come last: all others can be summed while those are still under way. gfortran unrolls
+      ! the orders before it looks for full registers only within another loop.
+      do once = 1, 1
+         !GCC$ unroll 24
+         do k = 0, order - 1
+            !$omp simd
             do l = 1, lanes
-               momentum(l, k + 1) = momentum(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*compression(l, flank, k)
-               product = 0.0_dp
-               do j = 0, k
-                  product = product + compression(l, flank, j)*films(l, k - j, flank)
+               momentum(l, k + 1) = -factor(k + 1)*force(l, k + 1)
+               if (k == 0) momentum(l, 1) = momentum(l, 1) - load(l)
+            end do
+            do flank = 1, flanks
+               !$omp simd private(product)
+               do l = 1, lanes
+                  momentum(l, k + 1) = momentum(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
+                  product = 0.0_dp
+                  do j = 1, k - 1
+                     product = product + c(l, d, flank, j)*c(l, h, flank, k - j)
+                  end do
+                  if (k > 0) product = product + c(l, d, flank, 0)*c(l, h, flank, k)
+                  product = -stiffness(l)*(product + c(l, d, flank, k)*c(l, h, flank, 0))
+                  if (k == 0) product = product + rolling(l)
+                  c(l, r, flank, k + 1) = (inverse(k + 1)*share(l))*product
+                  product = 0.0_dp
+                  do j = 1, k/2
+                     product = product + c(l, r, flank, j)*c(l, r, flank, k + 1 - j)
+                  end do
+                  product = 2.0_dp*product
+                  if (mod(k, 2) == 1) product = product + c(l, r, flank, shiftr(k + 1, 1))*c(l, r, flank, shiftr(k + 1, 1))
+                  product = product + twice_root(l, flank)*c(l, r, flank, k + 1)
+                  c(l, h, flank, k + 1) = product
+                  c(l, d, flank, k + 1) = product - (inverse(k + 1)*sign_of(flank))*momentum(l, k)
                end do
-               product = -stiffness(l)*product
-               if (k == 0) product = product + rolling(l)
-               r(l, k + 1, flank) = (inverse(k + 1)*share(l))*product
-               product = 0.0_dp
-               do j = 0, k/2
-                  product = product + r(l, j, flank)*r(l, k + 1 - j, flank)
-               end do
-               product = 2.0_dp*product
-               if (mod(k, 2) == 1) product = product + r(l, shiftr(k + 1, 1), flank)*r(l, shiftr(k + 1, 1), flank)
-               films(l, k + 1, flank) = product
-               compression(l, flank, k + 1) = product - (inverse(k + 1)*sign_of(flank))*momentum(l, k)
             end do
          end do
+      end do
+      do flank = 1, flanks
+         films(:, 1:, flank) = c(:, h, flank, 1:)
+         compression(:, flank, 1:) = c(:, d, flank, 1:)
       end do
    end subroutine iso_viscous_springs
 
@@ -113,10 +129,12 @@ contains
       real(dp), intent(inout) :: films(lanes, 0:order, 2)
       real(dp), intent(inout) :: momentum(lanes, 0:order)
       real(dp), intent(inout) :: compression(lanes, 2, 0:order)
-      real(dp), dimension(lanes, 0:order, 2) :: y, w
+      !> Lane, series, flank, coefficient
+      integer, parameter :: h = 1, d = 2, y = 3, w = 4, series = 4
+      real(dp) :: c(lanes, series, 2, 0:order)
       real(dp), dimension(lanes, 2) :: inverse_film, inverse_spring, velocity
-      real(dp) :: stiffness(lanes), share(lanes), product
-      integer :: flank, k, j, l
+      real(dp) :: stiffness(lanes), share(lanes), of_spring, of_film
+      integer :: once, flank, k, j, l
 
       stiffness = 1.0_dp/compliance
       share = 1.0_dp/rate
@@ -124,6 +142,8 @@ contains
       do flank = 1, flanks
          !$omp simd
          do l = 1, lanes
+            c(l, h, flank, 0) = films(l, 0, flank)
+            c(l, d, flank, 0) = compression(l, flank, 0)
             inverse_film(l, flank) = 1.0_dp/films(l, 0, flank)
             inverse_spring(l, flank) = 1.0_dp/max(compression(l, flank, 0), shortest_rest*share(l))
             velocity(l, flank) = share(l)*logarithm(strength(l)*compliance(l)*inverse_spring(l, flank)*inverse_film(l, flank) &
@@ -131,34 +151,40 @@ contains
             momentum(l, 1) = momentum(l, 1) + (sign_of(flank)*stiffness(l))*compression(l, flank, 0)
          end do
       end do
-      !GCC$ unroll 24
-      do k = 0, order - 1
-         if (k > 0) then
+      do once = 1, 1
+         !GCC$ unroll 24
+         do k = 0, order - 1
             !$omp simd
             do l = 1, lanes
-               momentum(l, k + 1) = -factor(k + 1)*force(l, k + 1)
+               if (k > 0) momentum(l, k + 1) = -factor(k + 1)*force(l, k + 1)
             end do
-         end if
-         do flank = 1, flanks
-            !$omp simd private(product)
-            do l = 1, lanes
-               if (k > 0) momentum(l, k + 1) = momentum(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l)) &
-                                               *compression(l, flank, k)
-               films(l, k + 1, flank) = inverse(k + 1)*velocity(l, flank)
-               product = velocity(l, flank) - sign_of(flank)*momentum(l, k)
-               compression(l, flank, k + 1) = inverse(k + 1)*product
-               do j = 1, k
-                  product = product - compression(l, flank, j)*w(l, k - j, flank)
+            do flank = 1, flanks
+               !$omp simd private(of_spring, of_film)
+               do l = 1, lanes
+                  if (k > 0) momentum(l, k + 1) = momentum(l, k + 1) &
+                                                  + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
+                  c(l, h, flank, k + 1) = inverse(k + 1)*velocity(l, flank)
+                  c(l, d, flank, k + 1) = inverse(k + 1)*(velocity(l, flank) - sign_of(flank)*momentum(l, k))
+                  of_spring = 0.0_dp
+                  of_film = 0.0_dp
+                  do j = 2, k - 1
+                     of_spring = of_spring + c(l, d, flank, j)*c(l, w, flank, k - j)
+                     of_film = of_film + c(l, h, flank, j)*c(l, y, flank, k - j)
+                  end do
+                  if (k > 1) of_spring = of_spring + c(l, d, flank, 1)*c(l, w, flank, k - 1)
+                  if (k > 1) of_film = of_film + c(l, h, flank, 1)*c(l, y, flank, k - 1)
+                  if (k > 0) of_spring = of_spring + c(l, d, flank, k)*c(l, w, flank, 0)
+                  if (k > 0) of_film = of_film + c(l, h, flank, k)*c(l, y, flank, 0)
+                  c(l, w, flank, k) = inverse_spring(l, flank)*((velocity(l, flank) - sign_of(flank)*momentum(l, k)) - of_spring)
+                  c(l, y, flank, k) = inverse_film(l, flank)*(velocity(l, flank) - of_film)
+                  velocity(l, flank) = -(inverse(k + 1)*share(l))*(c(l, w, flank, k) + 3.5_dp*c(l, y, flank, k))
                end do
-               w(l, k, flank) = inverse_spring(l, flank)*product
-               product = velocity(l, flank)
-               do j = 1, k
-                  product = product - films(l, j, flank)*y(l, k - j, flank)
-               end do
-               y(l, k, flank) = inverse_film(l, flank)*product
-               velocity(l, flank) = -(inverse(k + 1)*share(l))*(w(l, k, flank) + 3.5_dp*y(l, k, flank))
             end do
          end do
+      end do
+      do flank = 1, flanks
+         films(:, 1:, flank) = c(:, h, flank, 1:)
+         compression(:, flank, 1:) = c(:, d, flank, 1:)
       end do
    end subroutine piezo_viscous_springs
 
@@ -220,9 +246,11 @@ contains
                !$omp simd private(of_load, of_root, of_square, of_nest, of_velocity)
                do l = 1, lanes
                   of_load = 0.0_dp
-                  do j = 0, k
+                  do j = 1, k - 1
                      of_load = of_load + c(l, d, flank, k - j)*c(l, h, flank, j)
                   end do
+                  of_load = of_load + c(l, d, flank, 0)*c(l, h, flank, k)
+                  of_load = of_load + c(l, d, flank, k)*c(l, h, flank, 0)
                   of_root = 0.0_dp
                   of_square = 0.0_dp
                   do j = 1, (k - 1)/2
@@ -240,17 +268,18 @@ contains
                   c(l, square, flank, k) = of_square
                   !GCC$ unroll 8
                   do i = min(last_pair, (rupture_order - 1 - k)/2), 0, -1
-                     of_nest = expansion(flank)%terms(l, 2*i + 1)*c(l, z, flank, k)
+                     of_nest = 0.0_dp
                      do j = max(2, k - (rupture_order - 1 - 2*(i + 1))), merge(k, 0, i < last_pair)
                         of_nest = of_nest + c(l, square, flank, j)*c(l, nest + i + 1, flank, k - j)
                      end do
-                     c(l, nest + i, flank, k) = of_nest
+                     c(l, nest + i, flank, k) = of_nest + expansion(flank)%terms(l, 2*i + 1)*c(l, z, flank, k)
                   end do
                   of_velocity = 0.0_dp
-                  do j = 0, k
+                  do j = 1, k - 1
                      of_velocity = of_velocity + c(l, r, flank, k - j)*c(l, nest, flank, j)
                   end do
-                  velocity(l, flank) = share(l)*of_velocity
+                  of_velocity = of_velocity + c(l, r, flank, k)*c(l, nest, flank, 0)
+                  velocity(l, flank) = share(l)*(of_velocity + c(l, r, flank, 0)*c(l, nest, flank, k))
                   momentum(l, k + 1) = momentum(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
                   c(l, h, flank, k + 1) = inverse(k + 1)*velocity(l, flank)
                   c(l, d, flank, k + 1) = inverse(k + 1)*(velocity(l, flank) - sign_of(flank)*momentum(l, k))

@@ -101,7 +101,7 @@ contains
       integer :: i, outcome
 
       do i = 1, size(groups)
-         call iso_viscous_squeeze(loads(i), a, outcome)
+         call iso_viscous_squeeze(loads(i), a, by_a, outcome)
          call checks%check_close(a, groups(i), 1.0e-14_dp*max(1.0_dp, abs(groups(i))), 'known group, iso-viscous')
          call piezo_viscous_squeeze(loads(i), 0.0_dp, a, outcome)
          call checks%check_close(a, groups(i), 1.0e-14_dp*max(1.0_dp, abs(groups(i))), 'known group, no pressure')
