@@ -4,7 +4,7 @@ module test_elastic_teeth
    use canonical_scenes, only: canonical_scene
    use checks, only: check_list_t
    use controlled_engine, only: find_steady_motion, solve_window
-   use engine, only: ending_t, motion_count_t, numbers_of, request_t, start_of
+   use engine, only: ending_t, motion_count_t, motion_state_t, numbers_of, request_t, start_of
    use film_law, only: film_load, kernel_of
    use force, only: force_of_period
    use fourier, only: amplitude_spectrum
@@ -20,7 +20,8 @@ module test_elastic_teeth
    use quantities, only: quantity_damping_ratio, quantity_natural_frequency
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_complete
-   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, scene_t
+   use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
+      scene_t
    use window_record, only: energy_gap, window_record_t
    implicit none(type, external)
    private
@@ -57,6 +58,7 @@ contains
       call test_rest(checks)
       call test_small_motions(checks)
       call test_stiff_teeth(checks)
+      call test_two_ways(checks)
       call test_newmark(checks)
       call test_mirror(checks)
       call test_no_company(checks)
@@ -231,6 +233,45 @@ contains
          call checks%check_close(difference(1)/difference(2), 10.0_dp, 0.1_dp, 'the difference falls as 1/k')
       end do
    end subroutine test_stiff_teeth
+
+   !> Taylor series and collocation solve the same equations, whatever the film law.
+   subroutine test_two_ways(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer, parameter :: laws(4) = [law_iso_viscous, law_iso_viscous, law_piezo_viscous, law_iso_viscous]
+      integer, parameter :: models(4) = [model_published, model_published, model_published, model_reynolds]
+      integer, parameter :: ruptures(4) = [rupture_half_pi, rupture_solved, rupture_half_pi, rupture_half_pi]
+      type(scene_t) :: scene
+      type(problem_t) :: problem
+      type(motion_state_t) :: start
+      type(ending_t) :: endings(2)
+      type(window_record_t) :: record
+      real(dp), allocatable :: explicit(:, :), implicit(:, :), z(:)
+      real(dp) :: difference
+      integer :: i, flanks
+      character(80) :: name
+
+      do i = 1, size(laws)
+         do flanks = 1, 2
+            scene = canonical_scene(laws(i), 256)
+            scene%film%model = models(i)
+            scene%film%rupture = ruptures(i)
+            scene%film%initial_film = 0.0_dp
+            scene%contact%stiffness = 2.0e8_dp
+            scene%load%force_amplitude = 60.0_dp
+            if (flanks == 2) scene%contact%backlash = 1.0e-5_dp
+            problem = problem_of(scene)
+            start = start_of(problem)
+            write (name, '(a, i0, a, i0)') 'two ways, law ', i, ', flanks ', flanks
+            call solve_window(problem, start, 1.0e-10_dp, 64, 3, 3, explicit, z, endings(1), record)
+            start%implicit = .true.
+            call solve_window(problem, start, 1.0e-10_dp, 64, 3, 3, implicit, z, endings(2), record)
+            call checks%check(all(endings%status == status_complete), trim(name)//': solved')
+            call checks%check(endings(2)%implicit .and. .not. endings(1)%implicit, trim(name)//': two ways')
+            difference = maxval(abs(explicit(:, of_film)/implicit(:, of_film) - 1.0_dp))
+            call checks%check(difference < 1.0e-7_dp, trim(name)//': they agree')
+         end do
+      end do
+   end subroutine test_two_ways
 
    !> Newmark's method is of the second order, for gear and films.
    subroutine test_newmark(checks)
