@@ -167,12 +167,10 @@ contains
                   c(l, d, flank, k + 1) = inverse(k + 1)*(velocity(l, flank) - sign_of(flank)*momentum(l, k))
                   of_spring = 0.0_dp
                   of_film = 0.0_dp
-                  do j = 2, k - 1
+                  do j = k - 1, 1, -1
                      of_spring = of_spring + c(l, d, flank, j)*c(l, w, flank, k - j)
                      of_film = of_film + c(l, h, flank, j)*c(l, y, flank, k - j)
                   end do
-                  if (k > 1) of_spring = of_spring + c(l, d, flank, 1)*c(l, w, flank, k - 1)
-                  if (k > 1) of_film = of_film + c(l, h, flank, 1)*c(l, y, flank, k - 1)
                   if (k > 0) of_spring = of_spring + c(l, d, flank, k)*c(l, w, flank, 0)
                   if (k > 0) of_film = of_film + c(l, h, flank, k)*c(l, y, flank, 0)
                   c(l, w, flank, k) = inverse_spring(l, flank)*((velocity(l, flank) - sign_of(flank)*momentum(l, k)) - of_spring)

@@ -6,8 +6,8 @@ in A on pieces of the line, four from each 2 + |A| = 2**n to the next. No piece 
 its distance from +-2i, so a term of its Chebyshev series is worth a factor of 17, and the polynomial can be
 followed well beyond its piece, as a step of the motion does.
 
-Where teeth give, the load is known and A is not. The same loads are tabulated turned round: A as polynomials in the
-load less its limit on separation, four pieces from each power of two to the next.
+Where teeth give, the load is known and A is not. The same loads are tabulated turned round: A as polynomials
+in the load less its limit on separation, four pieces from each power of two to the next.
 
 For the piezo-viscous film the same is done in A and sigma, in cells: powers of both up to a total degree,
 about the centre of a piece of A and an interval of sigma, from the table of S in film_tables. They are good
@@ -81,7 +81,7 @@ def group_of_tangent(t):
 
 
 def group_of_load(load_of_tangent, wanted, t):
-    """A at which a load has a value, and the tangent there, by Newton's method for its logarithm from a tangent nearby."""
+    """A at which a load has a value, and the tangent there: Newton's method for its logarithm, from t."""
     place = mp.asinh(t)
     for _ in range(200):
         t = mp.sinh(place)
@@ -180,8 +180,8 @@ def pieces_module():
         "   !> Pieces in an octave of 2 + |A|, and number of the last one, counted from 0.",
         f"   integer, parameter, public :: octave_pieces = {OCTAVE_PIECES}",
         f"   integer, parameter, public :: last_piece = {OCTAVES * OCTAVE_PIECES}",
-        "   !> The loads turned round: A in ascending powers of (load - limit - centre)/unit. Binary logarithm of the least load,",
-        "   !> and number of the last piece, counted from 0.",
+        "   !> The loads turned round: A in ascending powers of (load - limit - centre)/unit. Binary logarithm",
+        "   !> of the least load, and number of the last piece, counted from 0.",
         f"   integer, parameter, public :: first_load = {LOAD_OCTAVES[0]}",
         f"   integer, parameter, public :: last_load_piece = {len(LOAD_OCTAVES) * OCTAVE_PIECES - 1}",
     ]
