@@ -180,8 +180,8 @@ def pieces_module():
         "   !> Pieces in an octave of 2 + |A|, and number of the last one, counted from 0.",
         f"   integer, parameter, public :: octave_pieces = {OCTAVE_PIECES}",
         f"   integer, parameter, public :: last_piece = {OCTAVES * OCTAVE_PIECES}",
-        "   !> The loads turned round: A in ascending powers of (load - limit - centre)/unit. Binary logarithm",
-        "   !> of the least load, and number of the last piece, counted from 0.",
+        "   !> The loads turned round: A in ascending powers of (load - limit - centre)/unit. Binary",
+        "   !> logarithm of the least load, and number of the last piece, counted from 0.",
         f"   integer, parameter, public :: first_load = {LOAD_OCTAVES[0]}",
         f"   integer, parameter, public :: last_load_piece = {len(LOAD_OCTAVES) * OCTAVE_PIECES - 1}",
     ]
