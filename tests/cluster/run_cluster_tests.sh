@@ -1,7 +1,7 @@
 #!/bin/bash
-# Runs a campaign through Slurm on this machine: as an array job and as an MPI job, warned and sent back into the
-# queue, killed at its time limit and submitted again. Every result must be, byte for byte, that of a run without
-# Slurm. Usage: run_cluster_tests.sh [BUILD]; RATTLE_PROGRAM=PATH tests a program that is already built with MPI.
+# Runs campaigns through Slurm on this machine, one of a gearbox too: as an array job and as an MPI job, warned and sent
+# back into the queue, killed at its time limit and submitted again. Every result must be, byte for byte, that of a run
+# without Slurm. Usage: run_cluster_tests.sh [BUILD]; RATTLE_PROGRAM=PATH tests a program that is already built with MPI.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 repository=$(cd "$here/../.." && pwd)
@@ -96,6 +96,23 @@ say 'thresholds on two ranks of two threads'
 "$program" --quiet --threads 1 --output thresholds "$repository/input/threshold.nml"
 mpirun -n 2 --bind-to none "$program" --quiet --threads 2 --output thresholds_of_ranks "$repository/input/threshold.nml"
 same 'thresholds, MPI job' thresholds_of_ranks/threshold.rattle thresholds/threshold.rattle
+
+say 'a gearbox over speed and oil temperature, every class certified: array job and MPI jobs'
+sed 's/count = 25, 29/count = 15, 17/' "$repository/input/gearbox_map.nml" > gearbox.nml
+"$program" --quiet --threads 1 --output alone gearbox.nml > alone.log 2>&1 || { tail alone.log; give_up 'gearbox'; }
+write_script gearbox_array gearbox --array 3 --time 00:10:00
+array=$(submit gearbox_array/gearbox.slurm)
+write_script gearbox_mpi gearbox --ranks 2 --time 00:10:00 --launcher 'srun --mpi=pmix'
+job=$(submit gearbox_mpi/gearbox.slurm)
+mpirun -n 2 --bind-to none "$program" --quiet --threads 2 --output gearbox_ranks gearbox.nml || fail 'the gearbox under mpirun'
+same 'gearbox, mpirun' gearbox_ranks/gearbox.rattle alone/gearbox.rattle
+for waited in "$array" "$job"; do
+    wait_until 300 'a gearbox job does not end' ended "$waited"
+    all_well "$waited" || { show "$waited"; fail 'a gearbox job'; }
+done
+$campaign merge gearbox_array/gearbox.part-*-of-3.rattle --output gearbox_array/gearbox.rattle 2> array.note || { cat array.note; fail merge; }
+same 'gearbox, array job, merged' gearbox_array/gearbox.rattle alone/gearbox.rattle
+same 'gearbox, MPI job' gearbox_mpi/gearbox.rattle alone/gearbox.rattle
 
 say 'a motion under mpirun'
 mpirun -n 2 "$program" --quiet --output refused "$repository/input/creep.nml" > refused.log 2>&1 && fail 'a motion ran twice'
