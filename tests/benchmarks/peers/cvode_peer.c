@@ -124,6 +124,21 @@ static double film_speed(const scene_t *p, double y, double w, double *by_y, dou
    return -(log(w) + 3.5 * log(y)) / p->c;
 }
 
+/* The exact iso-viscous film between two rigid flanks: states y and both rupture angles (scenes.py). */
+static int flanks_rates(const scene_t *p, double drive, const double *s, double *d)
+{
+   double y = s[0], gap = p->backlash - y;
+   if (!(y > 0 && gap > 0 && s[1] > 0 && s[1] < M_PI && s[2] > 0 && s[2] < M_PI)) return 1;
+   rupture_t one = rupture(s[1]), two = rupture(s[2]);
+   double load = 0.25 * one.s * one.s - 0.125 * one.a * (s[1] - one.s * one.c);
+   double coast = 0.25 * two.s * two.s - 0.125 * two.a * (s[2] - two.s * two.c);
+   double v = one.a * sqrt(y) / p->c, change = p->a * (load / (p->steady * y) - coast / (p->steady * gap) - drive);
+   d[0] = v;
+   d[1] = one.slope * p->c / sqrt(y) * (change - 0.5 * v * v / y);
+   d[2] = -two.slope * p->c / sqrt(gap) * (change + 0.5 * v * v / gap);
+   return isfinite(d[1]) && isfinite(d[2]) ? 0 : 1;
+}
+
 /* Several orders, two flanks, teeth that give: states y, v or y, z, v or y, z, coast film, v (scenes.py). */
 static int changed_rates(realtype tau, N_Vector state, N_Vector slope, void *data)
 {
@@ -131,6 +146,7 @@ static int changed_rates(realtype tau, N_Vector state, N_Vector slope, void *dat
    const double *s = NV_DATA_S(state);
    double *d = NV_DATA_S(slope), one, two, y = s[0], drive = 1 + p->q * cos(2 * M_PI * tau), net;
    for (int n = 2; n <= p->orders; n++) drive += p->ratio[n] * cos(2 * M_PI * n * tau + p->phase[n]);
+   if (p->film == 2) return flanks_rates(p, drive, s, d);
    if (!(y > 0)) return 1;
    if (p->compliance > 0) {
       double w = (y - s[1]) / p->compliance, v = s[p->backlash > 0 ? 3 : 2];
@@ -264,19 +280,28 @@ static int solve(scene_t *scene, double tolerance, double *film)
 {
    SUNContext context;
    if (SUNContext_Create(NULL, &context)) return 1;
-   int size = scene->compliance > 0 ? (scene->backlash > 0 ? 4 : 3) : 2;
+   int exact_flanks = scene->changed && scene->film == 2;
+   int size = scene->compliance > 0 ? (scene->backlash > 0 ? 4 : 3) : 2 + exact_flanks;
    N_Vector state = N_VNew_Serial(size, context);
    N_VConst(0, state);
    NV_Ith_S(state, 0) = 1;
    if (scene->film > 1) NV_Ith_S(state, 1) = 0.5 * M_PI + atan(0.4751299200930563);
-   if (size > 2) NV_Ith_S(state, 1) = 1 - scene->compliance;
+   if (exact_flanks) {
+      double b = scene->backlash;
+      NV_Ith_S(state, 0) = 2 * b / (b + 2 + hypot(b, 2));
+      NV_Ith_S(state, 2) = NV_Ith_S(state, 1);
+   }
+   if (scene->compliance > 0) NV_Ith_S(state, 1) = 1 - scene->compliance;
    if (size > 3) NV_Ith_S(state, 2) = scene->coast_start;
    SUNMatrix matrix = SUNDenseMatrix(size, size, context);
    SUNLinearSolver solver = SUNLinSol_Dense(state, matrix, context);
    void *memory = CVodeCreate(CV_BDF, context);
    int flag = CVodeInit(memory, scene->changed ? changed_rates : rates, 0, state) || CVodeSStolerances(memory, tolerance, tolerance) ||
               CVodeSetUserData(memory, scene) || CVodeSetLinearSolver(memory, solver, matrix) ||
-              CVodeSetJacFn(memory, scene->changed ? changed_jacobian : jacobian) || CVodeSetMaxNumSteps(memory, 2000000) || CVodeSetErrFile(memory, NULL);
+              
+              /* Between two exact flanks by differences */
+              CVodeSetJacFn(memory, exact_flanks ? NULL : scene->changed ? changed_jacobian : jacobian) ||
+              CVodeSetMaxNumSteps(memory, 2000000) || CVodeSetErrFile(memory, NULL);
    int first = (scene->periods - scene->sampled) * scene->points;
    for (int i = 0; !flag && i < scene->sampled * scene->points; i++) {
       realtype reached;

@@ -57,20 +57,44 @@ def _system(film: str) -> list:
     if film == "published piezo_viscous":
         return [(y, v), (v, big_a * (y**-3.5 * hy.exp(-rate * v) - drive))]
     d, root = v, hy.sqrt(y)
+    a, slope, load = _flank(d)
+    if film == "reynolds piezo_viscous":
+        load = _piezo_load(d, hy.sin(d), hy.cos(d), a, scale / (y * root))
+    squeeze = a / rate
+    return [
+        (y, squeeze * root),
+        (d, slope * rate / root * (big_a * (load / (steady * y) - drive) - 0.5 * (squeeze * squeeze))),
+    ]
+
+
+def _flank(d):
+    """A, dd/dA and Phi of an exact iso-viscous film from its rupture angle."""
     s, c = hy.sin(d), hy.cos(d)
     sc, s2 = s * c, s * s
     quarter = 0.5 * sc * (1.0 - 2.0 * s2)
     j, k = 0.125 * d - 0.25 * quarter, 0.375 * d - 0.5 * sc + 0.25 * quarter
     a = (s2 * j - c * c * k) / (0.25 * (s2 * s2) * s2 - sc * k)
-    slope = s2 * (0.25 * (s2 * s2) * s - c * k) / (k * (2.0 * c - a * s))
-    if film == "reynolds iso_viscous":
-        load = 0.25 * s2 - 0.125 * a * (d - sc)
-    else:
-        load = _piezo_load(d, s, c, a, scale / (y * root))
-    squeeze = a / rate
+    return a, s2 * (0.25 * (s2 * s2) * s - c * k) / (k * (2.0 * c - a * s)), 0.25 * s2 - 0.125 * a * (d - sc)
+
+
+def _flanks_system(orders: int) -> list:
+    """Equations of the exact iso-viscous film between two rigid flanks under several orders (scenes.py)."""
+    y, drive_angle, coast_angle = hy.make_vars("y", "d", "coast")
+    big_a, rate, ratio, backlash, _, steady = (hy.par[i] for i in range(6))
+    drive = 1.0 + ratio * hy.cos(2.0 * np.pi * hy.time)
+    for order in range(2, orders + 1):
+        turn = 2.0 * np.pi * float(order) * hy.time
+        drive += hy.par[2 * order + 2] * hy.cos(turn + hy.par[2 * order + 3])
+    a, slope, load = _flank(drive_angle)
+    _, coast_slope, coast_load = _flank(coast_angle)
+    gap = backlash - y
+    root, coast_root = hy.sqrt(y), hy.sqrt(gap)
+    v = a * root / rate
+    change = big_a * (load / (steady * y) - coast_load / (steady * gap) - drive)
     return [
-        (y, squeeze * root),
-        (d, slope * rate / root * (big_a * (load / (steady * y) - drive) - 0.5 * (squeeze * squeeze))),
+        (y, v),
+        (drive_angle, slope * rate / root * (change - 0.5 * (v * v) / y)),
+        (coast_angle, -coast_slope * rate / coast_root * (change + 0.5 * (v * v) / gap)),
     ]
 
 
@@ -80,6 +104,8 @@ def _changed_system(kind: tuple) -> list:
     Parameters: a, c, q, backlash, compliance, then ratio and phase of every order above the first.
     """
     film, orders, two_flanks, springs = kind
+    if film == "reynolds iso_viscous":
+        return _flanks_system(orders)
     iso = film == "published iso_viscous"
     y, v, z, coast = hy.make_vars("y", "v", "z", "coast")
     big_a, rate, ratio, backlash, compliance = (hy.par[i] for i in range(5))
@@ -112,14 +138,19 @@ def _parameters(scene: scenes.Scene) -> np.ndarray:
     if not scene.is_changed:
         return scene.parameters
     orders = [number for pair in zip(scene.more_ratios, scene.phases, strict=True) for number in pair]
-    return np.array([*scene.parameters[:3], scene.backlash, scene.compliance, *orders])
+    steady = [scene.steady_load] if scene.model == "reynolds" else []
+    return np.array([*scene.parameters[:3], scene.backlash, scene.compliance, *steady, *orders])
 
 
 def _start(scene: scenes.Scene) -> list[float]:
     if scene.compliance > 0.0:
         coast = [scenes.coast_start(scene)] if scene.backlash > 0.0 else []
         return [1.0, 1.0 - scene.compliance, *coast, 0.0]
-    return [1.0, 0.0 if scene.model == "published" else scenes.STEADY_ANGLE]
+    if scene.model == "published":
+        return [1.0, 0.0]
+    if scene.backlash > 0.0:
+        return [scenes.rest_between_flanks(scene.backlash), scenes.STEADY_ANGLE, scenes.STEADY_ANGLE]
+    return [1.0, scenes.STEADY_ANGLE]
 
 
 def _equations(kind: tuple) -> list:

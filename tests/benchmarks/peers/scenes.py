@@ -41,6 +41,9 @@ steep, and explicit steps do not follow. That scene is a group of its own ("a fi
 The motion of (35) with teeth that give at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is
 judged in the last ten of 20 periods, and timed over 200.
 
+The exact iso-viscous film stands between two rigid flanks too (bench_gearbox.py), w_2 = Phi(A_2)/((b - y) Phi(0)),
+A_2 = -c v/sqrt(b - y), with the rupture angles of both flanks as states and a start at rest.
+
 Error measure: largest |h/h_reference - 1| over the last 10 periods at 64 points a period, that is at
 tau = 190 + k/64, k = 1 ... 640, against `../reference/film.csv`, and for the changed scenes against the
 tightest solution of a peer.
@@ -141,7 +144,7 @@ class Scene:
         )
 
 
-def _steady_load_group(pressure_scale: float) -> float:
+def steady_load_group(pressure_scale: float) -> float:
     """Psi(0, B0), and Phi(0) for B0 = 0, by 200 Gauss points from -pi/2 to x_e (integrated by parts)."""
     nodes, weights = np.polynomial.legendre.leggauss(200)
     phi = 0.5 * STEADY_ANGLE * (nodes + 1.0)
@@ -179,7 +182,7 @@ def make_scene(model: str, law: str, factor: float, alpha: float | None = None) 
         squeeze = 4 * FREQUENCY * math.sqrt(RADIUS * INITIAL_FILM / 2) / SPEED
         if piezo:
             scale = 6 * math.sqrt(2 * RADIUS) * alpha * SPEED * VISCOSITY * INITIAL_FILM**-1.5
-        steady = _steady_load_group(scale)
+        steady = steady_load_group(scale)
         load_of_length = 12 * SPEED * VISCOSITY * RADIUS / INITIAL_FILM * steady
     return Scene(
         name=f"{model}-{law.removesuffix('_viscous')}-{factor:g}",
@@ -211,6 +214,11 @@ def changed(scene: Scene, group: str) -> Scene:
     if group == "teeth that give" and scene.name == "published-iso-3":
         more["periods"] = CHAOTIC_PERIODS
     return replace(scene, **more)
+
+
+def rest_between_flanks(backlash: float) -> float:
+    """Drive film at rest between two iso-viscous films, 1/y - 1/(b - y) = 1."""
+    return 2.0 * backlash / (backlash + 2.0 + math.hypot(backlash, 2.0))
 
 
 def coast_start(scene: Scene) -> float:
