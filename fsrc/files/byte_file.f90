@@ -9,6 +9,7 @@ module byte_file
    use file_descriptor, only: close_descriptor, open_replacing, synchronise_descriptor, write_bytes
    use file_system, only: delete_file, rename_file
    use kinds, only: dp, int64
+   use text_output, only: leave_words, take_words
    implicit none(type, external)
    private
 
@@ -216,8 +217,13 @@ contains
       class(byte_file_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error
 
+      integer(c_int) :: cause
+
+      cause = last_error()
       self%broken = .true.
-      call raise(error, exit_system, self%path//' cannot be written: '//error_words(last_error()))
+      call take_words()
+      call raise(error, exit_system, self%path//' cannot be written: '//error_words(cause))
+      call leave_words()
    end subroutine fail
 
 end module byte_file

@@ -7,6 +7,7 @@ module progress
    use kinds, only: dp
    use log_file, only: log_t
    use text, only: integer_text, short_text
+   use text_output, only: has_turn, leave_words, take_words
    implicit none(type, external)
    private
 
@@ -40,7 +41,7 @@ contains
       self%last = self%started
    end subroutine start_progress
 
-   !> A period is done.
+   !> A period is done. The thread that tells it computes.
    subroutine period_done(self, done, all)
       class(progress_t), intent(inout) :: self
       !> Periods solved
@@ -54,16 +55,18 @@ contains
       now = wall_seconds()
       if (now - self%last < merge(terminal_interval, line_interval, self%on_terminal)) return
       self%last = now
+      call take_words()
       line = '  '//integer_text(done)//' of '//integer_text(all)//' periods after '// &
              short_text(now - self%started, 3)//' s, '// &
              short_text((now - self%started)*real(all - done, dp)/real(done, dp), 2)//' s left'
       if (.not. self%on_terminal) then
          call self%log%line(line)
-      else if (.not. self%quiet) then
+      else if (.not. self%quiet .and. has_turn()) then
          write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//line//'    '
          flush (output_unit, iostat=ignored)
          self%shown = .true.
       end if
+      call leave_words()
    end subroutine period_done
 
    !> Wipe the line on the terminal.

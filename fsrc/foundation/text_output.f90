@@ -1,16 +1,27 @@
 !> Lines of text to standard output and to logs, and whether they have reached their readers: a full disk takes a log or a
-!> template as it takes a result. (The runtime tells of no failure where it flushes a unit.)
+!> template as it takes a result. (The runtime tells of no failure where it flushes a unit.) What works that go on side by side
+!> tell reaches the standard output in their order: the first of them speaks, the others are kept waiting.
 module text_output
    use, intrinsic :: iso_c_binding, only: c_int
    use file_descriptor, only: standard_output, write_bytes
    use kinds, only: int64
+   use word_list, only: word_t
+   use, intrinsic :: omp_lib, only: omp_destroy_nest_lock, omp_init_nest_lock, omp_nest_lock_kind, omp_set_nest_lock, &
+      omp_unset_nest_lock
    implicit none(type, external)
    private
 
    !> Module state is unavoidable here: the standard output is one for all, and its fate is asked for at the end.
    character(:), allocatable :: lost
+   !> What each work has told before its turn, whose turn it is (0: works do not share the output), and which work this thread does
+   type(word_t), allocatable :: waiting(:)
+   integer :: turn = 0, own = 0
+   !$omp threadprivate(own)
+   !> Held by the thread that finds words: gfortran keeps the length of a text that a function allocates for all threads
+   integer(omp_nest_lock_kind) :: words
 
-   public :: put_text, put_line, write_line, note_lost_text, lost_text
+   public :: put_text, put_line, write_line, note_lost_text, lost_text, share_output, speak_for, end_turn, has_turn, &
+             take_words, leave_words
 
 contains
 
@@ -18,8 +29,55 @@ contains
    subroutine put_text(text)
       character(*), intent(in) :: text
 
-      call write_text(standard_output, text, 'the standard output')
+      if (has_turn()) then
+         call write_text(standard_output, text, 'the standard output')
+      else
+         waiting(own)%text = waiting(own)%text//text
+      end if
    end subroutine put_text
+
+   !> Let works go on side by side, each on a thread. The first has its turn to tell. A thread finds words only between take_words
+   !> and leave_words, one at a time.
+   subroutine share_output(works)
+      !> How many, 0: no more
+      integer, intent(in) :: works
+      integer :: i
+
+      if (turn > 0) call omp_destroy_nest_lock(words)
+      if (works > 0) call omp_init_nest_lock(words)
+      if (allocated(waiting)) deallocate (waiting)
+      waiting = [(word_t(''), i=1, works)]
+      turn = min(works, 1)
+   end subroutine share_output
+
+   !> Wait until no other thread finds words. May be called again by the thread that does.
+   subroutine take_words()
+      if (turn > 0) call omp_set_nest_lock(words)
+   end subroutine take_words
+
+   !> Let other threads find words.
+   subroutine leave_words()
+      if (turn > 0) call omp_unset_nest_lock(words)
+   end subroutine leave_words
+
+   !> What this thread tells from here on is told for a work.
+   subroutine speak_for(work)
+      !> From 1, 0: for none
+      integer, intent(in) :: work
+
+      own = work
+   end subroutine speak_for
+
+   !> The work whose turn it is has told all: that of the next one comes, first of all what it has told by now.
+   subroutine end_turn()
+      turn = turn + 1
+      if (turn <= size(waiting)) call write_text(standard_output, waiting(turn)%text, 'the standard output')
+   end subroutine end_turn
+
+   !> Whether what this thread tells goes out at once.
+   logical function has_turn()
+      has_turn = own == turn
+   end function has_turn
 
    !> A line to standard output.
    subroutine put_line(text)

@@ -6,7 +6,7 @@ module batch
    use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t
    use gearbox_table, only: pair_row_t, row_of_pair, whole_gearbox, write_table
    use judged_scene, only: judged_scene_t
-   use memory_need, only: expect_scene_memory
+   use memory_need, only: expect_scene_memory, scenes_that_fit
    use output_lock, only: output_lock_t
    use output_place, only: check_output_place, stem
    use resolved_scene, only: resolve
@@ -15,13 +15,25 @@ module batch
    use run_scene, only: run_one_scene
    use run_sweep, only: run_sweep_task
    use scene_report, only: law_sentence, resolved_lines
-   use scene_status, only: is_success, status_interrupted
+   use scene_status, only: is_success, status_complete, status_interrupted
    use scene_types, only: scene_t, task_film, task_motion, task_sweep
    use signals, only: caught_signal
    use text, only: integer_text
-   use text_output, only: put_line, put_text
+   use text_output, only: end_turn, leave_words, put_line, put_text, share_output, speak_for, take_words
+   use, intrinsic :: omp_lib, only: omp_get_max_threads
    implicit none(type, external)
    private
+
+   !> What became of a scene of a call.
+   type :: outcome_t
+      logical :: is_over = .false.
+      integer :: status = status_complete
+      !> Of the table, where the scene is a pair of a gearbox
+      type(pair_row_t) :: row
+      !> Faults of the place of its files, trouble with them
+      type(fault_list_t) :: faults
+      type(error_t), allocatable :: error
+   end type outcome_t
 
    public :: run_batch, print_faults
 
@@ -58,53 +70,113 @@ contains
       end if
    end subroutine run_batch
 
-   !> Run one scene after the other; a failed one does not stop the others.
+   !> Run the scenes, side by side where there are threads for it: begun and told in their order, whoever is done first. A failed one
+   !> does not stop the others. After a signal, or trouble with files, no more are begun.
    subroutine run_all(command, scenes, exit_code)
       type(command_t), intent(in) :: command
       type(scene_t), intent(in) :: scenes(:)
       integer, intent(out) :: exit_code
-      type(output_lock_t) :: lock
-      type(fault_list_t) :: faults
-      type(error_t), allocatable :: error
-      type(judged_scene_t) :: judged
+      type(outcome_t), allocatable :: outcomes(:)
       type(pair_row_t), allocatable :: rows(:)
-      integer :: i, status
+      integer :: begun, told, place
+      logical :: is_ending, in_trouble
 
       exit_code = exit_complete
-      allocate (rows(0))
-      do i = 1, size(scenes)
-         call lock%take(stem(scenes(i)), error)
-         if (.not. allocated(error)) then
-            ! Another run may have written these files since they were looked at.
-            call check_output_place(scenes(i), scenes(i)%source, .false., faults)
-            if (faults%count() > 0) then
-               call lock%release()
-               call print_faults(faults)
-               exit_code = faults%exit_code
-               return
-            end if
-            call run_task(scenes(i), command, judged, status, error)
+      allocate (outcomes(size(scenes)), rows(0))
+      begun = 0
+      told = 0
+      is_ending = .false.
+      in_trouble = .false.
+      call share_output(size(scenes))
+      ! A thread that computes lets the others find words; all else here is done by one at a time.
+      !$omp parallel default(shared) private(place) num_threads(scenes_that_fit(scenes, omp_get_max_threads()))
+      call take_words()
+      do
+         if (begun == size(scenes) .or. is_ending) exit
+         begun = begun + 1
+         place = begun
+         call speak_for(place)
+         call run_place(scenes(place), command, outcomes(place))
+         is_ending = is_ending .or. has_trouble(outcomes(place)) .or. outcomes(place)%status == status_interrupted
+         outcomes(place)%is_over = .true.
+         do while (told < begun)
+            if (.not. outcomes(told + 1)%is_over) exit
+            told = told + 1
+            call speak_for(told)
+            call settle_place(command, scenes, outcomes, told, is_ending .and. told == begun, rows, in_trouble, exit_code)
+            call end_turn()
+         end do
+      end do
+      call speak_for(0)
+      call leave_words()
+      !$omp end parallel
+      call share_output(0)
+   end subroutine run_all
+
+   !> Run a scene while no other run can write its files.
+   subroutine run_place(scene, command, outcome)
+      type(scene_t), intent(in) :: scene
+      type(command_t), intent(in) :: command
+      type(outcome_t), intent(inout) :: outcome
+      type(judged_scene_t) :: judged
+      type(output_lock_t) :: lock
+
+      call lock%take(stem(scene), outcome%error)
+      if (allocated(outcome%error)) return
+      ! Another run may have written these files since they were looked at.
+      call check_output_place(scene, scene%source, .false., outcome%faults)
+      if (outcome%faults%count() == 0) call run_task(scene, command, judged, outcome%status, outcome%error)
+      call lock%release()
+      if (is_pair(scene) .and. .not. has_trouble(outcome)) outcome%row = row_of_pair(scene, judged)
+   end subroutine run_place
+
+   !> What follows from the outcome of a scene, once all before it are settled: its row, the table of its gearbox, the exit code.
+   subroutine settle_place(command, scenes, outcomes, place, is_last_begun, rows, in_trouble, exit_code)
+      type(command_t), intent(in) :: command
+      type(scene_t), intent(in) :: scenes(:)
+      type(outcome_t), intent(inout) :: outcomes(:)
+      !> Which of them
+      integer, intent(in) :: place
+      !> Whether the call is ending and no scene behind this one was begun
+      logical, intent(in) :: is_last_begun
+      !> Pairs of the gearbox whose table is still to come
+      type(pair_row_t), allocatable, intent(inout) :: rows(:)
+      !> Whether there was trouble with files: the first of it decides, and nothing follows
+      logical, intent(inout) :: in_trouble
+      integer, intent(inout) :: exit_code
+      type(output_lock_t) :: lock
+
+      if (in_trouble) return
+      associate (outcome => outcomes(place))
+         if (is_pair(scenes(place)) .and. .not. has_trouble(outcome)) rows = [rows, outcome%row]
+         if (size(rows) > 0 .and. (is_last_pair(scenes, place) .or. is_last_begun) .and. .not. has_trouble(outcome)) then
+            call lock%take(stem(whole_gearbox(scenes(place))), outcome%error)
+            if (.not. allocated(outcome%error)) &
+               call write_table(whole_gearbox(scenes(place)), rows, command%quiet, outcome%error)
             call lock%release()
-         end if
-         if (allocated(error)) exit
-         if (is_pair(scenes(i))) rows = [rows, row_of_pair(scenes(i), judged)]
-         if (size(rows) > 0 .and. (is_last_pair(scenes, i) .or. status == status_interrupted)) then
-            call lock%take(stem(whole_gearbox(scenes(i))), error)
-            if (.not. allocated(error)) call write_table(whole_gearbox(scenes(i)), rows, command%quiet, error)
-            call lock%release()
-            if (allocated(error)) exit
             rows = rows(:0)
          end if
-         if (status == status_interrupted) then
+         in_trouble = has_trouble(outcome)
+         if (allocated(outcome%error)) then
+            write (error_unit, '(a)') outcome%error%message
+            exit_code = outcome%error%exit_code
+         else if (in_trouble) then
+            call print_faults(outcome%faults)
+            exit_code = outcome%faults%exit_code
+         else if (outcome%status == status_interrupted) then
             exit_code = 128 + caught_signal()
-            return
+         else if (exit_code == exit_complete .and. .not. is_success(outcome%status)) then
+            exit_code = exit_scene_failed
          end if
-         if (.not. is_success(status)) exit_code = exit_scene_failed
-      end do
-      if (.not. allocated(error)) return
-      write (error_unit, '(a)') error%message
-      exit_code = error%exit_code
-   end subroutine run_all
+      end associate
+   end subroutine settle_place
+
+   !> Whether the place of the files of a scene was taken, or they could not be written.
+   pure logical function has_trouble(outcome)
+      type(outcome_t), intent(in) :: outcome
+
+      has_trouble = allocated(outcome%error) .or. outcome%faults%count() > 0
+   end function has_trouble
 
    !> Whether a scene is one of several gear pairs of its input, of which there will be a table.
    pure logical function is_pair(scene)

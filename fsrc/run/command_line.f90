@@ -17,7 +17,7 @@ module command_line
       type(override_t), allocatable :: overrides(:)
       logical :: check = .false., template = .false., page = .false., quantities = .false., resume = .false., quiet = .false.
       logical :: version = .false., help = .false.
-      !> Threads of a campaign, 0: as many as there are cores
+      !> Threads of a campaign, scenes that run side by side; 0: as many as there are cores
       integer :: threads = 0
       !> Group of --template, empty for all
       character(:), allocatable :: template_group
@@ -184,7 +184,7 @@ contains
              '  --set group.key=value  override a key in every file; may be repeated'//end_of_line// &
              '  --output DIR           folder of the output files'//end_of_line// &
              '  --resume               carry on an earlier run from its state, or begin it'//end_of_line// &
-             '  --threads N            threads of a campaign'//end_of_line// &
+             '  --threads N            threads of a campaign; scenes that run side by side'//end_of_line// &
              '  --overwrite            replace output files of an earlier run'//end_of_line// &
              '  --quiet                nothing to the terminal but faults'//end_of_line// &
              '  --version              print the version'//end_of_line// &

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import fcntl
 import re
+import signal
+import subprocess
+import time
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +37,7 @@ SHARED = """&shaft speed_rpm = 800.0, orders = 2.0, 4.0, accelerations = 600.0, 
 &spectrum periods = 2 /
 """
 BOTH = FIRST + FOURTH + SHARED
+TAYLOR = {"method": "'taylor'", "steps_per_period": None}
 CAMPAIGN = "&campaign record = 'rattle_class', 'double_sided', 'film_force_rms', 'deflection_share', "
 GRID = CAMPAIGN + (
     "vary = 'shaft.speed_rpm', 'gear.drag_torque' first = 700.0, 0.05 last = 900.0, 0.1 count = 3, 2 /\n"
@@ -90,6 +95,81 @@ def test_each_pair_is_the_scene_of_its_own_input(solve, tmp_path: Path) -> None:
     assert table["film_force_rms"] == pytest.approx(force**0.5, rel=1e-14)
     assert table["dissipated_power"] == pytest.approx(power, rel=1e-14)
     assert re.search(r"^  together +[\d.]+ +[\d.]+$", ended.stdout, re.M)
+
+
+def test_side_by_side_tells_and_writes_the_same(solve, scene_text, run, tmp_path: Path) -> None:
+    """The first pair takes longest, a scene behind the box fails: told in order, whoever is done first."""
+    (tmp_path / "box.nml").write_text(BOTH.replace("periods = 8", "periods = 40"))
+    lost = {"film": {"law": "'piezo-viscous'", "model": "'reynolds'"}, "solver": TAYLOR}
+    (tmp_path / "lost.nml").write_text(scene_text(**lost))
+    (tmp_path / "last.nml").write_text(scene_text())
+    told = {}
+    for threads in (1, 2, 5):
+        place = str(threads)
+        files = ("box.nml", "lost.nml", "last.nml")
+        ended = run(*files, "--threads", threads, "--output", place, cwd=tmp_path, timeout=60.0)
+        assert ended.returncode == 1 and ended.stderr == ""
+        told[place] = re.sub(r"in \S+ s,", "", ended.stdout).replace(f" {place}/", " ")
+    first = [line for line in told["1"].splitlines() if line.startswith("rattle ")]
+    assert [line.split(", ")[1].split(":")[0] for line in first] == [
+        *("scene box.1st", "scene box.4th", "gearbox box", "scene lost", "scene last")
+    ]
+    assert told["1"] == told["2"] == told["5"]
+    written = sorted(path.name for path in (tmp_path / "1").iterdir())
+    assert "box.4th.state" in written and "box.summary.nml" in written
+    for place in ("2", "5"):
+        assert sorted(path.name for path in (tmp_path / place).iterdir()) == written
+        for name in written:
+            one, other = (tmp_path / folder / name for folder in ("1", place))
+            if name.endswith(".nml"):
+                ours, theirs = summary_of(one), summary_of(other)
+                assert {**ours, "wall_seconds": 0} == {**theirs, "wall_seconds": 0}, name
+            elif not name.endswith(".log"):
+                assert one.read_bytes() == other.read_bytes(), name
+
+
+def test_a_signal_ends_all_pairs_that_have_begun(rattle: Path, run, tmp_path: Path) -> None:
+    """Both are under way, stop, and go on to what one long run gives; a third was not begun."""
+    text = BOTH + FOURTH.replace("4th", "5th")
+    text = text.replace("model = 'reynolds'", "model = 'published'").replace(", tooth_stiffness = 14e9", "")
+    text = text.replace("accuracy = 1e-6, method = 'taylor'", "method = 'newmark', steps_per_period = 1024")
+    text = text.replace("periods = 8", "periods = 100000")
+    (tmp_path / "box.nml").write_text(text + "&output stride = 1024 /\n")
+    call = [rattle, "--quiet", "--threads", "2", "box.nml"]
+    process = subprocess.Popen(call, cwd=tmp_path)
+    logs = [tmp_path / "results" / f"box.{gear}.log" for gear in ("1st", "4th")]
+    started = time.monotonic()
+    while not all(log.exists() and log.read_text() for log in logs) and time.monotonic() - started < 20.0:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(20) == 128 + signal.SIGTERM
+    table = package.read_summary(tmp_path / "results" / "box.summary.nml")
+    assert table["status"] == "interrupted" and list(table["gears"]) == ["1st", "4th"]
+    assert [pair["status"] for pair in table["gears"].values()] == ["interrupted"] * 2
+    solved = [summary_of(log.with_suffix(".summary.nml"))["periods_solved"] for log in logs]
+    shorter = ["--set", f"solver.periods={max(solved) + 20}"]
+    for options in (["--resume"], ["--threads", "1", "--output", "long"]):
+        ended = run(*shorter, *options, "box.nml", cwd=tmp_path, timeout=60.0)
+        assert ended.returncode == 0, ended.stderr
+    for gear in ("1st", "4th", "5th"):
+        for ending in ("rattle", "state"):
+            one, other = (tmp_path / place / f"box.{gear}.{ending}" for place in ("results", "long"))
+            assert one.read_bytes() == other.read_bytes(), (gear, ending)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_trouble_with_the_files_of_a_pair_ends_the_call(threads: int, run, tmp_path: Path) -> None:
+    """It is told once; the pair before is complete, the one behind was not begun, and there is no table."""
+    (tmp_path / "box.nml").write_text(BOTH + FOURTH.replace("4th", "5th"))
+    (tmp_path / "results").mkdir()
+    with (tmp_path / "results" / "box.4th.lock").open("w") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        ended = run("box.nml", "--threads", threads, cwd=tmp_path)
+    assert ended.returncode == 3 and len(ended.stderr.splitlines()) == 1
+    assert "results/box.4th is being written by another run" in ended.stderr
+    assert summary_of(tmp_path / "results" / "box.1st.summary.nml")["status"] == "complete"
+    left = sorted(path.name for path in (tmp_path / "results").iterdir() if ".1st." not in path.name)
+    assert left == ["box.4th.lock"] and "gearbox" not in ended.stdout
 
 
 def test_one_gear_keeps_its_name(solve, tmp_path: Path) -> None:

@@ -1,11 +1,11 @@
-"""A campaign of a gearbox against the ensembles of other solvers: four loose pairs over speed, temperature, drag and strength
-of the engine's orders, exact iso-viscous films between two rigid flanks.
+"""A campaign of a gearbox against the ensembles of other solvers: four loose pairs over speed, temperature,
+drag and strength of the engine's orders, exact iso-viscous films between two rigid flanks.
 
     bench_gearbox.py PROGRAM [--count 25,25,20,20] [--threads N] [--sample N]
 
-This program solves the whole grid, each scene until its motion repeats, at most 60 periods; the others a random sample of the
-same grid over 60 periods: heyoka with eight different scenes in a batch, CVODE one after the other. Prints a Markdown table, and
-how far the largest films of the last ten periods are apart.
+This program solves the whole grid, each scene until its motion repeats, at most 60 periods; the others a
+random sample of the same grid over 60 periods: heyoka with eight different scenes in a batch, CVODE one after
+the other. Prints a Markdown table, and how far the largest films of the last ten periods are apart.
 """
 
 from __future__ import annotations
@@ -48,7 +48,9 @@ def campaign(counts: list[int], record: str) -> list[str]:
     return settings({f"campaign.{key}": ",".join(map(str, values)) for key, values in lists.items()})
 
 
-def solve(program: str, threads: int, counts: list[int], record: str, place: Path) -> tuple[float, float, float]:
+def solve(
+    program: str, threads: int, counts: list[int], record: str, place: Path
+) -> tuple[float, float, float]:
     """Processor and wall seconds of all scenes, and peak memory [MB]."""
     command = [program, "--quiet", "--overwrite", "--threads", str(threads), "--output", str(place)]
     begin = time.perf_counter()
@@ -79,7 +81,7 @@ def solved_alone(program: str, values: dict[str, float], place: Path) -> list[di
 
 
 def scaled(name: str, pair: dict[str, list[float]], strength: float) -> tuple[scenes.Scene, float]:
-    """A pair in the scaled form of the peers, h0 the steady film of the drive flank alone; the largest film over h0."""
+    """A pair in the scaled form of the peers, h0 the steady film of one flank; its largest film over h0."""
 
     def number(key: str) -> float:
         return pair[key][0]
@@ -109,7 +111,9 @@ def scaled(name: str, pair: dict[str, list[float]], strength: float) -> tuple[sc
     return scene, number("film_maximum") / film
 
 
-def random_sample(program: str, counts: list[int], size: int, place: Path) -> list[tuple[scenes.Scene, float]]:
+def random_sample(
+    program: str, counts: list[int], size: int, place: Path
+) -> list[tuple[scenes.Scene, float]]:
     """Random scenes of the grid, and the largest film that this program finds over h0."""
     random = np.random.default_rng(1)
     found = []
@@ -169,7 +173,10 @@ def main() -> None:
         plain = solve(options.program, options.threads, fewer, RECORDED, place)[0] / few
         certified = solve(options.program, options.threads, fewer, f"{RECORDED},certified", place)[0] / few
     own = processor / size
-    print(f"{size} scenes on {options.threads} threads: {processor:.0f} s of processor time, {wall:.0f} s, {memory:.0f} MB\n")
+    print(
+        f"{size} scenes on {options.threads} threads: {processor:.0f} s of processor time, {wall:.0f} s, "
+        f"{memory:.0f} MB\n"
+    )
     print("| what | a scene [ms], processor time | ratio | largest films apart, median and largest |")
     print("|---|---|---|---|")
     print(f"| rattle, until the motion repeats | {1e3 * own:.3f} | 1 | |")

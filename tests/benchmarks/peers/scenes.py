@@ -41,8 +41,8 @@ steep, and explicit steps do not follow. That scene is a group of its own ("a fi
 The motion of (35) with teeth that give at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is
 judged in the last ten of 20 periods, and timed over 200.
 
-The exact iso-viscous film stands between two rigid flanks too (bench_gearbox.py), w_2 = Phi(A_2)/((b - y) Phi(0)),
-A_2 = -c v/sqrt(b - y), with the rupture angles of both flanks as states and a start at rest.
+The exact iso-viscous film stands between two rigid flanks too (bench_gearbox.py): w_2 = Phi(A_2)/((b - y)
+Phi(0)), A_2 = -c v/sqrt(b - y), with the rupture angles of both flanks as states and a start at rest.
 
 Error measure: largest |h/h_reference - 1| over the last 10 periods at 64 points a period, that is at
 tau = 190 + k/64, k = 1 ... 640, against `../reference/film.csv`, and for the changed scenes against the
