@@ -15,7 +15,7 @@ module sampling
    integer, parameter, public :: method_grid = 1, method_sobol = 2, method_latin_hypercube = 3, &
       method_table = 4
    !> Most axes of a full grid
-   integer, parameter, public :: most_grid_axes = 6
+   integer, parameter :: most_grid_axes = 6
 
    !> All scenes of a campaign.
    type, public :: sample_plan_t

@@ -10,7 +10,6 @@ module derived_scene
    use oil_data, only: kinematic_viscosity, least_viscosity_meant, oil_pressure_viscosity, oil_viscosity
    use scene_rules, only: rule_t, sentence_length
    use scene_types, only: forced_orders, highest_order, scene_t, set_number, task_sweep
-   use shaft_orders, only: base_order
    use text, only: short_text
    use word_list, only: word_t
    implicit none(type, external)
@@ -19,7 +18,7 @@ module derived_scene
    !> A temperature farther from those of the data sheet than these are apart deserves a warning [K].
    real(dp), parameter :: farthest_beyond_data = 60.0_dp
 
-   public :: derive, derived_rules, complete_scene
+   public :: derive, derived_rules, complete_scene, base_order
 
 contains
 
@@ -84,6 +83,32 @@ contains
                                gear%loose_inertia, gear%drag_torque)
       end associate
    end function pair_of
+
+   !> Greatest common divisor of orders, which have halves among them in a four-stroke engine; 0 if they have none above a
+   !> hundred-thousandth of the largest. Times the speed of the shaft [1/s] it is the frequency that the motion repeats with,
+   !> and the orders over it are whole numbers.
+   pure real(dp) function base_order(orders)
+      !> Orders above 0; what they are off a common divisor by rounding, as 0.333 is off a third, is not forgiven beyond 1e-9
+      real(dp), intent(in) :: orders(:)
+      real(dp), parameter :: rounding = 1.0e-9_dp, least = 1.0e-5_dp
+      real(dp) :: divisor, remainder, swap
+      integer :: i
+
+      base_order = 0.0_dp
+      if (size(orders) == 0) return
+      divisor = orders(1)
+      do i = 2, size(orders)
+         remainder = orders(i)
+         do while (remainder > rounding*maxval(orders))
+            swap = remainder
+            remainder = abs(divisor - remainder*anint(divisor/remainder))
+            divisor = swap
+         end do
+      end do
+      if (divisor < least*maxval(orders)) return
+      ! The largest order tells the divisor with the most digits.
+      base_order = maxval(orders)/anint(maxval(orders)/divisor)
+   end function base_order
 
    !> The rules that a derived scene breaks.
    pure function derived_rules(scene) result(broken)

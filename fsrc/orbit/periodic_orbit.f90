@@ -1,13 +1,19 @@
 !> The periodic motion next to a state: found by Newton's method on the period map, from period 1 to 8. What its Floquet
 !> multipliers, the eigenvalues of the Jacobian of that map, say of its stability.
+!>
+!> The period map takes a state at the start of some periods of the force to the one at their end; a motion that repeats is a
+!> fixed point of it.
 module periodic_orbit
    use constants, only: two_pi
+   use engine, only: ending_t, motion_state_t, numbers_of, request_t
    use kinds, only: dp
+   use many_motions, only: solve_motions
    use matrix_values, only: eigenvalues
-   use period_map, only: map_states
    use force, only: largest_oscillation
    use carried_loads, only: thinnest_film
-   use problem, only: has_elastic_teeth, largest_state, of_drive_compression, of_velocity, problem_t, state_size, static_load
+   use problem, only: has_elastic_teeth, largest_state, of_drive_compression, of_film, of_velocity, problem_t, state_size, &
+      static_load
+   use scene_status, only: status_complete
    use scene_types, only: least_static_load
    implicit none(type, external)
    private
@@ -54,9 +60,41 @@ module periodic_orbit
       end subroutine dgesv
    end interface
 
-   public :: find_periodic_orbit, attracting_period, orbit_stability
+   public :: map_states, find_periodic_orbit, attracting_period, orbit_stability
 
 contains
+
+   !> Images of states under the period map; neighbours are solved together.
+   subroutine map_states(problem, periods, accuracy, states, mapped)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> Periods of the force
+      integer, intent(in) :: periods
+      !> Relative accuracy of the film [-]
+      real(dp), intent(in) :: accuracy
+      !> Number of a state, state; replaced by their images
+      real(dp), intent(inout) :: states(:, :)
+      !> Whether every state could be followed to the end
+      logical, intent(out) :: mapped
+      type(problem_t) :: problems(size(states, 2))
+      type(motion_state_t) :: starts(size(states, 2))
+      type(ending_t) :: endings(size(states, 2))
+      real(dp) :: none(0, 2, size(states, 2)), numbers(largest_state)
+      integer :: i
+
+      problems = problem
+      do i = 1, size(starts)
+         starts(i)%film = states(of_film, i)
+         starts(i)%velocity = states(of_velocity, i)
+         starts(i)%compression(:size(states, 1) - of_velocity) = states(of_drive_compression:, i)
+      end do
+      call solve_motions(problems, starts, request_t(accuracy=accuracy, periods=periods), none, endings)
+      mapped = all(endings%status == status_complete)
+      do i = 1, size(endings)
+         numbers = numbers_of(endings(i))
+         states(:, i) = numbers(:size(states, 1))
+      end do
+   end subroutine map_states
 
    !> Look for a periodic motion near a state; the shortest period that is near enough is taken.
    function find_periodic_orbit(problem, state, nearness) result(orbit)

@@ -1,13 +1,14 @@
-!> Rules of the keys that describe the force.
+!> Rules of the keys that describe the force, in &load or by &gear and &shaft. What contact and orders of gears must be is known
+!> when these are derived.
 module force_checker
    use errors, only: fault_list_t
    use kinds, only: dp
    use scene_input, only: scene_input_t
-   use text, only: integer_text
+   use text, only: integer_text, real_text
    implicit none(type, external)
    private
 
-   public :: check_force
+   public :: check_force, check_gear, check_shaft
 
 contains
 
@@ -41,11 +42,7 @@ contains
       end if
       if (any([(input%is_faulty('load', trim(lists(i))), i=1, 3)])) return
       orders = input%numbers('load', 'force_orders')
-      do i = 2, 3
-         if (given(i) .and. size(input%numbers('load', trim(lists(i)))) /= size(orders)) &
-            call input%add_fault('load', trim(lists(i)), 'as many values as force_orders has ('//integer_text(size(orders))// &
-                                 ') are needed', faults)
-      end do
+      call check_lengths(input, 'load', lists, faults)
       if (any(abs(orders - anint(orders)) > 0.0_dp)) then
          call input%add_fault('load', 'force_orders', 'orders are whole numbers; for halves take half the frequency', faults)
          return
@@ -68,5 +65,59 @@ contains
       call input%add_fault('solver', samples, 'the highest order of the force needs at least '//integer_text(4*highest)//remedy, &
                            faults)
    end subroutine check_force
+
+   !> Speed and force need the shaft.
+   subroutine check_gear(input, faults)
+      !> Typed values
+      type(scene_input_t), intent(in) :: input
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+
+      if (.not. input%has_group('shaft')) call faults%add(input%file, 0, 'shaft', '', &
+                                                         'this group is required where &gear stands: it drives the gears')
+   end subroutine check_gear
+
+   !> The shaft drives gears, and its lists are of one length.
+   subroutine check_shaft(input, faults)
+      !> Typed values
+      type(scene_input_t), intent(in) :: input
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      character(*), parameter :: lists(3) = [character(13) :: 'orders', 'accelerations', 'phases']
+      real(dp), allocatable :: orders(:)
+      integer :: i
+
+      if (.not. input%has_group('gear')) call faults%add(input%file, 0, 'gear', '', &
+                                                        'this group is required where &shaft stands: it says what is driven')
+      if (any([(input%is_faulty('shaft', trim(lists(i))), i=1, 3)])) return
+      if (.not. input%is_given('shaft', 'orders')) return
+      allocate (orders, source=input%numbers('shaft', 'orders'))
+      call check_lengths(input, 'shaft', lists, faults)
+      do i = 2, size(orders)
+         if (any(.not. abs(orders(:i - 1) - orders(i)) > 0.0_dp)) then
+            call input%add_fault('shaft', 'orders', 'order '//real_text(orders(i))//' stands there twice', faults)
+            return
+         end if
+      end do
+   end subroutine check_shaft
+
+   !> Every list has as many values as the first.
+   subroutine check_lengths(input, group, lists, faults)
+      !> Typed values
+      type(scene_input_t), intent(in) :: input
+      !> Group and names of the lists, of which the first is given
+      character(*), intent(in) :: group
+      character(*), intent(in) :: lists(:)
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i, count
+
+      count = size(input%numbers(group, trim(lists(1))))
+      do i = 2, size(lists)
+         if (input%is_given(group, trim(lists(i))) .and. size(input%numbers(group, trim(lists(i)))) /= count) &
+            call input%add_fault(group, trim(lists(i)), 'as many values as '//trim(lists(1))//' has ('//integer_text(count)// &
+                                 ') are needed', faults)
+      end do
+   end subroutine check_lengths
 
 end module force_checker

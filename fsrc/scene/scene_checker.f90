@@ -1,8 +1,7 @@
 !> What must hold between the keys of a scene. What a single key must be stands in the key table.
 module scene_checker
    use errors, only: error_t, fault_list_t
-   use force_checker, only: check_force
-   use gear_checker, only: check_gear, check_shaft
+   use force_checker, only: check_force, check_gear, check_shaft
    use input_key, only: allowed_text, in_range, is_computable, not_computable_text, real_kind, reals_kind
    use key_table, only: find_key, find_swept_key, key_name, keys
    use keys_in_use, only: in_use

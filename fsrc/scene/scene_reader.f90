@@ -30,7 +30,7 @@ module scene_reader
       character(:), allocatable :: text
    end type override_t
 
-   public :: read_scenes, input_name
+   public :: read_scenes
 
 contains
 

@@ -1,11 +1,11 @@
 !> Tests of the room gear: the contact of a gear pair, an oil at a temperature, the base order of a shaft.
 module test_gear
    use checks, only: check_list_t
+   use derived_scene, only: base_order
    use gear_contact, only: find_contact, gear_contact_t, gear_pair_t
    use kinds, only: dp
    use oil_data, only: base_mineral, base_pao, base_polyglycol, kinematic_viscosity, oil_density, oil_pressure_viscosity, &
                        oil_viscosity
-   use shaft_orders, only: base_order
    implicit none(type, external)
    private
 

@@ -5,8 +5,7 @@ module test_periodic_orbit
    use engine, only: ending_t, request_t, start_of
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use period_map, only: map_states
-   use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, map_states, periodic_orbit_t
    use problem, only: of_film, of_velocity, problem_of, problem_t
    use scene_types, only: law_iso_viscous, scene_t
    implicit none(type, external)
