@@ -101,10 +101,10 @@ def merge_parts(options: argparse.Namespace) -> None:
 
 def export(options: argparse.Namespace) -> None:
     """Write another format."""
-    from rattle.campaign_export import WRITERS
+    from rattle.exports import CAMPAIGN_WRITERS
 
     campaign = opened(options.file)
-    ending, write = WRITERS[options.to]
+    ending, write = CAMPAIGN_WRITERS[options.to]
     output = options.output or campaign.path.with_suffix(ending)
     if output.exists() and output.samefile(campaign.path):
         raise command.CommandError(f"{output} is the campaign itself; give another --output.")

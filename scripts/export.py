@@ -53,17 +53,17 @@ def main() -> None:
 
 def write_other(result: rattle.Result, form: str, output: Path, options: argparse.Namespace) -> None:
     """NetCDF or MAT."""
-    from rattle import campaign_export, result_export
+    from rattle import exports
 
     if result.task != "campaign":
-        writer = {"netcdf": result_export.write_netcdf, "mat": result_export.write_matlab}[form]
-        writer(result, output, options.columns or list(result.columns), options.stride)
+        names = options.columns or list(result.columns)
+        exports.SERIES_WRITERS[form](result, output, names, options.stride)
         return
     if options.columns or options.stride > 1:
         raise command.CommandError(
             "--columns and --stride choose from a series; a campaign is written whole."
         )
-    campaign_export.WRITERS[form][1](rattle.read_campaign(options.result), output)
+    exports.CAMPAIGN_WRITERS[form][1](rattle.read_campaign(options.result), output)
 
 
 def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) -> None:

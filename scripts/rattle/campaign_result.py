@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rattle.attributes import attributes
 from rattle.campaign_plan import GEAR, GRID, LINEAR, Plan, PlannedAxis, read_plan
-from rattle.codes import CODES, SUCCESSES, WORD_ENDING
+from rattle.codes import CODES, SUCCESSES, WORD_ENDING, attributes
 from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import CAMPAIGN, ResultError, ResultHeader, read_header
 

@@ -1,4 +1,4 @@
-"""What the codes and flags mean that stand in columns of results and that the kernels return.
+"""What columns of results hold: units, names, and what codes and flags mean that the kernels return too.
 
 The table is the program's own: `make pages` writes quantities.csv with `rattle --quantities`.
 """
@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -43,6 +44,7 @@ CODES: Mapping[str, Mapping[int, str]] = MappingProxyType(
 FLAGS = tuple(row["name"] for row in _TABLE if row["kind"] == "flag")
 CLASSES, FILM_REGIMES, STATUSES = (CODES[name] for name in ("rattle_class", "film_regime", "status"))
 NO_OR_YES = MappingProxyType({0: "no", 1: "yes"})
+UDUNITS = {"": "1", "-": "1", "m/s2": "m s-2", "m/s": "m s-1", "1/Pa": "Pa-1", "rad/s2": "rad s-2"}
 WORD_ENDING = "_word"  # of columns that hold the words of a column of codes
 SIDES = ("_below", "_above")  # of a threshold, behind the name of a quantity
 SUCCESSES = tuple(code for code, word in STATUSES.items() if word in ("complete", "steady"))
@@ -70,3 +72,13 @@ def word(column: str, code: float) -> str:
     if not np.isfinite(code) or (code == 0 and 0 not in words):
         return "unknown"
     return words.get(int(code), f"{column} {int(code)}")
+
+
+def attributes(name: str, unit: str) -> dict[str, Any]:
+    """Unit, name and the meanings of codes, in the words that readers of NetCDF know."""
+    found: dict[str, Any] = {"units": UDUNITS.get(unit, unit), "long_name": name.replace("_", " ")}
+    words = words_of(name)
+    if words:
+        found["flag_values"] = np.array(list(words), dtype=float)
+        found["flag_meanings"] = " ".join(word.replace(",", "").replace(" ", "_") for word in words.values())
+    return found

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rattle.attributes import attributes
-from rattle.codes import CODES, WORD_ENDING, quantity_of, word
+from rattle.codes import CODES, WORD_ENDING, attributes, quantity_of, word
 from rattle.result_file import CheckedRows, ResultFile, check_length, map_rows
 from rattle.result_header import ResultError, ResultHeader, read_header
 from rattle.summary import read_summary

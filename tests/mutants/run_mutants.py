@@ -98,7 +98,7 @@ NEAREST_TESTS = {
     "scripts/rattle/merge.py": ("campaign_merge",),
     "scripts/rattle/job_script.py": ("campaign_scripts",),
     "scripts/rattle/rerun.py": ("campaign_scripts",),
-    "scripts/rattle/campaign_export.py": ("campaign_scripts",),
+    "scripts/rattle/exports.py": ("campaign_scripts", "export*"),
     "scripts/rattle/campaign_section.py": ("drawn_campaigns", "campaign_map"),
     "scripts/rattle/verdict.py": ("classify_script",),
     "scripts/rattle": ("result_reader", "campaign_reader", "summaries", "drawn_campaigns"),

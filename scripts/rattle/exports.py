@@ -1,9 +1,9 @@
-"""Campaigns as CSV, Parquet, NetCDF and MAT-files."""
+"""Campaigns as CSV, Parquet, NetCDF and MAT-files; other results as NetCDF and MAT-files."""
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,9 +12,12 @@ import numpy as np
 from rattle.campaign_result import Campaign
 from rattle.codes import CODES, WORD_ENDING, word
 from rattle.mat_file import write_mat
+from rattle.result import Result
+from rattle.result_file import ResultFile
 
 if TYPE_CHECKING:
     import pyarrow
+    import xarray
 
 ROWS_AT_ONCE = 10000
 
@@ -66,25 +69,49 @@ def arrow_table(campaign: Campaign) -> pyarrow.Table:
 
 def write_netcdf(campaign: Campaign, path: Path) -> None:
     """A NetCDF-4 file over the varied keys of a grid, or over the scene; not a number where not done."""
-    data = campaign.dataset()
+    _write_dataset(campaign.dataset(), path)
+
+
+def write_series(result: Result, path: Path, names: Sequence[str], stride: int) -> None:
+    """A NetCDF-4 file over time, or over the rows; the extreme rows stand where their times are."""
+    data = result.dataset()
+    along = next(iter(data.sizes))
+    kept = [name for name in names if name in data.data_vars]
+    _write_dataset(data[kept].isel({along: slice(None, None, stride)}), path)
+
+
+def _write_dataset(data: xarray.Dataset, path: Path) -> None:
     encoding = {name: {"zlib": True, "complevel": 1, "_FillValue": np.nan} for name in data.data_vars}
     data.to_netcdf(path, engine="netcdf4", format="NETCDF4", encoding=encoding)
 
 
 def write_matlab(campaign: Campaign, path: Path) -> None:
     """A MAT-file with a column vector over the scenes that are done for each column, and its unit."""
-    texts = {f"{name}_unit": unit for name, unit in campaign.units.items()}
-    texts |= {
-        "title": campaign.name,
-        "source": f"rattle {campaign.program_version}",
-        "resolved_input": campaign.input_text,
-    }
-    write_mat(path, {name: campaign[name][campaign.done] for name in campaign.names}, texts)
+    columns = {name: campaign[name][campaign.done] for name in campaign.names}
+    write_mat(path, columns, _texts(campaign, campaign.name, campaign.units))
 
 
-WRITERS: dict[str, tuple[str, Callable[[Campaign, Path], None]]] = {
+def write_matlab_series(result: Result, path: Path, names: Sequence[str], stride: int) -> None:
+    """A MAT-file with a column vector for each column, and its unit as NAME_unit."""
+    table = result.table()
+    units = {name: result.units[name] for name in names}
+    columns = {name: table[name][::stride] for name in names}
+    write_mat(path, columns, _texts(result, result.scene_name, units))
+
+
+def _texts(result: ResultFile, title: str, units: Mapping[str, str]) -> dict[str, str]:
+    source = f"rattle {result.program_version}"
+    texts = {f"{name}_unit": unit for name, unit in units.items()}
+    return texts | {"title": title, "source": source, "resolved_input": result.input_text}
+
+
+CAMPAIGN_WRITERS: dict[str, tuple[str, Callable[[Campaign, Path], None]]] = {
     "csv": (".csv", write_csv),
     "parquet": (".parquet", write_parquet),
     "netcdf": (".nc", write_netcdf),
     "mat": (".mat", write_matlab),
+}
+SERIES_WRITERS: dict[str, Callable[[Result, Path, Sequence[str], int], None]] = {
+    "netcdf": write_series,
+    "mat": write_matlab_series,
 }
