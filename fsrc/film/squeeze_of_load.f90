@@ -6,7 +6,7 @@
 module squeeze_of_load
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use constants, only: half_pi
-   use kinds, only: dp
+   use kinds, only: dp, int64
    use load_pieces, only: exact_load, first_load, last_load_piece, octave_pieces, piece_degree, squeezes
    use reynolds_iso_viscous, only: iso_viscous_load, peak_pressure_group, rupture_tangent_fast, rupture_tangent_slope
    use reynolds_piezo_viscous, only: piezo_viscous_load
@@ -41,12 +41,14 @@ contains
       !> One of load_...
       integer, intent(out) :: outcome
       real(dp), parameter :: least = 2.0_dp**first_load, first_beyond = 2.0_dp**(first_load + (last_load_piece + 1)/octave_pieces)
+      !> Bits of a number below those that tell its piece
+      integer, parameter :: piece_bits = digits(1.0_dp) - 1 - exponent(real(octave_pieces, dp)) + 1
       real(dp) :: load, slope, deviation
-      integer :: octave, piece, i
+      integer :: piece, i
 
       if (phi >= least .and. phi < first_beyond) then
-         octave = exponent(phi) - 1
-         piece = (octave - first_load)*octave_pieces + int(real(octave_pieces, dp)*(scale(phi, -octave) - 1.0_dp))
+         ! The exponent of a number and the first bits behind it count the pieces.
+         piece = int(shiftr(transfer(phi, 1_int64) - transfer(least, 1_int64), piece_bits))
          outcome = load_carried
          deviation = (phi - squeezes(1, piece, exact_load))*squeezes(2, piece, exact_load)
          a = squeezes(piece_degree + 3, piece, exact_load)
