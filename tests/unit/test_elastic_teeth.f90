@@ -257,7 +257,7 @@ contains
             scene%film%rupture = ruptures(i)
             scene%film%initial_film = 0.0_dp
             scene%contact%stiffness = 2.0e8_dp
-            scene%load%force_amplitude = 60.0_dp
+            scene%excitation%force_amplitude = 60.0_dp
             if (flanks == 2) scene%contact%backlash = 1.0e-5_dp
             problem = problem_of(scene)
             start = start_of(problem)
