@@ -100,14 +100,14 @@ contains
       call draw_solver(state, base)
       base%solver%method = method_taylor
       base%film%initial_film = 0.0_dp
-      base%load%force_amplitude = 1.0_dp
+      base%excitation%force_amplitude = 1.0_dp
       call draw_orders(random_state_t(seed=seed, stream=2_int64*order_stream + number), base)
-      base%load%steady_force = 0.0_dp
+      base%excitation%steady_force = 0.0_dp
       call draw_flanks(random_state_t(seed=seed, stream=2_int64*flank_stream + number), base, turned)
       do i = 1, campaign_rows
          call draw(state, loads, values(1, i))
          call draw(state, ratios, ratio)
-         values(2, i) = ratio*(values(1, i) + base%load%weight())
+         values(2, i) = ratio*(values(1, i) + base%excitation%weight())
          if (turned) values(1, i) = -values(1, i)
          call draw(state, frequencies, values(3, i))
          call draw(state, viscosities, values(4, i))
