@@ -35,8 +35,8 @@ module elastic_step
    !> A step under way: values at the nodes, of one or two flanks [-].
    type :: trial_t
       integer :: flanks = 1
-      !> Loads W, films H, film velocities H'
-      real(dp) :: load(stages, 2) = 0.0_dp, film(stages, 2) = 0.0_dp, velocity(stages, 2) = 0.0_dp
+      !> Loads W, films H, film velocities H', and the films at the start
+      real(dp) :: load(stages, 2) = 0.0_dp, film(stages, 2) = 0.0_dp, velocity(stages, 2) = 0.0_dp, start(2) = 0.0_dp
       !> A, and of the gear V and Z - Z at the start
       real(dp) :: acceleration(stages) = 0.0_dp, momentum(stages) = 0.0_dp, way(stages) = 0.0_dp
    end type trial_t
@@ -44,7 +44,7 @@ module elastic_step
    !> Error that is rounding alone, as a share of the thickest film
    real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
 
-   !> A correction leaves at least this share of the load of a film that never pulls
+   !> A correction leaves at least this share of every film, and of the load of one that never pulls
    real(dp), parameter :: least_ratio = 0.1_dp
 
    !> Signs of the gear's motion in the films
@@ -127,39 +127,61 @@ contains
       real(dp), intent(in) :: force(stages)
       type(lane_block_t), intent(inout) :: block
       type(trial_t), intent(inout) :: trial
-      real(dp) :: matrix(2*stages, 2*stages), right(2*stages), change, last_change, ratio, reach
-      integer :: pass, n, flank
+      type(trial_t) :: before
+      real(dp) :: matrix(2*stages, 2*stages), right(2*stages), change, last_change, ratio, reach, share
+      integer :: pass, n, flank, i
       logical :: found, stalled
 
       n = stages*trial%flanks
       last_change = huge(1.0_dp)
       ! What an error of one in the loads moves the films by
       reach = max(block%step(lane)*min(block%step(lane), 1.0_dp/free_rate), block%compliance(lane))
+      call states(lane, force, block, trial)
       do pass = 1, most_passes
-         call states(lane, force, block, trial)
          call equations(film_law, lane, block, trial, matrix(:n, :n), right(:n), found)
          if (.not. found) return
          call eliminate(n, matrix, right)
-         do flank = 1, trial%flanks
-            associate (load => trial%load(:, flank), correction => right(stages*(flank - 1) + 1:stages*flank))
-               if (never_pulls(film_law)) correction = max(correction, (least_ratio - 1.0_dp)*load)
-               load = load + correction
-            end associate
-         end do
+         if (never_pulls(film_law)) right(:n) = max(right(:n), (least_ratio - 1.0_dp)*reshape(trial%load(:, :trial%flanks), [n]))
          change = maxval(abs(right(:n)))
-         ratio = merge(1.0_dp, min(1.0_dp, change/last_change), pass == 1)
+         if (.not. change < huge(1.0_dp)) return
+         before = trial
+         call correct(1.0_dp, right(:n), trial)
+         call states(lane, force, block, trial)
+         share = 1.0_dp
+         do flank = 1, trial%flanks
+            do i = 1, stages
+               if (before%film(i, flank) > 0.0_dp .and. trial%film(i, flank) < least_ratio*before%film(i, flank)) &
+                  share = min(share, (1.0_dp - least_ratio)*before%film(i, flank)/(before%film(i, flank) - trial%film(i, flank)))
+            end do
+         end do
+         if (share < 1.0_dp) then
+            trial = before
+            call correct(share, right(:n), trial)
+            call states(lane, force, block, trial)
+            last_change = huge(1.0_dp)
+            cycle
+         end if
+         ratio = 1.0_dp
+         if (last_change < huge(1.0_dp)) ratio = min(1.0_dp, change/last_change)
          ! Corrections that fall no more are rounding, which a short step magnifies: within the accuracy they are accepted.
          stalled = pass > 4 .and. change > slowest_fall*last_change
          if (change*reach*ratio <= merge(1.0_dp, pass_share, stalled)*allowed_here(lane, block, trial)) then
-            call states(lane, force, block, trial)
             if (minval(trial%film(:, :trial%flanks)) > 0.0_dp) block%trust(lane) = 1.0_dp
             return
          end if
-         if (.not. abs(change) < huge(1.0_dp)) return
          if (stalled) return
          last_change = change
       end do
    end subroutine solve
+
+   !> Add a share of the corrections to the loads.
+   pure subroutine correct(share, correction, trial)
+      real(dp), intent(in) :: share
+      real(dp), intent(in) :: correction(:)
+      type(trial_t), intent(inout) :: trial
+
+      trial%load(:, :trial%flanks) = trial%load(:, :trial%flanks) + share*reshape(correction, [stages, trial%flanks])
+   end subroutine correct
 
    !> Gear and films that follow from the loads.
    pure subroutine states(lane, force, block, trial)
@@ -167,7 +189,7 @@ contains
       real(dp), intent(in) :: force(stages)
       type(lane_block_t), intent(in) :: block
       type(trial_t), intent(inout) :: trial
-      real(dp) :: yielded(stages), start
+      real(dp) :: yielded(stages)
       integer :: flank
 
       associate (s => block%step(lane), kappa => block%compliance(lane))
@@ -176,16 +198,16 @@ contains
          trial%momentum = block%momentum(lane, 0) + s*matmul(once, trial%acceleration)
          trial%way = s*(node*block%momentum(lane, 0) + s*matmul(twice, trial%acceleration))
          do flank = 1, trial%flanks
-            start = block%film(lane, 0)
-            if (flank == 2) start = block%backlash(lane) - block%film(lane, 0) + sum(block%compression(lane, :, 0))
+            trial%start(flank) = block%film(lane, 0)
+            if (flank == 2) trial%start(2) = block%backlash(lane) - block%film(lane, 0) + sum(block%compression(lane, :, 0))
             yielded = kappa*trial%load(:, flank) - block%compression(lane, flank, 0)
-            trial%film(:, flank) = start + (sign_of(flank)*trial%way + yielded)
+            trial%film(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded)
             trial%velocity(:, flank) = sign_of(flank)*trial%momentum + matmul(slope, yielded)/s
          end do
       end associate
    end subroutine states
 
-   !> Newton's equations; none where a film has no thickness or no load.
+   !> Newton's equations; none where a film has no load. A film without thickness is to be what it was at the start.
    pure subroutine equations(film_law, lane, block, trial, matrix, right, found)
       type(film_t), intent(in) :: film_law
       integer, intent(in) :: lane
@@ -202,11 +224,14 @@ contains
          do flank = 1, trial%flanks
             do i = 1, stages
                row = stages*(flank - 1) + i
-               found = trial%film(i, flank) > 0.0_dp
-               if (.not. found) return
-               ! A short step leaves the load where it is, but not the velocity of the film: where loads fall to nothing an equation
+               if (.not. trial%film(i, flank) > 0.0_dp) then
+                  right(row) = trial%film(i, flank) - trial%start(flank)
+                  by_film = -1.0_dp
+                  by_velocity = 0.0_dp
+                  by_load = 0.0_dp
+                  ! A short step leaves the load where it is, but not the velocity of the film: where loads fall to nothing an equation
                ! of them would be far from linear.
-               if (never_pulls(film_law)) then
+               else if (never_pulls(film_law)) then
                   call squeeze_velocity(film_law, trial%film(i, flank)*block%film_scale(lane), &
                                         trial%load(i, flank)*block%force_scale(lane), velocity, by_film, by_load, outcome)
                   block%no_load(lane) = outcome == load_too_large

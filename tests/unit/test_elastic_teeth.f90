@@ -62,6 +62,7 @@ contains
       call test_newmark(checks)
       call test_mirror(checks)
       call test_no_company(checks)
+      call test_soft_teeth(checks)
    end subroutine run_elastic_teeth_tests
 
    !> The canonical scene, steady under Q + m g, on teeth that give.
@@ -167,6 +168,43 @@ contains
       end subroutine near
 
    end subroutine compare
+
+   !> Springs that are pressed by hundreds of films: steps are as long as the accuracy allows, and as good. No load that a step is
+   !> first guessed to have leaves a film then.
+   subroutine test_soft_teeth(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(scene_t) :: scene
+      type(problem_t) :: problem
+      type(ending_t) :: found
+      real(dp), allocatable :: states(:, :), z(:)
+      type(window_record_t) :: record
+      real(dp) :: thinnest(2)
+      integer :: i
+
+      scene = canonical_scene(law_iso_viscous, 256)
+      scene%contact%radius = 15.9e-3_dp
+      scene%contact%length = 3.42e-3_dp
+      scene%contact%backlash = 93.9e-6_dp
+      scene%contact%stiffness = 3.13e6_dp
+      scene%lubricant%viscosity = 0.0334_dp
+      scene%kinematics%entrainment_speed = 0.136_dp
+      scene%excitation%mass = 0.016_dp
+      scene%excitation%gravity = 0.0_dp
+      scene%excitation%frequency = 23.4_dp
+      scene%excitation%steady_force = 3.41_dp
+      scene%excitation%force_amplitude = 44.9_dp
+      scene%film%model = model_reynolds
+      scene%film%initial_film = 0.0_dp
+      problem = problem_of(scene)
+      do i = 1, 2
+         call solve_window(problem, start_of(problem), merge(1.0e-6_dp, 1.0e-9_dp, i == 1), samples, 1, 1, states, z, found, record)
+         call checks%check(found%status == status_complete, 'soft teeth: solved')
+         if (found%status /= status_complete) return
+         thinnest(i) = minval(states(:, of_film))
+         if (i == 1) call checks%check(found%count%steps < 8000, 'soft teeth: few steps')
+      end do
+      call checks%check(abs(thinnest(1)/thinnest(2) - 1.0_dp) < 3.0e-5_dp, 'soft teeth: thinnest film')
+   end subroutine test_soft_teeth
 
    !> At rest films and springs fill the backlash, and the start stands still.
    subroutine test_rest(checks)
