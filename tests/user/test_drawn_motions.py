@@ -231,7 +231,7 @@ def test_the_tolerance_figure_puts_each_run_where_its_words_are(tmp_path):
         assert drawn.labels(axes) == ("Time within the last 3 excitation periods [ms]", ACCELERATION)
         assert axes.get_title(loc="left") == (
             f"({'ab'[column]}) {('First', 'Second')[column]}\n"
-            "iteration successive, predictor previous, 128 steps a period"
+            "iteration successive, predictor previous\n128 steps a period"
         )
         last = (6.0, 32.0)[column]
         assert_lines(spectrum, 0, {r: a for r, a in {1.0: 4.0, 2.5: 9.0, 7.0: 1.0}.items() if r <= last})
@@ -258,7 +258,7 @@ def test_the_tolerance_figure_says_where_samples_are_too_few(tmp_path):
     assert (
         made.axes[0]
         .get_title(loc="left")
-        .endswith("\niteration successive, predictor previous, 128 steps a period, too few")
+        .endswith("\niteration successive, predictor previous\n128 steps a period, too few")
     )
 
 

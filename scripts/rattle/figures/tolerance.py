@@ -144,7 +144,5 @@ def _power(tolerance: float) -> str:
 def _scheme(pair: Pair) -> str:
     solver = pair.loose.input.get("solver", {})
     words = [f"{key} {str(solver[key]).strip()}" for key in ("iteration", "predictor") if key in solver]
-    words.append(f"{solver.get('steps_per_period')} steps a period")
-    if pair.loose.coarse or pair.tight.coarse:
-        words.append("too few")
-    return ", ".join(words)
+    few = ", too few" if pair.loose.coarse or pair.tight.coarse else ""
+    return f"{', '.join(words)}\n{solver.get('steps_per_period')} steps a period{few}"
