@@ -35,6 +35,8 @@ def slurm(options: argparse.Namespace) -> None:
         raise command.CommandError(f"{options.input} cannot be read: {fault}") from None
     if "campaign" not in groups:
         raise command.CommandError(f"{options.input} has no group &campaign.")
+    if options.array and groups.get("scene", {}).get("task") == "threshold":
+        raise command.CommandError("a threshold has no parts: take --ranks instead of --array.")
     name = str(groups.get("scene", {}).get("name") or options.input.stem).strip()
     if not NAME.fullmatch(name):
         raise command.CommandError(f"'{name}' cannot name a job: letters, digits, . _ - only.")

@@ -1,21 +1,26 @@
 !> Thresholds from input to file: a scan of every line, then passes over all lines together, each the middles of all brackets
-!> that are still wide, solved as the scenes of a campaign are.
+!> that are still wide, solved as the scenes of a campaign are. Some lines are searched at a time; NAME.state keeps what was found
+!> of those before, for --resume.
 module run_threshold
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use campaign_axis, only: grid_value
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
-   use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t, raise
+   use byte_file, only: put_in_place
+   use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t, raise
+   use file_system, only: delete_file, file_state_t, state_of_path
    use finished_files, only: place_files
    use key_table, only: key_name, keys
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
    use output_lock, only: output_lock_t
-   use output_place, only: claim_output_place, log_path, progress_path, result_path, summary_path
+   use output_place, only: claim_output_place, log_path, progress_path, result_path, state_path, summary_path
    use prepared_threshold, only: points_plan, prepare_threshold, prepared_threshold_t
    use quantities, only: quantity_certified, quantity_table
    use ranks, only: abort_ranks, add_over_ranks, next_ticket, rank_count, renew_tickets, share_number, sum_over_ranks, this_rank, &
                     wait_for_ranks
+   use result_reader, only: result_reader_t
+   use resume, only: open_earlier
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_writer, only: result_writer_t
    use sampling, only: sample_plan_t, scene_values
@@ -35,16 +40,23 @@ module run_threshold
    implicit none(type, external)
    private
 
-   !> Scenes of a scan that are held at a time: lines beyond them wait for those before
-   integer, parameter :: most_scanned = 262144
+   !> Scenes of a scan for each thread that are solved at a time: lines beyond them wait for those before
+   integer(int64), parameter :: scanned_together = 4096_int64
+   !> How old the state may become [s]
+   real(dp), parameter :: state_interval = 10.0_dp
    !> Scenes that a thread takes at a time: fewer leave lanes empty, more leave the other threads nothing
    integer, parameter :: fewest_taken = 32, most_taken = 512
+
+   !> Numbers in the first row of a state
+   integer, parameter :: counted_numbers = 8
 
    !> What became of the thresholds so far.
    type :: outcome_t
       !> Rows of the result, one column of this array each
       real(dp), allocatable :: rows(:, :)
-      integer(int64) :: solved = 0_int64, crossings = 0_int64, uncrossed = 0_int64, uncertain = 0_int64
+      !> Lines that are done
+      integer(int64) :: lines = 0_int64
+      integer(int64) :: solved = 0_int64, failed = 0_int64, crossings = 0_int64, uncrossed = 0_int64, uncertain = 0_int64
       !> Whether a signal asked to stop
       logical :: cut = .false.
    end type outcome_t
@@ -59,7 +71,7 @@ contains
       type(scene_t), intent(in) :: scene
       !> Its input, for the faults
       character(*), intent(in) :: file
-      !> Whether an earlier run is to be carried on: all is solved anew, and the log says so
+      !> Go on from the state of an earlier run, if there is one
       logical, intent(in) :: carry_on
       !> Nothing to the terminal
       logical, intent(in) :: quiet
@@ -75,13 +87,16 @@ contains
       type(log_t) :: log
       type(output_lock_t) :: lock
       real(dp) :: started
-      integer(int64) :: first, last, line_count
+      integer(int64) :: first, last, line_count, together
+      real(dp) :: saved
+      integer :: lines_before
 
       started = wall_seconds()
       call prepare_threshold(scene, file, .false., threshold, faults)
       exit_code = faults%exit_code
       if (this_rank() == 0) then
          call claim_output_place(scene, file, lock, faults, error)
+         if (faults%count() == 0 .and. .not. allocated(error) .and. carry_on) call load_outcome(scene, threshold, outcome, error)
          if (faults%count() == 0 .and. .not. allocated(error)) call log%open(log_path(scene), quiet, error)
          exit_code = merge(faults%exit_code, exit_complete, faults%count() > 0)
          if (allocated(error)) exit_code = error%exit_code
@@ -98,15 +113,26 @@ contains
          call abort_ranks(error)
          return
       end if
-      if (this_rank() == 0) call report_start(log, scene, threshold, carry_on)
+      if (this_rank() == 0) call report_start(log, scene, threshold, carry_on, outcome%lines)
+      if (this_rank() == 0 .and. .not. carry_on) call delete_file(state_path(scene))
+      lines_before = int(outcome%lines)
+      call share_number(lines_before)
       line_count = threshold%lines%layout%scene_count
-      call progress%start(progress_path(scene), 0_int64, 0_int64, quiet)
-      allocate (outcome%rows(size(column_names(scene, threshold)), 0))
-      do first = 1_int64, line_count, max(1_int64, most_scanned/size(threshold%scan, kind=int64))
-         last = min(line_count, first + max(1_int64, most_scanned/size(threshold%scan, kind=int64)) - 1_int64)
+      call progress%start(progress_path(scene), outcome%solved, outcome%solved, quiet)
+      if (.not. allocated(outcome%rows)) allocate (outcome%rows(size(column_names(scene, threshold)), 0))
+      together = max(1_int64, scanned_together*rank_count()*omp_get_max_threads()/size(threshold%scan, kind=int64))
+      saved = started
+      do first = lines_before + 1_int64, line_count, together
+         last = min(line_count, first + together - 1_int64)
          call search_lines(scene, threshold, first, last, progress, log, outcome)
          if (outcome%cut) exit
+         outcome%lines = last
+         if (this_rank() > 0 .or. last == line_count) cycle
+         if (wall_seconds() - saved < state_interval) cycle
+         call save_outcome(scene, threshold, outcome, log)
+         saved = wall_seconds()
       end do
+      if (this_rank() == 0 .and. outcome%cut) call save_outcome(scene, threshold, outcome, log)
       progress%done = sum_over_ranks(progress%done)
       progress%failed = sum_over_ranks(progress%failed)
       if (this_rank() == 0) call close_threshold(scene, threshold, started, progress, log, outcome, exit_code, error)
@@ -115,11 +141,13 @@ contains
    end subroutine run_one_threshold
 
    !> What will be done.
-   subroutine report_start(log, scene, threshold, carry_on)
+   subroutine report_start(log, scene, threshold, carry_on, lines_before)
       type(log_t), intent(in) :: log
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       logical, intent(in) :: carry_on
+      !> Lines that an earlier run has searched
+      integer(int64), intent(in) :: lines_before
       integer :: i
 
       call log%line(log_magic//program_version//', threshold '//trim(scene%name)//': '// &
@@ -131,7 +159,11 @@ contains
       do i = 1, size(threshold%lines%warnings)
          call log%line('  '//threshold%lines%warnings(i)%text)
       end do
-      if (carry_on) call log%line('  thresholds have no state to be carried on from; all is solved from the start')
+      if (lines_before > 0_int64) then
+         call log%line('  carried on after '//integer_text(lines_before)//' lines of the earlier run')
+      else if (carry_on) then
+         call log%line('  there is no state of an earlier run; all is solved from the start')
+      end if
       call log%line('  '//integer_text(size(threshold%scan))//' values a line, then halves down to '// &
                     integer_text(threshold%axis%count)//' places; two changes between neighbours of the scan that cancel each '// &
                     'other stay unseen: more &threshold count sees them')
@@ -243,6 +275,7 @@ contains
       if (outcome%cut) return
       call add_over_ranks(rows)
       outcome%solved = outcome%solved + plan%size
+      outcome%failed = outcome%failed + count(.not. is_success(nint(rows(status, :))), kind=int64)
       points = [(new_point(scene%threshold, places(i), nint(rows(status, i)), rows(status + 1, i)), i=1, size(places))]
       if (size(scene%campaign%record) > 1) certified = rows(status + 2, :)
    end subroutine solve_points
@@ -380,7 +413,7 @@ contains
          status = status_interrupted
       else if (.not. allocated(error)) then
          results = [word_t(result_path(scene))]
-         call write_result(scene, threshold, outcome, error)
+         call write_rows_of(result_path(scene), scene, threshold, outcome%rows, error)
       end if
       if (allocated(error)) status = status_not_written
       call add_head(summary, scene, status)
@@ -389,7 +422,7 @@ contains
       call summary%add('lines_without_crossing', outcome%uncrossed)
       if (scene%spectrum%certify) call summary%add('crossings_uncertain', outcome%uncertain)
       call summary%add('scenes', outcome%solved)
-      call summary%add('scenes_failed', progress%failed)
+      call summary%add('scenes_failed', outcome%failed)
       call summary%add('scenes_of_a_grid', grid_scenes(scene, threshold))
       call summary%add('wall_seconds', wall_seconds() - started)
       call summary%write_beside(summary_path(scene), summary_error)
@@ -398,33 +431,104 @@ contains
       if (allocated(error)) then
          call log%line('  '//error%message)
       else if (outcome%cut) then
-         call log%line('  cut short: no result is written, and what was solved is lost; start it again')
+         call log%line('  cut short after '//integer_text(outcome%lines)//' of '// &
+                       counted(int(threshold%lines%layout%scene_count), 'line')//'; --resume goes on, no result is written before')
          call log%line('  '//summary_path(scene))
       else
-         call report_ending(log, scene, threshold, outcome, progress%failed)
+         call delete_file(state_path(scene))
+         call report_ending(log, scene, threshold, outcome, outcome%failed)
       end if
       call log%close()
       exit_code = exit_complete
-      if (progress%failed > 0_int64) exit_code = exit_scene_failed
+      if (outcome%failed > 0_int64) exit_code = exit_scene_failed
       if (outcome%cut) exit_code = 128 + caught_signal()
       if (allocated(error)) exit_code = error%exit_code
    end subroutine close_threshold
 
-   !> Write the rows.
-   subroutine write_result(scene, threshold, outcome, error)
+   !> Counts of an outcome, and the table of lines that it is of, as a row of the state.
+   pure function counts_of(threshold, outcome) result(counts)
+      type(prepared_threshold_t), intent(in) :: threshold
+      type(outcome_t), intent(in) :: outcome
+      real(dp) :: counts(counted_numbers)
+
+      associate (table => threshold%lines%layout%source_checksum)
+         counts = real([outcome%lines, outcome%solved, outcome%failed, outcome%crossings, outcome%uncrossed, outcome%uncertain, &
+                        shiftr(table, 32), ibits(table, 0, 32)], dp)
+      end associate
+   end function counts_of
+
+   !> Keep the outcome as NAME.state. Trouble with it ends nothing: only a run that is killed needs it.
+   subroutine save_outcome(scene, threshold, outcome, log)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       type(outcome_t), intent(in) :: outcome
+      type(log_t), intent(in) :: log
+      type(error_t), allocatable :: error
+      real(dp) :: counts(size(outcome%rows, 1), 1)
+
+      counts = 0.0_dp
+      counts(:counted_numbers, 1) = counts_of(threshold, outcome)
+      call write_rows_of(state_path(scene), scene, threshold, reshape([counts, outcome%rows], &
+                                                              [size(counts), size(outcome%rows, 2) + 1]), error)
+      if (.not. allocated(error)) call put_in_place(state_path(scene), error)
+      if (allocated(error)) call log%line('  warning: '//error%message)
+   end subroutine save_outcome
+
+   !> Read the outcome that an earlier run has kept; without one there is none.
+   subroutine load_outcome(scene, threshold, outcome, error)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      type(outcome_t), intent(inout) :: outcome
+      !> Set if the state is damaged, or belongs to another scene or version
+      type(error_t), allocatable, intent(out) :: error
+      character(*), parameter :: free_keys(0) = [character(1) ::]
+      type(result_reader_t) :: reader
+      type(file_state_t) :: kept
+      real(dp), allocatable :: rows(:, :)
+      real(dp) :: counts(counted_numbers)
+
+      kept = state_of_path(state_path(scene))
+      if (kept%bytes == 0_int64) return
+      call open_earlier(scene, state_path(scene), free_keys, reader, error)
+      if (.not. allocated(error)) call reader%verify_rows(reader%row_count, error)
+      if (.not. allocated(error)) then
+         allocate (rows(reader%columns, reader%row_count))
+         call reader%read_rows(1_int64, rows, error)
+      end if
+      call reader%close()
+      if (allocated(error)) return
+      counts = counts_of(threshold, outcome)
+      if (any(nint(rows(counted_numbers - 1:counted_numbers, 1), int64) /= nint(counts(counted_numbers - 1:), int64))) then
+         call raise(error, exit_bad_input, state_path(scene)//' belongs to other lines: their CSV file has changed since')
+         return
+      end if
+      associate (numbers => nint(rows(:counted_numbers, 1), int64))
+         outcome%lines = numbers(1)
+         outcome%solved = numbers(2)
+         outcome%failed = numbers(3)
+         outcome%crossings = numbers(4)
+         outcome%uncrossed = numbers(5)
+         outcome%uncertain = numbers(6)
+      end associate
+      outcome%rows = rows(:, 2:)
+   end subroutine load_outcome
+
+   !> Write rows to a file beside its place.
+   subroutine write_rows_of(path, scene, threshold, rows, error)
+      character(*), intent(in) :: path
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      real(dp), intent(in) :: rows(:, :)
       type(error_t), allocatable, intent(out) :: error
       type(result_writer_t) :: writer
       type(error_t), allocatable :: close_error
 
-      call writer%open(result_path(scene), scene%resolved_input, column_names(scene, threshold), column_units(scene, threshold), &
-                       size(outcome%rows, 2, kind=int64), .false., error)
-      if (.not. allocated(error)) call writer%write_rows(outcome%rows, error)
+      call writer%open(path, scene%resolved_input, column_names(scene, threshold), column_units(scene, threshold), &
+                       size(rows, 2, kind=int64), .false., error)
+      if (.not. allocated(error)) call writer%write_rows(rows, error)
       call writer%close(close_error)
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
-   end subroutine write_result
+   end subroutine write_rows_of
 
    !> What was found, and what it took.
    subroutine report_ending(log, scene, threshold, outcome, failed)

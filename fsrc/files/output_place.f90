@@ -109,7 +109,7 @@ contains
       if (scene%task /= task_motion .or. scene%output%series) call check_file(result_path(scene), result_magic)
       if (scene%task == task_film .and. scene%points%compute(compute_profile)) &
          call check_file(profiles_path(scene), result_magic)
-      if (scene%task == task_motion) call check_file(state_path(scene), result_magic)
+      if (scene%task == task_motion .or. scene%task == task_threshold) call check_file(state_path(scene), result_magic)
       call check_file(summary_path(scene), summary_magic)
       if (scene%task == task_campaign .or. scene%task == task_threshold) call check_file(progress_path(scene), summary_magic)
       call check_kind(log_path(scene), log_magic, .false.)
@@ -140,7 +140,7 @@ contains
          logical :: ours
 
          way_on = ''
-         if (scene%task == task_campaign) way_on = '--resume continues it, '
+         if (scene%task == task_campaign .or. scene%task == task_threshold) way_on = '--resume continues it, '
          state = state_of_path(path)
          if (.not. state%exists) return
          ! Pipes and devices are not opened: a pipe would wait for its other end.

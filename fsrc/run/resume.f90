@@ -39,7 +39,7 @@ module resume
    !> What to do with a state that cannot be carried on.
    character(*), parameter :: begin_anew = '; --overwrite instead of --resume begins the run anew'
 
-   public :: save_state, load_state
+   public :: save_state, load_state, open_earlier
 
 contains
 
@@ -83,7 +83,7 @@ contains
       if (kept%bytes == 0_int64) return
       allocate (names, source=column_names(scene%contact%stiffness > 0.0_dp))
       allocate (row(size(names), 1))
-      call open_earlier(scene, state_path(scene), reader, error)
+      call open_earlier(scene, state_path(scene), free_keys, reader, error)
       if (.not. allocated(error) .and. .not. equal_names(reader%names, names)) &
          call raise(error, exit_bad_input, state_path(scene)//' was kept by another version of rattle'//begin_anew)
       if (.not. allocated(error)) call reader%verify_rows(1_int64, error)
@@ -107,15 +107,18 @@ contains
          return
       end if
       if (.not. scene%output%series) return
-      call open_earlier(scene, result_path(scene), reader, error)
+      call open_earlier(scene, result_path(scene), free_keys, reader, error)
       if (.not. allocated(error)) call reader%verify_rows(series_rows(scene, state%periods), error)
       call reader%close()
    end subroutine load_state
 
    !> Open a file of an earlier run of this scene.
-   subroutine open_earlier(scene, path, reader, error)
+   subroutine open_earlier(scene, path, free, reader, error)
+      !> Checked scene
       type(scene_t), intent(in) :: scene
       character(*), intent(in) :: path
+      !> Keys that may have changed since
+      character(*), intent(in) :: free(:)
       type(result_reader_t), intent(out) :: reader
       !> Set if it cannot be read or belongs to another scene
       type(error_t), allocatable, intent(out) :: error
@@ -131,7 +134,7 @@ contains
                     program_version//begin_anew)
          return
       end if
-      difference = first_difference(reader%input_text, scene%resolved_input, free_keys)
+      difference = first_difference(reader%input_text, scene%resolved_input, free)
       if (len(difference) > 0) call raise(error, exit_bad_input, path//' belongs to another scene: '//difference)
    end subroutine open_earlier
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import signal
 import subprocess
 import time
@@ -213,9 +214,96 @@ def test_a_signal_ends_it_without_a_result(number, rattle, run, scene_text, tmp_
     process.send_signal(number)
     assert process.wait(20) == 128 + number
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "interrupted"
-    assert "cut short: no result is written" in log.read_text()
+    assert "cut short after 0 of 3 lines; --resume goes on, no result is written before" in log.read_text()
     assert digest(tmp_path / "results" / "scene.rattle") == before
     assert not list((tmp_path / "results").glob("*.new"))
+
+
+# So many values a line that few lines are searched at a time.
+LONG = {"count": "2049", "tolerance": "1e-4", "criterion": "'film_force_rms'", "level": "100.0"}
+MANY_LINES = {
+    "vary": "'kinematics.entrainment_speed'",
+    "first": "1.0",
+    "last": "4.0",
+    "count": "24",
+    "samples_per_period": "32",
+}
+
+
+def state_path(folder: Path) -> Path:
+    return folder / "results" / "scene.state"
+
+
+def cut_short(rattle: Path, folder: Path, number: int, seconds: float, *options: str) -> int:
+    """Ends a run by a signal some time after its log is begun; its exit code."""
+    call = [rattle, "--quiet", "--threads", "1", "--overwrite", *options, "scene.nml"]
+    log = folder / "results" / "scene.log"
+    log.unlink(missing_ok=True)
+    process = subprocess.Popen(call, cwd=folder)
+    started = time.monotonic()
+    while not log.exists() and time.monotonic() - started < 20.0:
+        time.sleep(0.01)
+    time.sleep(seconds)
+    process.send_signal(number)
+    return process.wait(20)
+
+
+def cut_between(rattle: Path, folder: Path) -> int:
+    """Ends a run by a signal after its first line and before its last; how many were done."""
+    for share in (1.0, 2.0, 0.5, 4.0, 0.25, 8.0, 0.1):
+        if cut_short(rattle, folder, signal.SIGTERM, 0.2 * share) == 128 + signal.SIGTERM:
+            told = (folder / "results" / "scene.log").read_text()
+            if lines := int(re.search(r"cut short after (\d+) of 24 lines", told)[1]):
+                return lines
+    raise AssertionError("the run could not be cut between two lines")
+
+
+def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -> None:
+    """After a signal, and a kill that leaves the state as it was; with other threads."""
+    (tmp_path / "scene.nml").write_text(threshold_text(scene_text, campaign=MANY_LINES, threshold=LONG))
+    assert run("--output", "whole", "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    whole, results = tmp_path / "whole", tmp_path / "results"
+    assert not (whole / "scene.state").exists()
+    lines = cut_between(rattle, tmp_path)
+    kept = state_path(tmp_path).read_bytes()
+    assert not (results / "scene.rattle").exists()
+    ended = run("scene.nml", cwd=tmp_path)
+    assert ended.returncode == 2 and "--resume continues it" in ended.stderr
+    assert cut_short(rattle, tmp_path, signal.SIGKILL, 0.02, "--resume") == -signal.SIGKILL
+    assert state_path(tmp_path).read_bytes() == kept
+    ended = run("--resume", "--threads", "2", "scene.nml", cwd=tmp_path, timeout=120.0)
+    assert ended.returncode == 0, ended.stderr
+    assert f"carried on after {lines} lines of the earlier run" in ended.stdout
+    assert digest(results / "scene.rattle") == digest(whole / "scene.rattle")
+    told, expected = (summary_of(place / "scene.summary.nml") for place in (results, whole))
+    assert {**told, "wall_seconds": 0} == {**expected, "wall_seconds": 0}
+    assert not state_path(tmp_path).exists()
+
+
+def test_states_of_others_are_refused(rattle, run, scene_text, tmp_path: Path) -> None:
+    """Of other inputs, of lines from a CSV file that has changed, damaged ones."""
+    lines = "kinematics.entrainment_speed\n" + "".join(f"{1.0 + 0.1 * i}\n" for i in range(24))
+    (tmp_path / "lines.csv").write_text(lines)
+    table = {"csv": "'lines.csv'", "samples_per_period": "32"}
+    text = threshold_text(scene_text, campaign=table, threshold=LONG)
+    (tmp_path / "scene.nml").write_text(text)
+    cut_between(rattle, tmp_path)
+    kept = state_path(tmp_path).read_bytes()
+
+    def refusal(*options: str) -> str:
+        ended = run("--resume", *options, "scene.nml", cwd=tmp_path, timeout=60.0)
+        assert ended.returncode == 2, ended.stderr
+        assert state_path(tmp_path).exists()
+        return ended.stderr
+
+    assert "threshold.level is 90.0 now and was 100.0" in refusal("--set", "threshold.level=90.0")
+    (tmp_path / "lines.csv").write_text(lines.replace("1.5", "1.55"))
+    assert "belongs to other lines: their CSV file has changed" in refusal()
+    (tmp_path / "lines.csv").write_text(lines)
+    state_path(tmp_path).write_bytes(kept[:-300] + bytes(300))
+    assert "scene.state" in refusal()
+    state_path(tmp_path).write_bytes(kept)
+    assert run("--resume", "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
 
 
 def test_check_tells_lines_and_cost(run, scene_text, tmp_path: Path) -> None:
