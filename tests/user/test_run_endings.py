@@ -101,7 +101,8 @@ def test_interruption_keeps_what_was_computed(
     (tmp_path / "long.nml").write_text(long_scene(scene_text))
     (tmp_path / "next.nml").write_text(scene_text())
     path = tmp_path / "results" / "long.rattle"
-    process = start(rattle, tmp_path, "long.nml", "next.nml")
+    # On one thread the second scene waits for the first.
+    process = start(rattle, tmp_path, "--threads", "1", "long.nml", "next.nml")
     try:
         wait_for_rows(path)
         process.send_signal(number)
