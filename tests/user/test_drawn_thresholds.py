@@ -195,7 +195,7 @@ def test_the_report_tells_every_threshold(tmp_path):
     words = read_page(tmp_path / "edge.html").words
     for sentence in (
         "5 thresholds",
-        "Looked for: change of class, along the force amplitude from 5 N to 100 N, on 4 lines, one for each value of ",
+        "Looked for: change of class, along the force amplitude from 5 N to 100 N, on 4 lines, one for each",
         "From quiet to creep: 3 times, between 21 N and 41 N.",
         "1 of 4 lines have no threshold in this range.",
         "At 3 of 5 thresholds the classes on both sides are certified",
