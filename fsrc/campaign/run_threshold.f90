@@ -2,28 +2,21 @@
 !> that are still wide, solved as the scenes of a campaign are. Some lines are searched at a time; NAME.state keeps what was found
 !> of those before, for --resume.
 module run_threshold
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use campaign_axis, only: grid_value
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
-   use byte_file, only: put_in_place
-   use errors, only: error_t, exit_bad_input, exit_complete, exit_scene_failed, fault_list_t, raise
-   use file_system, only: delete_file, file_state_t, state_of_path
+   use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t, raise
+   use file_system, only: delete_file
    use finished_files, only: place_files
-   use key_table, only: key_name, keys
+   use key_table, only: key_name
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
    use output_lock, only: output_lock_t
    use output_place, only: claim_output_place, log_path, progress_path, result_path, state_path, summary_path
    use prepared_threshold, only: points_plan, prepare_threshold, prepared_threshold_t
-   use quantities, only: quantity_certified, quantity_table
+   use quantities, only: quantity_certified
    use ranks, only: abort_ranks, add_over_ranks, next_ticket, rank_count, renew_tickets, share_number, sum_over_ranks, this_rank, &
                     wait_for_ranks
-   use result_reader, only: result_reader_t
-   use resume, only: open_earlier
-   use result_format, only: column_name_bytes, column_unit_bytes
-   use result_writer, only: result_writer_t
-   use sampling, only: sample_plan_t, scene_values
+   use sampling, only: sample_plan_t
    use scene_report, only: law_sentence
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written
    use scene_summary, only: add_head
@@ -32,8 +25,8 @@ module run_threshold
    use solve_chunk, only: chunk_space_t, solve_scenes
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
+   use threshold_outcome, only: add_rows, load_outcome, outcome_t, save_outcome, start_outcome, write_rows_of
    use threshold_search, only: bracket_t, brackets_of_scan, halved, is_wide, middle, new_point, point_t
-   use varied_keys, only: varied_name
    use version, only: program_version
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
@@ -46,20 +39,6 @@ module run_threshold
    real(dp), parameter :: state_interval = 10.0_dp
    !> Scenes that a thread takes at a time: fewer leave lanes empty, more leave the other threads nothing
    integer, parameter :: fewest_taken = 32, most_taken = 512
-
-   !> Numbers in the first row of a state
-   integer, parameter :: counted_numbers = 8
-
-   !> What became of the thresholds so far.
-   type :: outcome_t
-      !> Rows of the result, one column of this array each
-      real(dp), allocatable :: rows(:, :)
-      !> Lines that are done
-      integer(int64) :: lines = 0_int64
-      integer(int64) :: solved = 0_int64, failed = 0_int64, crossings = 0_int64, uncrossed = 0_int64, uncertain = 0_int64
-      !> Whether a signal asked to stop
-      logical :: cut = .false.
-   end type outcome_t
 
    public :: run_one_threshold, grid_scenes
 
@@ -119,7 +98,7 @@ contains
       call share_number(lines_before)
       line_count = threshold%lines%layout%scene_count
       call progress%start(progress_path(scene), outcome%solved, outcome%solved, quiet)
-      if (.not. allocated(outcome%rows)) allocate (outcome%rows(size(column_names(scene, threshold)), 0))
+      call start_outcome(scene, threshold, outcome)
       together = max(1_int64, scanned_together*rank_count()*omp_get_max_threads()/size(threshold%scan, kind=int64))
       saved = started
       do first = lines_before + 1_int64, line_count, together
@@ -280,106 +259,6 @@ contains
       if (size(scene%campaign%record) > 1) certified = rows(status + 2, :)
    end subroutine solve_points
 
-   !> Names of the columns.
-   pure function column_names(scene, threshold) result(names)
-      type(scene_t), intent(in) :: scene
-      type(prepared_threshold_t), intent(in) :: threshold
-      character(column_name_bytes), allocatable :: names(:)
-      character(column_name_bytes), parameter :: sides(2) = [character(column_name_bytes) :: 'certified_below', 'certified_above']
-      character(column_name_bytes) :: axes(size(threshold%lines%plan%positions))
-      character(:), allocatable :: quantity
-      integer :: i
-
-      do i = 1, size(axes)
-         axes(i) = varied_name(threshold%lines%plan%positions(i))
-      end do
-      quantity = trim(quantity_table(scene%threshold%quantity)%name)
-      names = [character(column_name_bytes) :: 'line', axes, 'crossing', 'lower', 'upper', quantity//'_below', quantity//'_above', &
-               'status_below', 'status_above']
-      if (scene%spectrum%certify) names = [names, sides]
-   end function column_names
-
-   !> Units of the columns.
-   pure function column_units(scene, threshold) result(units)
-      type(scene_t), intent(in) :: scene
-      type(prepared_threshold_t), intent(in) :: threshold
-      character(column_unit_bytes), allocatable :: units(:)
-      integer :: i
-
-      associate (key => keys(threshold%axis%position)%unit, quantity => quantity_table(scene%threshold%quantity)%unit)
-         units = [character(column_unit_bytes) :: '-', keys(threshold%lines%plan%positions)%unit, '-', key, key, quantity, quantity]
-         where (units == '') units = '-'
-         units = [units, [(units(1), i=1, merge(4, 2, scene%spectrum%certify))]]
-      end associate
-   end function column_units
-
-   !> Rows of some lines: one for each bracket, and one for a line that has none, from end to end of its range.
-   subroutine add_rows(threshold, first, ends, brackets, certified, outcome)
-      type(prepared_threshold_t), intent(in) :: threshold
-      !> First of the lines
-      integer(int64), intent(in) :: first
-      !> First and last point of each line
-      type(point_t), intent(in) :: ends(:, :)
-      !> By rising lines and places
-      type(bracket_t), intent(in) :: brackets(:)
-      !> Of both ends of each bracket; of no use where that is not recorded
-      real(dp), intent(in) :: certified(:, :)
-      type(outcome_t), intent(inout) :: outcome
-      real(dp), allocatable :: rows(:, :)
-      real(dp) :: unknown
-      integer(int64) :: line
-      integer :: i, k, crossing
-
-      unknown = ieee_value(0.0_dp, ieee_quiet_nan)
-      allocate (rows(size(outcome%rows, 1), size(brackets) + size(ends, 2)))
-      i = 0
-      k = 0
-      do line = first, first + size(ends, 2, kind=int64) - 1_int64
-         crossing = 0
-         do while (is_of_line(i + 1))
-            i = i + 1
-            crossing = crossing + 1
-            call put(brackets(i)%lower, brackets(i)%upper)
-         end do
-         if (crossing == 0) call put(ends(1, line - first + 1_int64), ends(2, line - first + 1_int64))
-         if (crossing == 0) outcome%uncrossed = outcome%uncrossed + 1_int64
-      end do
-      outcome%crossings = outcome%crossings + size(brackets, kind=int64)
-      outcome%rows = reshape([outcome%rows, rows(:, :k)], [size(rows, 1), size(outcome%rows, 2) + k])
-
-   contains
-
-      pure logical function is_of_line(place)
-         integer, intent(in) :: place
-
-         is_of_line = place <= size(brackets)
-         if (is_of_line) is_of_line = brackets(place)%line == line
-      end function is_of_line
-
-      subroutine put(lower, upper)
-         type(point_t), intent(in) :: lower
-         type(point_t), intent(in) :: upper
-         logical :: stands
-         integer :: axes
-
-         k = k + 1
-         axes = size(threshold%lines%plan%positions)
-         rows(1, k) = real(line, dp)
-         call scene_values(threshold%lines%plan, line, rows(2:1 + axes, k))
-         rows(axes + 2:axes + 8, k) = [real(crossing, dp), grid_value(threshold%axis, lower%place), &
-                                       grid_value(threshold%axis, upper%place), lower%quantity, upper%quantity, &
-                                       real(lower%status, dp), real(upper%status, dp)]
-         if (size(rows, 1) == axes + 8) return
-         rows(axes + 9:axes + 10, k) = unknown
-         if (crossing == 0) return
-         rows(axes + 9:axes + 10, k) = certified(i, :)
-         stands = .not. any(ieee_is_nan(certified(i, :)))
-         if (stands) stands = all(certified(i, :) > 0.0_dp)
-         if (.not. stands) outcome%uncertain = outcome%uncertain + 1_int64
-      end subroutine put
-
-   end subroutine add_rows
-
    !> Scenes of a grid that finds brackets as narrow.
    pure real(dp) function grid_scenes(scene, threshold)
       type(scene_t), intent(in) :: scene
@@ -444,91 +323,6 @@ contains
       if (outcome%cut) exit_code = 128 + caught_signal()
       if (allocated(error)) exit_code = error%exit_code
    end subroutine close_threshold
-
-   !> Counts of an outcome, and the table of lines that it is of, as a row of the state.
-   pure function counts_of(threshold, outcome) result(counts)
-      type(prepared_threshold_t), intent(in) :: threshold
-      type(outcome_t), intent(in) :: outcome
-      real(dp) :: counts(counted_numbers)
-
-      associate (table => threshold%lines%layout%source_checksum)
-         counts = real([outcome%lines, outcome%solved, outcome%failed, outcome%crossings, outcome%uncrossed, outcome%uncertain, &
-                        shiftr(table, 32), ibits(table, 0, 32)], dp)
-      end associate
-   end function counts_of
-
-   !> Keep the outcome as NAME.state. Trouble with it ends nothing: only a run that is killed needs it.
-   subroutine save_outcome(scene, threshold, outcome, log)
-      type(scene_t), intent(in) :: scene
-      type(prepared_threshold_t), intent(in) :: threshold
-      type(outcome_t), intent(in) :: outcome
-      type(log_t), intent(in) :: log
-      type(error_t), allocatable :: error
-      real(dp) :: counts(size(outcome%rows, 1), 1)
-
-      counts = 0.0_dp
-      counts(:counted_numbers, 1) = counts_of(threshold, outcome)
-      call write_rows_of(state_path(scene), scene, threshold, reshape([counts, outcome%rows], &
-                                                              [size(counts), size(outcome%rows, 2) + 1]), error)
-      if (.not. allocated(error)) call put_in_place(state_path(scene), error)
-      if (allocated(error)) call log%line('  warning: '//error%message)
-   end subroutine save_outcome
-
-   !> Read the outcome that an earlier run has kept; without one there is none.
-   subroutine load_outcome(scene, threshold, outcome, error)
-      type(scene_t), intent(in) :: scene
-      type(prepared_threshold_t), intent(in) :: threshold
-      type(outcome_t), intent(inout) :: outcome
-      !> Set if the state is damaged, or belongs to another scene or version
-      type(error_t), allocatable, intent(out) :: error
-      character(*), parameter :: free_keys(0) = [character(1) ::]
-      type(result_reader_t) :: reader
-      type(file_state_t) :: kept
-      real(dp), allocatable :: rows(:, :)
-      real(dp) :: counts(counted_numbers)
-
-      kept = state_of_path(state_path(scene))
-      if (kept%bytes == 0_int64) return
-      call open_earlier(scene, state_path(scene), free_keys, reader, error)
-      if (.not. allocated(error)) call reader%verify_rows(reader%row_count, error)
-      if (.not. allocated(error)) then
-         allocate (rows(reader%columns, reader%row_count))
-         call reader%read_rows(1_int64, rows, error)
-      end if
-      call reader%close()
-      if (allocated(error)) return
-      counts = counts_of(threshold, outcome)
-      if (any(nint(rows(counted_numbers - 1:counted_numbers, 1), int64) /= nint(counts(counted_numbers - 1:), int64))) then
-         call raise(error, exit_bad_input, state_path(scene)//' belongs to other lines: their CSV file has changed since')
-         return
-      end if
-      associate (numbers => nint(rows(:counted_numbers, 1), int64))
-         outcome%lines = numbers(1)
-         outcome%solved = numbers(2)
-         outcome%failed = numbers(3)
-         outcome%crossings = numbers(4)
-         outcome%uncrossed = numbers(5)
-         outcome%uncertain = numbers(6)
-      end associate
-      outcome%rows = rows(:, 2:)
-   end subroutine load_outcome
-
-   !> Write rows to a file beside its place.
-   subroutine write_rows_of(path, scene, threshold, rows, error)
-      character(*), intent(in) :: path
-      type(scene_t), intent(in) :: scene
-      type(prepared_threshold_t), intent(in) :: threshold
-      real(dp), intent(in) :: rows(:, :)
-      type(error_t), allocatable, intent(out) :: error
-      type(result_writer_t) :: writer
-      type(error_t), allocatable :: close_error
-
-      call writer%open(path, scene%resolved_input, column_names(scene, threshold), column_units(scene, threshold), &
-                       size(rows, 2, kind=int64), .false., error)
-      if (.not. allocated(error)) call writer%write_rows(rows, error)
-      call writer%close(close_error)
-      if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
-   end subroutine write_rows_of
 
    !> What was found, and what it took.
    subroutine report_ending(log, scene, threshold, outcome, failed)
