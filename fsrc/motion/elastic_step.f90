@@ -219,7 +219,7 @@ contains
       real(dp) :: load, velocity, by_film, by_velocity, by_load, turn
       integer :: row, flank, other, outcome, i
 
-      found = .false.
+      found = .true.
       associate (s => block%step(lane), kappa => block%compliance(lane))
          do flank = 1, trial%flanks
             do i = 1, stages
@@ -229,9 +229,9 @@ contains
                   by_film = -1.0_dp
                   by_velocity = 0.0_dp
                   by_load = 0.0_dp
-                  ! A short step leaves the load where it is, but not the velocity of the film: where loads fall to nothing an equation
-               ! of them would be far from linear.
                else if (never_pulls(film_law)) then
+                  ! A short step leaves the load where it is, but not the velocity of the film: where loads fall to nothing an equation
+                  ! of them would be far from linear.
                   call squeeze_velocity(film_law, trial%film(i, flank)*block%film_scale(lane), &
                                         trial%load(i, flank)*block%force_scale(lane), velocity, by_film, by_load, outcome)
                   block%no_load(lane) = outcome == load_too_large

@@ -1,4 +1,4 @@
-!> The canonical scenes, and a run of any scene that leaves its window.
+!> The canonical scenes, a loose gear between two flanks, and a run of any scene that leaves its window.
 module canonical_scenes
    use constants, only: standard_gravity
    use engine, only: checkpoint_t, ending_t, motion_watcher_t, request_t
@@ -8,7 +8,7 @@ module canonical_scenes
    use problem, only: problem_of
    use resolved_scene, only: request_of
    use sample_recorder, only: sample_recorder_t
-   use scene_types, only: scene_t
+   use scene_types, only: law_iso_viscous, model_reynolds, scene_t
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -25,7 +25,7 @@ module canonical_scenes
    real(dp), parameter, public :: static_load = 199.2_dp + 3.0_dp*9.80665_dp
    real(dp), parameter, public :: idle_steady_film = 8.889224234368e-7_dp
 
-   public :: canonical_scene, canonical_method, run_window
+   public :: canonical_scene, canonical_method, loose_gear, run_window
 
 contains
 
@@ -57,6 +57,27 @@ contains
       scene%spectrum%periods = 1
       scene%output%series = .false.
    end function canonical_scene
+
+   !> A loose gear: case R1 of an exact film, R4 of a published one.
+   type(scene_t) function loose_gear() result(scene)
+      scene%contact%radius = 7.5e-3_dp
+      scene%contact%length = 0.02_dp
+      scene%contact%young_modulus = 205.66e9_dp
+      scene%contact%poisson_ratio = 0.3_dp
+      scene%contact%backlash = 1.0e-4_dp
+      scene%lubricant%viscosity = 0.05_dp
+      scene%lubricant%pressure_viscosity = 2.0e-8_dp
+      scene%kinematics%entrainment_speed = 1.07_dp
+      scene%excitation%mass = 0.45_dp
+      scene%excitation%frequency = 26.7_dp
+      scene%excitation%steady_force = 5.0_dp
+      ! Allocated by name: gfortran 12 takes what an assignment would find for uninitialised.
+      allocate (scene%excitation%force_orders, source=[1, 2, 3])
+      allocate (scene%excitation%force_amplitudes, source=[7.9_dp, 2.0_dp, 0.8_dp])
+      allocate (scene%excitation%force_phases, source=[0.0_dp, 0.5_dp, 1.1_dp])
+      scene%film%law = law_iso_viscous
+      scene%film%model = model_reynolds
+   end function loose_gear
 
    !> Newmark's iteration for the canonical scenes.
    function canonical_method() result(method)

@@ -1,7 +1,7 @@
 !> Tests of teeth that give: references of independent codes, the limit of stiff teeth, small motions, order of Newmark's method.
 module test_elastic_teeth
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use canonical_scenes, only: canonical_scene
+   use canonical_scenes, only: canonical_scene, loose_gear
    use checks, only: check_list_t
    use controlled_engine, only: find_steady_motion, solve_window
    use engine, only: ending_t, motion_count_t, motion_state_t, numbers_of, request_t, start_of
@@ -86,22 +86,8 @@ contains
    type(problem_t) function between_flanks() result(problem)
       type(scene_t) :: scene
 
-      scene = canonical_scene(law_iso_viscous, 256)
-      scene%contact%radius = 7.5e-3_dp
-      scene%contact%length = 0.02_dp
-      scene%contact%backlash = 1.0e-4_dp
+      scene = loose_gear()
       scene%contact%stiffness = 5.0e7_dp
-      scene%lubricant%viscosity = 0.05_dp
-      scene%kinematics%entrainment_speed = 1.07_dp
-      scene%excitation%mass = 0.45_dp
-      scene%excitation%gravity = 0.0_dp
-      scene%excitation%frequency = 26.7_dp
-      scene%excitation%steady_force = 5.0_dp
-      scene%excitation%force_orders = [1, 2, 3]
-      scene%excitation%force_amplitudes = [7.9_dp, 2.0_dp, 0.8_dp]
-      scene%excitation%force_phases = [0.0_dp, 0.5_dp, 1.1_dp]
-      scene%film%model = model_reynolds
-      scene%film%initial_film = 0.0_dp
       problem = problem_of(scene)
    end function between_flanks
 

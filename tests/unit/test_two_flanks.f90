@@ -1,5 +1,6 @@
 !> Tests of the tooth between two flanks: rest, references of independent codes, symmetry, the limit of one flank.
 module test_two_flanks
+   use canonical_scenes, only: loose_gear
    use checks, only: check_list_t, same_bits
    use controlled_engine, only: find_steady_motion, solve_window
    use engine, only: ending_t, motion_state_t, request_t, start_of
@@ -40,27 +41,6 @@ contains
       call test_series(checks)
       call test_wide_backlash(checks)
    end subroutine run_two_flanks_tests
-
-   !> A loose gear: case R1 of an exact film, R4 of a published one.
-   type(scene_t) function loose_gear() result(scene)
-      scene%contact%radius = 7.5e-3_dp
-      scene%contact%length = 0.02_dp
-      scene%contact%young_modulus = 205.66e9_dp
-      scene%contact%poisson_ratio = 0.3_dp
-      scene%contact%backlash = 1.0e-4_dp
-      scene%lubricant%viscosity = 0.05_dp
-      scene%lubricant%pressure_viscosity = 2.0e-8_dp
-      scene%kinematics%entrainment_speed = 1.07_dp
-      scene%excitation%mass = 0.45_dp
-      scene%excitation%frequency = 26.7_dp
-      scene%excitation%steady_force = 5.0_dp
-      ! Allocated by name: gfortran 12 takes what an assignment would find for uninitialised.
-      allocate (scene%excitation%force_orders, source=[1, 2, 3])
-      allocate (scene%excitation%force_amplitudes, source=[7.9_dp, 2.0_dp, 0.8_dp])
-      allocate (scene%excitation%force_phases, source=[0.0_dp, 0.5_dp, 1.1_dp])
-      scene%film%law = law_iso_viscous
-      scene%film%model = model_reynolds
-   end function loose_gear
 
    !> The canonical scene with a backlash.
    type(scene_t) function canonical_between_flanks(law, model, rupture) result(scene)
