@@ -76,7 +76,7 @@ contains
                        tight%endings(irregular)%motion_state_t, tight, stands)
    end subroutine certify_group
 
-   !> Whether the class of a scene stands as far as its window tells. One thread at a time finds words for doubts: gfortran keeps
+   !> Whether the class of a scene stands as far as its window tells. One thread at a time makes these texts: gfortran keeps
    !> the length of a text that a function allocates for all of them.
    logical function class_stands(resolved, choice, tighter, place, tight_noise, group, tight)
       type(resolved_scene_t), intent(in) :: resolved

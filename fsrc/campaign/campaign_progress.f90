@@ -81,7 +81,7 @@ contains
       self%uncertain = self%uncertain + uncertain
    end subroutine add
 
-   !> Tell, if it is time to, and no other thread finds words.
+   !> Tell, if it is time to, and no other thread makes texts.
    subroutine tell(self, log)
       class(campaign_progress_t), intent(inout) :: self
       !> Log of the campaign

@@ -9,7 +9,7 @@ module byte_file
    use file_descriptor, only: close_descriptor, open_replacing, synchronise_descriptor, write_bytes
    use file_system, only: delete_file, rename_file
    use kinds, only: dp, int64
-   use text_output, only: leave_words, take_words
+   use text_output, only: lock_texts, unlock_texts
    implicit none(type, external)
    private
 
@@ -221,9 +221,9 @@ contains
 
       cause = last_error()
       self%broken = .true.
-      call take_words()
+      call lock_texts()
       call raise(error, exit_system, self%path//' cannot be written: '//error_words(cause))
-      call leave_words()
+      call unlock_texts()
    end subroutine fail
 
 end module byte_file

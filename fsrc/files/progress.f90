@@ -7,7 +7,7 @@ module progress
    use kinds, only: dp
    use log_file, only: log_t
    use text, only: integer_text, short_text
-   use text_output, only: has_turn, leave_words, take_words
+   use text_output, only: has_turn, lock_texts, unlock_texts
    implicit none(type, external)
    private
 
@@ -55,7 +55,7 @@ contains
       now = wall_seconds()
       if (now - self%last < merge(terminal_interval, line_interval, self%on_terminal)) return
       self%last = now
-      call take_words()
+      call lock_texts()
       line = '  '//integer_text(done)//' of '//integer_text(all)//' periods after '// &
              short_text(now - self%started, 3)//' s, '// &
              short_text((now - self%started)*real(all - done, dp)/real(done, dp), 2)//' s left'
@@ -66,7 +66,7 @@ contains
          flush (output_unit, iostat=ignored)
          self%shown = .true.
       end if
-      call leave_words()
+      call unlock_texts()
    end subroutine period_done
 
    !> Wipe the line on the terminal.

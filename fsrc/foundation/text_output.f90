@@ -17,11 +17,11 @@ module text_output
    type(word_t), allocatable :: waiting(:)
    integer :: turn = 0, own = 0
    !$omp threadprivate(own)
-   !> Held by the thread that finds words: gfortran keeps the length of a text that a function allocates for all threads
-   integer(omp_nest_lock_kind) :: words
+   !> Held by the thread that makes texts: gfortran keeps the length of a text that a function allocates for all threads
+   integer(omp_nest_lock_kind) :: text_lock
 
    public :: put_text, put_line, write_line, note_lost_text, lost_text, share_output, speak_for, end_turn, has_turn, &
-             take_words, leave_words
+             lock_texts, unlock_texts
 
 contains
 
@@ -36,29 +36,29 @@ contains
       end if
    end subroutine put_text
 
-   !> Let works go on side by side, each on a thread. The first has its turn to tell. A thread finds words only between take_words
-   !> and leave_words, one at a time.
+   !> Let works go on side by side, each on a thread. The first has its turn to tell. A thread makes texts only between lock_texts
+   !> and unlock_texts, one at a time.
    subroutine share_output(works)
       !> How many, 0: no more
       integer, intent(in) :: works
       integer :: i
 
-      if (turn > 0) call omp_destroy_nest_lock(words)
-      if (works > 0) call omp_init_nest_lock(words)
+      if (turn > 0) call omp_destroy_nest_lock(text_lock)
+      if (works > 0) call omp_init_nest_lock(text_lock)
       if (allocated(waiting)) deallocate (waiting)
       waiting = [(word_t(''), i=1, works)]
       turn = min(works, 1)
    end subroutine share_output
 
-   !> Wait until no other thread finds words. May be called again by the thread that does.
-   subroutine take_words()
-      if (turn > 0) call omp_set_nest_lock(words)
-   end subroutine take_words
+   !> Wait until no other thread makes texts. May be called again by the thread that does.
+   subroutine lock_texts()
+      if (turn > 0) call omp_set_nest_lock(text_lock)
+   end subroutine lock_texts
 
-   !> Let other threads find words.
-   subroutine leave_words()
-      if (turn > 0) call omp_unset_nest_lock(words)
-   end subroutine leave_words
+   !> Let other threads make texts.
+   subroutine unlock_texts()
+      if (turn > 0) call omp_unset_nest_lock(text_lock)
+   end subroutine unlock_texts
 
    !> What this thread tells from here on is told for a work.
    subroutine speak_for(work)

@@ -19,7 +19,7 @@ module batch
    use scene_types, only: scene_t, task_film, task_motion, task_sweep
    use signals, only: caught_signal
    use text, only: integer_text
-   use text_output, only: end_turn, leave_words, put_line, put_text, share_output, speak_for, take_words
+   use text_output, only: end_turn, lock_texts, put_line, put_text, share_output, speak_for, unlock_texts
    use, intrinsic :: omp_lib, only: omp_get_max_threads
    implicit none(type, external)
    private
@@ -88,9 +88,9 @@ contains
       is_ending = .false.
       in_trouble = .false.
       call share_output(size(scenes))
-      ! A thread that computes lets the others find words; all else here is done by one at a time.
+      ! A thread that computes lets the others make texts; all else here is done by one at a time.
       !$omp parallel default(shared) private(place) num_threads(scenes_that_fit(scenes, omp_get_max_threads()))
-      call take_words()
+      call lock_texts()
       do
          if (begun == size(scenes) .or. is_ending) exit
          begun = begun + 1
@@ -108,7 +108,7 @@ contains
          end do
       end do
       call speak_for(0)
-      call leave_words()
+      call unlock_texts()
       !$omp end parallel
       call share_output(0)
    end subroutine run_all

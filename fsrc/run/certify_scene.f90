@@ -17,7 +17,7 @@ module certify_scene
    use scene_status, only: is_success, status_name
    use scene_types, only: method_newmark, method_taylor, scene_t
    use text, only: integer_text
-   use text_output, only: leave_words, take_words
+   use text_output, only: lock_texts, unlock_texts
    use window_extremes, only: extremes_of_record, window_extremes_t
    implicit none(type, external)
    private
@@ -121,9 +121,9 @@ contains
       !> Where its motion ended
       type(ending_t), intent(in) :: ending
 
-      call leave_words()
+      call unlock_texts()
       nearby_orbit = find_periodic_orbit(problem, numbers_of(ending), orbit_nearness)
-      call take_words()
+      call lock_texts()
    end function nearby_orbit
 
    !> Whether a motion stays irregular behind its window.

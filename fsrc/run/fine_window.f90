@@ -12,7 +12,7 @@ module fine_window
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use scene_status, only: is_success
    use scene_types, only: scene_t, spectrum_choice_t
-   use text_output, only: leave_words, take_words
+   use text_output, only: lock_texts, unlock_texts
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -44,7 +44,7 @@ module fine_window
 
 contains
 
-   !> Solve a scene and judge its last periods. Other threads find words while it is solved.
+   !> Solve a scene and judge its last periods. Other threads make texts while it is solved.
    subroutine solve_whole_window(scene, problem, start, accuracy, periods, noise_floor, window, verdict, ending, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
@@ -66,10 +66,10 @@ contains
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
 
-      call leave_words()
+      call unlock_texts()
       call solve_window(problem, start, accuracy, window%samples_per_period, periods, window%periods, window%states, &
                         window%accelerations, ending, window%record)
-      call take_words()
+      call lock_texts()
       if (is_success(ending%status)) call judge_window(scene, problem, accuracy, noise_floor, window, verdict, error)
    end subroutine solve_whole_window
 
@@ -100,10 +100,10 @@ contains
          if (allocated(error)) return
          finer%periods = window%periods
          finer%samples_per_period = 2*window%samples_per_period
-         call leave_words()
+         call unlock_texts()
          call solve_window(problem, window%record%start, accuracy, finer%samples_per_period, finer%periods, finer%periods, &
                            finer%states, finer%accelerations, ending, finer%record)
-         call take_words()
+         call lock_texts()
          if (.not. is_success(ending%status)) exit
          window = finer
          call classify_window(scene%spectrum, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
@@ -134,9 +134,9 @@ contains
       records(1) = integral_record(scene%spectrum)
       request = request_t(accuracy=accuracy, periods=window%periods, sampled_periods=window%periods, samples_per_period=1, &
                           every_period=.true.)
-      call leave_words()
+      call unlock_texts()
       call solve_motions([problem], [window%record%start], request, states, endings, records=records)
-      call take_words()
+      call lock_texts()
       if (.not. is_success(endings(1)%status)) return
       call classify_steps(records(1), problem%frequency, scene%spectrum, noise_floor, verdict)
    end subroutine judge_by_integrals

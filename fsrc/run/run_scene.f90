@@ -21,7 +21,7 @@ module run_scene
    use scene_types, only: method_taylor, scene_t
    use signals, only: caught_signal
    use text, only: integer_text
-   use text_output, only: leave_words, take_words
+   use text_output, only: lock_texts, unlock_texts
    use window_record, only: window_record_t
    use word_list, only: word_t
    implicit none(type, external)
@@ -77,13 +77,13 @@ contains
       call recorder%open(scene, judged%resolved%problem, result_path(scene), state%periods, error)
       if (.not. allocated(error)) then
          call watcher%start(log, quiet)
-         call leave_words()
+         call unlock_texts()
          if (scene%solver%method /= method_taylor) then
             call solve_newmark(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
          else
             call solve_controlled(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
          end if
-         call take_words()
+         call lock_texts()
          call watcher%clear()
          solve_seconds = wall_seconds() - started
          call note_ending(ending, judged)

@@ -30,7 +30,7 @@ module run_sweep
    use signals, only: caught_signal
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
-   use text_output, only: leave_words, take_words
+   use text_output, only: lock_texts, unlock_texts
    use window_extremes, only: extremes_of_record
    use word_list, only: word_t
    implicit none(type, external)
@@ -209,9 +209,9 @@ contains
          if (.not. problem%initial_film > 0.0_dp) return
          start = start_of(problem)
          if (state%film > 0.0_dp) start%compression = problem%compliance*state%spring_loads
-         call leave_words()
+         call unlock_texts()
          call find_steady_motion(problem, start, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
-         call take_words()
+         call lock_texts()
          judged%status = ending%status
          judged%periods = ending%periods
          state = carried_state_t()
@@ -236,9 +236,9 @@ contains
          return
       end if
       judged%repeats_after = ending%orbit
-      call leave_words()
+      call unlock_texts()
       judged%orbit = find_periodic_orbit(judged%resolved%problem, numbers_of(ending), orbit_nearness)
-      call take_words()
+      call lock_texts()
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
       judged%extremes = extremes_of_record(window%record)
       judged%loudness = loudness_of_record(window%record, scene%excitation%frequency)
