@@ -29,8 +29,8 @@ SCENES = {"idle": "idle", "creep": "creep", "creep_forged_line": "creep, forged 
 METHODS = {
     ("successive", "previous"): "successive,\nprevious",
     ("successive", "extrapolated"): "successive,\nextrapolated",
-    ("newton", "previous"): "newton,\nprevious",
-    ("newton", "extrapolated"): "newton,\nextrapolated",
+    ("newton", "previous"): "Newton,\nprevious",
+    ("newton", "extrapolated"): "Newton,\nextrapolated",
 }
 PAPER_RANGE = (1e-8, 1e-7)
 
@@ -110,7 +110,7 @@ def main() -> int:
         with house_style():
             figure = draw(panels)
             arguments.picture.parent.mkdir(parents=True, exist_ok=True)
-            figure.savefig(arguments.picture, metadata={"Software": None})
+            figure.savefig(arguments.picture, dpi=200, metadata={"Software": None})
     except KeyError as fault:
         print(f"{arguments.outcomes} lacks {fault}", file=sys.stderr)
         return 1

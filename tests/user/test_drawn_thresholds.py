@@ -117,6 +117,15 @@ def test_kinds_of_change_are_curves_of_their_own(tmp_path):
     assert "change of class" in made.axes[0].get_title(loc="left")
 
 
+def test_the_axis_shows_the_changes_where_they_lie_close_together(tmp_path):
+    far = figure(written(tmp_path / "far.rattle")).axes[0]
+    assert far.get_ylim()[0] < 5.0 and far.get_ylim()[1] > 100.0
+    near = figure(written(tmp_path / "near.rattle", [ROWS[0], ROWS[2], ROWS[5]])).axes[0]
+    low, high = near.get_ylim()  # of 21, 31 and 41 N
+    assert 5.0 < low < 20.0 and 42.0 < high < 60.0
+    assert near.get_title(loc="left").endswith("\nSearched from 5 to 100 N")
+
+
 def test_neighbours_with_other_counts_of_a_change_are_not_joined(tmp_path):
     back = [2.0, 2.0, 2.0, 50.0, 52.0, 2.0, 1.0, 1.0, 1.0, 1.0, 1.0]
     again = [2.0, 2.0, 3.0, 70.0, 72.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0]

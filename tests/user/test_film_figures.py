@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from result_writer import write_motion, write_result
 
 import rattle
 from rattle.figures import film_points, film_pressures, style
+from rattle.figures.fit import fit
 
 PAPER = ["figure_03_film", "figure_04a_film", "figure_04b_film", "figure_05_film"]
 
@@ -61,6 +63,19 @@ def test_figure_5_says_which_films_do_not_exist(film):
     assert "no rigid" not in halved
     assert r"$\alpha p \leq 0.826$" in halved and r"$q \leq 201$ MPa" in halved
     assert "no rigid piezo-viscous film exists" in both and r"$q \leq 201$ MPa" in both
+
+
+def test_figure_5_names_each_squeeze_ratio_once_in_a_column(film):
+    profiles = film_points.read_profiles(film)
+    with style.house_style():
+        narrow = film_pressures.draw_piezo_viscous(profiles, film_points.Choice(narrow=True))
+        wide = film_pressures.draw_piezo_viscous(profiles, film_points.Choice())
+        fit(narrow, Namespace(width=80 / 25.4, font_size=None, no_title=False, xlim=None, ylim=None))
+    (legend,) = narrow.legends
+    words = [text.get_text() for text in legend.get_texts()]
+    assert len(words) == len(set(words)) == 1 + 5 + 2
+    assert "pressure $q$, (31)" in words and "no film" not in all_words(narrow)
+    assert all_words(wide).count("no film") > 4
 
 
 def test_figure_5_counts_the_films_that_do_not_exist(tmp_path):

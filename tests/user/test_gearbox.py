@@ -315,6 +315,13 @@ def test_all_pairs_stand_together_in_one_figure(solve, tmp_path: Path) -> None:
     assert meshes[0].norm.vmin == meshes[1].norm.vmin and meshes[0].norm.vmax == meshes[1].norm.vmax
     for mesh, alone in zip(meshes, campaign.pairs, strict=True):
         assert np.array_equal(np.ravel(mesh.get_array()), alone.grid("film_force_rms").T.ravel())
+    with style.house_style(own=False):
+        column = campaign_map.draw_pairs(sections, ("rattle_class", "film_force_rms"), "auto", narrow=True)
+    upper, _, lower, right, bar = column.axes
+    assert [axes.get_title(loc="left") for axes in (upper, lower)] == ["1st", "4th"]
+    assert [axes.get_ylabel() for axes in (upper, lower, right)] == ["Drag torque [N m]"] * 2 + [""]
+    assert lower.get_xlabel() == right.get_xlabel() == "Shaft speed [1/min]" and upper.get_xlabel() == ""
+    assert bar.get_ylabel() == "Film force rms [N]"
     drawn = call_script("plot.py", "campaign", path, "--together", "--output", tmp_path, "--format", "png")
     assert drawn.returncode == 0 and (tmp_path / "box_pairs.png").exists(), drawn.stderr
     refused = call_script("plot.py", "campaign", path, "--together", "--summary")

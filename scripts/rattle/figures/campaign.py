@@ -14,6 +14,7 @@ from rattle.campaign_plan import GRID
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
 from rattle.figures import campaign_map, campaign_slice, campaign_summary, style
+from rattle.figures.fit import is_narrow
 
 DESCRIPTION = (
     "Draw a campaign: a map of the class or of any column over two varied keys (default), columns along one "
@@ -127,7 +128,7 @@ def draw_together(campaign: Campaign, options: Namespace, slices: dict[str, floa
     sections = {}
     for gear, alone in zip(campaign.gears, campaign.pairs, strict=True):
         sections[gear] = new_section(alone, plane(alone, options.x, options.y, slices), slices)
-    figure = campaign_map.draw_pairs(sections, columns, options.colours)
+    figure = campaign_map.draw_pairs(sections, columns, options.colours, is_narrow(options.width))
     save(figure, options, f"{campaign.name}_pairs")
 
 

@@ -128,14 +128,18 @@ def column_label(campaign: Campaign, column: str) -> str:
 
 
 def axis_label(axis: Axis) -> str:
-    """As in 'Oil temperature [degC]'."""
+    """As in 'Shaft speed [1/min]'."""
     return with_unit(short_name(axis.key), axis.unit)
 
 
 def with_unit(words: str, unit: str) -> str:
     """The label of an axis: words and unit."""
-    unit = re.sub(r"(?<=[a-z])([23])\b", r"$^\1$", unit)
-    return capital(words) if unit == "" else f"{capital(words)} [{unit}]"
+    return capital(words) if unit == "" else f"{capital(words)} [{drawn_unit(unit)}]"
+
+
+def drawn_unit(unit: str) -> str:
+    """A unit as figures show it, powers raised."""
+    return re.sub(r"(?<=[a-z])([23])\b", r"$^\1$", unit).replace("degC", "\N{DEGREE SIGN}C")
 
 
 def capital(words: str) -> str:

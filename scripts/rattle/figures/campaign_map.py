@@ -52,10 +52,14 @@ def draw(section: Section, column: str, options: Options) -> Figure:
     return figure
 
 
-def draw_pairs(sections: Mapping[str, Section], columns: Sequence[str], colours: str) -> Figure:
-    """Gear pairs side by side, a row of maps for each column."""
-    figure = Figure(figsize=(style.WIDTH, 0.9 + 1.75 * len(columns)))
-    grid = figure.subplots(len(columns), len(sections), sharex=True, sharey=True, squeeze=False)
+def draw_pairs(
+    sections: Mapping[str, Section], columns: Sequence[str], colours: str, narrow: bool = False
+) -> Figure:
+    """Gear pairs side by side, a row of maps for each column; in a narrow figure one pair below the other."""
+    shape = (len(sections), len(columns)) if narrow else (len(columns), len(sections))
+    figure = Figure(figsize=(style.WIDTH, 0.9 + 1.75 * shape[0]))
+    panels = figure.subplots(*shape, sharex=True, sharey=True, squeeze=False)
+    grid = panels.T if narrow else panels
     handles: dict[str, object] = {}
     figure.get_layout_engine().set(w_pad=0.03)
     for place, (column, row) in enumerate(zip(columns, grid, strict=True)):
@@ -65,9 +69,10 @@ def draw_pairs(sections: Mapping[str, Section], columns: Sequence[str], colours:
             drawn += [mesh] if mesh else []
             handles |= {patch.get_label().rpartition(" (")[0]: patch for patch in entries}
             axes.set_title(name if place == 0 else "")
-            axes.set_xlabel("")
-            axes.set_ylabel(axes.get_ylabel() if axes is row[0] else "")
-            axes.tick_params(axis="x", rotation=90)
+            axes.set_xlabel(axes.get_xlabel() if narrow and axes is row[-1] else "")
+            axes.set_ylabel(axes.get_ylabel() if axes in panels[:, 0] else "")
+            if not look.is_logarithmic(section.free[0]):
+                axes.locator_params(axis="x", nbins=3)
         campaign = section.campaign
         if drawn:
             norm = look.colour_norm(
@@ -75,9 +80,16 @@ def draw_pairs(sections: Mapping[str, Section], columns: Sequence[str], colours:
             )
             for mesh in drawn:
                 mesh.set_norm(norm)
-            figure.colorbar(drawn[0], ax=row, label=look.column_label(campaign, column), pad=0.02, aspect=14)
-    middle = (len(sections) - 1) // 2
-    grid[-1, middle].set_xlabel(look.axis_label(section.free[0]), x=0.5 if len(sections) % 2 else 1.05)
+            figure.colorbar(
+                drawn[0],
+                ax=row,
+                label=look.column_label(campaign, column),
+                pad=0.02,
+                aspect=14 * (len(sections) if narrow else 1),
+            )
+    if not narrow:
+        middle = (len(sections) - 1) // 2
+        grid[-1, middle].set_xlabel(look.axis_label(section.free[0]), x=0.5 if len(sections) % 2 else 1.05)
     figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=3)
     return figure
 

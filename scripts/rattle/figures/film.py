@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 import rattle
 from rattle import command
 from rattle.figures import film_points, film_pressures, film_slopes, style
+from rattle.figures.fit import is_narrow
 from rattle.result import ResultError
 
 DESCRIPTION = (
@@ -46,7 +47,7 @@ def run(options: Namespace) -> int:
     profiles = options.result.with_suffix(".profiles.rattle")
     if options.result.exists() or not profiles.exists():
         rattle.read(options.result).require_task("film")
-    choice = film_points.Choice(options.film_ratio, options.speed_group)
+    choice = film_points.Choice(options.film_ratio, options.speed_group, is_narrow(options.width))
     numbers = options.figures or NUMBERS
     makers = [(stem, maker) for number, stem, maker in FIGURES if number in numbers]
     scene = options.result.name.removesuffix(".rattle").removesuffix(".profiles")

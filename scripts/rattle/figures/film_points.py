@@ -21,15 +21,19 @@ PAPER_SPEED_GROUP = 0.9e-6
 
 MOST_CURVES = 9
 APPROACH, ROLLING, SEPARATION = "#0072B2", "#000000", "#D55E00"
-SQUEEZE_TITLE = r"$w^* = w/u$"
+SQUEEZE_TITLE = r"$w^* = w/u$, from the top"
 
 
 @dataclass(frozen=True)
 class Choice:
-    """The film ratio and speed group that the user wants; None takes the one nearest to the paper's."""
+    """The film ratio and speed group that the user wants; None takes the one nearest to the paper's.
+
+    In a narrow figure the legend names fewer things.
+    """
 
     film_ratio: float | None = None
     speed_group: float | None = None
+    narrow: bool = False
 
 
 @dataclass(frozen=True)

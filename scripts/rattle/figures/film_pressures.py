@@ -51,12 +51,19 @@ def draw_piezo_viscous(profiles: Result, choice: Choice) -> Figure:
     groups = _speed_groups(profiles, choice)
     figure = Figure(figsize=(style.WIDTH, 0.7 + 3.0 * len(groups)))
     panels = figure.subplots(len(groups), 1, squeeze=False, sharex=True)[:, 0]
+    exists = []
     for axes, speed_group in zip(panels, groups, strict=True):
         fixed = {"film_ratio": film_ratio, "speed_group": speed_group}
         found = film_points.curves(profiles, COLUMNS, "position", fixed)
         peaks = [_peak(film_ratio, curve.squeeze_ratio, speed_group) for curve in found]
-        _draw_panel(axes, found, peaks, alpha)
+        _draw_panel(axes, found, peaks, alpha, choice.narrow)
         axes.set_title(style.power_words(speed_group, "u^*") + _verdict(peaks))
+        exists.append(any(peak < 1.0 for peak in peaks))
+    for axes, film_exists in zip(panels, exists, strict=True):
+        if not choice.narrow:
+            _legends(axes, film_exists)
+    if choice.narrow:  # one legend, which the figure's width moves below all panels
+        _legends(panels[0], any(exists))
     held = film_points.scene_line(profiles, [style.power_words(film_ratio, "h^*")])
     panels[0].set_title(
         f"Pressure of the piezo-viscous film, (31)\n{held}\n{panels[0].get_title(loc='left')}"
@@ -80,13 +87,17 @@ def _peak(film_ratio: float, squeeze_ratio: float, speed_group: float) -> float:
     return b / kernels.critical_pressure_group(a)
 
 
-def _draw_panel(axes: Axes, found: Sequence[Curve], peaks: Sequence[float], alpha: float) -> None:
+def _draw_panel(
+    axes: Axes, found: Sequence[Curve], peaks: Sequence[float], alpha: float, narrow: bool
+) -> None:
     for curve, peak, colour in zip(found, peaks, film_points.colours(found), strict=True):
         place = 1e6 * curve["position"]
         axes.plot(place, 1e-6 * curve["reduced_pressure"], color=colour, **REDUCED)
         if peak < 1.0:
             axes.plot(place, 1e-6 * curve["piezo_viscous_pressure"], color=colour)
-        axes.plot([], [], color=colour, label=_words(curve.squeeze_ratio, peak, alpha))
+        ratio = curve.squeeze_ratio
+        words = film_points.squeeze_words(ratio) if narrow else _words(ratio, peak, alpha)
+        axes.plot([], [], color=colour, label=words)
     limit = 1e-6 / alpha
     axes.axhline(limit, color=style.FORCE_COLOUR, linewidth=0.8, linestyle=(0, (1, 1.5)))
     _scale(axes, found, peaks, limit)
@@ -101,7 +112,6 @@ def _draw_panel(axes: Axes, found: Sequence[Curve], peaks: Sequence[float], alph
         color=style.FORCE_COLOUR,
         fontsize=8,
     )
-    _legends(axes, any(peak < 1.0 for peak in peaks))
     axes.set_ylabel("Pressure [MPa]")
 
 

@@ -98,7 +98,11 @@ def _legends(axes: Axes, found: Sequence[Curve], models: Sequence[str]) -> None:
     handles = [Line2D([], [], color=colour) for colour in colours]
     words = [film_points.squeeze_words(curve.squeeze_ratio) for curve in found]
     axes.figure.legend(
-        handles, words, title=film_points.SQUEEZE_TITLE, loc="outside right upper", alignment="left"
+        handles,
+        words,
+        title=f"{film_points.SQUEEZE_TITLE}\nof the upper panel",
+        loc="outside right upper",
+        alignment="left",
     )
     kinds = [Line2D([], [], color=style.FORCE_COLOUR, linestyle=LINES[model]) for model in models]
     axes.legend(kinds, [WORDS[model] for model in models], loc="lower left", handlelength=2.6)

@@ -102,7 +102,7 @@ def _name_lines(
     frequency = ratio[at_excitation] * result.frequency
     names = (
         (0, f"mean\n{amplitude[0]:.4g} N"),
-        (at_excitation, f"{amplitude[at_excitation]:.4g} N\nat {frequency:g} Hz"),
+        (at_excitation, f"{amplitude[at_excitation]:.4g} N\nat {frequency:.4g} Hz"),
     )
     for position, name in names:
         axes.annotate(
@@ -197,7 +197,7 @@ def _draw_single(
     driven = harmonic & np.isin(ratio, orders)
     for axes in panels:
         axes.vlines(place[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
-        handles[f"harmonics of {result.frequency:g} Hz"] = axes.vlines(
+        handles[f"harmonics of {result.frequency:.4g} Hz"] = axes.vlines(
             place[harmonic & ~driven], 0.0, amplitude[harmonic & ~driven], color=colour, **thick
         )
         if driven.any():
@@ -259,7 +259,7 @@ def _frequency_label(results: Sequence[Result], view: View) -> str:
         return style.RATIO_LABEL
     bases = {result.frequency for result in results}
     return (
-        f"Order, multiple of {max(bases):g} Hz"
+        f"Order, multiple of {max(bases):.4g} Hz"
         if len(bases) == 1
         else "Order, multiple of each base frequency"
     )

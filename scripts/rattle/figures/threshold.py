@@ -249,9 +249,11 @@ def draw(
     if len(free) > 1:
         what = f"{ordinal(crossing)} {what}"
     parts = [f"{short_name(key)} = {found.words_of_value(key, value)}" for key, value in (held or {}).items()]
+    first, last = (f"{value:.4g}" for value in found.range.values)
     lines = [
         f"{look.capital(short_name(found.key))}: {what}",
         f"Scene {found.result.scene_name}, {style.film_words(found.result)}",
+        f"Searched from {first} to {last}{spaced_unit(look.drawn_unit(found.range.unit))}",
     ]
     axes.set_title("\n".join([*lines, *([", ".join(parts)] if parts else [])]))
     return figure
@@ -279,7 +281,7 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
     handles = []
     if section is None:
         look.set_axis(axes, "x", axis, to_edges=False)
-        look.set_axis(axes, "y", found.range, to_edges=False)
+        set_range(axes, found, found.values)
     else:
         handles, _ = campaign_map.draw_cells(axes, section, map_column(section, found))
     x, y, crossed = found.column(axis.key), found.values, found.column("crossing") > 0
@@ -317,6 +319,19 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
     return handles
 
 
+def set_range(axes: Axes, found: Thresholds, values: np.ndarray) -> None:
+    """The y axis: what was searched, or less of it where the changes lie close together."""
+    searched = found.range
+    seen, back = (np.log, np.exp) if look.is_logarithmic(searched) else (np.asarray, np.asarray)
+    ends, known = seen(searched.values), seen(values[np.isfinite(values)])
+    if known.size:
+        half = max(0.6 * np.ptp(known), 0.15 * np.ptp(ends))
+        middle = 0.5 * (known.min() + known.max())
+        if half < 0.35 * np.ptp(ends):
+            searched = replace(searched, values=back(np.clip([middle - half, middle + half], *ends)))
+    look.set_axis(axes, "y", searched, to_edges=False)
+
+
 def map_column(section: Section, found: Thresholds) -> str:
     """What the map behind shows: what the criterion looks at where that is recorded, else the class."""
     return found.quantity if found.quantity in section.campaign else "rattle_class"
@@ -349,8 +364,8 @@ def on_plane(found: Thresholds, x: Axis, y: Axis, crossing: int) -> tuple[np.nda
 def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossing: int) -> list:
     """A curve along one key for each value of another; returns legend entries."""
     look.set_axis(axes, "x", along, to_edges=False)
-    look.set_axis(axes, "y", found.range, to_edges=False)
     values, uncertain = on_plane(found, along, other, crossing)
+    set_range(axes, found, values)
     for place, value in enumerate(other.values):
         column, unsure = values[:, place], uncertain[:, place]
         label = f"{short_name(other.key)} {found.words_of_value(other.key, value)}"

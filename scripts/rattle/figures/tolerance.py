@@ -97,7 +97,7 @@ def draw(pairs: Sequence[Pair], periods: int, window: int | None, narrow: bool =
         _draw_spectra(spectrum, pair, window)
         handles = history.get_legend_handles_labels()
         letter = f"({chr(ord('a') + position)}) " if len(pairs) > 1 else ""
-        place = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.3), "alignment": "left"}
+        place = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.34), "alignment": "left"}
         spectrum.legend(*handles, title=f"{letter}{pair.name}" if letter else None, **place)
         history.set_title(f"{letter}{pair.name}\n{_scheme(pair)}")
     figure.align_ylabels()

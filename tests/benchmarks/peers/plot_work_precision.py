@@ -133,10 +133,12 @@ def table(head: dict[str, str], points: Points, base_name: str) -> str:
 
 
 def figure(head: dict[str, str], points: Points, path: Path) -> None:
-    """One panel a group: CPU time against error, own contenders black."""
+    """One panel a group at page width: time against error, own contenders black, the others with marks."""
     own = [name.strip() for name in head.get("own", "").split(";") if name.strip()]
     groups = {title: names for title, names in GROUPS.items() if scene_count(points, names)}
-    picture, axes = plt.subplots(1, len(groups), figsize=(5.0 * len(groups), 4.6), sharex=True, squeeze=False)
+    plt.rcParams.update({"font.size": 8, "axes.linewidth": 0.7})
+    width = max(6.3, 2.1 * len(groups))  # inches
+    picture, axes = plt.subplots(1, len(groups), figsize=(width, 3.7), sharex=True, squeeze=False)
     colours, peers = plt.get_cmap("tab10"), [name for name in points if name not in own]
     for axis, (title, names) in zip(axes[0], groups.items(), strict=True):
         count = scene_count(points, names)
@@ -147,24 +149,23 @@ def figure(head: dict[str, str], points: Points, path: Path) -> None:
                 continue
             if contender in own:
                 dash = ("-", "--", "-.", ":")[own.index(contender) % 4]
-                style = {"color": "black", "linewidth": 2.2, "linestyle": dash}
+                style = {"color": "black", "linewidth": 1.6, "linestyle": dash, "marker": ""}
             else:
-                style = {"color": colours(peers.index(contender) % 10), "linewidth": 1.4}
-            axis.loglog(
-                *zip(*drawn, strict=True), label=contender, marker="o", markevery=4, markersize=3.5, **style
-            )
-        axis.set_title(f"{title}, mean of {count} scenes", fontsize=10)
-        axis.set_xlabel("largest relative error of the film")
+                place = peers.index(contender) % 10
+                style = {"color": colours(place), "linewidth": 0.9, "marker": "os^DvPX*<>"[place]}
+            axis.loglog(*zip(*drawn, strict=True), label=contender, markevery=4, markersize=3.5, **style)
+        axis.set_title(f"{title},\nmean of {count} scenes", fontsize=8)
+        axis.set_xlabel("Largest relative error\nof the film")
         axis.grid(True, which="major", linewidth=0.4)
     axes[0][0].invert_xaxis()
-    axes[0][0].set_ylabel("CPU time of a scene [ms]")
+    axes[0][0].set_ylabel("Processor time of a scene [ms]")
     handles = {}
     for axis in axes[0]:
         handles.update({label: line for line, label in zip(*axis.get_legend_handles_labels(), strict=True)})
-    picture.legend(handles.values(), handles.keys(), loc="lower center", ncols=5, fontsize=8, frameon=False)
-    picture.suptitle(f"{head.get('cpu', '')}, {head.get('date', '')}", fontsize=9)
-    picture.tight_layout(rect=(0, 0.09, 1, 1))
-    picture.savefig(path, dpi=150)
+    picture.legend(handles.values(), handles.keys(), loc="lower center", ncols=4, frameon=False)
+    picture.suptitle(f"{head.get('cpu', '')}, {head.get('date', '')}", fontsize=8)
+    picture.tight_layout(rect=(0, 0.14, 1, 1), w_pad=0.6)
+    picture.savefig(path, dpi=200)
 
 
 def main() -> None:
