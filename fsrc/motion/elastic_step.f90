@@ -47,6 +47,11 @@ module elastic_step
    !> A correction leaves at least this share of every film, and of the load of one that never pulls
    real(dp), parameter :: least_ratio = 0.1_dp
 
+   !> A correction that raises the load of a film that never pulls by more than this share of it is not the last one: the velocity
+   !> of the film goes with the logarithm or a negative power of its load, so that Newton's method hardly moves a load that is far
+   !> too small.
+   real(dp), parameter :: last_rise = 0.5_dp
+
    !> Signs of the gear's motion in the films
    real(dp), parameter :: sign_of(2) = [1.0_dp, -1.0_dp]
 
@@ -128,9 +133,9 @@ contains
       type(lane_block_t), intent(inout) :: block
       type(trial_t), intent(inout) :: trial
       type(trial_t) :: before
-      real(dp) :: matrix(2*stages, 2*stages), right(2*stages), change, last_change, ratio, reach, share
+      real(dp) :: matrix(2*stages, 2*stages), right(2*stages), loads(2*stages), change, last_change, ratio, reach, share
       integer :: pass, n, flank, i
-      logical :: found, stalled
+      logical :: found, stalled, rising
 
       n = stages*trial%flanks
       last_change = huge(1.0_dp)
@@ -141,7 +146,12 @@ contains
          call equations(film_law, lane, block, trial, matrix(:n, :n), right(:n), found)
          if (.not. found) return
          call eliminate(n, matrix, right)
-         if (never_pulls(film_law)) right(:n) = max(right(:n), (least_ratio - 1.0_dp)*reshape(trial%load(:, :trial%flanks), [n]))
+         rising = .false.
+         if (never_pulls(film_law)) then
+            loads(:n) = reshape(trial%load(:, :trial%flanks), [n])
+            rising = any(right(:n) > last_rise*loads(:n))
+            right(:n) = max(right(:n), (least_ratio - 1.0_dp)*loads(:n))
+         end if
          change = maxval(abs(right(:n)))
          if (.not. change < huge(1.0_dp)) return
          before = trial
@@ -158,6 +168,8 @@ contains
             trial = before
             call correct(share, right(:n), trial)
             call states(lane, force, block, trial)
+         end if
+         if (share < 1.0_dp .or. rising) then
             last_change = huge(1.0_dp)
             cycle
          end if

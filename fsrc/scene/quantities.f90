@@ -169,7 +169,7 @@ module quantities
       quantity_t(quantity_certified, 'certified', '-', a_flag, part_class, needs_certificate, 'campaign', &
          'Whether the class stands when the scene is solved again, tighter.'), &
       quantity_t(quantity_film_error, 'film_error', '-', a_number, part_errors, needs_certificate, 'summary', &
-         'Largest error of the film over the window, relative.'), &
+         'Largest error of the films of both flanks over the window, relative to the thinner one.'), &
       quantity_t(quantity_film_minimum_error, 'film_minimum_error', 'm', a_number, part_errors, needs_certificate, 'summary', &
          'Error of film_minimum.'), &
       quantity_t(quantity_film_maximum_error, 'film_maximum_error', 'm', a_number, part_errors, needs_certificate, 'summary', &

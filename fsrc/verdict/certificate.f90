@@ -14,7 +14,8 @@ module certificate
    private
 
    !> What the comparison says. The errors are those of the numbers beside them, never printed smaller than the tighter
-   !> solution can tell.
+   !> solution can tell. A relative error is a share of the smaller one of both numbers: a film that is told a hundred times too
+   !> thin is 9900 % off, not 99 %.
    type, public :: certificate_t
       !> Whether there was a tighter solution to compare with
       logical :: exists = .false.
@@ -81,22 +82,22 @@ contains
       real(dp), intent(in) :: tight_noise
       type(certificate_t), intent(out) :: certificate
       real(dp), allocatable :: differences(:)
-      real(dp) :: peak, errors(2), film_difference
+      real(dp) :: peaks(2), errors(2), film_difference
       integer :: lines
 
       certificate%exists = .true.
       errors = errors_of(seen_film, 0.0_dp)
       certificate%film_minimum_error = errors(1)
       certificate%film_maximum_error = errors(2)
-      film_difference = max(maxval(maxval(abs(films - tight_films), dim=2)/minval(tight_films, dim=2)), &
+      film_difference = max(maxval(maxval(abs(films - tight_films), dim=2)/minval(min(films, tight_films), dim=2)), &
                             error_in_film(seen_film))
       if (size(films, 2) > 1) film_difference = max(film_difference, error_in_film(seen_coast_film))
       certificate%film_error = margin*film_difference
       errors = errors_of(seen_acceleration, tight_noise)
       certificate%acceleration_minimum_error = errors(1)
       certificate%acceleration_maximum_error = errors(2)
-      peak = max(abs(tight_extremes%lowest(seen_acceleration)%value), abs(tight_extremes%highest(seen_acceleration)%value))
-      if (peak > 0.0_dp) certificate%acceleration_error = maxval(errors)/peak
+      peaks = [peak_of(extremes), peak_of(tight_extremes)]
+      if (any(peaks > 0.0_dp)) certificate%acceleration_error = maxval(errors)/minval(peaks, mask=peaks > 0.0_dp)
       lines = min(size(verdict%lines%harmonics), size(tight_verdict%lines%harmonics))
       differences = abs(verdict%lines%harmonics(:lines) - tight_verdict%lines%harmonics(:lines))
       differences = max(differences + tight_share*tight_accuracy*tight_verdict%lines%harmonics(:lines), &
@@ -117,8 +118,16 @@ contains
          integer, intent(in) :: quantity
 
          error_in_film = maxval(errors_of(quantity, 0.0_dp)/ &
-                                (margin*[tight_extremes%lowest(quantity)%value, tight_extremes%highest(quantity)%value]))
+                                (margin*[min(extremes%lowest(quantity)%value, tight_extremes%lowest(quantity)%value), &
+                                         min(extremes%highest(quantity)%value, tight_extremes%highest(quantity)%value)]))
       end function error_in_film
+
+      !> Largest |z''| [m/s2].
+      pure real(dp) function peak_of(extremes)
+         type(window_extremes_t), intent(in) :: extremes
+
+         peak_of = max(abs(extremes%lowest(seen_acceleration)%value), abs(extremes%highest(seen_acceleration)%value))
+      end function peak_of
 
       !> Errors of the smallest and the largest value of a quantity.
       pure function errors_of(quantity, noise) result(differences)

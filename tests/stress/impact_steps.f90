@@ -56,7 +56,7 @@ module impact_steps
 
    !> A film and its velocity may be off by the tolerance within a step; at its end they are far better.
    integer, parameter :: most_passes = 12
-   real(dp), parameter :: converged = 1.0e-10_dp, shortest = 1.0e-15_dp, two_pi = 6.28318530717958647692_dp
+   real(dp), parameter :: converged = 1.0e-10_dp, last_rise = 0.5_dp, shortest = 1.0e-15_dp, two_pi = 6.28318530717958647692_dp
 
    public :: take_step, tooth_of_lane, start_of_tooth, disturb, has_coast
 
@@ -302,7 +302,7 @@ contains
       real(dp) :: films(nodes, 2), loads(nodes, 2), starts(2), unit, seconds, change, last_change, turn, spring(2), largest, load, &
                   load_by_film, load_by_velocity
       integer :: flanks, flank, logarithm, compression, pass, i, outcome
-      logical :: regular, failed
+      logical :: regular, failed, rising
 
       solved = .false.
       error = huge(1.0_dp)
@@ -364,22 +364,25 @@ contains
          unit = unit_of_velocity(tooth, step, films)
          change = maxval(abs(correction(:nodes)))/unit
          largest = 1.0_dp
+         rising = .false.
          do flank = 1, flanks
             spring(flank) = maxval(abs(loads(:, flank)))*tooth%compliance
             associate (grown => correction(nodes*(2*flank - 1) + 1:nodes*2*flank), &
                        pressed => correction(nodes*2*flank + 1:nodes*(2*flank + 1)))
                change = max(change, maxval(abs(grown)), maxval(abs(pressed))/max(spring(flank), 1.0e-12_dp*minval(films)))
                largest = min(largest, 2.0_dp/max(2.0_dp, maxval(abs(grown))))
-               ! The load of a film that never pulls stays one.
+               ! The load of a film that never pulls stays one, and a pass that has to raise it by much is not the last.
                if (never_pulls(tooth%film)) then
                   failed = any(loads(:, flank) <= 0.0_dp)
                   if (failed) return
+                  rising = rising .or. any(pressed > last_rise*tooth%compliance*loads(:, flank))
                   largest = min(largest, 0.9_dp/max(0.9_dp, maxval(-pressed/(tooth%compliance*loads(:, flank)))))
                end if
             end associate
          end do
          if (.not. change < huge(1.0_dp)) return
          added = added + largest*reshape(correction, shape(added))
+         if (rising) cycle
          if (change < converged .or. (change < 1.0e-7_dp .and. change > 0.3_dp*last_change)) then
             solved = .true.
             exit

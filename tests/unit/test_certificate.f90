@@ -123,8 +123,9 @@ contains
       tight = verdict_of(class_creep, [1.001_dp, 0.498_dp], choice)
       call compare(films*[1.0_dp, 0.997_dp, 1.001_dp], films, 0.9_dp*values, values, verdict, tight, choice, tolerance, &
          certificate)
-      call checks%check_close(certificate%film_error, 0.006_dp, 1.0e-15_dp, 'film error: twice the largest difference, either way')
-      call checks%check_close(certificate%acceleration_error, 0.2_dp, 1.0e-15_dp, 'acceleration error: of the peaks')
+      call checks%check_close(certificate%film_error, 0.006_dp/0.997_dp, 1.0e-15_dp, &
+         'film error: twice the largest difference, either way')
+      call checks%check_close(certificate%acceleration_error, 0.2_dp/0.9_dp, 1.0e-15_dp, 'acceleration error: of the smaller peak')
       call checks%check(size(certificate%harmonic_errors) == 2, 'harmonic errors: those that both have')
       call checks%check_close(maxval(abs(certificate%harmonic_errors - [0.002_dp, 0.004_dp])), 0.0_dp, 1.0e-15_dp, &
          'harmonic errors')
@@ -391,7 +392,12 @@ contains
       call checks%check(.not. certificate%certified, 'coast film: not certified')
       extremes%lowest(seen_coast_film)%value = (1.0_dp - error)*minval(coast)
       call compare_both(coast)
-      call checks%check_close(certificate%film_error, 2.0_dp*error, 1.0e-14_dp, 'coast film: error between samples')
+      call checks%check_close(certificate%film_error, 2.0_dp*error/(1.0_dp - error), 1.0e-14_dp, &
+                              'coast film: error between samples')
+      extremes%lowest(seen_coast_film)%value = 1.0e-3_dp*minval(coast)
+      call compare_both(coast*[1.0e-3_dp, 1.0_dp, 1.0_dp])
+      call checks%check(certificate%film_error*extremes%lowest(seen_coast_film)%value > minval(coast), &
+                        'coast film: told far too thin, its error is a share of what is told')
 
    contains
 

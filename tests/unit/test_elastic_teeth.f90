@@ -63,6 +63,7 @@ contains
       call test_mirror(checks)
       call test_no_company(checks)
       call test_soft_teeth(checks)
+      call test_lost_load(checks)
    end subroutine run_elastic_teeth_tests
 
    !> The canonical scene, steady under Q + m g, on teeth that give.
@@ -191,6 +192,40 @@ contains
       end do
       call checks%check(abs(thinnest(1)/thinnest(2) - 1.0_dp) < 3.0e-5_dp, 'soft teeth: thinnest film')
    end subroutine test_soft_teeth
+
+   !> A tooth that is thrown off leaves its film next to no load, and comes back. A step that ends with next to no load then puts the
+   !> film off by a tenth, whatever the accuracy.
+   subroutine test_lost_load(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: stiffness(2) = [3.0e8_dp, 3.0e7_dp], amplitude(2) = [2000.0_dp, 700.0_dp]
+      real(dp), parameter :: accuracies(2) = [1.0e-6_dp, 1.0e-8_dp]
+      type(scene_t) :: scene
+      type(problem_t) :: problem
+      type(motion_state_t) :: start
+      type(ending_t) :: ending, tight_ending
+      type(window_record_t) :: record
+      real(dp), allocatable :: tight(:, :), states(:, :), z(:)
+      integer :: i, j
+
+      do i = 1, size(stiffness)
+         scene = canonical_scene(law_piezo_viscous, 256)
+         scene%film%initial_film = 0.0_dp
+         scene%contact%stiffness = stiffness(i)
+         scene%excitation%force_amplitude = amplitude(i)
+         if (i == 2) scene%contact%backlash = 3.0e-5_dp
+         problem = problem_of(scene)
+         start = start_of(problem)
+         start%implicit = .true.
+         call solve_window(problem, start, 1.0e-11_dp, 64, 4, 4, tight, z, tight_ending, record)
+         do j = 1, size(accuracies)
+            call solve_window(problem, start, accuracies(j), 64, 4, 4, states, z, ending, record)
+            call checks%check(all([ending%status, tight_ending%status] == status_complete), 'lost load: solved')
+            if (size(states) /= size(tight)) exit
+            call checks%check(maxval(abs(states(:, of_film)/tight(:, of_film) - 1.0_dp)) < 10.0_dp*accuracies(j), &
+                              'lost load: within the accuracy')
+         end do
+      end do
+   end subroutine test_lost_load
 
    !> At rest films and springs fill the backlash, and the start stands still.
    subroutine test_rest(checks)
