@@ -35,8 +35,6 @@ def slurm(options: argparse.Namespace) -> None:
         raise command.CommandError(f"{options.input} cannot be read: {fault}") from None
     if "campaign" not in groups:
         raise command.CommandError(f"{options.input} has no group &campaign.")
-    if options.array and groups.get("scene", {}).get("task") == "threshold":
-        raise command.CommandError("a threshold has no parts: take --ranks instead of --array.")
     name = str(groups.get("scene", {}).get("name") or options.input.stem).strip()
     if not NAME.fullmatch(name):
         raise command.CommandError(f"'{name}' cannot name a job: letters, digits, . _ - only.")
@@ -98,7 +96,7 @@ def merge_parts(options: argparse.Namespace) -> None:
     keep_existing(options.output, options)
     count = merge(options.parts, options.output)
     print(options.output)
-    command.note(f"{len(options.parts)} parts joined, {count} scenes.")
+    command.note(f"{len(options.parts)} parts joined, {count}.")
 
 
 def export(options: argparse.Namespace) -> None:
@@ -291,12 +289,15 @@ def add_slurm(commands: argparse._SubParsersAction) -> None:
     job = commands.add_parser(
         "slurm",
         help="write a job script",
-        description="Write a job script that runs a campaign as an array of parts (--array), as one MPI job "
-        "(--ranks) or as one plain job, stops before the time limit, goes back into the queue and resumes.",
+        description="Write a job script that runs a campaign or thresholds as an array of parts (--array), "
+        "as one MPI job (--ranks) or as one plain job, stops before the time limit, goes back into the queue "
+        "and resumes.",
     )
     job.add_argument("input", type=Path, metavar="FILE.nml", help="input with a group &campaign")
     kind = job.add_mutually_exclusive_group()
-    kind.add_argument("--array", type=array_tasks, metavar="N", help="N tasks, each a part of the scenes")
+    kind.add_argument(
+        "--array", type=array_tasks, metavar="N", help="N tasks, each a part of the scenes or lines"
+    )
     kind.add_argument("--ranks", type=command.positive, metavar="N", help="one job of N MPI ranks")
     job.add_argument("--threads", type=command.positive, default=1, metavar="N", help="threads a task (1)")
     job.add_argument("--time", type=time_limit, metavar="HH:MM:SS", help="time limit of the job")
@@ -327,8 +328,8 @@ def add_merge(commands: argparse._SubParsersAction) -> None:
     parts = commands.add_parser(
         "merge",
         help="join the parts of an array job",
-        description="Join the parts of a campaign into the file of one undivided run. Gaps, overlaps, "
-        "different inputs and unfinished parts are refused.",
+        description="Join the parts of a campaign or of thresholds into the file of one undivided run. Gaps, "
+        "overlaps, different inputs and unfinished parts are refused.",
     )
     parts.add_argument("parts", nargs="+", type=Path, metavar="PART", help="NAME.part-K-of-N.rattle")
     parts.add_argument("--output", required=True, type=Path, metavar="FILE", help="the whole, NAME.rattle")

@@ -70,7 +70,7 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(prepared_threshold_t) :: threshold
       type(campaign_t) :: scan
-      integer(int64) :: line_count, line
+      integer(int64) :: line_count, looked_at, line
       integer :: i, scanned
 
       lines = ''
@@ -82,9 +82,11 @@ contains
          lines = lines//'! '//threshold%lines%warnings(i)%text//new_line('a')
       end do
       scan = threshold%lines
-      scan%seen = min(line_count, max(1_int64, 512_int64/scanned))*scanned
-      call points_plan(threshold, [((line, i=1, scanned), line=1_int64, scan%seen/scanned)], &
-                       [((threshold%scan(i), i=1, scanned), line=1_int64, scan%seen/scanned)], scan%plan)
+      looked_at = min(line_count, max(1_int64, 512_int64/scanned))
+      scan%first = 1_int64
+      scan%seen = looked_at*scanned
+      call points_plan(threshold, threshold%lines%first + [((line, i=1, scanned), line=0_int64, looked_at - 1_int64)], &
+                       [((threshold%scan(i), i=1, scanned), line=1_int64, looked_at)], scan%plan)
       scan%layout%scene_count = line_count*scanned
       scan%layout%names = [scan%layout%names, scan%layout%names(1)]
       lines = lines//'! lines               '//integer_text(line_count)//new_line('a')// &

@@ -9,7 +9,7 @@ module prepared_campaign
    use memory, only: expect_memory
    use quantities, only: needs_certificate, quantity_table
    use sampling, only: largest_value, sample_plan_t
-   use scene_types, only: scene_t
+   use scene_types, only: scene_t, task_threshold
    use schedule, only: chunk_rows_for
    use signals, only: lift_time_limit, limit_time
    use solve_chunk, only: chunk_bytes
@@ -40,8 +40,8 @@ module prepared_campaign
 
 contains
 
-   !> What is known before anything is solved; the scenes are cut by the whole campaign, whatever part of it this is. After a
-   !> fault only the faults are of use.
+   !> What is known before anything is solved; the scenes are cut by the whole campaign, whatever part of it this is. Those of a
+   !> threshold are its lines. After a fault only the faults are of use.
    subroutine prepare_campaign(scene, file, hurried, campaign, faults)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
@@ -62,7 +62,8 @@ contains
       longest = largest_value(campaign%plan, find_key('solver', 'periods'), real(scene%solver%periods, dp))
       campaign%layout%chunk_rows = int(chunk_rows_for(campaign%plan%size, longest, &
                                        any(quantity_table(scene%campaign%record)%need == needs_certificate)), int64)
-      call share_of_part(scene, campaign%plan%size, campaign%layout%chunk_rows, campaign%first, last)
+      call share_of_part(scene, campaign%plan%size, merge(1_int64, campaign%layout%chunk_rows, scene%task == task_threshold), &
+                         campaign%first, last)
       campaign%layout%input_text = scene%resolved_input
       campaign%layout%source_checksum = campaign%plan%table_checksum
       campaign%layout%scene_count = last - campaign%first + 1_int64
@@ -98,10 +99,10 @@ contains
       if (allocated(error)) call faults%add_error(file, 0, '', '', error)
    end subroutine expect_campaign_memory
 
-   !> Scenes of the whole campaign that this part solves, cut at the borders of chunks.
+   !> Scenes of the whole campaign that this part solves, cut at the borders of chunks; lines of a threshold one by one.
    pure subroutine share_of_part(scene, scenes, chunk, first, last)
       type(scene_t), intent(in) :: scene
-      !> Scenes of the campaign, and of a chunk
+      !> Scenes of the campaign, and how many are not divided
       integer(int64), intent(in) :: scenes
       integer(int64), intent(in) :: chunk
       integer(int64), intent(out) :: first

@@ -66,7 +66,7 @@ contains
       type(log_t) :: log
       type(output_lock_t) :: lock
       real(dp) :: started
-      integer(int64) :: first, last, line_count, together
+      integer(int64) :: first, last, last_line, together
       real(dp) :: saved
       integer :: lines_before
 
@@ -96,17 +96,17 @@ contains
       if (this_rank() == 0 .and. .not. carry_on) call delete_file(state_path(scene))
       lines_before = int(outcome%lines)
       call share_number(lines_before)
-      line_count = threshold%lines%layout%scene_count
+      last_line = threshold%lines%first + threshold%lines%layout%scene_count - 1_int64
       call progress%start(progress_path(scene), outcome%solved, outcome%solved, quiet)
       call start_outcome(scene, threshold, outcome)
       together = max(1_int64, scanned_together*rank_count()*omp_get_max_threads()/size(threshold%scan, kind=int64))
       saved = started
-      do first = lines_before + 1_int64, line_count, together
-         last = min(line_count, first + together - 1_int64)
+      do first = threshold%lines%first + lines_before, last_line, together
+         last = min(last_line, first + together - 1_int64)
          call search_lines(scene, threshold, first, last, progress, log, outcome)
          if (outcome%cut) exit
-         outcome%lines = last
-         if (this_rank() > 0 .or. last == line_count) cycle
+         outcome%lines = last - threshold%lines%first + 1_int64
+         if (this_rank() > 0 .or. last == last_line) cycle
          if (wall_seconds() - saved < state_interval) cycle
          call save_outcome(scene, threshold, outcome, log)
          saved = wall_seconds()
@@ -341,9 +341,11 @@ contains
       call log%line(line)
       if (failed > 0_int64) call log%line('  scenes that failed are a kind of their own: where they begin is a crossing '// &
                                           '(columns status_below, status_above)')
-      call log%line('  '//integer_text(outcome%solved)//' scenes; a grid as fine has '// &
-                    integer_text(nint(grid_scenes(scene, threshold), int64))//', '// &
-                    short_text(grid_scenes(scene, threshold)/real(outcome%solved, dp), 3)//' times as many')
+      ! Where there are more parts than lines, some have none.
+      if (outcome%solved > 0_int64) &
+         call log%line('  '//integer_text(outcome%solved)//' scenes; a grid as fine has '// &
+                       integer_text(nint(grid_scenes(scene, threshold), int64))//', '// &
+                       short_text(grid_scenes(scene, threshold)/real(outcome%solved, dp), 3)//' times as many')
       call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
    end subroutine report_ending

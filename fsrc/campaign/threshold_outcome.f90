@@ -23,7 +23,7 @@ module threshold_outcome
    private
 
    !> Numbers in the first row of a state
-   integer, parameter :: counted_numbers = 8
+   integer, parameter :: counted_numbers = 6
 
    !> What became of the thresholds so far.
    type, public :: outcome_t
@@ -160,25 +160,13 @@ contains
       type(error_t), allocatable :: close_error
 
       call writer%open(path, scene%resolved_input, column_names(scene, threshold), column_units(scene, threshold), &
-                       size(rows, 2, kind=int64), .false., error)
+                       size(rows, 2, kind=int64), .false., error, threshold%lines%layout%source_checksum)
       if (.not. allocated(error)) call writer%write_rows(rows, error)
       call writer%close(close_error)
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
    end subroutine write_rows_of
 
-   !> Counts of an outcome, and the table of lines that it is of, as a row of the state.
-   pure function counts_of(threshold, outcome) result(counts)
-      type(prepared_threshold_t), intent(in) :: threshold
-      type(outcome_t), intent(in) :: outcome
-      real(dp) :: counts(counted_numbers)
-
-      associate (table => threshold%lines%layout%source_checksum)
-         counts = real([outcome%lines, outcome%solved, outcome%failed, outcome%crossings, outcome%uncrossed, outcome%uncertain, &
-                        shiftr(table, 32), ibits(table, 0, 32)], dp)
-      end associate
-   end function counts_of
-
-   !> Keep the outcome as NAME.state. Trouble with it ends nothing: only a run that is killed needs it.
+   !> Keep the outcome as NAME.state, its counts as the first row. Trouble with it ends nothing: only a run that is killed needs it.
    subroutine save_outcome(scene, threshold, outcome, log)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
@@ -188,7 +176,8 @@ contains
       real(dp) :: counts(size(outcome%rows, 1), 1)
 
       counts = 0.0_dp
-      counts(:counted_numbers, 1) = counts_of(threshold, outcome)
+      counts(:counted_numbers, 1) = real([outcome%lines, outcome%solved, outcome%failed, outcome%crossings, outcome%uncrossed, &
+                                          outcome%uncertain], dp)
       call write_rows_of(state_path(scene), scene, threshold, reshape([counts, outcome%rows], &
                                                               [size(counts), size(outcome%rows, 2) + 1]), error)
       if (.not. allocated(error)) call put_in_place(state_path(scene), error)
@@ -206,11 +195,12 @@ contains
       type(result_reader_t) :: reader
       type(file_state_t) :: kept
       real(dp), allocatable :: rows(:, :)
-      real(dp) :: counts(counted_numbers)
 
       kept = state_of_path(state_path(scene))
       if (kept%bytes == 0_int64) return
       call open_earlier(scene, state_path(scene), free_keys, reader, error)
+      if (.not. allocated(error) .and. reader%source_checksum /= threshold%lines%layout%source_checksum) &
+         call raise(error, exit_bad_input, state_path(scene)//' belongs to other lines: their CSV file has changed since')
       if (.not. allocated(error)) call reader%verify_rows(reader%row_count, error)
       if (.not. allocated(error)) then
          allocate (rows(reader%columns, reader%row_count))
@@ -218,11 +208,6 @@ contains
       end if
       call reader%close()
       if (allocated(error)) return
-      counts = counts_of(threshold, outcome)
-      if (any(nint(rows(counted_numbers - 1:counted_numbers, 1), int64) /= nint(counts(counted_numbers - 1:), int64))) then
-         call raise(error, exit_bad_input, state_path(scene)//' belongs to other lines: their CSV file has changed since')
-         return
-      end if
       associate (numbers => nint(rows(:counted_numbers, 1), int64))
          outcome%lines = numbers(1)
          outcome%solved = numbers(2)

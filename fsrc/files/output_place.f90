@@ -65,14 +65,14 @@ contains
       path = stem(scene)//'.log'
    end function log_path
 
-   !> Folder and name of the files of a scene; a part of a campaign says which it is.
+   !> Folder and name of the files of a scene; a part of a campaign or threshold says which it is.
    pure function stem(scene)
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: stem
 
       stem = trim(scene%output%directory)//'/'//trim(scene%name)
-      if (scene%task == task_campaign .and. scene%campaign%parts > 1) stem = stem//'.part-'// &
-         integer_text(scene%campaign%part)//'-of-'//integer_text(scene%campaign%parts)
+      if (scene%campaign%parts > 1) stem = stem//'.part-'//integer_text(scene%campaign%part)//'-of-'// &
+                                           integer_text(scene%campaign%parts)
    end function stem
 
    !> Make the folder if it is missing, and see that every file of the scene can be written there.

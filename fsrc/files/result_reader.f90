@@ -22,6 +22,8 @@ module result_reader
       integer :: columns = 0
       !> Rows of a closed file
       integer(int64) :: row_count = 0_int64
+      !> Checksum of the CSV file that the rows follow from; 0: none
+      integer(int64) :: source_checksum = 0_int64
       !> Names of the columns
       character(column_name_bytes), allocatable :: names(:)
       !> Whether another version of the program wrote it, and which
@@ -60,6 +62,7 @@ contains
       end if
       self%columns = size(self%header%names)
       self%row_count = self%header%row_count
+      self%source_checksum = self%header%source_checksum
       self%names = self%header%names
       self%input_text = self%header%input_text
       self%version = trim(self%header%version)

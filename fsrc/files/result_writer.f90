@@ -42,7 +42,7 @@ module result_writer
 contains
 
    !> Create the file with its header, beside its place (see byte_file).
-   subroutine open_result(self, path, input_text, names, units, row_limit, show_at_once, error)
+   subroutine open_result(self, path, input_text, names, units, row_limit, show_at_once, error, source_checksum)
       class(result_writer_t), intent(inout) :: self
       character(*), intent(in) :: path
       !> Resolved input as namelist text
@@ -57,6 +57,8 @@ contains
       logical, intent(in) :: show_at_once
       !> Set if the file cannot be written
       type(error_t), allocatable, intent(out) :: error
+      !> Checksum of the CSV file that the rows follow from
+      integer(int64), optional, intent(in) :: source_checksum
       type(checksum_t) :: nothing
       character(:), allocatable :: text
       logical :: stands
@@ -69,6 +71,7 @@ contains
       if (allocated(self%extremes)) deallocate (self%extremes)
       self%last_flush = wall_seconds()
       self%header = header_of(input_text, names, units, row_limit)
+      if (present(source_checksum)) self%header%source_checksum = source_checksum
       text = header_text(self%header)
       text = text//repeat(achar(0), int(self%header%header_bytes) - len(text))
       call self%file%open(path, error)

@@ -422,10 +422,10 @@ module key_table
             'Whether scenes that are no valid scenes are recorded as such; else they stop the campaign before it begins.'), &
       key_t('campaign', 'confirm_size', logical_kind, '', '.false.', any_number, '', of_campaigns, &
             'Must be true for more than ten million scenes.'), &
-      key_t('campaign', 'part', integer_kind, '-', '1', at_least_1, '', 'scene.task=campaign', &
-            'Which part of the campaign this run solves, as a job of an array.'), &
-      key_t('campaign', 'parts', integer_kind, '-', '1', at_least_1, '', 'scene.task=campaign', &
-            'Parts that the campaign is divided into.'), &
+      key_t('campaign', 'part', integer_kind, '-', '1', at_least_1, '', of_campaigns, &
+            'Which part of the campaign, or of the lines of thresholds, this run solves, as a job of an array.'), &
+      key_t('campaign', 'parts', integer_kind, '-', '1', at_least_1, '', of_campaigns, &
+            'Parts that the campaign, or the lines of thresholds, are divided into.'), &
       key_t('threshold', 'key', text_kind, '', 'required', any_number, '', of_thresholds, &
             'Key whose thresholds are found, as ''group.key'': any numeric key of a motion but those that &campaign varies.', &
             example='load.force_amplitude'), &

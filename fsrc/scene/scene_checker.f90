@@ -386,12 +386,9 @@ contains
       if (input%is_given('campaign', 'vary') .eqv. input%is_given('campaign', 'csv')) &
          call input%add_fault('campaign', 'vary', 'give either vary or csv', faults)
       call check_sample(input, faults)
-      if (.not. (input%is_faulty('campaign', 'part') .or. input%is_faulty('campaign', 'parts')) .and. &
-          input%count('campaign', 'part') > input%count('campaign', 'parts')) &
-         call input%add_fault('campaign', 'part', 'at most parts ('//integer_text(input%count('campaign', 'parts'))//')', faults)
    end subroutine check_campaign
 
-   !> What varies is solved by the engine of many lanes, and a sample has a size.
+   !> What varies is solved by the engine of many lanes, a sample has a size, and a part is one of the parts.
    subroutine check_sample(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
@@ -400,6 +397,9 @@ contains
          call input%add_fault('solver', 'method', 'a '//input%word('scene', 'task')//' needs the taylor method', faults)
       if (input%word('campaign', 'sample') /= 'grid' .and. .not. input%is_given('campaign', 'size')) &
          call input%add_fault('campaign', 'size', 'a sample needs its size', faults)
+      if (.not. (input%is_faulty('campaign', 'part') .or. input%is_faulty('campaign', 'parts')) .and. &
+          input%count('campaign', 'part') > input%count('campaign', 'parts')) &
+         call input%add_fault('campaign', 'part', 'at most parts ('//integer_text(input%count('campaign', 'parts'))//')', faults)
    end subroutine check_sample
 
    !> A threshold may stand alone or along the axes of &campaign; its criterion is one that the scene has.

@@ -40,7 +40,6 @@ class Campaign(ResultFile):
 
     Attributes
     ----------
-    header : what stands before the chunk table
     row_count : scenes that the file is to hold
     chunks : the chunk table: rows in a chunk, and the checksum of each
     done : for every scene, whether it is done
@@ -60,7 +59,6 @@ class Campaign(ResultFile):
         plan: Plan,
     ) -> None:
         super().__init__(path, header)
-        self.header = header
         self.row_count = header.chunks.row_limit
         self.chunks = header.chunks
         self.done = np.repeat(self.chunks.done, self.chunks.chunk_rows)[: self.row_count]

@@ -31,6 +31,7 @@ class ResultFile:
     Attributes
     ----------
     path : where the file stands
+    header : what stands before the rows
     names, units : column names in order, and their units
     closed : False when the run was killed, or still runs
     program_version, input_text : as written by the program
@@ -38,6 +39,7 @@ class ResultFile:
 
     def __init__(self, path: Path, header: ResultHeader) -> None:
         self.path = path
+        self.header = header
         self.names = header.names
         self.units: Mapping[str, str] = MappingProxyType(dict(zip(header.names, header.units, strict=True)))
         self.closed = header.closed

@@ -63,6 +63,8 @@ SEAL = struct.Struct("<qiiqqq")
 COLUMN_PART = struct.Struct("<32s16s")
 CAMPAIGN, SERIES = b"CHUNKTAB", b"BLOCKTAB"
 TABLE_HEAD = struct.Struct("<8sqqq")
+# Words of a chunk of a series, as long as that makes no more chunks than this.
+SERIES_CHUNK_WORDS, MOST_SERIES_CHUNKS = 524_288, 4096
 
 
 class ResultError(Exception):
@@ -140,6 +142,11 @@ class ResultHeader:
         return 8 * len(self.names)
 
 
+def series_chunk_rows(column_count: int, row_limit: int) -> int:
+    """Rows in a chunk of a series."""
+    return max(1, SERIES_CHUNK_WORDS // column_count, -(-row_limit // MOST_SERIES_CHUNKS))
+
+
 def aligned(count: int) -> int:
     """The next multiple of the alignment of a result file."""
     return -(-count // ALIGNMENT) * ALIGNMENT
@@ -154,16 +161,17 @@ def header_bytes_of(
     row_count: int,
     source_checksum: int,
     chunks: ChunkTable,
+    seal: Seal,
 ) -> bytes:
-    """A whole header of a campaign, up to its first row."""
+    """A whole header, up to its first row."""
     table_start = aligned(FIXED_PART.size + len(columns) + len(text))
     table = chunks.table_bytes
     header_bytes = aligned(table_start + len(table))
     words = [MAGIC, FORMAT_VERSION, BYTE_ORDER_MARK, header_bytes, row_count, column_count, len(text)]
     words += [program_version, source_checksum]
-    fixed = FIXED_PART.pack(*words, 0, Seal().seal_bytes)
+    fixed = FIXED_PART.pack(*words, 0, seal.seal_bytes)
     covered = fixed[:24] + fixed[32:72] + columns + text + chunks.head_bytes
-    fixed = FIXED_PART.pack(*words, checksum(covered), Seal().seal_bytes)
+    fixed = FIXED_PART.pack(*words, checksum(covered), seal.seal_bytes)
     return ((fixed + columns + text).ljust(table_start, b"\0") + table).ljust(header_bytes, b"\0")
 
 

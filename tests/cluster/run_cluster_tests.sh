@@ -92,10 +92,17 @@ say "64 x 256 scenes took $spent ms on one core; the long campaign has 64 x $spe
 write_input long 64 "$speeds"
 "$program" --quiet --threads 2 --output alone long.nml > alone.log 2>&1 || { tail alone.log; give_up 'long campaign'; }
 
-say 'thresholds on two ranks of two threads'
-"$program" --quiet --threads 1 --output thresholds "$repository/input/threshold.nml"
-mpirun -n 2 --bind-to none "$program" --quiet --threads 2 --output thresholds_of_ranks "$repository/input/threshold.nml"
+say 'thresholds on two ranks of two threads, and as an array job of three parts'
+cp "$repository/input/threshold.nml" .
+"$program" --quiet --threads 1 --output thresholds threshold.nml
+mpirun -n 2 --bind-to none "$program" --quiet --threads 2 --output thresholds_of_ranks threshold.nml
 same 'thresholds, MPI job' thresholds_of_ranks/threshold.rattle thresholds/threshold.rattle
+write_script threshold_array threshold --array 3 --time 00:10:00
+job=$(submit threshold_array/threshold.slurm)
+wait_until 300 'the array job of thresholds does not end' ended "$job"
+all_well "$job" || { show "$job"; fail 'a task of the array job of thresholds'; }
+$campaign merge threshold_array/threshold.part-*-of-3.rattle --output threshold_array/threshold.rattle 2> array.note || { cat array.note; fail merge; }
+same 'thresholds, array job, merged' threshold_array/threshold.rattle thresholds/threshold.rattle
 
 say 'a gearbox over speed and oil temperature, every class certified: array job and MPI jobs'
 sed 's/count = 25, 29/count = 15, 17/' "$repository/input/gearbox_map.nml" > gearbox.nml

@@ -165,12 +165,10 @@ def test_job_script_without_warning_keeps_the_exit_code(campaign_input, tmp_path
         (["map.nml", "--memory", "2 GB"], "'2 GB' is not an amount of memory such as 500M or 2G"),
         (["map.nml", "--account", "a b"], "'a b' is not a name that Slurm takes"),
         (["plain.nml"], "plain.nml has no group &campaign."),
-        (["line.nml", "--array", "2"], "a threshold has no parts: take --ranks instead of --array."),
     ],
 )
 def test_job_scripts_that_cannot_work_are_refused(campaign_input, tmp_path, arguments, words):
     (tmp_path / "plain.nml").write_text("&scene\n   name = 'a'\n/\n")
-    (tmp_path / "line.nml").write_text("&scene\n   task = 'threshold'\n/\n&campaign\n/\n")
     done = call(tmp_path, "slurm", *arguments, "--program", "/opt/rattle")
     assert done.returncode == 2
     assert words in done.stderr

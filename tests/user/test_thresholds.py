@@ -234,10 +234,12 @@ def state_path(folder: Path) -> Path:
     return folder / "results" / "scene.state"
 
 
-def cut_short(rattle: Path, folder: Path, number: int, seconds: float, *options: str) -> int:
+def cut_short(
+    rattle: Path, folder: Path, number: int, seconds: float, *options: str, name: str = "scene"
+) -> int:
     """Ends a run by a signal some time after its log is begun; its exit code."""
     call = [rattle, "--quiet", "--threads", "1", "--overwrite", *options, "scene.nml"]
-    log = folder / "results" / "scene.log"
+    log = folder / "results" / f"{name}.log"
     log.unlink(missing_ok=True)
     process = subprocess.Popen(call, cwd=folder)
     started = time.monotonic()
