@@ -72,7 +72,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test unit user lint debug python bench stress stress-sample faults faults-sample mutants test-cluster compilers clean install help format pages pictures FORCE
+.PHONY: all run test unit user lint debug python bench bench-build bench-changed stress stress-sample faults faults-sample mutants test-cluster compilers clean install help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -83,7 +83,7 @@ help:
 	@echo 'make lint         compiler warnings, house rules, style of Fortran and Python'
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
 	@echo 'make python       Python environment and the module of the Fortran kernels'
-	@echo 'make bench        speed of the program, as a table'
+	@echo 'make bench        speed of the program beside that of others, as tables; make bench-changed: its last'
 	@echo 'make stress       100000 random scenes: what users are told of them, and every engine (SCENES=N)'
 	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
 	@echo 'make faults       runs that meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files'
@@ -192,7 +192,8 @@ user: $(BUILD)/rattle $(BUILD)/unit_tests $(BUILD)/kernels/built
 # --- longer studies ----------------------------------------------------------------------------------
 
 # For this very processor, beside the portable build. The other solvers live in an environment of their own; one that
-# cannot be had is named and left out. ROUNDS and LIMIT [s] say how much patience the comparison has.
+# cannot be had is named and left out. ROUNDS and LIMIT [s] say how much patience the comparison has. bench-changed is its part
+# with several orders, two flanks and teeth that give.
 NATIVE_BUILD := $(BUILD)/native
 NATIVE_BENCHES := bench_motion bench_film bench_engine
 PEER_ENV := .venv-bench
@@ -200,19 +201,30 @@ PEERS := tests/benchmarks/peers
 ROUNDS := 5
 LIMIT := 2
 ENGINE := $(NATIVE_BUILD)/bench_engine
-bench: $(PYTHON_ENV)/installed
-	@$(MAKE) --no-print-directory BUILD=$(NATIVE_BUILD) NATIVE=1 $(addprefix $(NATIVE_BUILD)/,rattle $(NATIVE_BENCHES))
+# $(call against_peers,NAME,OPTIONS): time against error as NAME.csv, NAME.png and NAME.md, which is printed
+define against_peers
+	@$(PEER_ENV)/bin/python $(PEERS)/run_peers.py $(2) --output $(BUILD)/$(1).csv --rounds $(ROUNDS) --limit $(LIMIT) \
+	  --own 'rattle=$(ENGINE) taylor' --own 'rattle, every period=$(ENGINE) taylor-every-period' \
+	  --own 'rattle until steady=$(ENGINE) taylor-steady' --flags $(NATIVE_BUILD)/flags
+	@$(PEER_ENV)/bin/python $(PEERS)/plot_work_precision.py $(BUILD)/$(1).csv --base 'rattle, every period' \
+	  --figure $(BUILD)/$(1).png --table $(BUILD)/$(1).md
+endef
+
+bench: bench-build
 	@$(PYTHON) tests/benchmarks/bench_newmark.py $(NATIVE_BUILD)/rattle $(NATIVE_BUILD)/bench_motion $(NATIVE_BUILD)/flags
 	@$(NATIVE_BUILD)/bench_film
-	@sh $(PEERS)/setup.sh $(PEER_ENV)
-	@$(PEER_ENV)/bin/python $(PEERS)/run_peers.py --output $(BUILD)/work_precision.csv --rounds $(ROUNDS) --limit $(LIMIT) \
-	  --own 'rattle=$(ENGINE) taylor' --own 'rattle, every period=$(ENGINE) taylor-every-period' \
-	  --own 'rattle until steady=$(ENGINE) taylor-steady'
-	@$(PEER_ENV)/bin/python $(PEERS)/plot_work_precision.py $(BUILD)/work_precision.csv --base 'rattle, every period' \
-	  --figure $(BUILD)/work_precision.png --table $(BUILD)/work_precision.md
-	@cat $(BUILD)/work_precision.md
+	$(call against_peers,work_precision)
 	@$(PYTHON) tests/benchmarks/bench_skips.py $(NATIVE_BUILD)/rattle
 	@$(PEER_ENV)/bin/python $(PEERS)/bench_campaign.py $(NATIVE_BUILD)/rattle
+	@$(PEER_ENV)/bin/python $(PEERS)/bench_gearbox.py $(NATIVE_BUILD)/rattle --count 9,9,7,7 --sample 32
+	@$(MAKE) --no-print-directory bench-changed
+
+bench-changed: bench-build
+	$(call against_peers,work_precision_changed,--changed --finest 1e-8 --only 'heyoka 8' --only CVODE)
+
+bench-build: $(PYTHON_ENV)/installed
+	@$(MAKE) --no-print-directory BUILD=$(NATIVE_BUILD) NATIVE=1 $(addprefix $(NATIVE_BUILD)/,rattle $(NATIVE_BENCHES))
+	@sh $(PEERS)/setup.sh $(PEER_ENV)
 
 # Random scenes: what their summaries and rows of campaigns tell, against a solution that resolves impacts, and every engine
 # against a tighter solution. About an hour and a half on two cores; tests/stress/README.md says what the columns mean.

@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-import scenes
 
 matplotlib.use("Agg")
 
@@ -26,11 +25,6 @@ GROUPS = {
     "published": ("published iso_viscous", "published piezo_viscous"),
     "Reynolds iso-viscous": ("reynolds iso_viscous",),
     "Reynolds piezo-viscous": ("reynolds piezo_viscous",),
-    **{group: (group,) for group in scenes.CHANGES},
-    **{
-        f"{group}, {scenes.LETS_GO}": (f"{group}, {scenes.LETS_GO}",)
-        for group in ("teeth that give", "all three")
-    },
 }
 TABLE_ERRORS = (1e-4, 1e-6, 1e-8)
 CURVE_ERRORS = tuple(10.0 ** (-k / 4) for k in range(8, 50))
@@ -92,6 +86,14 @@ def group_cost(films: dict, names: tuple[str, ...], count: int, error: float) ->
     return Cost(sum(each.seconds for each in costs) / count, any(each.bound for each in costs))
 
 
+def groups_of(points: Points) -> dict[str, tuple[str, ...]]:
+    """Title and films of the groups in the file; changed scenes name theirs."""
+    films = dict.fromkeys(film for films in points.values() for film in films)
+    plain = [film for names in GROUPS.values() for film in names]
+    groups = GROUPS | {film: (film,) for film in films if film not in plain}
+    return {title: names for title, names in groups.items() if scene_count(points, names)}
+
+
 def scene_count(points: Points, names: tuple[str, ...]) -> int:
     """Number of scenes of a group in the file."""
     return len({scene for films in points.values() for name in names for scene in films.get(name, {})})
@@ -112,16 +114,15 @@ def table(head: dict[str, str], points: Points, base_name: str) -> str:
     """Markdown: one table a group, times and ratios at TABLE_ERRORS."""
     lines = [
         f"CPU time of a scene at an error of the film; in brackets relative to {base_name}.",
-        f"{head.get('date', '')}, {head.get('cpu', '')}, `{head.get('command', '')}`.",
+        f"{head.get('date', '')}, {head.get('cpu', '')}, {head.get('compiler of the own ones', '')}.",
+        f"`{head.get('command', '')}`",
     ]
-    for title, names in GROUPS.items():
+    for title, names in groups_of(points).items():
         count = scene_count(points, names)
-        if not count:
-            continue
         base = {error: group_cost(points.get(base_name, {}), names, count, error) for error in TABLE_ERRORS}
         lines += [
             "",
-            f"| {title}, {count} scenes | "
+            f"| {title}, {count} scene{'s' if count > 1 else ''} | "
             + " | ".join(f"error {error:.0e}" for error in TABLE_ERRORS)
             + " |",
         ]
@@ -135,7 +136,7 @@ def table(head: dict[str, str], points: Points, base_name: str) -> str:
 def figure(head: dict[str, str], points: Points, path: Path) -> None:
     """One panel a group at page width: time against error, own contenders black, the others with marks."""
     own = [name.strip() for name in head.get("own", "").split(";") if name.strip()]
-    groups = {title: names for title, names in GROUPS.items() if scene_count(points, names)}
+    groups = groups_of(points)
     plt.rcParams.update({"font.size": 8, "axes.linewidth": 0.7})
     width = max(6.3, 2.1 * len(groups))  # inches
     picture, axes = plt.subplots(1, len(groups), figsize=(width, 3.7), sharex=True, squeeze=False)
@@ -154,7 +155,7 @@ def figure(head: dict[str, str], points: Points, path: Path) -> None:
                 place = peers.index(contender) % 10
                 style = {"color": colours(place), "linewidth": 0.9, "marker": "os^DvPX*<>"[place]}
             axis.loglog(*zip(*drawn, strict=True), label=contender, markevery=4, markersize=3.5, **style)
-        axis.set_title(f"{title},\nmean of {count} scenes", fontsize=8)
+        axis.set_title(f"{title},\n{f'mean of {count} scenes' if count > 1 else 'one scene'}", fontsize=8)
         axis.set_xlabel("Largest relative error\nof the film")
         axis.grid(True, which="major", linewidth=0.4)
     axes[0][0].invert_xaxis()

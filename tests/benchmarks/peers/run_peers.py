@@ -6,9 +6,10 @@ Each contender solves each scene with a series of tolerances. A first solution c
 against the reference and the time; then come N rounds, each timing every setting once in turn, so that a
 slow spell of the machine meets all contenders alike. The CSV has the median over the rounds of the CPU
 seconds of one solution. A series ends where a solution takes longer than --limit seconds, or a call, which
-may fill many lanes, longer than ten times that. --own adds a
+may fill many lanes, longer than ten times that, or where its error is below --finest. --own adds a
 contender that is a command (protocol: command.py), run side by side with the peers; it may be given several
-times. A contender that is not installed, or that fails on a setting, is reported and left out.
+times; --flags names the file in which make keeps their compiler and flags. A contender that is not installed,
+or that fails on a setting, is reported and left out.
 
 --changed adds the published scenes changed by several orders, two flanks and teeth that give, and leaves out
 the exact films. Their references are made at the start: heyoka at its tightest tolerance, CVODE beside it
@@ -20,12 +21,12 @@ import csv
 import datetime
 import importlib
 import math
+import os
 import platform
 import shlex
 import statistics
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -132,7 +133,12 @@ def changed_references(chosen: list[scenes.Scene]) -> dict:
 
 
 def first_solutions(
-    contender: Contender, chosen: list[scenes.Scene], reference: dict, quick: bool, limit: float
+    contender: Contender,
+    chosen: list[scenes.Scene],
+    reference: dict,
+    quick: bool,
+    limit: float,
+    finest: float,
 ) -> list[Setting]:
     """Compile and solve once at every tolerance; errors of the settings to be timed."""
     settings = []
@@ -140,9 +146,9 @@ def first_solutions(
         for tolerance in QUICK_TOLERANCES if quick else contender.tolerances:
             try:
                 solve = contender.prepare(scene, tolerance)
-                begin = time.perf_counter()
+                begin = sum(os.times()[:4])
                 film, seconds = solve()
-                wall = time.perf_counter() - begin
+                call = sum(os.times()[:4]) - begin
                 if scene.periods < scenes.PERIODS:
                     solve = contender.prepare(
                         replace(scene, periods=scenes.PERIODS, name=f"{scene.name} timed"), tolerance
@@ -155,10 +161,12 @@ def first_solutions(
                 settings.append(Setting(contender, scene, tolerance, solve, error))
             else:
                 report(f"left out: {contender.name}, {scene.name}, tolerance {tolerance:g}: no finite motion")
-            if max(seconds, wall / CALL_LIMIT) > limit:
+            if max(seconds, call / CALL_LIMIT) > limit:
                 report(
                     f"series ends: {contender.name}, {scene.name}, tolerance {tolerance:g}: {seconds:.1f} s"
                 )
+                break
+            if error < finest:
                 break
     return settings
 
@@ -182,15 +190,19 @@ def first_line(*call: str) -> str:
         return "none"
 
 
-def header(contenders: list[Contender], own: list[Contender], rounds: int) -> dict[str, str]:
+def header(
+    contenders: list[Contender], own: list[Contender], rounds: int, flags: Path | None
+) -> dict[str, str]:
     """What a reader needs to judge the numbers."""
     versions = {each.name: each.version for each in contenders}
+    built = flags.read_text().splitlines()[:2] if flags else []
     return {
         "date": datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "command": "python " + " ".join(shlex.quote(word) for word in sys.argv),
         "cpu": cpu_model(),
         "system": platform.platform(),
         "python": platform.python_version(),
+        "compiler of the own ones": ", ".join(built),
         "compiler of cvode_peer.c": f"{first_line('gcc', '--version')} -O3 -march=native",
         "clock": f"CPU time of one thread, median of {rounds} interleaved rounds, compilation excluded",
         "versions": "; ".join(f"{name} {version}" for name, version in versions.items()),
@@ -230,6 +242,10 @@ def main() -> int:
     parser.add_argument(
         "--limit", type=float, default=2.0, help="seconds of a solution after which a series ends"
     )
+    parser.add_argument(
+        "--finest", type=float, default=0.0, help="error below which a series ends (none: all its settings)"
+    )
+    parser.add_argument("--flags", type=Path, help="flags file of the build of the own ones")
     parser.add_argument("--changed", action="store_true", help="published scenes, as they are and changed")
     parser.add_argument("--quick", action="store_true", help="F0 = Q only, three tolerances, three rounds")
     options = parser.parse_args()
@@ -241,21 +257,27 @@ def main() -> int:
     chosen, rounds, reference = scenes.all_scenes(), options.rounds, scenes.reference_film()
     if options.changed:
         changed = scenes.changed_scenes()
+        try:
+            reference |= changed_references(changed)
+        except ImportError as error:
+            report(f"the references of changed scenes need heyoka and CVODE: {error}")
+            return 1
         chosen = [scene for scene in chosen if scene.model == "published"] + changed
-        reference |= changed_references(changed)
     if options.quick:
         chosen = [each for each in chosen if each.force_amplitude == scenes.STATIC_FORCE]
         rounds = 3
     settings = []
     for contender in contenders:
-        settings += first_solutions(contender, chosen, reference, options.quick, options.limit)
+        settings += first_solutions(
+            contender, chosen, reference, options.quick, options.limit, options.finest
+        )
         count = sum(each.contender is contender for each in settings)
         report(f"{contender.name} {contender.version}: {count} settings")
     for number in range(rounds):
         for each in settings:
             each.seconds.append(mean_seconds(each))
         report(f"round {number + 1} of {rounds} done")
-    write(options.output, header(contenders, own, rounds), settings)
+    write(options.output, header(contenders, own, rounds, options.flags), settings)
     report(f"written: {options.output}")
     return 0
 

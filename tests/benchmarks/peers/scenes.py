@@ -39,7 +39,8 @@ flank w_2 = 0. The motion starts at y_1 = 1, v = 0, the films at no velocity. k 
 steady film. At F0 = 3 Q the film of (37) lets the tooth go: w falls towards 0, g gets infinitely
 steep, and explicit steps do not follow. That scene is a group of its own ("a film that lets go").
 The motion of (35) with teeth that give at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is
-judged in the last ten of 20 periods, and timed over 200.
+judged in the last ten of 20 periods, timed over 200, and a group of its own as well. With all three changes
+the films of (35) and (37) are a group each.
 
 The exact iso-viscous film stands between two rigid flanks too (bench_gearbox.py): w_2 = Phi(A_2)/((b - y)
 Phi(0)), A_2 = -c v/sqrt(b - y), with the rupture angles of both flanks as states and a start at rest.
@@ -77,6 +78,7 @@ CHANGES = {
     "all three": ("orders", "flanks", "springs"),
 }
 CHAOTIC_PERIODS = 20
+EQUATION = {"iso_viscous": "(35)", "piezo_viscous": "(37)"}
 LETS_GO = "a film that lets go"
 
 REFERENCE_FILE = Path(__file__).resolve().parent.parent / "reference" / "film.csv"
@@ -211,8 +213,10 @@ def changed(scene: Scene, group: str) -> Scene:
         more["compliance"] = 1.0 / (STIFFNESS * FILM_STIFFNESS[scene.law])
         if scene.law == "piezo_viscous" and scene.force_amplitude > STATIC_FORCE:
             more["group"] = f"{group}, {LETS_GO}"
-    if group == "teeth that give" and scene.name == "published-iso-3":
-        more["periods"] = CHAOTIC_PERIODS
+        elif group == "all three":
+            more["group"] = f"{group}, {EQUATION[scene.law]}"
+        elif scene.name == "published-iso-3":
+            more["group"], more["periods"] = f"{group}, chaotic", CHAOTIC_PERIODS
     return replace(scene, **more)
 
 
