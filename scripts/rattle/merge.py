@@ -174,8 +174,8 @@ def _disordered(parts: Sequence[Part]) -> list[str]:
 
 
 def _in_order(part: Part) -> bool:
-    steps = np.diff(part[_counted(part)])
-    return bool(np.all((steps == 1) | ((steps == 0) & (_counted(part) != SCENE))))
+    """A line may have several rows; a scene that comes twice leaves a gap at the end."""
+    return bool(np.isin(np.diff(part[_counted(part)]), (0, 1)).all())
 
 
 def _lacking(parts: Sequence[Part]) -> list[str]:

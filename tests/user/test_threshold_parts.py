@@ -133,13 +133,13 @@ def test_wrong_parts_and_what_check_tells(run, refused, scene_text, tmp_path: Pa
 
 
 def test_rows_of_several_chunks_are_joined(tmp_path: Path) -> None:
-    """So many rows that the joined file has a checksum for each of several runs of them."""
+    """So many rows that the joined file has a checksum for each of two runs of them, and none is left."""
     columns = [("line", "-"), *((f"column_{i}", "-") for i in range(11))]
     text = "&scene\n   task = 'threshold'\n/\n&campaign\n   part = {}\n   parts = {}\n/\n"
-    rows = np.random.default_rng(1).random((100_000, 12))
-    rows[:, 0] = np.arange(100_000) // 2 + 1
     size = 524_288 // 12
-    for part, share in ((1, rows[:60_000]), (2, rows[60_000:])):
+    rows = np.random.default_rng(1).random((2 * size, 12))
+    rows[:, 0] = np.arange(2 * size) // 2 + 1
+    for part, share in ((1, rows[:50_000]), (2, rows[50_000:])):
         content = result_bytes(columns, share, input_text=text.format(part, 2), chunk_rows=size)
         (tmp_path / f"{part}.rattle").write_bytes(content)
     done = merge(tmp_path, tmp_path / "1.rattle", tmp_path / "2.rattle")

@@ -163,7 +163,8 @@ def first_solutions(
                 report(f"left out: {contender.name}, {scene.name}, tolerance {tolerance:g}: no finite motion")
             if max(seconds, call / CALL_LIMIT) > limit:
                 report(
-                    f"series ends: {contender.name}, {scene.name}, tolerance {tolerance:g}: {seconds:.1f} s"
+                    f"series ends: {contender.name}, {scene.name}, tolerance {tolerance:g}: "
+                    f"{seconds:.2g} s a solution, {call:.2g} s a call"
                 )
                 break
             if error < finest:
