@@ -198,8 +198,8 @@ NATIVE_BUILD := $(BUILD)/native
 NATIVE_BENCHES := bench_motion bench_film bench_engine
 PEER_ENV := .venv-bench
 PEERS := tests/benchmarks/peers
-ROUNDS := 5
-LIMIT := 2
+ROUNDS := 3
+LIMIT := 0.5
 ENGINE := $(NATIVE_BUILD)/bench_engine
 # $(call against_peers,NAME,OPTIONS): time against error as NAME.csv, NAME.png and NAME.md, which is printed
 define against_peers
