@@ -1,11 +1,11 @@
 !> Whether what a summary tells is true.
 !>
 !> A certified summary is a silent failure if its class is none that the true motion can have, if an extreme of film or
-!> acceleration or one of the first harmonics is farther off than the error that it states, or if the motion that it
-!> calls steady is not the one that repeats. What the reference may be off itself, found by solving it with another
-!> tolerance, is allowed for. Where a disturbance of film and force by 1e-9 grows so far that no certificate could
-!> foresee the film (30 times the growth times the accuracy of a certificate, 1e-10, beyond 1 %), nothing can be
-!> asked for but that a motion called irregular is irregular. The same holds where the reference itself comes to other
+!> acceleration or one of the first harmonics is farther off than the error that it states, if the motion that it
+!> calls steady is not the one that repeats, or if a motion repeats after fewer periods than told. What the reference may be off
+!> itself, found by solving it with another tolerance, is allowed for. Where a disturbance of film and force by 1e-9 grows so far
+!> that no certificate could foresee the film (30 times the growth times the accuracy of a certificate, 1e-10, beyond 1 %), nothing
+!> can be asked for but that a motion called irregular is irregular. The same holds where the reference itself comes to other
 !> films with another tolerance.
 !>
 !> A row of a campaign states no errors. It is right if its class is possible, its films are within 30 times its accuracy,
@@ -16,7 +16,7 @@
 module summary_outcomes
    use engine, only: motion_state_t, start_of
    use force, only: largest_oscillation
-   use impact_reference, only: compared_harmonics, find_orbit, impact_reference_t, possible_classes, solve_reference
+   use impact_reference, only: compared_harmonics, distance, find_orbit, impact_reference_t, possible_classes, solve_reference
    use impact_steps, only: disturb, start_of_tooth, tooth_of_lane, tooth_state_t, tooth_t
    use impact_window, only: solve_periods
    use kinds, only: dp
@@ -44,6 +44,8 @@ module summary_outcomes
    real(dp), parameter :: disturbance = 1.0e-9_dp, foreseeable_growth = 0.01_dp/(30.0_dp*1.0e-10_dp)
    !> A steady motion may be this many times its accuracy away from the one that repeats.
    real(dp), parameter :: steady_ratio = 30.0_dp
+   !> A motion repeats where its state is as near as this, relative to film and velocity.
+   real(dp), parameter :: same_state = 1.0e-6_dp
 
    !> What became of a scene.
    type, public :: told_outcome_t
@@ -122,6 +124,10 @@ contains
          else if (len(fault) > 0) then
             call fail(fault)
          end if
+      end if
+      if (outcome%code == told_right .and. told%repeats > 1) then
+         fault = fault_of_period(drawn, rule, told, reference)
+         if (len(fault) > 0) call fail(fault)
       end if
 
    contains
@@ -354,5 +360,32 @@ contains
                  ', in the end '//short_text(orbit%extremes(1), 9)//' to '//short_text(orbit%extremes(2), 9)//', '// &
                  short_text(maxval(away)/drawn%scene%solver%accuracy, 3)//' times the accuracy'
    end function fault_of_orbit
+
+   !> Whether the motion repeats after fewer periods than told; empty also where the reference finds no such motion.
+   function fault_of_period(drawn, rule, told, reference) result(fault)
+      type(drawn_scene_t), intent(in) :: drawn
+      type(lobatto_rule_t), intent(in) :: rule
+      type(told_t), intent(in) :: told
+      type(impact_reference_t), intent(in) :: reference
+      character(:), allocatable :: fault
+      type(tooth_t) :: tooth
+      type(tooth_state_t) :: state, later
+      integer :: periods
+      logical :: solved
+
+      fault = ''
+      tooth = tooth_of_lane(drawn%resolved%problem)
+      state = reference%start
+      call find_orbit(tooth, rule, usual, told%repeats, state, solved)
+      if (.not. solved) return
+      later = state
+      do periods = 1, told%repeats - 1
+         call solve_periods(tooth, rule, usual, 1, later, solved)
+         if (.not. solved) return
+         if (distance(tooth, state, later) > same_state) cycle
+         fault = 'repeats after '//integer_text(periods)//' periods, not '//integer_text(told%repeats)
+         return
+      end do
+   end function fault_of_period
 
 end module summary_outcomes

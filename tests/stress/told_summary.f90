@@ -45,6 +45,8 @@ module told_summary
       integer :: harmonic_count = 0
       !> Periods solved, periods of the window, and of the orbit of a steady motion (0: not steady)
       integer :: periods = 0, window = 0, orbit = 0
+      !> Periods after which the motion next to the one found repeats, 0: none is told
+      integer :: repeats = 0
       logical :: sampling_sufficient = .true.
    end type told_t
 
@@ -89,6 +91,7 @@ contains
       told%periods = result%periods
       told%window = result%window_periods
       told%orbit = result%repeats_after
+      told%repeats = result%orbit%period
       told%sampling_sufficient = result%rattle%lines%sampling_sufficient
       told%extremes = extremes_of(result)
       n = min(compared_harmonics, size(result%rattle%lines%harmonics))
