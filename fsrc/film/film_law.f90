@@ -325,7 +325,7 @@ contains
       real(dp), intent(out) :: velocity_by_load
       !> Whether some velocity gives the load, one of load_... of module squeeze_of_load
       integer, intent(out) :: outcome
-      real(dp) :: a, a_by_load, width_factor, carried, load_by_film, load_by_velocity
+      real(dp) :: a, a_by_load, a_by_pressure_group, pressure_group, width_factor, carried, load_by_film, load_by_velocity
 
       velocity = 0.0_dp
       velocity_by_film = 0.0_dp
@@ -353,8 +353,13 @@ contains
          velocity_by_load = a_by_load*thickness/film%scale*sqrt(thickness)/film%squeeze_rate
          return
       case (kernel_reynolds_piezo)
-         call piezo_viscous_squeeze(load*thickness/film%scale, film%pressure_rate/(thickness*sqrt(thickness)), a, outcome)
+         pressure_group = film%pressure_rate/(thickness*sqrt(thickness))
+         call piezo_viscous_squeeze(load*thickness/film%scale, pressure_group, a, a_by_load, a_by_pressure_group, outcome)
          velocity = a*sqrt(thickness)/film%squeeze_rate
+         velocity_by_film = ((a_by_load*load/film%scale - 1.5_dp*a_by_pressure_group*pressure_group/thickness)*sqrt(thickness) + &
+                             0.5_dp*a/sqrt(thickness))/film%squeeze_rate
+         velocity_by_load = a_by_load*thickness/film%scale*sqrt(thickness)/film%squeeze_rate
+         return
       case default
          outcome = load_too_small
       end select

@@ -25,8 +25,10 @@ module squeeze_of_load
    !> A (x_e + pi/2) of a film that separates fast
    real(dp), parameter :: last_width = 8.0_dp/3.0_dp
 
-   !> Bisection alone needs 64 passes; Newton's steps make it about 6.
-   integer, parameter :: most_passes = 200
+   !> Bisection alone needs 64 passes; Newton's steps make it about 6, or 3 from a film near by.
+   integer, parameter :: most_passes = 200, most_passes_near_by = 8
+   !> After a step of asinh A this small Newton's method has all digits.
+   real(dp), parameter :: last_step = 1.0e-9_dp
 
 contains
 
@@ -67,17 +69,38 @@ contains
 
    !> Exact piezo-viscous film: A of Psi(A, B) = psi. A film that is squeezed faster and faster ceases to exist at B max p*(A) = 1
    !> under a finite load, which it reaches with infinite slope.
-   elemental subroutine piezo_viscous_squeeze(psi, b, a, outcome)
+   elemental subroutine piezo_viscous_squeeze(psi, b, a, a_by_load, a_by_b, outcome)
       !> Load group W h/(12 l u eta0 R) [-]
       real(dp), intent(in) :: psi
       !> Pressure group B >= 0 [-]
       real(dp), intent(in) :: b
       !> A [-], 0 where no film carries the load
       real(dp), intent(out) :: a
+      !> Its slopes [-], 0 where no film carries the load
+      real(dp), intent(out) :: a_by_load
+      real(dp), intent(out) :: a_by_b
       !> One of load_...
       integer, intent(out) :: outcome
-      real(dp) :: fastest, last, load, slope, nudge
+      real(dp) :: fastest, last, load, slope, load_by_b, nudge, place, step
+      integer :: pass
 
+      ! The iso-viscous film that carries this load is near by where pressure thickens the oil little.
+      call iso_viscous_squeeze(psi, a, slope, outcome)
+      if (outcome == load_carried) then
+         place = asinh(a)
+         do pass = 1, most_passes_near_by
+            call piezo_viscous_load(a, b, load, slope, load_by_b)
+            if (.not. (load > 0.0_dp .and. slope < 0.0_dp)) exit
+            a_by_load = 1.0_dp/slope
+            a_by_b = -load_by_b/slope
+            step = log(psi/load)*load/(slope*sqrt(1.0_dp + a*a))
+            place = place + step
+            a = sinh(place)
+            if (abs(step) <= last_step*max(1.0_dp, abs(place))) return
+         end do
+      end if
+      a_by_load = 0.0_dp
+      a_by_b = 0.0_dp
       fastest = -widest
       if (b*largest_group > 1.0_dp) then
          call find_group(peak, 0.0_dp, 1.0_dp/b, -widest, last, outcome)
@@ -95,6 +118,11 @@ contains
          end if
       end if
       call find_group(piezo_load, b, psi, fastest, a, outcome)
+      if (outcome /= load_carried) return
+      call piezo_viscous_load(a, b, load, slope, load_by_b)
+      if (.not. slope < 0.0_dp) return
+      a_by_load = 1.0_dp/slope
+      a_by_b = -load_by_b/slope
    end subroutine piezo_viscous_squeeze
 
    !> Published film (24) with x_e solved: A of W h = a (1 - c A (x_e + pi/2)). Its load never falls to zero, only to the share

@@ -24,8 +24,6 @@ module periodic_orbit
    !> Rounding over the thousands of steps of a period may disturb the map by more than that: changes below this that no longer
    !> fall to a tenth, as Newton's would, are such disturbances.
    real(dp), parameter :: largest_disturbance = 1.0e-7_dp, slowest_fall = 0.1_dp
-   !> Newton's method has left for another motion where it is this many times farther away than asked.
-   real(dp), parameter :: gone = 2.0_dp
    !> Step of the differences: their error is about its square, and map_accuracy over it.
    real(dp), parameter :: difference_step = 1.0e-4_dp
    integer, parameter :: most_newton_steps = 8
@@ -124,7 +122,7 @@ contains
          call map_states(problem, 1, map_accuracy, images, mapped)
          if (.not. mapped) return
          if (maxval(abs(images(:, 1) - state(:size(images, 1)))*scale) > nearness*thinnest_film(problem, state)) cycle
-         orbit = newton(problem, period, state(:size(images, 1)), scale, gone*nearness)
+         orbit = newton(problem, period, state(:size(images, 1)), scale)
          if (orbit%period > 0 .and. orbit%distance <= nearness) return
       end do
       orbit = periodic_orbit_t()
@@ -160,18 +158,16 @@ contains
    end function orbit_stability
 
    !> Fixed point of the map of some periods, and the multipliers there.
-   function newton(problem, period, start, scale, farthest) result(orbit)
+   function newton(problem, period, start, scale) result(orbit)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: period
       real(dp), intent(in) :: start(:)
       !> Film that one of each number counts as
       real(dp), intent(in) :: scale(:)
-      !> Distance from the start at which the search ends, relative to the film [-]
-      real(dp), intent(in) :: farthest
       type(periodic_orbit_t) :: orbit
       real(dp), dimension(size(start)) :: state, change, step
       real(dp) :: states(size(start), 0:2*size(start)), jacobian(size(start), size(start)), matrix(size(start), size(start)), &
-                  thickness, distance, moved, moved_before
+                  thickness, moved, moved_before
       integer :: pass, i, n, pivots(size(start)), info
       logical :: mapped
 
@@ -203,8 +199,6 @@ contains
          state = state + change
          thickness = thinnest_film(problem, state)
          if (.not. thickness > 0.0_dp) return
-         distance = maxval(abs(state - start)*scale)/thickness
-         if (distance > farthest) return
          moved_before = moved
          moved = maxval(abs(change)*scale)/thickness
          if (moved > converged .and. (moved > largest_disturbance .or. moved < slowest_fall*moved_before)) cycle
@@ -213,7 +207,7 @@ contains
          if (size(orbit%multipliers) == 0) return
          orbit%period = period
          orbit%state(:n) = state
-         orbit%distance = distance
+         orbit%distance = maxval(abs(state - start)*scale)/thickness
          return
       end do
    end function newton

@@ -103,12 +103,12 @@ contains
       do i = 1, size(groups)
          call iso_viscous_squeeze(loads(i), a, by_a, outcome)
          call checks%check_close(a, groups(i), 1.0e-14_dp*max(1.0_dp, abs(groups(i))), 'known group, iso-viscous')
-         call piezo_viscous_squeeze(loads(i), 0.0_dp, a, outcome)
+         call piezo_viscous_squeeze(loads(i), 0.0_dp, a, by_a, by_b, outcome)
          call checks%check_close(a, groups(i), 1.0e-14_dp*max(1.0_dp, abs(groups(i))), 'known group, no pressure')
          ! From far below to just below the end of the film
          b = critical_pressure_group(groups(i))
          call piezo_viscous_load(groups(i), 0.999999_dp*b, psi, by_a, by_b)
-         call piezo_viscous_squeeze(psi, 0.999999_dp*b, a, outcome)
+         call piezo_viscous_squeeze(psi, 0.999999_dp*b, a, by_a, by_b, outcome)
          call checks%check_close(a, groups(i), 1.0e-12_dp*max(1.0_dp, abs(groups(i))), 'known group, high pressure')
       end do
    end subroutine test_groups
