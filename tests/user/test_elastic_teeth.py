@@ -101,12 +101,16 @@ def test_a_sweep_carries_the_springs_along(run, repository: Path, tmp_path: Path
         assert np.ptp(both.acceleration_maximum) < 1e-4 * both.acceleration_maximum.max()
 
 
-# A tooth so soft that it gives by hundreds of films: tens of thousands of steps a period, whose rounding disturbs the period map.
+# A tooth so soft that it gives by hundreds of films: tens of thousands of steps a period, whose rounding
+# disturbs the period map.
 SOFT = """
 &contact radius = 0.0158551134, length = 3.42004741e-3, backlash = 9.3876104e-5, stiffness = 3.1331994e6 /
 &lubricant viscosity = 0.0334465569, pressure_viscosity = 1.94882791e-8 /
 &kinematics entrainment_speed = 0.135652346 /
-&load mass = 0.0160102177, steady_force = 3.40580006, force_amplitude = 44.8895953, frequency = 23.3872855, gravity = 0.0 /
+&load
+   mass = 0.0160102177, steady_force = 3.40580006, gravity = 0.0, force_amplitude = 44.8895953
+   frequency = 23.3872855
+/
 &film law = 'iso-viscous', model = 'reynolds', initial_film = 1.41290851e-6, initial_velocity = 0.0 /
 &solver periods = 14, samples_per_period = 128 /
 &spectrum periods = 1 /
