@@ -29,6 +29,7 @@ GROUPS = {
 TABLE_ERRORS = (1e-4, 1e-6, 1e-8)
 CURVE_ERRORS = tuple(10.0 ** (-k / 4) for k in range(8, 50))
 DEFAULT_BASE = "heyoka 8 lanes"
+MOST_COLUMNS = 3
 
 
 @dataclass(frozen=True)
@@ -138,10 +139,15 @@ def figure(head: dict[str, str], points: Points, path: Path) -> None:
     own = [name.strip() for name in head.get("own", "").split(";") if name.strip()]
     groups = groups_of(points)
     plt.rcParams.update({"font.size": 8, "axes.linewidth": 0.7})
-    width = max(6.3, 2.1 * len(groups))  # inches
-    picture, axes = plt.subplots(1, len(groups), figsize=(width, 3.7), sharex=True, squeeze=False)
+    rows = math.ceil(len(groups) / MOST_COLUMNS)
+    height = 0.9 + 2.8 * rows  # inches
+    picture, axes = plt.subplots(
+        rows, min(len(groups), MOST_COLUMNS), figsize=(6.3, height), sharex=True, squeeze=False
+    )
+    for axis in axes.flat[len(groups) :]:
+        axis.remove()
     colours, peers = plt.get_cmap("tab10"), [name for name in points if name not in own]
-    for axis, (title, names) in zip(axes[0], groups.items(), strict=True):
+    for axis, (title, names) in zip(axes.flat, groups.items(), strict=False):
         count = scene_count(points, names)
         for contender, films in points.items():
             costs = [(error, group_cost(films, names, count, error)) for error in CURVE_ERRORS]
@@ -155,17 +161,20 @@ def figure(head: dict[str, str], points: Points, path: Path) -> None:
                 place = peers.index(contender) % 10
                 style = {"color": colours(place), "linewidth": 0.9, "marker": "os^DvPX*<>"[place]}
             axis.loglog(*zip(*drawn, strict=True), label=contender, markevery=4, markersize=3.5, **style)
+        title = title.replace(", ", ",\n")
         axis.set_title(f"{title},\n{f'mean of {count} scenes' if count > 1 else 'one scene'}", fontsize=8)
-        axis.set_xlabel("Largest relative error\nof the film")
         axis.grid(True, which="major", linewidth=0.4)
     axes[0][0].invert_xaxis()
-    axes[0][0].set_ylabel("Processor time of a scene [ms]")
+    for axis in axes[-1]:
+        axis.set_xlabel("Largest relative error\nof the film")
+    for axis in axes[:, 0]:
+        axis.set_ylabel("Processor time of a scene [ms]")
     handles = {}
-    for axis in axes[0]:
+    for axis in picture.axes:
         handles.update({label: line for line, label in zip(*axis.get_legend_handles_labels(), strict=True)})
     picture.legend(handles.values(), handles.keys(), loc="lower center", ncols=4, frameon=False)
     picture.suptitle(f"{head.get('cpu', '')}, {head.get('date', '')}", fontsize=8)
-    picture.tight_layout(rect=(0, 0.14, 1, 1), w_pad=0.6)
+    picture.tight_layout(rect=(0, 0.52 / height, 1, 1), w_pad=0.6)
     picture.savefig(path, dpi=200)
 
 
