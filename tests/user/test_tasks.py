@@ -231,6 +231,17 @@ def test_doubled_period_is_subharmonic_where_it_is_known(
     assert judged.returncode == 0 and expected in judged.stdout
 
 
+def test_a_motion_near_a_fold_is_not_left_for_irregular(run, repository: Path, tmp_path: Path) -> None:
+    """Newton's first step goes far beyond the motion of four periods, whose multiplier is near one."""
+    text = (repository / "input" / "map.nml").read_text()
+    text = re.sub(r"&campaign\n.*?\n/\n", "", text, flags=re.S).replace("'campaign'", "'motion'")
+    drawn = ("load.force_amplitude=293", "kinematics.entrainment_speed=17.577532")
+    options = [word for setting in drawn for word in ("--set", setting)]
+    fold = summary(solve(run, tmp_path, text, *options, name="fold"), "fold")
+    assert (fold["orbit_period"], fold["orbit_stability"]) == (4, "stable, fold near")
+    assert fold["rattle_class"] == "subharmonic"
+
+
 def test_doubled_period_of_a_sweep_is_subharmonic(run, repository: Path, tmp_path: Path) -> None:
     """Beyond the frequency at which the period doubles, and only there."""
     scene = (repository / "input" / "creep_period_two.nml").read_text()
