@@ -132,6 +132,14 @@ def test_wrong_parts_and_what_check_tells(run, refused, scene_text, tmp_path: Pa
     assert "! lines               0\n" in told
 
 
+def test_a_job_script_takes_thresholds_as_an_array(scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(threshold_text(scene_text))
+    done = call_script("campaign.py", "slurm", "scene.nml", "--array", 3, "--program", "/x", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "join scene.part-1-of-3.rattle to scene.part-3-of-3.rattle" in done.stderr
+    assert "--set campaign.parts=3 scene.nml" in (tmp_path / "scene.slurm").read_text()
+
+
 def test_rows_of_several_chunks_are_joined(tmp_path: Path) -> None:
     """So many rows that the joined file has a checksum for each of two runs of them, and none is left."""
     columns = [("line", "-"), *((f"column_{i}", "-") for i in range(11))]
