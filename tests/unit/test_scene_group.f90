@@ -1,0 +1,112 @@
+!> Tests of scenes that are solved side by side: each has the windows, limits and classes that it has alone.
+module test_scene_group
+   use canonical_scenes, only: canonical_scene, loose_gear
+   use checks, only: check_list_t, same_bits
+   use controlled_engine, only: reserved_periods
+   use engine, only: request_t, start_of
+   use kinds, only: dp
+   use node_extremes, only: seen_quantities
+   use problem, only: state_size
+   use resolved_scene, only: resolve, resolved_scene_t
+   use scene_group, only: classify_group, scene_group_t, solve_group
+   use scene_types, only: law_iso_viscous, scene_t, spectrum_choice_t
+   implicit none(type, external)
+   private
+
+   logical, parameter :: wants(seen_quantities) = .true.
+
+   public :: run_scene_group_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_scene_group_tests(checks)
+      type(check_list_t), intent(inout) :: checks
+
+      call checks%start('scene_group')
+      call test_windows_of_unlike_length(checks)
+      call test_more_numbers_a_state(checks)
+   end subroutine run_scene_group_tests
+
+   !> What is asked for: 16 samples a period are too few for idle rattle, so that its lines are integrals.
+   pure function request_of(periods) result(request)
+      integer, intent(in) :: periods
+      type(request_t) :: request
+
+      request = request_t(accuracy=1.0e-6_dp, periods=periods, samples_per_period=16, sampled_periods=reserved_periods(16), &
+                          until_steady=.true.)
+   end function request_of
+
+   !> Quiet motion, which 16 samples resolve; idle rattle, which repeats after one period; motion that repeats after two. The
+   !> limits of each are its own.
+   subroutine test_windows_of_unlike_length(checks)
+      type(check_list_t), intent(inout) :: checks
+
+      integer, parameter :: count = 3
+      real(dp), parameter :: amplitudes(count) = [5.0_dp, 205.7_dp, 290.0_dp]
+      real(dp), parameter :: speeds(count) = [1.905_dp, 1.905_dp, 12.0_dp]
+      real(dp), parameter :: thresholds(count) = [0.3_dp, 0.01_dp, 0.02_dp]
+      type(scene_t) :: scene
+      type(resolved_scene_t) :: resolved(count)
+      type(spectrum_choice_t) :: choices(count)
+      type(scene_group_t) :: together, alone
+      integer :: i
+
+      do i = 1, count
+         scene = canonical_scene(law_iso_viscous, 16)
+         scene%excitation%force_amplitude = amplitudes(i)
+         scene%kinematics%entrainment_speed = speeds(i)
+         scene%spectrum%line_threshold = thresholds(i)
+         resolved(i) = resolve(scene)
+         choices(i) = scene%spectrum
+         choices(i)%periods = 16
+      end do
+      associate (problems => resolved%problem, request => request_of(400))
+         call solve_group(problems, start_of(problems), request, wants, together)
+         call classify_group(problems, choices, resolved%noise_floor, request, together)
+         call checks%check(all(together%endings%orbit == [1, 1, 2]), 'unlike windows: one period, one, two')
+         call checks%check(all(together%endings%samples == 16*[1, 1, 2]), 'unlike windows: samples')
+         call checks%check(together%verdicts(1)%lines%line_count == 1, 'unlike windows: lines of quiet motion')
+         call checks%check(together%verdicts(2)%lines%line_count == 30, 'unlike windows: lines of idle rattle')
+         do i = 1, count
+            call solve_group(problems(i:i), start_of(problems(i:i)), request, wants, alone)
+            call classify_group(problems(i:i), choices(i:i), resolved(i:i)%noise_floor, request, alone)
+            associate (mine => together%verdicts(i), own => alone%verdicts(1))
+               call checks%check(mine%class == own%class .and. mine%lines%line_count == own%lines%line_count, &
+                                 'unlike windows: class and lines as alone')
+               call checks%check(size(mine%lines%harmonics) == size(own%lines%harmonics), 'unlike windows: harmonics alone')
+               call checks%check(all(same_bits(mine%lines%harmonics, own%lines%harmonics)), 'unlike windows: the same bits')
+               call checks%check(same_bits(mine%reversals_per_period, own%reversals_per_period) .and. &
+                                 same_bits(mine%lines%irregular_fraction, own%lines%irregular_fraction), &
+                                 'unlike windows: reversals and power off the harmonics')
+            end associate
+         end do
+      end associate
+   end subroutine test_windows_of_unlike_length
+
+   !> Teeth that give have more numbers a state than rigid ones, which were solved before in the same arrays.
+   subroutine test_more_numbers_a_state(checks)
+      type(check_list_t), intent(inout) :: checks
+
+      type(scene_t) :: scene
+      type(resolved_scene_t) :: rigid(1), elastic(1)
+      type(scene_group_t) :: kept, fresh
+
+      scene = loose_gear()
+      rigid(1) = resolve(scene)
+      scene%contact%stiffness = 2.8e8_dp
+      elastic(1) = resolve(scene)
+      associate (request => request_of(40))
+         call solve_group(rigid%problem, start_of(rigid%problem), request, wants, kept)
+         call solve_group(elastic%problem, start_of(elastic%problem), request, wants, kept)
+         call solve_group(elastic%problem, start_of(elastic%problem), request, wants, fresh)
+      end associate
+      call checks%check(size(kept%states, 2) == maxval(state_size(elastic%problem)), 'more numbers: room for all')
+      if (any(shape(kept%states) /= shape(fresh%states))) return
+      associate (n => fresh%endings(1)%samples)
+         call checks%check(n > 0 .and. kept%endings(1)%samples == n, 'more numbers: samples')
+         call checks%check(all(same_bits(kept%states(:n, :, 1), fresh%states(:n, :, 1))), 'more numbers: the same bits')
+      end associate
+   end subroutine test_more_numbers_a_state
+
+end module test_scene_group
