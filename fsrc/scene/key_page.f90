@@ -84,7 +84,7 @@ contains
       if (default == '') default = '-'
       meaning = trim(key%sentence)
       if (key%given_by /= '') meaning = meaning//' Follows from `&'//trim(key%given_by)//'` where that stands.'
-      if (key%used_when /= '') meaning = meaning//' Only with `'//trim(key%used_when)//'`.'
+      if (key%used_when /= '') meaning = meaning//' Only with `'//without_bars(trim(key%used_when), ' or ')//'`.'
       text = '| `'//trim(key%name)//'` | '//trim(key%unit)//' | '//default//' | '//allowed_text(key)//' | '// &
              sensible//' | '//meaning//' |'//end_of_line
    end function page_row
@@ -102,29 +102,27 @@ contains
          quantity = quantity_table(i)
          text = text//'| `'//trim(quantity%name)//'` | '//trim(quantity%unit)//' | '//trim(quantity%told_in)//' | '// &
                 trim(quantity%meaning)
-         if (quantity%kind == a_code) text = text//' '//spaced(words_with_codes(quantity))//'.'
+         if (quantity%kind == a_code) text = text//' '//without_bars(words_with_codes(quantity), '; ')//'.'
          text = text//' |'//end_of_line
       end do
-
-   contains
-
-      !> With a comma for each bar.
-      pure function spaced(words) result(list)
-         character(*), intent(in) :: words
-         character(:), allocatable :: list
-         integer :: k
-
-         list = ''
-         do k = 1, len(words)
-            if (words(k:k) == '|') then
-               list = list//'; '
-            else
-               list = list//words(k:k)
-            end if
-         end do
-      end function spaced
-
    end function quantity_rows
+
+   !> Words with another separator for each bar, which would end a cell of a table.
+   pure function without_bars(words, separator) result(list)
+      character(*), intent(in) :: words
+      character(*), intent(in) :: separator
+      character(:), allocatable :: list
+      integer :: k
+
+      list = ''
+      do k = 1, len(words)
+         if (words(k:k) == '|') then
+            list = list//separator
+         else
+            list = list//words(k:k)
+         end if
+      end do
+   end function without_bars
 
    !> Quantities for programs, as CSV.
    function quantities_text() result(text)
