@@ -131,8 +131,11 @@ contains
       type(scene_t), intent(in) :: scene
       type(word_t), allocatable :: paths(:)
 
-      paths = [word_t(result_path(scene))]
-      if (scene%points%compute(compute_profile)) paths = [paths, word_t(profiles_path(scene))]
+      if (scene%points%compute(compute_profile)) then
+         paths = [word_t(result_path(scene)), word_t(profiles_path(scene))]
+      else
+         paths = [word_t(result_path(scene))]
+      end if
    end function result_files
 
    !> u* as given, or of the speeds.
