@@ -82,6 +82,11 @@ def _range(label: str, quantity: str, form: str) -> Row:
     return label, lambda summary: f"{low(summary)} to {high(summary)}"
 
 
+def _bound(summary: Summary) -> str:
+    """What stands before the number of lines where there may be more of them."""
+    return "at least " if "line_count_is_bound" in summary and summary["line_count_is_bound"] else ""
+
+
 def _flag(label: str, quantity: str, when_set: str, otherwise: str) -> Row:
     return label, lambda summary: when_set if summary[quantity] else otherwise
 
@@ -102,7 +107,7 @@ _ROWS: tuple[Row, ...] = (
     _number("acceleration rms", "acceleration_rms", ".3f"),
     _number("film force rms", "film_force_rms", ".4g"),
     _number("dissipated power", "dissipated_power", ".4g"),
-    _text("lines", "line_count"),
+    ("lines", lambda summary: f"{_bound(summary)}{summary['line_count']}"),
     _number("harmonic distortion", "harmonic_distortion", ".4f"),
     _number("irregular fraction", "irregular_fraction", ".1e"),
     _number("reversals a period", "reversals_per_period", "g"),

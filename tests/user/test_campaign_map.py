@@ -188,6 +188,7 @@ def test_summary_page_and_inputs_of_the_worst_scenes(tmp_path, keys):
         (["--slice", "load.mass"], "is not group.key=value"),
         (["--contours", "mass"], "'mass' is not one of frequency, damping, none"),
         (["--summary", "--by", "film"], "has no column 'film'"),
+        (["--summary", "--width", "80"], "--summary is a page; it takes a --width of 150 mm or more"),
         (["--worst", "3"], "--worst, --by and --smallest belong to --summary"),
     ],
 )

@@ -199,7 +199,7 @@ def test_figure_8_shows_the_impact_of_every_period(impact) -> None:
     assert np.floor(time[high] * 0.015).tolist() == [0.0, 1.0, 2.0, 3.0]
     assert np.diff(time[high]) == pytest.approx(1e3 / 15.0, rel=1e-6)
     assert axes.get_ylim()[1] > summary["acceleration_maximum"]
-    assert axes.get_title(loc="left").endswith("the extremes between them stand in every period")
+    assert axes.get_title(loc="left").endswith("the extremes between them are drawn in every period")
 
 
 def test_check_names_films_that_the_model_cannot_mean(run, scene_text, tmp_path: Path) -> None:

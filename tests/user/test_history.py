@@ -92,7 +92,7 @@ def test_every_period_that_repeats_has_the_extremes(tmp_path, draw, place, scale
     ]
     np.testing.assert_allclose(between(points), expected, rtol=1e-9)
     assert (np.diff(points[:, 0]) > 0).all() and len(points) == 4 * 128 + 1 + 12
-    words = "\nSeries of too few samples; the extremes between them stand in every period"
+    words = "\nSeries of too few samples; the extremes between them are drawn in every period"
     assert made.axes[0].get_title().endswith(words)
 
 

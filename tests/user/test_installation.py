@@ -69,7 +69,7 @@ def test_the_package_solves_reports_and_has_its_kernels(installed, repository, t
     assert float(told[3]) == pytest.approx(0.4435543342)
     call(installed / "bin" / "rattle-report", "out/idle.rattle", cwd=tmp_path)
     page = (tmp_path / "report.html").read_text()
-    meaning = key_table()["load", "mass"].meaning.partition(" Only with")[0]
+    meaning = key_table()["load", "mass"].meaning.partition(" Follows from")[0]
     assert html.escape(meaning.replace("`", "")) in page
 
 

@@ -20,6 +20,7 @@ DESCRIPTION = (
     "Draw a campaign: a map of the class or of any column over two varied keys (default), columns along one "
     "key (--along), or one page on all of it (--summary)."
 )
+PAGE_WIDTH = 150.0  # mm, the least in which a page can be read
 SLICE_COLUMNS = ("acceleration_maximum", "film_minimum", "harmonic_distortion", "rattle_class")
 
 
@@ -71,6 +72,8 @@ def add_options(parser: ArgumentParser) -> None:
 def run(options: Namespace) -> None:
     if not options.summary and (options.worst or options.by or options.smallest):
         raise command.CommandError("--worst, --by and --smallest belong to --summary.")
+    if options.summary and options.width and 25.4 * options.width < PAGE_WIDTH - 0.1:
+        raise command.CommandError(f"--summary is a page; it takes a --width of {PAGE_WIDTH:g} mm or more.")
     options.worst = options.worst or 10
     options.by = options.by or "acceleration_maximum"
     campaign = rattle.read_campaign(options.campaign)

@@ -150,7 +150,7 @@ def coarse_words(result: Result, name: str, periods: int, unit: str, scale: floa
         return f"Series of {style.FEW_SAMPLES}; what lies between them is not known"
     drawn = np.arange(result.whole_periods - periods, result.whole_periods)
     if (_repetitions(result, periods) | (_own_periods(result)[:, None] == drawn)).all():
-        return f"Series of {style.FEW_SAMPLES}; the extremes between them stand in every period"
+        return f"Series of {style.FEW_SAMPLES}; the extremes between them are drawn in every period"
     least, largest = (scale * function(result.extremes[name]) for function in (np.min, np.max))
     return f"Series of {style.FEW_SAMPLES}; between them {least:.4g} to {largest:.4g} {unit}, not all drawn"
 

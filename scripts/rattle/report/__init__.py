@@ -16,10 +16,11 @@ from rattle.result_file import ResultFile
 from rattle.summary import Summary, comparison_table, read_summary
 
 ABOUT = (
-    "A loose gear pair, shaken by the engine, hammers through its oil film. This page says how the tooth "
-    "pair moves under "
-    "the force given here, how it rattles, and how far that can be trusted. Computed with rattle."
+    "A loose gear pair, shaken by the engine, hammers through its oil film. This page says {what}, and how "
+    "far that can be trusted. Computed with rattle."
 )
+OF_MOTIONS = "how the tooth pair moves under the force given here, how it rattles"
+OF_THRESHOLDS = "where the tooth pair begins to move in another way"
 # Columns of the table of a gearbox.
 TOGETHER = (
     "film_minimum",
@@ -45,7 +46,8 @@ def report(paths: Sequence[Path]) -> str:
     title = f"Rattle of {names[0]}" if len(names) == 1 else f"Rattle of {len(names)} results"
     if len(boxes) == 1 and len(next(iter(boxes.values()))["gears"]) == len(names):
         title = f"Rattle of the gear pairs of {next(iter(boxes))}"
-    body = [page.heading(1, title), page.paragraph(ABOUT, "lead")]
+    what = OF_THRESHOLDS if {result.task for result in results} == {"threshold"} else OF_MOTIONS
+    body = [page.heading(1, title), page.paragraph(ABOUT.format(what=what), "lead")]
     if len(results) > 1:
         body += overview(results, names, boxes)
     for place, (result, name) in enumerate(zip(results, names, strict=True), 1):
@@ -177,6 +179,8 @@ def overview(results: Sequence[ResultFile], names: Sequence[str], boxes: Mapping
         parts += [page.heading(2, f"Gear pairs of {name}"), *together(box)]
     if len(summaries) > 1:
         head, *rows = comparison_table(summaries)
+        for row in rows:
+            row[0] = row[0].replace("[um]", "[\N{MICRO SIGN}m]").replace("/s2]", "/s\N{SUPERSCRIPT TWO}]")
         kinds = ["", *("number" for _ in summaries)]
         parts += [page.heading(2, "Side by side"), page.table(head, rows, kinds=kinds)]
     return parts
@@ -208,11 +212,11 @@ def together(box: Summary) -> list[str]:
         gear: float(told["film_force_rms"]) for gear, told in box["gears"].items() if "film_force_rms" in told
     }
     words = (
-        "Together the pairs add as the root of the sum of squares in the force on the bearings of the "
-        "shaft, and as the sum in the power that they turn into heat."
+        "Together: of the film forces, which the bearings of the shaft feel, the root of the sum of their "
+        "squares; of the powers, which heat the oil, the sum."
     )
     if known:
         loudest = max(known, key=known.get)
         words = f"{loudest} is the loudest: it shakes its bearings with {known[loudest]:.3g} N rms. {words}"
     kinds = ("", "", "", *("number" for _ in TOGETHER))
-    return [page.paragraph(words), page.table(heads, rows, kinds=kinds)]
+    return [page.paragraph(words), page.table(heads, rows, kinds=kinds, kind="dense")]

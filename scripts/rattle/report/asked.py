@@ -79,7 +79,8 @@ def inputs(result: ResultFile) -> list[str]:
             key = known.get((group.partition("(")[0], name))
             unit = key.unit if key else ""
             meaning = key.meaning.replace("`", "") if key else ""
-            rows.append([page.code(name), page.value(given, unit), meaning.partition(" Only with ")[0]])
+            meaning = meaning.partition(" Only with ")[0].partition(" Follows from ")[0]
+            rows.append([page.code(name), page.value(given, unit), meaning])
     return [
         page.paragraph("Every value that the run used, also those that were left at their defaults.", "note"),
         page.table(("Key", "Value", "Meaning"), rows, kinds=("", "number", "meaning"), kind="explained"),

@@ -25,7 +25,7 @@ STEPS = {
     "Pa": ((1e9, 1e-9, "GPa"), (1e5, 1e-6, "MPa")),
     "J": ((1e-2, 1.0, "J"), (1e-6, 1e3, "mJ")),
 }
-UNIT_WORDS = {"m/s2": "m/s\N{SUPERSCRIPT TWO}", "-": "", "of key": ""}
+UNIT_WORDS = {"m/s2": "m/s\N{SUPERSCRIPT TWO}", "degC": "\N{DEGREE SIGN}C", "-": "", "of key": ""}
 DIGITS = 6
 POWER = re.compile(r"e([+-])0*(\d+)$")
 
@@ -64,6 +64,8 @@ td.number { text-align: right; font-variant-numeric: tabular-nums; padding-right
 td.number span { white-space: nowrap; }
 th.number { text-align: right; padding-right: 1.1rem; }
 td.meaning { color: var(--soft); }
+table.dense { font-size: .84rem; }
+table.dense :is(th, td, th.number, td.number) { padding-right: .55rem; }
 table.explained td.meaning { width: 52%; }
 table.explained td.number { max-width: 17rem; overflow-wrap: break-word; }
 tr.group td { font-weight: 650; padding-top: .7rem; }

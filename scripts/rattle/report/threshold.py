@@ -10,6 +10,7 @@ import numpy as np
 from rattle.campaign_section import short_name
 from rattle.command import CommandError
 from rattle.figures import threshold as picture
+from rattle.figures.campaign_look import capital
 from rattle.figures.threshold import Thresholds
 from rattle.report import motion, page
 from rattle.result import Result
@@ -57,12 +58,14 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
             f"At {sure} of {int(crossed.sum())} thresholds the classes on both sides are certified: solved "
-            "again, tighter, they are the same. So close to a change not every class can be."
+            "again, tighter, they are the same. So close to a change that cannot be had everywhere."
         )
     count = found.result.value("threshold", "count")
+    width = float(np.max(found.column("upper") - found.column("lower"), where=crossed, initial=0.0))
     yield (
-        f"Each line was looked at in {count} places, and neighbours that differ were brought together by "
-        "halves. Two changes between neighbours that cancel each other are not seen."
+        f"{'Each line' if lines > 1 else 'The line'} was solved in {count} places; between neighbours that "
+        f"differ the gap was halved again and again, down to {page.plain(width, unit)} at most. Two changes "
+        "between neighbours that cancel each other are not seen."
     )
     if summary and "scenes" in summary:
         times = float(summary["scenes_of_a_grid"]) / float(summary["scenes"])
@@ -93,7 +96,7 @@ def tables(result: Result) -> list[str]:
             "no" if found.uncertain[row] else "yes" if crossed[row] and "certified_below" in result else "-"
         )
         lines.append([*axes, *(ends if crossed[row] else ["-", "-"]), kind, sure])
-    heads = (*map(short_name, found.varied), "between", "and", "from, to", "certified")
+    heads = (*(capital(short_name(key)) for key in found.varied), "Between", "And", "From, to", "Certified")
     kinds = (*("number" for _ in found.varied), "number", "number", "", "")
     return [*parts, page.table(heads, lines, kinds=kinds)]
 
