@@ -5,7 +5,8 @@ drag and strength of the engine's orders, exact iso-viscous films between two ri
 
 This program solves the whole grid, each scene until its motion repeats, at most 60 periods; the others a
 random sample of the same grid over 60 periods: heyoka with eight different scenes in a batch, CVODE one after
-the other. Prints a Markdown table, and how far the largest films of the last ten periods are apart.
+the other. Prints a Markdown table, and how far the largest films of the last ten periods are apart; with
+`--sample 0` this program alone is timed.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ def campaign(counts: list[int], record: str) -> list[str]:
 def solve(
     program: str, threads: int, counts: list[int], record: str, place: Path
 ) -> tuple[float, float, float]:
-    """Processor and wall seconds of all scenes, and peak memory [MB]."""
+    """Processor and wall seconds of all scenes, and peak memory [MB]; the summary stays in `place`."""
     command = [program, "--quiet", "--overwrite", "--threads", str(threads), "--output", str(place)]
     begin = time.perf_counter()
     process = subprocess.Popen([*command, *campaign(counts, record), READY])
@@ -60,6 +61,12 @@ def solve(
     if os.waitstatus_to_exitcode(status) not in (0, 1):
         raise SystemExit(f"{program} ended with status {status}")
     return usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024.0
+
+
+def told(place: Path, what: str) -> str:
+    """How many scenes the summary of the campaign says it of."""
+    text = (place / f"{READY.stem}.summary.nml").read_text()
+    return re.search(rf"scenes_{what}_in_this_run = (\d+)", text)[1]
 
 
 def solved_alone(program: str, values: dict[str, float], place: Path) -> list[dict[str, list[float]]]:
@@ -160,23 +167,26 @@ def main() -> None:
     parser.add_argument("program")
     parser.add_argument("--count", default="25,25,20,20", help="values of each key (25,25,20,20)")
     parser.add_argument("--threads", type=int, default=2, help="threads (2)")
-    parser.add_argument("--sample", type=int, default=32, help="scenes the other solvers solve (32)")
+    parser.add_argument("--sample", type=int, default=32, help="scenes the other solvers solve (32); 0: none")
     options = parser.parse_args()
     counts = [int(count) for count in options.count.split(",")]
     size = PAIRS * int(np.prod(counts))
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
         processor, wall, memory = solve(options.program, options.threads, counts, RECORDED, place)
+        print(
+            f"{size} scenes on {options.threads} threads: {processor:.0f} s of processor time, {wall:.0f} s, "
+            f"{memory:.0f} MB, {told(place, 'failed')} failed, {told(place, 'beyond_model')} beyond the "
+            "model\n"
+        )
+        if options.sample == 0:
+            return
         sample = random_sample(options.program, counts, options.sample, place)
         fewer = [max(2, count // 3) for count in counts]
         few = PAIRS * int(np.prod(fewer))
         plain = solve(options.program, options.threads, fewer, RECORDED, place)[0] / few
         certified = solve(options.program, options.threads, fewer, f"{RECORDED},certified", place)[0] / few
     own = processor / size
-    print(
-        f"{size} scenes on {options.threads} threads: {processor:.0f} s of processor time, {wall:.0f} s, "
-        f"{memory:.0f} MB\n"
-    )
     print("| what | a scene [ms], processor time | ratio | largest films apart, median and largest |")
     print("|---|---|---|---|")
     print(f"| rattle, until the motion repeats | {1e3 * own:.3f} | 1 | |")
