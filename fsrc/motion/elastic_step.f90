@@ -52,6 +52,9 @@ module elastic_step
    !> too small.
    real(dp), parameter :: last_rise = 0.5_dp
 
+   !> Slope of the load over the velocity of a film without squeeze, over that slope where it tells no velocity any more
+   real(dp), parameter :: flattest = 1.0e3_dp
+
    !> Signs of the gear's motion in the films
    real(dp), parameter :: sign_of(2) = [1.0_dp, -1.0_dp]
 
@@ -241,28 +244,28 @@ contains
                   by_film = -1.0_dp
                   by_velocity = 0.0_dp
                   by_load = 0.0_dp
-               else if (never_pulls(film_law)) then
-                  ! A short step leaves the load where it is, but not the velocity of the film: where loads fall to nothing an equation
-                  ! of them would be far from linear.
+               else
                   call squeeze_velocity(film_law, trial%film(i, flank)*block%film_scale(lane), &
                                         trial%load(i, flank)*block%force_scale(lane), velocity, by_film, by_load, outcome)
-                  block%no_load(lane) = outcome == load_too_large
-                  found = outcome == load_carried
-                  if (.not. found) return
-                  right(row) = velocity/block%velocity_scale(lane) - trial%velocity(i, flank)
-                  by_film = -by_film*(block%film_scale(lane)/block%velocity_scale(lane))
-                  by_velocity = 1.0_dp
-                  by_load = -by_load*(block%force_scale(lane)/block%velocity_scale(lane))
-               else
-                  call film_load(film_law, trial%film(i, flank)*block%film_scale(lane), &
-                                 trial%velocity(i, flank)*block%velocity_scale(lane), load, by_film, by_velocity)
-                  block%no_load(lane) = .not. abs(load) < overflow_load
-                  found = .not. block%no_load(lane)
-                  if (.not. found) return
-                  right(row) = load/block%force_scale(lane) - trial%load(i, flank)
-                  by_film = -by_film*(block%film_scale(lane)/block%force_scale(lane))
-                  by_velocity = -by_velocity*(block%velocity_scale(lane)/block%force_scale(lane))
-                  by_load = 1.0_dp
+                  if (by_velocities(film_law, trial%film(i, flank)*block%film_scale(lane), by_load, outcome)) then
+                     block%no_load(lane) = outcome == load_too_large
+                     found = outcome == load_carried
+                     if (.not. found) return
+                     right(row) = velocity/block%velocity_scale(lane) - trial%velocity(i, flank)
+                     by_film = -by_film*(block%film_scale(lane)/block%velocity_scale(lane))
+                     by_velocity = 1.0_dp
+                     by_load = -by_load*(block%force_scale(lane)/block%velocity_scale(lane))
+                  else
+                     call film_load(film_law, trial%film(i, flank)*block%film_scale(lane), &
+                                    trial%velocity(i, flank)*block%velocity_scale(lane), load, by_film, by_velocity)
+                     block%no_load(lane) = .not. abs(load) < overflow_load
+                     found = .not. block%no_load(lane)
+                     if (.not. found) return
+                     right(row) = load/block%force_scale(lane) - trial%load(i, flank)
+                     by_film = -by_film*(block%film_scale(lane)/block%force_scale(lane))
+                     by_velocity = -by_velocity*(block%velocity_scale(lane)/block%force_scale(lane))
+                     by_load = 1.0_dp
+                  end if
                end if
                do other = 1, trial%flanks
                   turn = sign_of(flank)*sign_of(other)
@@ -275,6 +278,24 @@ contains
          end do
       end associate
    end subroutine equations
+
+   !> Whether the equation of a film is that of velocities: a short step leaves the load where it is, but not the velocity of the film,
+   !> and where loads hardly tell it an equation of them would be far from linear. Of a film that may pull or holds on to a part of its
+   !> load it is so until that part is all that is left, which tells no velocity.
+   pure logical function by_velocities(film_law, thickness, velocity_by_load, outcome)
+      type(film_t), intent(in) :: film_law
+      !> h [m], slope of its velocity at the load [m/(N s)]
+      real(dp), intent(in) :: thickness
+      real(dp), intent(in) :: velocity_by_load
+      !> Whether there is such a velocity, one of load_...
+      integer, intent(in) :: outcome
+      real(dp) :: load, by_film, load_by_velocity
+
+      by_velocities = never_pulls(film_law)
+      if (by_velocities .or. outcome /= load_carried) return
+      call film_load(film_law, thickness, 0.0_dp, load, by_film, load_by_velocity)
+      by_velocities = velocity_by_load < 0.0_dp .and. velocity_by_load*load_by_velocity < flattest
+   end function by_velocities
 
    !> Solve linear equations; the solution replaces the right-hand side. Rows are exchanged for the largest pivot; all else goes
    !> down columns, which lie side by side.
