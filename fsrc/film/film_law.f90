@@ -326,6 +326,7 @@ contains
       !> Whether some velocity gives the load, one of load_... of module squeeze_of_load
       integer, intent(out) :: outcome
       real(dp) :: a, a_by_load, a_by_pressure_group, pressure_group, width_factor, carried, load_by_film, load_by_velocity
+      real(dp) :: share, velocity_of_one
 
       velocity = 0.0_dp
       velocity_by_film = 0.0_dp
@@ -346,11 +347,13 @@ contains
          velocity_by_load = -1.0_dp/(film%rate*load)
          return
       case (kernel_reynolds_iso)
-         call iso_viscous_squeeze(load*thickness/film%scale, a, a_by_load, outcome)
-         velocity = a*sqrt(thickness)/film%squeeze_rate
+         share = 1.0_dp/film%scale
+         velocity_of_one = sqrt(thickness)/film%squeeze_rate
+         call iso_viscous_squeeze(load*thickness*share, a, a_by_load, outcome)
+         velocity = a*velocity_of_one
          if (outcome /= load_carried) return
-         velocity_by_film = (a_by_load*load/film%scale*sqrt(thickness) + 0.5_dp*a/sqrt(thickness))/film%squeeze_rate
-         velocity_by_load = a_by_load*thickness/film%scale*sqrt(thickness)/film%squeeze_rate
+         velocity_by_film = a_by_load*load*share*velocity_of_one + 0.5_dp*velocity/thickness
+         velocity_by_load = a_by_load*thickness*share*velocity_of_one
          return
       case (kernel_reynolds_piezo)
          pressure_group = film%pressure_rate/(thickness*sqrt(thickness))

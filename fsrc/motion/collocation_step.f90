@@ -43,9 +43,9 @@ module collocation_step
    real(dp), parameter :: longest_step = 0.25_dp
    !> Step over the one before, least and most, and the most for which the polynomial is carried on.
    real(dp), parameter :: least_growth = 0.1_dp, most_growth = 4.0_dp
-   real(dp), parameter, public :: most_extrapolation = 2.0_dp
+   real(dp), parameter :: most_extrapolation = 2.0_dp
 
-   public :: take_collocation_step, choose_steps, forces_of_stages, highest_terms, growth_of
+   public :: take_collocation_step, choose_steps, forces_of_stages, highest_terms
 
 contains
 

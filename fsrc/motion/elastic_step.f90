@@ -8,13 +8,13 @@
 !>     H_1i = H_1 + (Z_i - Z) + kappa W_1i - D_1 ,     H_1i' = V_i + sum(slope_ij (kappa W_1j - D_1))/s ,
 !>
 !> for the coast film with the signs of Z and V turned. The film law at each node is solved for the loads by Newton's method with
-!> its slopes: as W(H_i, H_i') = W_i, or where a film never pulls as H_i' = w(H_i, W_i). Nothing here grows with the stiffness: at
-!> kappa = 0 these are the equations of module collocation_step.
+!> its slopes: as H_i' = w(H_i, W_i) where its load tells its velocity, else as W(H_i, H_i') = W_i. Nothing here grows with the
+!> stiffness: at kappa = 0 these are the equations of module collocation_step.
 !>
 !> The error is that of module collocation_step, of the polynomial of the acceleration; a load that is off moves its film by
 !> kappa as well, and so counts the first coefficient of its polynomial that is left out.
 module elastic_step
-   use collocation_step, only: choose_steps, forces_of_stages, growth_of, highest_terms, most_extrapolation
+   use collocation_step, only: choose_steps, forces_of_stages, highest_terms
    use film_law, only: film_load, film_t, never_pulls, overflow_load, squeeze_velocity
    use kinds, only: dp
    use lane_block, only: lane_block_t
@@ -27,10 +27,19 @@ module elastic_step
 
    !> Newton passes before the step is given up
    integer, parameter :: most_passes = 12
+   !> The second pass takes the slopes of the first, and so do the next ones while corrections fall to less than this in a pass.
+   real(dp), parameter :: fast_fall = 1.0e-2_dp
    !> Share of the accuracy at which the passes end, and for the last coefficient of a polynomial and the first one left out
    real(dp), parameter :: pass_share = 1.0e-2_dp, last_share = 40.0_dp, next_share = 2.0_dp
    !> Corrections that fall by less than this in a pass, after some, lead nowhere
    real(dp), parameter :: slowest_fall = 0.9_dp
+
+   !> Step over the one before, least and most, and its share of what the error allows. A rejected step costs as much as an accepted
+   !> one; a step of twice the length before, whose loads cannot be extrapolated, takes twice the passes.
+   real(dp), parameter :: least_growth = 0.1_dp, most_growth = 1.99_dp, step_share = 0.7_dp
+
+   !> Rows of a matrix, those of zeros included that fill up the last four
+   integer, parameter :: most_rows = 2*stages + modulo(-2*stages, 4)
 
    !> A step under way: values at the nodes, of one or two flanks [-].
    type :: trial_t
@@ -40,6 +49,18 @@ module elastic_step
       !> A, and of the gear V and Z - Z at the start
       real(dp) :: acceleration(stages) = 0.0_dp, momentum(stages) = 0.0_dp, way(stages) = 0.0_dp
    end type trial_t
+
+   !> Slopes of the equations at the nodes, of one flank after the other: by the film, by its velocity and by its load [-]
+   type :: slopes_t
+      real(dp) :: by_film(2*stages) = 0.0_dp, by_velocity(2*stages) = 0.0_dp, by_load(2*stages) = 0.0_dp
+   end type slopes_t
+
+   !> Factors of a matrix: multipliers below the diagonal and zeros elsewhere, what stands above the diagonal and zeros elsewhere, the
+   !> inverse pivots, and the row that has come to each place
+   type :: factors_t
+      real(dp) :: lower(most_rows, 2*stages) = 0.0_dp, upper(most_rows, 2*stages) = 0.0_dp, inverse_pivot(2*stages) = 0.0_dp
+      integer :: row(2*stages) = 0
+   end type factors_t
 
    !> Error that is rounding alone, as a share of the thickest film
    real(dp), parameter :: rounding = 16.0_dp*epsilon(1.0_dp)
@@ -110,7 +131,7 @@ contains
       integer :: flank, i, j
 
       do flank = 1, flanks
-         if (block%last_step(lane) > 0.0_dp .and. block%step(lane) < most_extrapolation*block%last_step(lane)) then
+         if (block%last_step(lane) > 0.0_dp .and. block%step(lane) <= most_growth*block%last_step(lane)) then
             do i = 1, stages
                place = 1.0_dp + 2.0_dp*block%step(lane)/block%last_step(lane)*node(i)
                load(i, flank) = 0.0_dp
@@ -136,29 +157,37 @@ contains
       type(lane_block_t), intent(inout) :: block
       type(trial_t), intent(inout) :: trial
       type(trial_t) :: before
-      real(dp) :: matrix(2*stages, 2*stages), right(2*stages), loads(2*stages), change, last_change, ratio, reach, share
+      type(slopes_t) :: slopes
+      type(factors_t) :: factors
+      real(dp) :: matrix(most_rows, 2*stages), right(2*stages), correction(2*stages), loads(2*stages)
+      real(dp) :: change, last_change, ratio, reach, share
       integer :: pass, n, flank, i
-      logical :: found, stalled, rising
+      logical :: found, stalled, rising, anew
 
       n = stages*trial%flanks
       last_change = huge(1.0_dp)
       ! What an error of one in the loads moves the films by
       reach = max(block%step(lane)*min(block%step(lane), 1.0_dp/free_rate), block%compliance(lane))
       call states(lane, force, block, trial)
+      anew = .true.
       do pass = 1, most_passes
-         call equations(film_law, lane, block, trial, matrix(:n, :n), right(:n), found)
+         call imbalances(film_law, lane, block, trial, right, slopes, found)
          if (.not. found) return
-         call eliminate(n, matrix, right)
+         if (anew) then
+            call newton_matrix(lane, block, trial%flanks, slopes, matrix)
+            call factorise(n, matrix, factors)
+         end if
+         call substitute(n, factors, right, correction)
          rising = .false.
          if (never_pulls(film_law)) then
             loads(:n) = reshape(trial%load(:, :trial%flanks), [n])
-            rising = any(right(:n) > last_rise*loads(:n))
-            right(:n) = max(right(:n), (least_ratio - 1.0_dp)*loads(:n))
+            rising = any(correction(:n) > last_rise*loads(:n))
+            correction(:n) = max(correction(:n), (least_ratio - 1.0_dp)*loads(:n))
          end if
-         change = maxval(abs(right(:n)))
+         change = maxval(abs(correction(:n)))
          if (.not. change < huge(1.0_dp)) return
          before = trial
-         call correct(1.0_dp, right(:n), trial)
+         call correct(1.0_dp, correction(:n), trial)
          call states(lane, force, block, trial)
          share = 1.0_dp
          do flank = 1, trial%flanks
@@ -169,15 +198,17 @@ contains
          end do
          if (share < 1.0_dp) then
             trial = before
-            call correct(share, right(:n), trial)
+            call correct(share, correction(:n), trial)
             call states(lane, force, block, trial)
          end if
          if (share < 1.0_dp .or. rising) then
             last_change = huge(1.0_dp)
+            anew = .true.
             cycle
          end if
          ratio = 1.0_dp
          if (last_change < huge(1.0_dp)) ratio = min(1.0_dp, change/last_change)
+         anew = last_change < huge(1.0_dp) .and. ratio > fast_fall
          ! Corrections that fall no more are rounding, which a short step magnifies: within the accuracy they are accepted.
          stalled = pass > 4 .and. change > slowest_fall*last_change
          if (change*reach*ratio <= merge(1.0_dp, pass_share, stalled)*allowed_here(lane, block, trial)) then
@@ -194,8 +225,11 @@ contains
       real(dp), intent(in) :: share
       real(dp), intent(in) :: correction(:)
       type(trial_t), intent(inout) :: trial
+      integer :: flank
 
-      trial%load(:, :trial%flanks) = trial%load(:, :trial%flanks) + share*reshape(correction, [stages, trial%flanks])
+      do flank = 1, trial%flanks
+         trial%load(:, flank) = trial%load(:, flank) + share*correction(stages*(flank - 1) + 1:stages*flank)
+      end do
    end subroutine correct
 
    !> Gear and films that follow from the loads.
@@ -222,62 +256,98 @@ contains
       end associate
    end subroutine states
 
-   !> Newton's equations; none where a film has no load. A film without thickness is to be what it was at the start.
-   pure subroutine equations(film_law, lane, block, trial, matrix, right, found)
+   !> By how much the film laws miss at the nodes, and their slopes; none where a film has no load. A film without thickness is to be
+   !> what it was at the start.
+   pure subroutine imbalances(film_law, lane, block, trial, right, slopes, found)
       type(film_t), intent(in) :: film_law
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
       type(trial_t), intent(in) :: trial
-      real(dp), intent(out) :: matrix(:, :)
-      real(dp), intent(out) :: right(:)
+      real(dp), intent(out) :: right(2*stages)
+      type(slopes_t), intent(out) :: slopes
       logical, intent(out) :: found
-      real(dp) :: load, velocity, by_film, by_velocity, by_load, turn
-      integer :: row, flank, other, outcome, i
+      real(dp) :: load, velocity, by_film, by_velocity, by_load
+      real(dp) :: film_over_velocity, force_over_velocity, film_over_force, velocity_over_force
+      integer :: row, flank, outcome, i
 
       found = .true.
+      right = 0.0_dp
+      film_over_velocity = block%film_scale(lane)/block%velocity_scale(lane)
+      force_over_velocity = block%force_scale(lane)/block%velocity_scale(lane)
+      film_over_force = block%film_scale(lane)/block%force_scale(lane)
+      velocity_over_force = block%velocity_scale(lane)/block%force_scale(lane)
+      do flank = 1, trial%flanks
+         do i = 1, stages
+            row = stages*(flank - 1) + i
+            if (.not. trial%film(i, flank) > 0.0_dp) then
+               right(row) = trial%film(i, flank) - trial%start(flank)
+               slopes%by_film(row) = -1.0_dp
+               slopes%by_velocity(row) = 0.0_dp
+               slopes%by_load(row) = 0.0_dp
+               cycle
+            end if
+            call squeeze_velocity(film_law, trial%film(i, flank)*block%film_scale(lane), &
+                                  trial%load(i, flank)*block%force_scale(lane), velocity, by_film, by_load, outcome)
+            if (by_velocities(film_law, trial%film(i, flank)*block%film_scale(lane), by_load, outcome)) then
+               block%no_load(lane) = outcome == load_too_large
+               found = outcome == load_carried
+               if (.not. found) return
+               right(row) = velocity/block%velocity_scale(lane) - trial%velocity(i, flank)
+               slopes%by_film(row) = -by_film*film_over_velocity
+               slopes%by_velocity(row) = 1.0_dp
+               slopes%by_load(row) = -by_load*force_over_velocity
+            else
+               call film_load(film_law, trial%film(i, flank)*block%film_scale(lane), &
+                              trial%velocity(i, flank)*block%velocity_scale(lane), load, by_film, by_velocity)
+               block%no_load(lane) = .not. abs(load) < overflow_load
+               found = .not. block%no_load(lane)
+               if (.not. found) return
+               right(row) = load/block%force_scale(lane) - trial%load(i, flank)
+               slopes%by_film(row) = -by_film*film_over_force
+               slopes%by_velocity(row) = -by_velocity*velocity_over_force
+               slopes%by_load(row) = 1.0_dp
+            end if
+         end do
+      end do
+   end subroutine imbalances
+
+   !> Newton's matrix: what the loads at the nodes change of the equations there.
+   pure subroutine newton_matrix(lane, block, flanks, slopes, matrix)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      integer, intent(in) :: flanks
+      type(slopes_t), intent(in) :: slopes
+      real(dp), intent(out) :: matrix(most_rows, 2*stages)
+      real(dp) :: by_film(stages), by_velocity(stages), by_load(stages), by_gear(stages, stages), turn
+      integer :: first, flank, other, i, j
+
+      matrix(stages*flanks + 1:, :) = 0.0_dp
       associate (s => block%step(lane), kappa => block%compliance(lane))
-         do flank = 1, trial%flanks
-            do i = 1, stages
-               row = stages*(flank - 1) + i
-               if (.not. trial%film(i, flank) > 0.0_dp) then
-                  right(row) = trial%film(i, flank) - trial%start(flank)
-                  by_film = -1.0_dp
-                  by_velocity = 0.0_dp
-                  by_load = 0.0_dp
-               else
-                  call squeeze_velocity(film_law, trial%film(i, flank)*block%film_scale(lane), &
-                                        trial%load(i, flank)*block%force_scale(lane), velocity, by_film, by_load, outcome)
-                  if (by_velocities(film_law, trial%film(i, flank)*block%film_scale(lane), by_load, outcome)) then
-                     block%no_load(lane) = outcome == load_too_large
-                     found = outcome == load_carried
-                     if (.not. found) return
-                     right(row) = velocity/block%velocity_scale(lane) - trial%velocity(i, flank)
-                     by_film = -by_film*(block%film_scale(lane)/block%velocity_scale(lane))
-                     by_velocity = 1.0_dp
-                     by_load = -by_load*(block%force_scale(lane)/block%velocity_scale(lane))
-                  else
-                     call film_load(film_law, trial%film(i, flank)*block%film_scale(lane), &
-                                    trial%velocity(i, flank)*block%velocity_scale(lane), load, by_film, by_velocity)
-                     block%no_load(lane) = .not. abs(load) < overflow_load
-                     found = .not. block%no_load(lane)
-                     if (.not. found) return
-                     right(row) = load/block%force_scale(lane) - trial%load(i, flank)
-                     by_film = -by_film*(block%film_scale(lane)/block%force_scale(lane))
-                     by_velocity = -by_velocity*(block%velocity_scale(lane)/block%force_scale(lane))
-                     by_load = 1.0_dp
-                  end if
-               end if
-               do other = 1, trial%flanks
-                  turn = sign_of(flank)*sign_of(other)
-                  matrix(row, stages*(other - 1) + 1:stages*other) = (turn*s)*(by_film*s*twice(i, :) + by_velocity*once(i, :))
+         do flank = 1, flanks
+            first = stages*(flank - 1)
+            by_film = slopes%by_film(first + 1:first + stages)
+            by_velocity = slopes%by_velocity(first + 1:first + stages)
+            by_load = slopes%by_load(first + 1:first + stages)
+            do j = 1, stages
+               by_gear(:, j) = s*(by_film*s*twice(:, j) + by_velocity*once(:, j))
+            end do
+            do other = 1, flanks
+               turn = sign_of(flank)*sign_of(other)
+               do j = 1, stages
+                  do i = 1, stages
+                     matrix(first + i, stages*(other - 1) + j) = turn*by_gear(i, j)
+                  end do
                end do
-               matrix(row, stages*(flank - 1) + 1:stages*flank) = matrix(row, stages*(flank - 1) + 1:stages*flank) &
-                                                                  + (by_velocity*kappa/s)*slope(i, :)
-               matrix(row, row) = matrix(row, row) + (by_load + by_film*kappa)
+            end do
+            do j = 1, stages
+               do i = 1, stages
+                  matrix(first + i, first + j) = matrix(first + i, first + j) + (kappa/s)*by_velocity(i)*slope(i, j)
+               end do
+               matrix(first + j, first + j) = matrix(first + j, first + j) + (by_load(j) + by_film(j)*kappa)
             end do
          end do
       end associate
-   end subroutine equations
+   end subroutine newton_matrix
 
    !> Whether the equation of a film is that of velocities: a short step leaves the load where it is, but not the velocity of the film,
    !> and where loads hardly tell it an equation of them would be far from linear. Of a film that may pull or holds on to a part of its
@@ -297,47 +367,76 @@ contains
       by_velocities = velocity_by_load < 0.0_dp .and. velocity_by_load*load_by_velocity < flattest
    end function by_velocities
 
-   !> Solve linear equations; the solution replaces the right-hand side. Rows are exchanged for the largest pivot; all else goes
-   !> down columns, which lie side by side.
-   pure subroutine eliminate(last, matrix, right)
-      !> How many there are
+   !> Factors of a matrix, which is spent. Rows are exchanged for the largest pivot; all else goes down columns, four rows at a time.
+   !> LAPACK's way takes twice as long for so few.
+   pure subroutine factorise(last, matrix, factors)
+      !> How many rows there are, the last ones of zeros not counted
       integer, intent(in) :: last
-      real(dp), intent(inout) :: matrix(2*stages, 2*stages)
-      real(dp), intent(inout) :: right(2*stages)
-      real(dp) :: factor(2*stages), held
-      integer :: n, i, j, largest
+      real(dp), intent(inout) :: matrix(most_rows, 2*stages)
+      type(factors_t), intent(out) :: factors
+      real(dp) :: held
+      integer :: n, i, j, largest, four
 
+      factors%row = [(n, n=1, 2*stages)]
       do n = 1, last
          largest = n
          do i = n + 1, last
             if (abs(matrix(i, n)) > abs(matrix(largest, n))) largest = i
          end do
          if (largest /= n) then
+            factors%row([n, largest]) = factors%row([largest, n])
+            do j = 1, n - 1
+               factors%lower([n, largest], j) = factors%lower([largest, n], j)
+            end do
             do j = n, last
                held = matrix(n, j)
                matrix(n, j) = matrix(largest, j)
                matrix(largest, j) = held
             end do
-            held = right(n)
-            right(n) = right(largest)
-            right(largest) = held
          end if
-         matrix(n, n) = 1.0_dp/matrix(n, n)
-         factor(n + 1:last) = matrix(n + 1:last, n)*matrix(n, n)
+         factors%inverse_pivot(n) = 1.0_dp/matrix(n, n)
+         do i = 1, n - 1
+            factors%upper(i, n) = matrix(i, n)
+         end do
+         do i = n + 1, last
+            factors%lower(i, n) = matrix(i, n)*factors%inverse_pivot(n)
+         end do
          do j = n + 1, last
             held = matrix(n, j)
-            !$omp simd
-            do i = n + 1, last
-               matrix(i, j) = matrix(i, j) - factor(i)*held
+            do four = 4*(n/4), last - 1, 4
+               !$omp simd
+               do i = 1, 4
+                  matrix(four + i, j) = matrix(four + i, j) - factors%lower(four + i, n)*held
+               end do
             end do
          end do
-         right(n + 1:last) = right(n + 1:last) - factor(n + 1:last)*right(n)
       end do
+   end subroutine factorise
+
+   !> Solve linear equations by the factors of their matrix. No number is written where four are read next: that would wait for it.
+   pure subroutine substitute(last, factors, right, solution)
+      integer, intent(in) :: last
+      type(factors_t), intent(in) :: factors
+      real(dp), intent(in) :: right(2*stages)
+      real(dp), intent(out) :: solution(2*stages)
+      real(dp) :: rest(most_rows), held
+      integer :: n
+
+      rest = 0.0_dp
+      do n = 1, last
+         rest(n) = right(factors%row(n))
+      end do
+      do n = 1, last
+         held = rest(n)
+         rest = rest - factors%lower(:, n)*held
+      end do
+      solution = 0.0_dp
       do n = last, 1, -1
-         right(n) = right(n)*matrix(n, n)
-         right(:n - 1) = right(:n - 1) - matrix(:n - 1, n)*right(n)
+         held = rest(n)*factors%inverse_pivot(n)
+         solution(n) = held
+         rest = rest - factors%upper(:, n)*held
       end do
-   end subroutine eliminate
+   end subroutine substitute
 
    !> Error that the accuracy allows to the films of a step, where the thinner one of both is thickest or thinnest [-].
    pure real(dp) function allowed_here(lane, block, trial)
@@ -346,7 +445,8 @@ contains
       type(trial_t), intent(in) :: trial
       real(dp) :: thinner(stages)
 
-      thinner = minval(trial%film(:, :trial%flanks), dim=2)
+      thinner = trial%film(:, 1)
+      if (trial%flanks == 2) thinner = min(thinner, trial%film(:, 2))
       allowed_here = max(block%accuracy(lane)*min(film_weight(minval(thinner)), film_weight(maxval(thinner))), &
                          rounding*maxval(trial%film(:, :trial%flanks)))
    end function allowed_here
@@ -374,7 +474,8 @@ contains
          end associate
          if (.not. error <= 1.0_dp) block%trust(lane) = 0.0_dp
       end if
-      block%proposed(lane) = growth_of(error)*block%step(lane)
+      block%proposed(lane) = block%step(lane) &
+                             *max(least_growth, min(most_growth, step_share/sqrt(sqrt(sqrt(max(error, tiny(1.0_dp)))))))
       if (.not. block%trust(lane) > 0.0_dp) return
       block%next_film(lane) = trial%film(stages, 1)
       block%next_momentum(lane) = trial%momentum(stages)
