@@ -284,7 +284,7 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@for map in map_idle map_creep; do \
 	  $(PYTHON) scripts/plot.py campaign $(PICTURE_RUNS)/$$map.rattle --output $(PICTURE_RUNS) && \
 	  cp $(PICTURE_RUNS)/$${map}_map_rattle_class.png $(PICTURES)/$$map.png; done
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set campaign.count=61,57 input/gearbox_map.nml
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set campaign.count=41,43 input/gearbox_map.nml
 	@$(PYTHON) scripts/plot.py campaign --together --columns rattle_class,acceleration_rms --output $(PICTURE_RUNS) \
 	  $(PICTURE_RUNS)/gearbox_map.rattle
 	@cp $(PICTURE_RUNS)/gearbox_map_pairs.png $(PICTURES)/gearbox.png

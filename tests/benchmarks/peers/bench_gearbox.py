@@ -49,13 +49,20 @@ def campaign(counts: list[int], record: str) -> list[str]:
     return settings({f"campaign.{key}": ",".join(map(str, values)) for key, values in lists.items()})
 
 
+def rigid(place: Path) -> Path:
+    """The ready input with rigid teeth, which the other solvers have."""
+    path = place / READY.name
+    path.write_text(re.sub(r"^ *tooth_stiffness.*\n", "", READY.read_text(), flags=re.M))
+    return path
+
+
 def solve(
     program: str, threads: int, counts: list[int], record: str, place: Path
 ) -> tuple[float, float, float]:
     """Processor and wall seconds of all scenes, and peak memory [MB]; the summary stays in `place`."""
     command = [program, "--quiet", "--overwrite", "--threads", str(threads), "--output", str(place)]
     begin = time.perf_counter()
-    process = subprocess.Popen([*command, *campaign(counts, record), READY])
+    process = subprocess.Popen([*command, *campaign(counts, record), rigid(place)])
     _, status, usage = os.wait4(process.pid, 0)
     wall = time.perf_counter() - begin
     if os.waitstatus_to_exitcode(status) not in (0, 1):
@@ -71,7 +78,7 @@ def told(place: Path, what: str) -> str:
 
 def solved_alone(program: str, values: dict[str, float], place: Path) -> list[dict[str, list[float]]]:
     """What --check tells of each pair at these values, and its largest film as a single scene [m]."""
-    text = READY.read_text().partition("&campaign")[0].replace("task = 'campaign'", "name = 'one'")
+    text = rigid(place).read_text().partition("&campaign")[0].replace("task = 'campaign'", "name = 'one'")
     (place / "one.nml").write_text(text)
     call = [program, "--overwrite", "--output", str(place), *settings(values), str(place / "one.nml")]
     told = subprocess.run([*call, "--check"], capture_output=True, text=True, check=True).stdout
