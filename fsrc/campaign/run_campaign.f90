@@ -234,10 +234,10 @@ contains
       call summary%add('wall_seconds', wall_seconds() - started)
       call summary%write(summary_path(scene), summary_error)
       if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
-      if (progress%beyond_model > 0) call log%line('  warning: '//integer_text(progress%beyond_model)//' scenes leave what the '// &
+      if (progress%beyond_model > 0) call log%line('  warning: '//counted(progress%beyond_model, 'scene')//' beyond what the '// &
          'model can mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
-      if (progress%undersampled > 0) call log%line('  warning: the lines of '//integer_text(progress%undersampled)// &
-         ' scenes are not resolved (column sampling_sufficient); raise campaign.samples_per_period')
+      if (progress%undersampled > 0) call log%line('  warning: the lines of '//counted(progress%undersampled, 'scene')// &
+         ' are not resolved (column sampling_sufficient); raise campaign.samples_per_period')
       if (progress%tested > 0) call log%line('  '//integer_text(progress%uncertain)//' of '//integer_text(progress%tested)// &
          ' scenes are not certified: solved again, tighter, their class is another or close to a limit (column certified)')
       call log%line('  '//result_path(scene))

@@ -112,9 +112,9 @@ contains
       if (allocated(error)) then
          call log%line('  '//error%message)
       else
-         if (beyond_model > 0) call log%line('  warning: '//integer_text(beyond_model)//' motions leave what the model can '// &
+         if (beyond_model > 0) call log%line('  warning: '//counted(beyond_model, 'motion')//' beyond what the model can '// &
             'mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
-         call log%line('  '//integer_text(failed)//' motions failed; '//short_text(wall_seconds() - started, 3)//' s: '// &
+         call log%line('  '//counted(failed, 'motion')//' failed; '//short_text(wall_seconds() - started, 3)//' s: '// &
                        status_sentence(status))
          call log%line('  '//result_path(scene))
          call log%line('  '//summary_path(scene))
