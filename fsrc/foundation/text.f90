@@ -7,6 +7,11 @@ module text
    public :: counted, integer_text, real_text, short_text, logical_text, lower, quoted, quoted_words, edit_distance, &
              is_word_character, printable
 
+   interface counted
+      module procedure counted_default
+      module procedure counted_long
+   end interface counted
+
    interface integer_text
       module procedure integer_text_default
       module procedure integer_text_long
@@ -37,16 +42,27 @@ contains
    end function integer_text_long
 
    !> A count with its noun, as in '1 rank' or '2 ranks'.
-   pure function counted(number, noun) result(text)
+   pure function counted_default(number, noun) result(text)
       !> Any integer
       integer, intent(in) :: number
       !> Of one thing
       character(*), intent(in) :: noun
       character(:), allocatable :: text
 
+      text = counted_long(int(number, int64), noun)
+   end function counted_default
+
+   !> The same of a large count.
+   pure function counted_long(number, noun) result(text)
+      !> Any integer
+      integer(int64), intent(in) :: number
+      !> Of one thing
+      character(*), intent(in) :: noun
+      character(:), allocatable :: text
+
       text = integer_text(number)//' '//noun
       if (number /= 1) text = text//'s'
-   end function counted
+   end function counted_long
 
    !> Shortest decimal text that reads back to the same number.
    pure function real_text(number) result(text)
