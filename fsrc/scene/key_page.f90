@@ -203,7 +203,9 @@ contains
          'cos(beta_b). A cycle that was '// &
          'measured takes the place'//end_of_line// &
          'of the orders: `signal` names its CSV file. With `load.force_scale` campaigns vary all accelerations at '// &
-         'once.'//end_of_line// &
+         'once. Without'//end_of_line// &
+         '`tooth_stiffness` teeth are rigid: the hot gearbox of `gearbox_map.nml` then has up to ten times '// &
+         'the acceleration, and few irregular motions.'//end_of_line// &
          end_of_line// &
          'Several `&gear` are a gearbox: each pair is a scene NAME.GEAR, and one table tells class, film, acceleration, '// &
          'film force and'//end_of_line// &
