@@ -47,30 +47,31 @@ contains
       do first = 1, size(states, 1), block
          last = min(first + block - 1, size(states, 1))
          associate (here => states(first:last, :), part => values(:last - first + 1))
-            call note(seen_film, here(:, of_film))
-            call note(seen_velocity, here(:, of_velocity))
-            call note(seen_acceleration, accelerations(first:last))
+            call note(seen_film, here(:, of_film), extremes)
+            call note(seen_velocity, here(:, of_velocity), extremes)
+            call note(seen_acceleration, accelerations(first:last), extremes)
             call drive_loads(problem, here, part)
-            call note(seen_load, part)
+            call note(seen_load, part, extremes)
             call largest_pressures(problem, here, part)
-            call note(seen_pressure, part)
-            if (has_elastic_teeth(problem)) call note(seen_position, gear_positions(problem, here))
+            call note(seen_pressure, part, extremes)
+            if (has_elastic_teeth(problem)) call note(seen_position, gear_positions(problem, here), extremes)
             if (.not. has_two_flanks(problem)) cycle
             call coast_loads(problem, here, part)
-            call note(seen_coast_load, part)
+            call note(seen_coast_load, part, extremes)
             call net_loads(problem, here, part)
-            call note(seen_net_load, part)
-            call note(seen_coast_film, coast_films(problem, here))
+            call note(seen_net_load, part, extremes)
+            call note(seen_coast_film, coast_films(problem, here), extremes)
          end associate
       end do
 
    contains
 
       !> Take the extremes of a quantity over these samples.
-      pure subroutine note(quantity, numbers)
+      pure subroutine note(quantity, numbers, extremes)
          !> Code of node_extremes
          integer, intent(in) :: quantity
          real(dp), intent(in) :: numbers(:)
+         type(window_extremes_t), intent(inout) :: extremes
          real(dp) :: smallest, largest
 
          call range_of(numbers, smallest, largest)

@@ -25,8 +25,19 @@ inside "dpkg -s $packages > /dev/null 2>&1 || { apt-get update -qq && apt-get in
 rm -rf "$debian/rattle/fsrc" "$debian/rattle/tests" "$debian/rattle/input"
 git ls-files | tar -c -T - | tar -x -C "$debian/rattle"
 
+# Maps and thresholds of few points.
+fewer() {
+    case $1 in
+        *map.nml) echo '--set campaign.count=7,6' ;;
+        *threshold.nml) echo '--set campaign.count=3' ;;
+    esac
+}
+
 failed=0
-"$build/rattle" --quiet --overwrite --output "$build/compilers/here" input/*.nml
+for input in input/*.nml; do
+    # shellcheck disable=SC2046
+    "$build/rattle" --quiet --overwrite --output "$build/compilers/here" $(fewer "$input") "$input"
+done
 for compiler in $compilers; do
     place=build/$compiler
     echo "$compiler: $(inside "$compiler --version | head -1")"
@@ -38,7 +49,7 @@ for compiler in $compilers; do
             { failed=1; echo "FAILED  suite $suite"; tail -5 "$build/compilers/suite.txt"; }
     done
     for input in input/*.nml; do
-        inside "$place/rattle --quiet --overwrite --output $place/results $input" || { failed=1; echo "FAILED  $input"; }
+        inside "$place/rattle --quiet --overwrite --output $place/results $(fewer "$input") $input" || { failed=1; echo "FAILED  $input"; }
     done
     "$python" "$here/compare_results.py" "$build/compilers/here" "$debian/rattle/$place/results" || failed=1
 done
