@@ -19,6 +19,7 @@ import rattle  # noqa: E402
 # What tells of the work and not of the motion.
 WORK = ("wall_seconds", "program_version", "evaluations", "steps", "steps_cut", "iterations_per_step")
 ROUNDING = 1e-6  # the share of the largest by which values without a stated error may differ
+SHARES = ("irregular_fraction",)  # of one, however little is left of them
 CODES = ("status", "rattle_class", "certified", "film_regime", "law_contradicted", "model_limit")
 
 
@@ -49,13 +50,17 @@ def differences(one: dict, other: dict) -> list[str]:
             ("_error", "_errors", "_multipliers")
         ):  # of these only the order of magnitude is meant
             continue
+        if isinstance(a, dict):
+            found += [f"{key}: {sentence}" for sentence in differences(a, b)]
+            continue
         if isinstance(a, str | bool | int):
             if a != b:
                 found.append(f"{key} is {a} and {b}")
             continue
         a, b = np.atleast_1d(np.asarray(a, dtype=float)), np.atleast_1d(np.asarray(b, dtype=float))
         error = one.get(f"{key}_error", one.get("harmonic_errors" if key == "harmonics" else "", 0.0))
-        room = 2.0 * np.asarray(error, dtype=float) + ROUNDING * np.abs(a).max(initial=0.0)
+        largest = 1.0 if key in SHARES else np.abs(a).max(initial=0.0)
+        room = 2.0 * np.asarray(error, dtype=float) + ROUNDING * largest
         if a.shape != b.shape or (np.abs(a - b) > room).any():
             found.append(f"{key} is {a} and {b}")
     return found
