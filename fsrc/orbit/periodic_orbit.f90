@@ -6,6 +6,7 @@
 module periodic_orbit
    use constants, only: two_pi
    use engine, only: ending_t, motion_state_t, numbers_of, request_t
+   use film_law, only: never_pulls
    use kinds, only: dp
    use many_motions, only: solve_motions
    use matrix_values, only: eigenvalues
@@ -26,6 +27,8 @@ module periodic_orbit
    real(dp), parameter :: largest_disturbance = 1.0e-7_dp, slowest_fall = 0.1_dp
    !> Step of the differences: their error is about its square, and map_accuracy over it.
    real(dp), parameter :: difference_step = 1.0e-4_dp
+   !> Largest size of a compression that stays positive, over the compression
+   real(dp), parameter :: most_of_compression = 100.0_dp
    integer, parameter :: most_newton_steps = 8
 
    integer, parameter, public :: orbit_stable = 1, orbit_doubling_near = 2, orbit_fold_near = 3, orbit_torus_near = 4, &
@@ -165,18 +168,24 @@ contains
       !> Film that one of each number counts as
       real(dp), intent(in) :: scale(:)
       type(periodic_orbit_t) :: orbit
-      real(dp), dimension(size(start)) :: state, change, step
+      real(dp), dimension(size(start)) :: state, change, sizes, step
       real(dp) :: states(size(start), 0:2*size(start)), jacobian(size(start), size(start)), matrix(size(start), size(start)), &
-                  thickness, moved, moved_before
+                  thickness, moved, disturbance, disturbance_before
       integer :: pass, i, n, pivots(size(start)), info
       logical :: mapped
 
       n = size(start)
       state = start
-      moved = huge(moved)
+      disturbance = huge(disturbance)
       do pass = 1, most_newton_steps
          thickness = thinnest_film(problem, state)
-         step = difference_step*thickness/scale
+         ! The map is known to a share of each number: where a tooth strikes through a thin film, to more than that of the film.
+         sizes = max(thickness/scale, abs(state))
+         sizes(of_film) = thickness
+         ! A film that never pulls leaves its spring compressed, however little; so must the states beside this one be.
+         if (never_pulls(problem%film)) sizes(of_drive_compression:) = min(sizes(of_drive_compression:), &
+                                                                           most_of_compression*abs(state(of_drive_compression:)))
+         step = difference_step*sizes
          states = spread(state, 2, 2*n + 1)
          do i = 1, n
             states(i, 2*i - 1) = state(i) + step(i)
@@ -199,9 +208,10 @@ contains
          state = state + change
          thickness = thinnest_film(problem, state)
          if (.not. thickness > 0.0_dp) return
-         moved_before = moved
          moved = maxval(abs(change)*scale)/thickness
-         if (moved > converged .and. (moved > largest_disturbance .or. moved < slowest_fall*moved_before)) cycle
+         disturbance_before = disturbance
+         disturbance = maxval(abs(change)/sizes)
+         if (moved > converged .and. (disturbance > largest_disturbance .or. disturbance < slowest_fall*disturbance_before)) cycle
          orbit%multipliers = eigenvalues(jacobian*spread(scale, 2, n)/spread(scale, 1, n))
          ! A motion of whose stability nothing is known counts as none.
          if (size(orbit%multipliers) == 0) return

@@ -110,7 +110,7 @@ contains
          possible(:3) = .false.
          return
       end if
-      distortion = sqrt([harmonic - forced, harmonic - forced + rest]/forced)
+      distortion = sqrt(max(0.0_dp, [harmonic - forced, harmonic - forced + rest])/forced)
       possible(1) = distortion(1) < choice%quiet_limit*(1.0_dp + margin)
       possible(2:3) = .false.
       if (distortion(2) < choice%quiet_limit*(1.0_dp - margin)) return

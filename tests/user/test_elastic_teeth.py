@@ -123,3 +123,34 @@ def test_a_motion_of_very_many_steps_repeats_after_its_own_period(run, tmp_path:
     told = summary_of(tmp_path / "results" / "soft.summary.nml")
     assert told["orbit_period"] == 1 and told["orbit_stability"] == "stable"
     assert told["floquet_multipliers"][0] == pytest.approx(-0.15366, rel=1e-3)
+
+
+# The tooth crosses between its flanks where a period begins: its films are thick there, and one of the springs
+# is all but released.
+CROSSING = """
+&contact radius = 2.2078e-3, length = 0.01475, backlash = 3.705e-4, stiffness = 3.1585e6 /
+&lubricant viscosity = 0.0685, pressure_viscosity = 1.4444e-8 /
+&kinematics entrainment_speed = 0.3048 /
+&load mass = 0.01371, steady_force = -19.8667, gravity = 0.0, force_amplitude = 25.0, frequency = 40.0 /
+&film law = 'iso-viscous', model = 'reynolds', initial_velocity = 0.0 /
+&solver accuracy = 1.0e-11, samples_per_period = 512, periods = 30 /
+&spectrum periods = 8 /
+&output columns = 'time', 'squeeze_velocity' /
+"""
+
+
+def test_a_multiplier_is_the_rate_at_which_motions_approach_each_other(run, tmp_path: Path) -> None:
+    (tmp_path / "one.nml").write_text(CROSSING)
+    assert run("one.nml", cwd=tmp_path).returncode == 0
+    told = summary_of(tmp_path / "results" / "one.summary.nml")
+    assert told["orbit_period"] == 1 and told["orbit_stability"] == "stable"
+    begun = CROSSING.replace("periods = 30", "periods = 4").replace("periods = 8", "periods = 4")
+    velocities = []
+    for name, start in (("slow", "0.0"), ("fast", "0.1")):
+        (tmp_path / f"{name}.nml").write_text(begun.replace("initial_velocity = 0.0", f"initial_velocity = {start}"))
+        assert run(f"{name}.nml", cwd=tmp_path).returncode == 0
+        result = rattle.read(tmp_path / "results" / f"{name}.rattle")
+        velocities.append(np.array(result["squeeze_velocity"])[::512])
+    apart = velocities[1] - velocities[0]
+    # The faster rates have died away after three periods: 3e-4 of the second period's ratio, 1e-5 of the fourth's.
+    assert told["floquet_multipliers"][0] == pytest.approx(apart[4] / apart[3], rel=3e-4)
