@@ -386,14 +386,23 @@ contains
       extremes%highest(seen_coast_film)%value = maxval(coast)
       tight_extremes = extremes
       call compare_both(coast)
-      call checks%check(certificate%certified .and. .not. certificate%film_error > 0.0_dp, 'coast film: the same')
+      ! Twenty times the last digit of the drive film, as a share of the coast film.
+      call checks%check(certificate%certified, 'coast film: the same')
+      call checks%check_close(certificate%film_error, 20.0_dp*epsilon(1.0_dp)*maxval(films)/minval(coast), 1.0e-18_dp, &
+                              'coast film: the same to its last digit')
       call compare_both(coast*[1.0_dp, 1.0_dp + error, 1.0_dp])
       call checks%check_close(certificate%film_error, 2.0_dp*error, 1.0e-14_dp, 'coast film: error of a sample')
       call checks%check(.not. certificate%certified, 'coast film: not certified')
       extremes%lowest(seen_coast_film)%value = (1.0_dp - error)*minval(coast)
       call compare_both(coast)
-      call checks%check_close(certificate%film_error, 2.0_dp*error/(1.0_dp - error), 1.0e-14_dp, &
+      call checks%check_close(certificate%film_error, 2.0_dp*error/(1.0_dp - error), 4.0e-13_dp, &
                               'coast film: error between samples')
+      tight_extremes%lowest(seen_coast_film)%value = 1.0e-9_dp*minval(coast)
+      extremes%lowest(seen_coast_film)%value = 1.0e-9_dp*minval(coast)
+      call compare_both(coast)
+      call checks%check_close(certificate%acceleration_error, 2.0e10_dp*epsilon(1.0_dp)*maxval(films)/minval(coast), 1.0e-9_dp, &
+                              'coast film: so thin that the last digit of the drive film tells')
+      tight_extremes%lowest(seen_coast_film)%value = minval(coast)
       extremes%lowest(seen_coast_film)%value = 1.0e-3_dp*minval(coast)
       call compare_both(coast*[1.0e-3_dp, 1.0_dp, 1.0_dp])
       call checks%check(certificate%film_error*extremes%lowest(seen_coast_film)%value > minval(coast), &
