@@ -5,14 +5,15 @@
 !> on until the motion repeats, the tighter one within its own accuracy, and their forecasts may save different periods: the
 !> orbits are held against each other, beginning with whichever of their periods fits best.
 module campaign_certificate
-   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_strikes, windows_behind
+   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_strikes, &
+      windows_behind
    use certify_scene, only: nearby_orbit, tighten
-   use engine, only: motion_state_t, request_t, start_of
+   use engine, only: motion_state_t, numbers_of, request_t, start_of
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film, seen_quantities
    use periodic_orbit, only: attracting_period
    use carried_loads, only: films_of
-   use problem, only: of_film, problem_t
+   use problem, only: largest_state, of_film, problem_t
    use rattle_class, only: class_irregular, note_orbit
    use resolved_scene, only: resolved_scene_t
    use scene_group, only: classify_group, scene_group_t, solve_group
@@ -100,6 +101,10 @@ contains
          unclosed = closing_sentence(record, problem%frequency, problem%mass, resolved%noise_floor)
          if (len(unclosed) == 0) unclosed = closing_sentence(tight_record, problem%frequency, problem%mass, tight_noise)
          if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, samples/tighter%samples_per_period)
+         if (len(unclosed) == 0) unclosed = &
+            doubt_of_return(verdict, samples/tighter%samples_per_period, &
+                            films_of(problem, reshape([numbers_of(tight_record%start), numbers_of(tight%endings(place))], &
+                                                      [2, largest_state], order=[2, 1])), choice%certificate_tolerance)
          !$omp end critical (sentences)
          class_stands = len(unclosed) == 0 .and. verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient
          if (.not. class_stands) return

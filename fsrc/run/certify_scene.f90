@@ -2,8 +2,8 @@
 !> method solved it first, sampled finely enough for its lines; and the periodic motion behind it with its Floquet
 !> multipliers.
 module certify_scene
-   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_strikes, loudness_error, &
-      no_certificate, windows_behind
+   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_strikes, &
+      loudness_error, no_certificate, windows_behind
    use engine, only: ending_t, motion_state_t, numbers_of, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
@@ -11,7 +11,7 @@ module certify_scene
    use loudness, only: loudness_of_record, loudness_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use carried_loads, only: films_of
-   use problem, only: problem_t
+   use problem, only: largest_state, problem_t
    use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
@@ -84,6 +84,11 @@ contains
       if (len(unclosed) == 0 .and. .not. (verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient)) &
          unclosed = too_few_samples(scene, tight)
       if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, window%periods)
+      if (len(unclosed) == 0) unclosed = &
+         doubt_of_return(verdict, window%periods, &
+                         films_of(resolved%problem, reshape([numbers_of(tight%record%start), numbers_of(ending)], &
+                                                            [2, largest_state], order=[2, 1])), &
+                         scene%spectrum%certificate_tolerance)
       if (len(unclosed) == 0 .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
          call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
          if (allocated(error)) return

@@ -53,7 +53,7 @@ module certificate
    real(dp), parameter :: least_reversals = 8.0_dp
 
    public :: compare_windows, loudness_error, no_certificate, certificate_word, closing_sentence, doubt_of_strikes, &
-             windows_behind, doubt_behind
+             doubt_of_return, windows_behind, doubt_behind
 
 contains
 
@@ -237,6 +237,30 @@ contains
       if (min(verdict%reversals_per_period, tight_verdict%reversals_per_period)*real(periods, dp) < least_reversals) &
          reason = 'The window holds too few strikes to tell an irregular motion; more of spectrum.periods would.'
    end function doubt_of_strikes
+
+   !> Why a window of one period is not that of a motion that repeats after it, empty if it is, or the window has more: there the
+   !> power off the harmonics tells.
+   pure function doubt_of_return(verdict, periods, films, tolerance) result(reason)
+      type(rattle_verdict_t), intent(in) :: verdict
+      !> Of the window
+      integer, intent(in) :: periods
+      !> Films where the window begins and where it ends: state, flank [m]
+      real(dp), intent(in) :: films(:, :)
+      !> Difference of films up to which a regular motion is certified [-]
+      real(dp), intent(in) :: tolerance
+      character(:), allocatable :: reason
+      real(dp) :: differences(size(films, 2))
+      integer :: flank
+
+      reason = ''
+      if (periods > 1 .or. verdict%class == class_irregular .or. verdict%class == class_subharmonic) return
+      differences = abs(films(2, :) - films(1, :))/minval(films, dim=1)
+      flank = maxloc(differences, dim=1)
+      if (differences(flank) > tolerance) &
+         reason = 'The window of one period begins with a film of '//short_text(films(1, flank), 3)//' m and ends with '// &
+                  short_text(films(2, flank), 3)//' m: the motion does not repeat after it. '// &
+                  'More of spectrum.periods would tell more.'
+   end function doubt_of_return
 
    !> How many windows behind the one that is judged a motion has to be irregular in too. One that strikes now and then may be
    !> quiet for a window and irregular in the next: then the class is that of the window, not of the motion.

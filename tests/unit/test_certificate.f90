@@ -1,6 +1,6 @@
 !> Tests of the certificate: what a tighter solution must share with a scene for its class to stand.
 module test_certificate
-   use certificate, only: certificate_t, closing_sentence, compare_windows, no_certificate
+   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_of_return, no_certificate
    use checks, only: check_list_t
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
@@ -36,6 +36,7 @@ contains
       call test_chance(checks)
       call test_tighter_errors(checks)
       call test_coast_film(checks)
+      call test_return(checks)
       call test_none(checks)
    end subroutine run_certificate_tests
 
@@ -419,6 +420,24 @@ contains
       end subroutine compare_both
 
    end subroutine test_coast_film
+
+   !> A window of one period has to return where it began, on both flanks; longer ones, and what does not claim to repeat, need not.
+   subroutine test_return(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      real(dp), parameter :: near(2, 2) = reshape([1.0e-6_dp, 1.005e-6_dp, 3.0e-6_dp, 3.0e-6_dp], [2, 2])
+      real(dp), parameter :: far(2, 2) = reshape([1.0e-6_dp, 1.005e-6_dp, 3.0e-6_dp, 2.9e-6_dp], [2, 2])
+      type(spectrum_choice_t) :: choice
+      type(rattle_verdict_t) :: idle, irregular
+
+      idle = verdict_of(class_idle, [1.0_dp, 0.5_dp], choice)
+      irregular = verdict_of(class_irregular, [1.0_dp, 0.5_dp], choice)
+      call checks%check(len(doubt_of_return(idle, 1, near, tolerance)) == 0, 'return: back again')
+      call checks%check(index(doubt_of_return(idle, 1, far, tolerance), '3.00E-6 m and ends with 2.90E-6 m') > 0, &
+                        'return: elsewhere')
+      call checks%check(len(doubt_of_return(idle, 2, far, tolerance)) == 0, 'return: a longer window')
+      call checks%check(len(doubt_of_return(irregular, 1, far, tolerance)) == 0, 'return: of an irregular motion')
+   end subroutine test_return
 
    !> Without a tighter solution nothing is certified.
    subroutine test_none(checks)

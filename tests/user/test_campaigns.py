@@ -192,6 +192,31 @@ def test_certified_scene_is_the_certified_single_scene(
     assert min(compared.values()) >= fewest, compared
 
 
+def test_a_window_of_one_of_two_periods_certifies_nothing(run, scene_text, tmp_path: Path) -> None:
+    """One period of a motion that repeats after two looks like one that repeats after it."""
+    texts = {
+        "film": {"law": "'piezo-viscous'"},
+        "contact": {"length": "1.958e-3"},
+        "load": {"steady_force": "38.27", "force_amplitude": "203.1", "frequency": "600.0"},
+        "solver": {**BASE["solver"], "until": None, "accuracy": "1e-8", "periods": "200"},
+        "spectrum": {"periods": "1"},
+    }
+    (tmp_path / "single.nml").write_text(scene_text(**texts))
+    assert run("single.nml", cwd=tmp_path).returncode == 0
+    told = summary_of(tmp_path / "results" / "single.summary.nml")
+    assert told["orbit_period"] == 2 and told["certificate"] == "uncertain"
+    assert "The window of one period begins with a film of" in told["certificate_text"]
+    assert run("--overwrite", "--set", "spectrum.periods=8", "single.nml", cwd=tmp_path).returncode == 0
+    longer = summary_of(tmp_path / "results" / "single.summary.nml")
+    assert longer["rattle_class"] == "subharmonic" and longer["certificate"] == "certified"
+    varied = {"vary": "'load.force_amplitude'", "first": "203.1", "last": "205.7", "count": "2"}
+    campaign = {"record": "'rattle_class', 'certified'", "samples_per_period": "1024", **varied}
+    whole = {"scene": {"task": "'campaign'"}, **texts, "campaign": campaign}
+    (tmp_path / "scene.nml").write_text(scene_text(**whole))
+    result = package.read(solve(run, tmp_path))
+    assert CLASSES[int(result["rattle_class"][0])] == told["rattle_class"] and result["certified"][0] == 0.0
+
+
 def test_log_and_summary_count_what_is_not_certified(run, scene_text, tmp_path: Path) -> None:
     loose = {**BASE["solver"], "accuracy": "1e-2", "periods": "200"}
     campaign = {"record": "'rattle_class', 'certified'"}
