@@ -88,7 +88,8 @@ contains
       do period = 1, periods
          state%phase = 0.0_dp
          do while (state%phase < 1.0_dp)
-            call take_step(tooth, rule, tolerance, longest_in_window, state, step, solved)
+            call take_step(tooth, rule, tolerance, min(longest_in_window, longest/real(size(tooth%amplitudes), dp)), state, step, &
+                           solved)
             steps = steps + 1
             solved = solved .and. steps <= most_steps
             if (.not. solved) return
