@@ -126,6 +126,7 @@ contains
          if (.not. mapped) return
          if (maxval(abs(images(:, 1) - state(:size(images, 1)))*scale) > nearness*thinnest_film(problem, state)) cycle
          orbit = newton(problem, period, state(:size(images, 1)), scale)
+         if (orbit%period > 0) orbit = shortest(problem, orbit, scale)
          if (orbit%period > 0 .and. orbit%distance <= nearness) return
       end do
       orbit = periodic_orbit_t()
@@ -160,6 +161,49 @@ contains
       end if
    end function orbit_stability
 
+   !> The same motion with its shortest period: a fixed point of the map of one period is one of every longer map, and a motion that
+   !> turns about it while it settles may come near it after several periods first.
+   function shortest(problem, orbit, scale)
+      type(problem_t), intent(in) :: problem
+      type(periodic_orbit_t), intent(in) :: orbit
+      !> Film that one of each number counts as
+      real(dp), intent(in) :: scale(:)
+      type(periodic_orbit_t) :: shortest
+      real(dp) :: images(size(scale), 1)
+      integer :: period
+      logical :: mapped
+
+      shortest = orbit
+      images(:, 1) = orbit%state(:size(scale))
+      do period = 1, orbit%period/2
+         call map_states(problem, 1, map_accuracy, images, mapped)
+         if (.not. mapped) return
+         associate (state => orbit%state(:size(scale)))
+            if (any(abs(images(:, 1) - state) > largest_disturbance*sizes_of(problem, state, scale))) cycle
+            shortest = newton(problem, period, state, scale)
+         end associate
+         shortest%distance = orbit%distance
+         return
+      end do
+   end function shortest
+
+   !> What the numbers of a state count as. The map is known to a share of each number: where a tooth strikes through a thin film, to
+   !> more than that of the film.
+   pure function sizes_of(problem, state, scale) result(sizes)
+      type(problem_t), intent(in) :: problem
+      real(dp), intent(in) :: state(:)
+      !> Film that one of each number counts as
+      real(dp), intent(in) :: scale(:)
+      real(dp) :: sizes(size(state)), thickness
+
+      thickness = thinnest_film(problem, state)
+      sizes = max(thickness/scale, abs(state))
+      sizes(of_film) = thickness
+      ! A film that never pulls leaves its spring compressed, however little; so must the states beside this one be.
+      if (never_pulls(problem%film)) sizes(of_drive_compression:) = min(sizes(of_drive_compression:), &
+                                                                        most_of_compression*abs(state(of_drive_compression:)))
+   end function sizes_of
+
    !> Fixed point of the map of some periods, and the multipliers there.
    function newton(problem, period, start, scale) result(orbit)
       type(problem_t), intent(in) :: problem
@@ -178,13 +222,7 @@ contains
       state = start
       disturbance = huge(disturbance)
       do pass = 1, most_newton_steps
-         thickness = thinnest_film(problem, state)
-         ! The map is known to a share of each number: where a tooth strikes through a thin film, to more than that of the film.
-         sizes = max(thickness/scale, abs(state))
-         sizes(of_film) = thickness
-         ! A film that never pulls leaves its spring compressed, however little; so must the states beside this one be.
-         if (never_pulls(problem%film)) sizes(of_drive_compression:) = min(sizes(of_drive_compression:), &
-                                                                           most_of_compression*abs(state(of_drive_compression:)))
+         sizes = sizes_of(problem, state, scale)
          step = difference_step*sizes
          states = spread(state, 2, 2*n + 1)
          do i = 1, n

@@ -24,6 +24,7 @@ contains
       call test_slow_return(checks)
       call test_multipliers(checks)
       call test_periods(checks)
+      call test_shortest_period(checks)
       call test_attracting(checks)
    end subroutine run_periodic_orbit_tests
 
@@ -146,6 +147,29 @@ contains
          call checks%check_close(orbit%state(of_film)/true%film, 1.0_dp, 1.0e-7_dp, 'periods: its film')
       end do
    end subroutine test_periods
+
+   !> A motion near its period doubling jumps from side to side of the one that it settles to: after two periods it is nearer to where
+   !> it was than after one, and yet its period is one.
+   subroutine test_shortest_period(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(problem_t) :: lane
+      type(ending_t) :: true
+      type(periodic_orbit_t) :: orbit
+      real(dp), parameter :: offset = 7.0e-4_dp, nearness = 1.0e-3_dp
+      real(dp) :: there(2), image(2, 1)
+      logical :: mapped
+
+      lane = lane_of(396.0_dp, 8.405158309469508_dp)
+      true = settled(lane, 800)
+      there = [true%film*(1.0_dp + offset), true%velocity]
+      image(:, 1) = there
+      call map_states(lane, 1, 1.0e-12_dp, image, mapped)
+      call checks%check(mapped .and. abs(image(of_film, 1) - there(of_film)) > nearness*true%film, 'shortest: far after a period')
+      orbit = find_periodic_orbit(lane, there, nearness)
+      call checks%check(orbit%period == 1, 'shortest: its period')
+      call checks%check_close(orbit%distance, offset, 1.0e-7_dp, 'shortest: how far')
+      call checks%check(abs(real(orbit%multipliers(1)) + 0.96_dp) < 0.02_dp, 'shortest: its multiplier')
+   end subroutine test_shortest_period
 
    !> Only a motion that others approach is one that they will repeat.
    subroutine test_attracting(checks)
