@@ -262,7 +262,9 @@ contains
          end_of_line//'stand in rows behind the others, and its samples carry no class. `sampling_sufficient` is false where'// &
          end_of_line//'the lines are those of too few samples (Newmark''s method). A class is certified only if the window'// &
          end_of_line//'closes: the integral of the acceleration is the change of velocity, and the work of the film is that'// &
-         end_of_line//'of the forces. Errors are twice the difference from a tighter solution, and what that may be off by;'// &
+         end_of_line//'of the forces; a window of one period, which cannot tell what is off the harmonics, only if it ends'// &
+         end_of_line//'with the films with which it began. Errors are twice the difference from a tighter solution, and'// &
+         end_of_line//'what that may be off by, for a coast film the last digit of the drive film too;'// &
          end_of_line//'relative ones are shares of the smaller number. Where the two solutions part, the error says how far'// &
          end_of_line//'such motions lie apart, and is no bound: `certificate_text` says by how much the film differs.'// &
          end_of_line//end_of_line// &
