@@ -114,7 +114,7 @@ module quantities
          'Root of the mean square by which the film force leaves its mean: what the bearings feel.', digits=4), &
       quantity_t(quantity_dissipated_energy, 'dissipated_energy', 'J', a_number, part_window, needs_nothing, &
          'summary campaign', &
-         'Work that the film takes a period of the force, - integral of (W - Q - m g) dh over the window by its periods; ' // &
+         'Work that the film takes a period of the force, - integral of (W - Q - m g) dh over the window by its periods; '// &
          'less than 0 at times if it does not repeat.'), &
       quantity_t(quantity_dissipated_power, 'dissipated_power', 'W', a_number, part_window, needs_nothing, &
          'summary sweep campaign log', &
