@@ -25,10 +25,11 @@ module node_extremes
    !> Pieces that are looked at together, at most: their arrays stay in the cache.
    integer, parameter, public :: block_pieces = 64, block_nodes = nodes_per_piece*block_pieces
 
-   !> How far above its nodes a smooth curve may rise within a piece, as a share of its range there.
-   real(dp), parameter :: between = 0.06_dp
-   !> Error of a parabola through nodes, as a share of the range.
-   real(dp), parameter :: parabola_error = 2.0e-3_dp
+   !> How far a curve of at most 1.27 oscillations a piece may rise above its nodes, as a share of the range of many pieces.
+   real(dp), parameter :: between = 0.15_dp
+   !> How far it may rise above the parabola through three nodes, as a share of its range in the piece: of 32,000 random ones none
+   !> rose farther, and one of a hundred by more than half of that.
+   real(dp), parameter :: parabola_error = 0.07_dp
    !> Change of an extreme, as a share of the range, behind which the next one would be a hundred times smaller.
    real(dp), parameter :: settled = 1.0e-9_dp
    integer, parameter :: most_renewals = 12
@@ -81,27 +82,32 @@ contains
          real(dp), intent(in) :: top
          real(dp), intent(in) :: range
          type(extreme_t), intent(inout) :: found
-         real(dp) :: level, best, place
-         real(dp) :: estimates(block_nodes)
+         real(dp) :: level, estimate
+         real(dp) :: bounds(block_nodes)
          integer :: peaks(block_nodes)
          integer :: i, count_of_peaks
 
-         ! The highest estimate is found first; then those that come near it are renewed.
          level = top - between*range
          if (found%exists) level = max(level, sign_of*found%value - between*range)
-         best = top
-         if (found%exists) best = max(best, sign_of*found%value)
          count_of_peaks = 0
          do i = 1, size(values)
             if (sign_of*values(i) < level) cycle
             if (.not. is_peak(sign_of, i)) cycle
             count_of_peaks = count_of_peaks + 1
             peaks(count_of_peaks) = i
-            call estimate_peak(sign_of, i, estimates(count_of_peaks), place)
-            best = max(best, estimates(count_of_peaks))
+            call estimate_peak(sign_of, i, estimate)
+            bounds(count_of_peaks) = max(estimate, sign_of*values(i)) + parabola_error*range_of_piece(i)
          end do
-         do i = 1, count_of_peaks
-            if (estimates(i) >= best - parabola_error*range) call renew(sign_of, peaks(i), range, found)
+         ! From the peak that may be the highest on, until none is left that may be higher than what was found.
+         do while (count_of_peaks > 0)
+            i = maxloc(bounds(:count_of_peaks), dim=1)
+            if (found%exists) then
+               if (.not. bounds(i) > sign_of*found%value) exit
+            end if
+            call renew(sign_of, peaks(i), range, found)
+            peaks(i) = peaks(count_of_peaks)
+            bounds(i) = bounds(count_of_peaks)
+            count_of_peaks = count_of_peaks - 1
          end do
       end subroutine find_highest
 
@@ -115,13 +121,23 @@ contains
          if (is_peak .and. modulo(i, nodes_per_piece) > 0) is_peak = sign_of*values(i + 1) <= sign_of*values(i)
       end function is_peak
 
-      !> Highest point, within the piece, of the parabola through a node and its neighbours.
-      pure subroutine estimate_peak(sign_of, i, estimate, x)
+      !> Range of the nodes of the piece that a node belongs to.
+      pure real(dp) function range_of_piece(i)
+         integer, intent(in) :: i
+         integer :: before
+
+         before = nodes_per_piece*((i - 1)/nodes_per_piece)
+         associate (y => values(before + 1:before + nodes_per_piece))
+            range_of_piece = maxval(y) - minval(y)
+         end associate
+      end function range_of_piece
+
+      !> Highest value, within the piece, of the parabola through a node and its neighbours.
+      pure subroutine estimate_peak(sign_of, i, estimate)
          real(dp), intent(in) :: sign_of
          integer, intent(in) :: i
-         !> Value there, and its place in the piece
          real(dp), intent(out) :: estimate
-         real(dp), intent(out) :: x
+         real(dp) :: x
          integer :: middle, before
 
          middle = min(max(modulo(i - 1, nodes_per_piece) + 1, 2), nodes_per_piece - 1)

@@ -35,6 +35,7 @@ contains
       call checks%start('window_record')
       call test_nodes(checks)
       call test_peaks(checks)
+      call test_curves(checks)
       call test_canonical(checks)
       call test_pieces(checks)
       call test_impact(checks)
@@ -94,6 +95,72 @@ contains
          call checks%check_close(lowest%value, -1.0_dp, 1.0e-11_dp, 'a trough between nodes')
       end do
    end subroutine test_peaks
+
+   !> Curves of up to 1.27 oscillations a piece, several of whose peaks look alike by parabolas through their nodes: the highest and
+   !> the lowest place of each is found, to what eight nodes tell.
+   subroutine test_curves(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      integer, parameter :: curves = 2000, pieces = 8, lines = 3, places = 200
+      type(problem_t) :: scene
+      type(extreme_t) :: lowest, highest
+      real(dp) :: drawn(3, lines), states(nodes_per_piece*pieces, 2), state(2), truth(2), told(2), value
+      integer :: i, j, piece
+
+      states(:, of_film) = 1.0_dp
+      truth = 0.0_dp
+      told = 0.0_dp
+      do i = 1, curves
+         ! Golden multiples are spread as evenly as random numbers, and the same on every machine.
+         drawn = reshape([(modulo(0.61803398874989485_dp*real(9*i + j, dp)*real(j, dp), 1.0_dp), j=1, 3*lines)], [3, lines])
+         do piece = 1, pieces
+            states(nodes_per_piece*(piece - 1) + 1:nodes_per_piece*piece, of_velocity) = &
+               curve(drawn, real(piece - 1, dp) + node_place)
+         end do
+         lowest = extreme_t()
+         highest = extreme_t()
+         call find_extremes(scene, seen_velocity, 0, [(real(piece - 1, dp), piece=1, pieces)], spread(1.0_dp, 1, pieces), states, &
+                            states(:, of_velocity), lowest, highest)
+         truth = [huge(1.0_dp), -huge(1.0_dp)]
+         do piece = 1, pieces
+            do j = 0, places
+               call interpolate(states, piece, real(j, dp)/real(places, dp), state)
+               truth = [min(truth(1), state(of_velocity)), max(truth(2), state(of_velocity))]
+            end do
+         end do
+         told = [lowest%value, highest%value]
+         value = 1.0e-9_dp*(truth(2) - truth(1))
+         if (told(1) > truth(1) + value .or. told(2) < truth(2) - value) exit
+      end do
+      call checks%check_close(told(1), min(told(1), truth(1)), 1.0e-8_dp, 'curves: the lowest place')
+      call checks%check_close(told(2), max(told(2), truth(2)), 1.0e-8_dp, 'curves: the highest place')
+
+   contains
+
+      !> Cosines of a frequency, an amplitude and a phase each.
+      pure elemental real(dp) function cosine(frequency, amplitude, phase, x)
+         real(dp), intent(in) :: frequency
+         real(dp), intent(in) :: amplitude
+         real(dp), intent(in) :: phase
+         real(dp), intent(in) :: x
+
+         cosine = amplitude*cos(two_pi*(1.27_dp*frequency*x + phase))
+      end function cosine
+
+      !> Their sum.
+      pure function curve(drawn, x) result(values)
+         real(dp), intent(in) :: drawn(:, :)
+         real(dp), intent(in) :: x(:)
+         real(dp) :: values(size(x))
+         integer :: line
+
+         values = 0.0_dp
+         do line = 1, size(drawn, 2)
+            values = values + cosine(drawn(1, line), drawn(2, line), drawn(3, line), x)
+         end do
+      end function curve
+
+   end subroutine test_curves
 
    !> All film laws: extremes as those of very many samples, closed windows, lines as those of the samples; Taylor series and
    !> collocation.

@@ -248,3 +248,41 @@ def test_classify_holds_lines_against_the_orders_of_the_force(run, scene_text, t
     judged = classify(result)
     assert judged["line_count"] == summary["line_count"]
     assert judged["harmonic_distortion"] == pytest.approx(summary["harmonic_distortion"], rel=1e-12)
+
+
+def test_no_sample_lies_beyond_the_extremes_told(run, scene_text, tmp_path: Path) -> None:
+    """Forces of many orders have many peaks nearly as high as the highest: none of them is passed over."""
+    rng = np.random.default_rng(5)
+    orders = np.arange(1, 33)
+    names = [f"drawn{i}" for i in range(40)]
+    for name in names:
+        amplitudes = 0.4 * rng.uniform(0.0, 1.0, 32) ** 3
+        phases = rng.uniform(0.0, 2.0 * np.pi, 32)
+        load = {
+            "mass": "0.2",
+            "steady_force": "0.8",
+            "gravity": "0.0",
+            "frequency": repr(float(rng.uniform(20.0, 80.0))),
+            "force_amplitude": None,
+            "force_orders": ", ".join(map(str, orders)),
+            "force_amplitudes": ", ".join(f"{a:.9g}" for a in amplitudes),
+            "force_phases": ", ".join(f"{p:.9g}" for p in phases),
+        }
+        solver = {**TAYLOR, "accuracy": f"1e-{rng.integers(4, 9)}", "periods": "12"}
+        text = {
+            **CANONICAL,
+            "load": load,
+            "solver": solver,
+            "spectrum": {"periods": "8", "certify": ".false."},
+        }
+        (tmp_path / f"{name}.nml").write_text(scene_text(**text))
+    assert run(*(f"{name}.nml" for name in names), cwd=tmp_path).returncode == 0
+    for name in names:
+        told = summary_of(tmp_path / "results" / f"{name}.summary.nml")
+        result = rattle.read(tmp_path / "results" / f"{name}.rattle")
+        window = slice(-8 * 2048, None)
+        for quantity, column in (("acceleration", "acceleration"), ("film", "film_thickness")):
+            samples = np.array(result[column])[window]
+            reach = np.ptp(samples)
+            assert told[f"{quantity}_maximum"] >= samples.max() - 1e-7 * reach, (name, quantity)
+            assert told[f"{quantity}_minimum"] <= samples.min() + 1e-7 * reach, (name, quantity)
