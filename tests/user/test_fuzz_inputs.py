@@ -37,7 +37,6 @@ STATUSES = {
 
 # Derandomized: a test that fails fails for everybody. Shrinking is kept, so that a failure is small.
 FUZZ = settings(
-    deadline=None,
     max_examples=150,
     derandomize=True,
     database=None,

@@ -182,7 +182,7 @@ def test_pressure_vanishes_at_rupture_and_peaks_at_the_critical_group():
 # --- properties -----------------------------------------------------------------------------------------
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(finite_groups, finite_groups)
 def test_load_is_positive_and_rupture_falls_with_separation(first, second):
     low, high = sorted((first, second))
@@ -195,7 +195,7 @@ def test_load_is_positive_and_rupture_falls_with_separation(first, second):
     assert kernels.rupture_tangent(low) > -low / 2.0
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(
     moderate_groups,
     st.floats(min_value=0.0, max_value=0.999999),
@@ -211,7 +211,7 @@ def test_viscosity_that_rises_with_pressure_carries_more(a, first, second):
     assert kernels.piezo_viscous_load(a, 0.0)[0] == phi
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(moderate_groups)
 def test_piezo_viscous_load_tends_to_the_iso_viscous_one(a):
     phi, _ = kernels.iso_viscous_load(a)
@@ -220,7 +220,7 @@ def test_piezo_viscous_load_tends_to_the_iso_viscous_one(a):
         assert abs(kernels.piezo_viscous_load(a, share * critical)[0] / phi - 1.0) < share
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(moderate_groups, st.floats(min_value=0.01, max_value=0.95))
 def test_slopes_are_those_of_the_loads(a, share):
     b = share * kernels.critical_pressure_group(a)
