@@ -25,10 +25,11 @@ module node_extremes
    !> Pieces that are looked at together, at most: their arrays stay in the cache.
    integer, parameter, public :: block_pieces = 64, block_nodes = nodes_per_piece*block_pieces
 
-   !> How far a curve of at most 1.27 oscillations a piece may rise above its nodes, as a share of the range of many pieces.
+   !> How far above its nodes a curve of at most 1.27 oscillations a piece is looked for, as a share of the range of many pieces. In
+   !> a piece of its own one of a thousand random curves rises farther, by 0.27 of the range at most seen.
    real(dp), parameter :: between = 0.15_dp
-   !> How far it may rise above the parabola through three nodes, as a share of its range in the piece: of 32,000 random ones none
-   !> rose farther, and one of a hundred by more than half of that.
+   !> How far it is allowed to rise above the parabola through three nodes, as a share of its range in the piece: one of a thousand
+   !> random curves rises by more than 0.05, the farthest of 32,000 by 0.0701.
    real(dp), parameter :: parabola_error = 0.07_dp
    !> Change of an extreme, as a share of the range, behind which the next one would be a hundred times smaller.
    real(dp), parameter :: settled = 1.0e-9_dp
