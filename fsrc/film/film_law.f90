@@ -311,12 +311,14 @@ contains
 
    !> Film velocity at which a film carries a load, and its slopes. Those of a film that carries it at no velocity, and of a law
    !> that is not known, are 0.
-   pure subroutine squeeze_velocity(film, thickness, load, velocity, velocity_by_film, velocity_by_load, outcome)
+   pure subroutine squeeze_velocity(film, thickness, load, near, velocity, velocity_by_film, velocity_by_load, outcome)
       type(film_t), intent(in) :: film
       !> Film thickness h > 0 [m]
       real(dp), intent(in) :: thickness
       !> Load W [N]
       real(dp), intent(in) :: load
+      !> What the velocity is likely to be, which saves time; 0 where nothing is known of it [m/s]
+      real(dp), intent(in) :: near
       !> Film velocity w = dh/dt [m/s]
       real(dp), intent(out) :: velocity
       !> dw/dh at constant load [1/s]
@@ -325,8 +327,7 @@ contains
       real(dp), intent(out) :: velocity_by_load
       !> Whether some velocity gives the load, one of load_... of module squeeze_of_load
       integer, intent(out) :: outcome
-      real(dp) :: a, a_by_load, a_by_pressure_group, pressure_group, width_factor, carried, load_by_film, load_by_velocity
-      real(dp) :: share, velocity_of_one
+      real(dp) :: a, a_by_load, a_by_pressure_group, pressure_group, share, velocity_of_one
 
       velocity = 0.0_dp
       velocity_by_film = 0.0_dp
@@ -334,18 +335,25 @@ contains
       select case (film%kernel)
       case (kernel_half_pi)
          outcome = load_carried
-         velocity = (film%rolling - load*thickness)*sqrt(thickness)/(pi*film%squeeze)
+         share = 1.0_dp/(pi*film%squeeze)
+         velocity = (film%rolling - load*thickness)*sqrt(thickness)*share
+         velocity_by_film = (0.5_dp*film%rolling/sqrt(thickness) - 1.5_dp*load*sqrt(thickness))*share
+         velocity_by_load = -thickness*sqrt(thickness)*share
       case (kernel_solved_fast, kernel_solved_successive)
-         width_factor = film%squeeze/(film%rolling*film%squeeze_rate)
-         call published_squeeze(load*thickness/film%rolling, width_factor, a, outcome)
-         velocity = a*sqrt(thickness)/film%squeeze_rate
+         call published_squeeze(load*thickness/film%rolling, a, a_by_load, outcome)
+         velocity_of_one = sqrt(thickness)/film%squeeze_rate
+         velocity = a*velocity_of_one
+         ! Of (24) this slope is lost in rounding where the film separates very fast.
+         if (outcome /= load_carried .or. .not. a_by_load < 0.0_dp) return
+         share = 1.0_dp/film%rolling
+         velocity_by_film = a_by_load*load*share*velocity_of_one + 0.5_dp*velocity/thickness
+         velocity_by_load = a_by_load*thickness*share*velocity_of_one
       case (kernel_piezo)
          outcome = merge(load_carried, load_too_small, load > 0.0_dp)
          if (.not. load > 0.0_dp) return
          velocity = -log(load/film%piezo*(thickness*thickness*thickness)*sqrt(thickness))/film%rate
          velocity_by_film = -3.5_dp/(film%rate*thickness)
          velocity_by_load = -1.0_dp/(film%rate*load)
-         return
       case (kernel_reynolds_iso)
          share = 1.0_dp/film%scale
          velocity_of_one = sqrt(thickness)/film%squeeze_rate
@@ -354,24 +362,19 @@ contains
          if (outcome /= load_carried) return
          velocity_by_film = a_by_load*load*share*velocity_of_one + 0.5_dp*velocity/thickness
          velocity_by_load = a_by_load*thickness*share*velocity_of_one
-         return
       case (kernel_reynolds_piezo)
+         share = 1.0_dp/film%scale
+         velocity_of_one = sqrt(thickness)/film%squeeze_rate
          pressure_group = film%pressure_rate/(thickness*sqrt(thickness))
-         call piezo_viscous_squeeze(load*thickness/film%scale, pressure_group, a, a_by_load, a_by_pressure_group, outcome)
-         velocity = a*sqrt(thickness)/film%squeeze_rate
-         velocity_by_film = ((a_by_load*load/film%scale - 1.5_dp*a_by_pressure_group*pressure_group/thickness)*sqrt(thickness) + &
-                             0.5_dp*a/sqrt(thickness))/film%squeeze_rate
-         velocity_by_load = a_by_load*thickness/film%scale*sqrt(thickness)/film%squeeze_rate
-         return
+         call piezo_viscous_squeeze(load*thickness*share, pressure_group, near/velocity_of_one, a, a_by_load, a_by_pressure_group, &
+                                    outcome)
+         velocity = a*velocity_of_one
+         velocity_by_film = (a_by_load*load*share - 1.5_dp*a_by_pressure_group*pressure_group/thickness)*velocity_of_one + &
+                            0.5_dp*velocity/thickness
+         velocity_by_load = a_by_load*thickness*share*velocity_of_one
       case default
          outcome = load_too_small
       end select
-      if (outcome /= load_carried) return
-      call film_load(film, thickness, velocity, carried, load_by_film, load_by_velocity)
-      ! Of (24) this slope is lost in rounding where the film separates very fast.
-      if (.not. load_by_velocity < 0.0_dp) return
-      velocity_by_film = -load_by_film/load_by_velocity
-      velocity_by_load = 1.0_dp/load_by_velocity
    end subroutine squeeze_velocity
 
    !> The law that the group &film chooses, in words.

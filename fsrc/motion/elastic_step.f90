@@ -287,7 +287,8 @@ contains
                cycle
             end if
             call squeeze_velocity(film_law, trial%film(i, flank)*block%film_scale(lane), &
-                                  trial%load(i, flank)*block%force_scale(lane), velocity, by_film, by_load, outcome)
+                                  trial%load(i, flank)*block%force_scale(lane), &
+                                  trial%velocity(i, flank)*block%velocity_scale(lane), velocity, by_film, by_load, outcome)
             if (by_velocities(film_law, trial%film(i, flank)*block%film_scale(lane), by_load, outcome)) then
                block%no_load(lane) = outcome == load_too_large
                found = outcome == load_carried

@@ -231,7 +231,8 @@ contains
       integer :: outcome, i
 
       do i = 1, size(films)
-         call squeeze_velocity(problem%film, films(i), compressions(i)/problem%compliance, velocity, by_film, by_load, outcome)
+         call squeeze_velocity(problem%film, films(i), compressions(i)/problem%compliance, velocities(i), velocity, by_film, &
+                               by_load, outcome)
          if (outcome == load_carried) velocities(i) = velocity
       end do
    end subroutine film_velocities

@@ -141,15 +141,28 @@ contains
       call classify_steps(records(1), problem%frequency, scene%spectrum, noise_floor, verdict)
    end subroutine judge_by_integrals
 
-   !> An empty record that asks for Fourier integrals.
+   !> An empty record that asks for Fourier integrals. Where all orders of the force are multiples of one, so may all lines be, and
+   !> as many of them are asked for as of a force whose orders have no common divisor.
    pure function integral_record(spectrum) result(record)
       !> Limits of the classes
       type(spectrum_choice_t), intent(in) :: spectrum
       type(window_record_t) :: record
 
       record%wants = .false.
-      record%multiples = max(usual_multiples, 2*spectrum%idle_lines, 2*findloc(spectrum%forced, .true., dim=1, back=.true.))
+      record%multiples = max(usual_multiples, 2*spectrum%idle_lines*common_divisor(spectrum%forced), &
+                             2*findloc(spectrum%forced, .true., dim=1, back=.true.))
    end function integral_record
+
+   !> Greatest order of which all orders of a force are multiples.
+   pure integer function common_divisor(forced)
+      logical, intent(in) :: forced(:)
+      integer :: order
+
+      common_divisor = 1
+      do order = 2, size(forced)
+         if (count(forced(order::order)) == count(forced) .and. any(forced)) common_divisor = order
+      end do
+   end function common_divisor
 
    !> Class of a window by its samples, and whether they are enough: their mean and their power must be those of the steps.
    subroutine classify_window(spectrum, problem, periods, accelerations, record, noise_floor, verdict)

@@ -335,7 +335,8 @@ contains
             drift = films(:, flank)*matmul(rule%differentiate, added(:, logarithm))/seconds
             do i = 1, nodes
                if (never_pulls(tooth%film)) then
-                  call squeeze_velocity(tooth%film, films(i, flank), loads(i, flank), wanted(i), by_film(i), by_load(i), outcome)
+                  call squeeze_velocity(tooth%film, films(i, flank), loads(i, flank), drift(i), wanted(i), by_film(i), by_load(i), &
+                                        outcome)
                   if (outcome /= load_carried) return
                else
                   call film_load(tooth%film, films(i, flank), drift(i), load, load_by_film, load_by_velocity)
@@ -359,7 +360,7 @@ contains
          end do
          if (.not. all(abs(residual) < huge(1.0_dp))) return
          correction = -residual
-         call solve_dense(matrix, correction, regular)
+         call solve_dense(size(correction), matrix, correction, regular)
          if (.not. regular) return
          unit = unit_of_velocity(tooth, step, films)
          change = maxval(abs(correction(:nodes)))/unit
@@ -478,43 +479,59 @@ contains
       end do
    end subroutine first_added
 
-   !> Gauss's elimination with a search for the pivot; rows are scaled by their largest number first.
-   pure subroutine solve_dense(matrix, unknown, solved)
-      real(dp), intent(inout) :: matrix(:, :)
+   !> Gauss's elimination with a search for the pivot, down columns, four rows at a time; rows are scaled by their largest number
+   !> first.
+   pure subroutine solve_dense(n, matrix, unknown, solved)
+      !> Number of equations, a multiple of four
+      integer, intent(in) :: n
+      real(dp), intent(inout) :: matrix(n, n)
       !> Right-hand side, on return the solution
-      real(dp), intent(inout) :: unknown(:)
+      real(dp), intent(inout) :: unknown(n)
       logical, intent(out) :: solved
-      real(dp) :: row(size(unknown)), held, factor
-      integer :: n, k, i, pivot
+      real(dp) :: scale(n), factor(n), held
+      integer :: k, i, j, four, pivot
 
-      n = size(unknown)
       solved = .false.
-      do i = 1, n
-         held = maxval(abs(matrix(i, :)))
-         if (.not. (held > 0.0_dp .and. held < huge(1.0_dp))) return
-         matrix(i, :) = matrix(i, :)/held
-         unknown(i) = unknown(i)/held
+      scale = 0.0_dp
+      do j = 1, n
+         scale = max(scale, abs(matrix(:, j)))
       end do
+      if (.not. (all(scale > 0.0_dp) .and. all(scale < huge(1.0_dp)))) return
+      do j = 1, n
+         matrix(:, j) = matrix(:, j)/scale
+      end do
+      unknown = unknown/scale
       do k = 1, n
-         pivot = k - 1 + maxloc(abs(matrix(k:, k)), dim=1)
+         pivot = k
+         do i = k + 1, n
+            if (abs(matrix(i, k)) > abs(matrix(pivot, k))) pivot = i
+         end do
          if (.not. abs(matrix(pivot, k)) > 0.0_dp) return
          if (pivot /= k) then
-            row = matrix(k, :)
-            matrix(k, :) = matrix(pivot, :)
-            matrix(pivot, :) = row
-            held = unknown(k)
-            unknown(k) = unknown(pivot)
-            unknown(pivot) = held
+            do j = k, n
+               held = matrix(k, j)
+               matrix(k, j) = matrix(pivot, j)
+               matrix(pivot, j) = held
+            end do
+            unknown([k, pivot]) = unknown([pivot, k])
          end if
-         do i = k + 1, n
-            factor = matrix(i, k)/matrix(k, k)
-            if (.not. abs(factor) > 0.0_dp) cycle
-            matrix(i, k + 1:) = matrix(i, k + 1:) - factor*matrix(k, k + 1:)
-            unknown(i) = unknown(i) - factor*unknown(k)
+         factor(:k) = 0.0_dp
+         factor(k + 1:) = matrix(k + 1:, k)/matrix(k, k)
+         do j = k + 1, n
+            held = matrix(k, j)
+            if (.not. abs(held) > 0.0_dp) cycle
+            do four = 4*(k/4), n - 1, 4
+               !$omp simd
+               do i = 1, 4
+                  matrix(four + i, j) = matrix(four + i, j) - held*factor(four + i)
+               end do
+            end do
          end do
+         unknown = unknown - unknown(k)*factor
       end do
       do k = n, 1, -1
-         unknown(k) = (unknown(k) - dot_product(matrix(k, k + 1:), unknown(k + 1:)))/matrix(k, k)
+         unknown(k) = unknown(k)/matrix(k, k)
+         unknown(:k - 1) = unknown(:k - 1) - unknown(k)*matrix(:k - 1, k)
       end do
       solved = .true.
    end subroutine solve_dense

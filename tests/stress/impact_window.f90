@@ -11,7 +11,7 @@ module impact_window
    integer, parameter, public :: integrated_lines = 64
    real(dp), parameter :: longest_in_window = 1.0_dp/64.0_dp, longest = 0.1_dp
    !> More steps are not waited for.
-   integer, parameter :: most_steps = 2000000
+   integer, parameter :: most_steps = 300000
    real(dp), parameter :: two_pi = 6.28318530717958647692_dp
 
    !> A window.

@@ -1,8 +1,10 @@
 !> Random scenes solved and judged as a user has them judged, each summary, each row of a campaign and each value of a
 !> sweep held against the true motion.
 !>
-!>    stress_summaries [--scenes N] [--campaigns N] [--sweeps N] [--seed S] [--first I] [--failures FILE] [--list OUTCOME]
+!>    stress_summaries [--scenes N] [--campaigns N] [--sweeps N] [--seed S] [--first I] [--longest STEPS] [--failures FILE]
+!>       [--list OUTCOME]
 !>
+!> Scenes that are likely to take more than `--longest` steps are not solved, but counted as too long.
 !> Prints the table of outcomes and, of every silent failure and all that is listed, a namelist that shows it
 !> again. The exit code is 1 if there is a silent failure. The result does not depend on the number of threads
 !> (OMP_NUM_THREADS).
@@ -17,15 +19,17 @@ program stress_summaries
    use run_sweep, only: carried_state_t
    use scene_namelist, only: print_namelist
    use scene_types, only: scene_t
-   use summary_outcomes, only: outcome_of_row, outcome_of_summary, told_names, told_outcome_t, told_outcomes, told_silent
+   use summary_outcomes, only: outcome_of_row, outcome_of_summary, told_long, told_names, told_outcome_t, &
+                               told_outcomes, told_silent
    use text, only: integer_text
-   use told_summary, only: rows_told, summary_told, told_t, value_told
+   use told_summary, only: rows_told, steps_expected, summary_told, told_t, value_told
    implicit none(type, external)
 
    !> The scenes of a table: all decades, loose gears, rows of campaigns without and with certificate, values of sweeps.
    character(*), parameter :: kinds_of_scenes(5) = [character(16) :: 'all decades', 'loose gears', 'campaign rows', &
       'certified rows', 'sweep values']
-   integer(int64) :: scenes = 100000_int64, campaigns = -1_int64, sweeps = -1_int64, seed = 1_int64, first = 0_int64, number
+   integer(int64) :: scenes = 100000_int64, campaigns = -1_int64, sweeps = -1_int64, seed = 1_int64, first = 0_int64, number, &
+      longest = huge(1_int64)
    integer(int64) :: counts(told_outcomes, laws, size(kinds_of_scenes)) = 0_int64
    character(512) :: failures = ''
    logical :: listed(told_outcomes) = .false.
@@ -79,11 +83,15 @@ contains
       integer :: law
 
       call draw_judged_scene(seed, number, drawn, law)
-      times(1) = wall_seconds()
-      call summary_told(drawn, told)
-      times(2) = wall_seconds()
-      call outcome_of_summary(drawn, rule, told, outcome)
-      times(3) = wall_seconds()
+      times = wall_seconds()
+      if (all(steps_expected([drawn]) <= longest)) then
+         call summary_told(drawn, told)
+         times(2) = wall_seconds()
+         call outcome_of_summary(drawn, rule, told, outcome)
+         times(3) = wall_seconds()
+      else
+         outcome = told_outcome_t(code=told_long, fault='')
+      end if
       !$omp critical (count_summaries)
       if (times(3) - times(1) > slowest) then
          slowest = times(3) - times(1)
@@ -102,17 +110,23 @@ contains
       type(told_t), allocatable :: told(:)
       type(told_outcome_t) :: outcome
       real(dp) :: values(size(campaign_keys), campaign_rows), times(3)
-      logical :: certified
+      logical :: certified, too_long
       integer :: law, i
 
       allocate (drawn(campaign_rows), told(campaign_rows))
       call draw_campaign(seed, number, base, law, values, drawn)
       times(1) = wall_seconds()
       certified = modulo(number, 4_int64) == 3_int64
-      call rows_told(base, campaign_keys, values, certified, told)
+      ! The scenes of a campaign wait for each other.
+      too_long = any(steps_expected(drawn) > longest)
+      if (.not. too_long) call rows_told(base, campaign_keys, values, certified, told)
       times(2) = wall_seconds()
       do i = 1, campaign_rows
-         call outcome_of_row(drawn(i), rule, told(i), outcome)
+         if (too_long) then
+            outcome = told_outcome_t(code=told_long, fault='')
+         else
+            call outcome_of_row(drawn(i), rule, told(i), outcome)
+         end if
          !$omp critical (count_summaries)
          call note(drawn(i), merge(4, 3, certified), law, 'row', outcome)
          !$omp end critical (count_summaries)
@@ -131,8 +145,10 @@ contains
       type(told_outcome_t) :: outcome
       type(carried_state_t) :: state
       real(dp) :: times(3)
+      logical :: too_long
       integer :: law, i
 
+      too_long = .false.
       call draw_sweep(seed, number, drawn, law)
       do i = 1, sweep_values
          associate (value => drawn(i))
@@ -142,11 +158,17 @@ contains
                value%scene%film%initial_velocity = state%velocity
             end if
          end associate
-         times(1) = wall_seconds()
-         call value_told(drawn(i)%scene, state, told)
-         times(2) = wall_seconds()
-         call outcome_of_row(drawn(i), rule, told, outcome)
-         times(3) = wall_seconds()
+         times = wall_seconds()
+         ! A sweep hands on where a value ends.
+         too_long = too_long .or. any(steps_expected(drawn(i:i)) > longest)
+         if (too_long) then
+            outcome = told_outcome_t(code=told_long, fault='')
+         else
+            call value_told(drawn(i)%scene, state, told)
+            times(2) = wall_seconds()
+            call outcome_of_row(drawn(i), rule, told, outcome)
+            times(3) = wall_seconds()
+         end if
          !$omp critical (count_summaries)
          call note(drawn(i), 5, law, 'value', outcome)
          value_seconds = value_seconds + times(2:) - times(:2)
@@ -217,6 +239,8 @@ contains
             read (value, *, iostat=failure) seed
          case ('--first')
             read (value, *, iostat=failure) first
+         case ('--longest')
+            read (value, *, iostat=failure) longest
          case ('--failures')
             failures = value
          case ('--list')
@@ -228,7 +252,7 @@ contains
       end do
       if (failure == 0 .and. scenes > 0_int64 .and. first >= 0_int64) return
       write (error_unit, '(a)') 'usage: stress_summaries [--scenes N] [--campaigns N] [--sweeps N] [--seed S] [--first I]', &
-         '   [--failures FILE] [--list OUTCOME]'
+         '   [--longest STEPS] [--failures FILE] [--list OUTCOME]'
       stop 2
    end subroutine read_arguments
 

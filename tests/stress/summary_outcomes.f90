@@ -28,10 +28,11 @@ module summary_outcomes
    private
 
    integer, parameter, public :: told_right = 1, told_irregular = 2, told_sensitive = 3, told_uncertain = 4, &
-                                 told_understated = 5, told_status = 6, told_unjudged = 7, told_silent = 8
-   integer, parameter, public :: told_outcomes = 8
+                                 told_understated = 5, told_status = 6, told_unjudged = 7, told_long = 8, &
+                                 told_silent = 9
+   integer, parameter, public :: told_outcomes = 9
    character(*), parameter, public :: told_names(told_outcomes) = [character(20) :: 'right', 'irregular', 'sensitive', &
-      'uncertain', 'error understated', 'status', 'unjudged', 'SILENT FAILURE']
+      'uncertain', 'error understated', 'status', 'unjudged', 'too long', 'SILENT FAILURE']
 
    !> Quantities that are compared, and their names.
    integer, parameter :: quantities = 6 + compared_harmonics

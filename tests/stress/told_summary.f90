@@ -3,14 +3,15 @@
 module told_summary
    use certificate, only: certificate_word
    use controlled_engine, only: reserved_periods, solve_controlled
-   use engine, only: checkpoint_t, ending_t, motion_watcher_t
+   use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, request_t, start_of
    use errors, only: error_t
    use impact_reference, only: compared_harmonics
    use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp, int64
+   use many_motions, only: solve_motions
    use newmark_engine, only: solve_newmark
-   use problem, only: has_two_flanks
+   use problem, only: has_two_flanks, largest_state, problem_t
    use quantities, only: quantity_acceleration_maximum, quantity_acceleration_minimum, quantity_certified, &
                          quantity_coast_film_maximum, quantity_coast_film_minimum, &
                          quantity_film_maximum, quantity_film_minimum, quantity_harmonics, quantity_orbit_period, &
@@ -56,9 +57,31 @@ module told_summary
       procedure :: period_done
    end type nobody_t
 
-   public :: rows_told, summary_told, value_told
+   public :: rows_told, steps_expected, summary_told, value_told
 
 contains
+
+   !> Steps that scenes are likely to take, as far as their first periods tell; a steady motion is found after `settled` of them.
+   function steps_expected(drawn) result(steps)
+      !> Scenes of one accuracy
+      type(drawn_scene_t), intent(in) :: drawn(:)
+      integer(int64) :: steps(size(drawn))
+      integer, parameter :: first_periods = 2, settled = 30
+      type(problem_t) :: problems(size(drawn))
+      type(motion_state_t) :: starts(size(drawn))
+      type(ending_t) :: endings(size(drawn))
+      real(dp) :: none(0, largest_state, size(drawn))
+      integer :: i
+
+      do i = 1, size(drawn)
+         problems(i) = drawn(i)%resolved%problem
+         starts(i) = start_of(problems(i))
+      end do
+      call solve_motions(problems, starts, request_t(accuracy=drawn(1)%scene%solver%accuracy, periods=first_periods, &
+                                                     every_period=.true.), none, endings)
+      steps = endings%count%steps/first_periods*merge(min(drawn%scene%solver%periods, settled), drawn%scene%solver%periods, &
+                                                      drawn%scene%solver%until == until_steady)
+   end function steps_expected
 
    !> Solve and judge a scene.
    subroutine summary_told(drawn, told)

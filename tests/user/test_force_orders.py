@@ -286,3 +286,34 @@ def test_no_sample_lies_beyond_the_extremes_told(run, scene_text, tmp_path: Path
             reach = np.ptp(samples)
             assert told[f"{quantity}_maximum"] >= samples.max() - 1e-7 * reach, (name, quantity)
             assert told[f"{quantity}_minimum"] <= samples.min() + 1e-7 * reach, (name, quantity)
+
+
+def test_a_force_of_high_orders_alone_has_all_its_lines_counted(run, scene_text, tmp_path: Path) -> None:
+    """Orders 15 and 24: every third line is one, and impacts too short for samples have more than the first 40 multiples."""
+    groups = {
+        "contact": {"radius": "4.872326888672092e-3", "length": "5.795388516972303e-3"},
+        "lubricant": {"viscosity": "0.18345063391522218", "pressure_viscosity": "1.2024540627285404e-8"},
+        "kinematics": {"entrainment_speed": "0.10958939782734214"},
+        "film": {"law": "'iso-viscous'", "model": "'reynolds'"},
+        "load": {
+            "mass": "0.6770292660429571",
+            "steady_force": "9.364527042425909",
+            "force_amplitude": None,
+            "force_orders": "15, 24",
+            "force_amplitudes": "0.5866889569144734, 0.4133110430855265",
+            "force_phases": "1.0827893103541142, 2.0805537615679044",
+            "force_scale": "77.22739367095402",
+            "frequency": "19.289232126593813",
+        },
+        "solver": TAYLOR | {"accuracy": "1.0e-10", "samples_per_period": "512", "periods": "23"},
+        "spectrum": {"periods": "4"},
+    }
+    single, _ = solve(run, scene_text, tmp_path, "single", **groups)
+    assert single["rattle_class"] == "idle"
+    assert single["certificate"] == "certified"
+    assert single["line_count"] >= 20
+    rows = {"vary": "'load.steady_force'", "first": "9.364527042425909", "last": "9.4", "count": "2"}
+    groups["campaign"] = rows | {"record": "'rattle_class', 'line_count'"}
+    _, campaign = solve(run, scene_text, tmp_path, "rows", scene={"task": "'campaign'"}, **groups)
+    assert campaign["rattle_class"][0] == 3
+    assert campaign["line_count"][0] == single["line_count"]
