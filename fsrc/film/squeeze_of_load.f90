@@ -111,6 +111,11 @@ contains
       real(dp) :: fastest, last, load, slope, load_by_b, nudge
       logical :: found
 
+      a = 0.0_dp
+      a_by_load = 0.0_dp
+      a_by_b = 0.0_dp
+      outcome = load_too_small
+      if (.not. psi > smallest_group) return
       outcome = load_carried
       a = near
       call approach_load(psi, b, a, a_by_load, a_by_b, found)

@@ -14,11 +14,12 @@ module film_series
    use load_pieces, only: exact_load, load_limit, published_load
    use problem, only: has_elastic_teeth, has_two_flanks, problem_t
    use reynolds_piezo_expansion, only: expand_reynolds_piezo
+   use squeeze_of_load, only: load_carried, piezo_viscous_squeeze
    use taylor_iso_viscous, only: iso_viscous_series, iso_viscous_series_of_two
    use taylor_piezo_viscous, only: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
    use taylor_reynolds_piezo, only: reynolds_piezo_series, reynolds_piezo_series_of_two
    use taylor_rupture, only: equation_rounding, reject_large_defect, rupture_order, rupture_series, rupture_series_of_two
-   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, rupture_springs, shortest_rest
+   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, reynolds_piezo_springs, rupture_springs, shortest_rest
    use taylor_step_control, only: film_weight, order, rounding
    implicit none(type, external)
    private
@@ -83,7 +84,6 @@ contains
       end select
       series%never_pulls = problem%film%kernel == kernel_piezo
       series%springs = has_elastic_teeth(problem)
-      if (series%springs .and. problem%film%kernel == kernel_reynolds_piezo) series%exists = .false.
    end function series_of
 
    !> Whether a problem has a Taylor series that is good enough.
@@ -225,6 +225,15 @@ contains
          end do
          call rupture_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, block%squeeze, &
                               films, block%momentum, block%compression)
+      case (kernel_reynolds_piezo)
+         do flank = 1, flanks
+            call expand_pressed_film(series, flank, films(:, 0, flank), &
+                                     load_group(series, films(:, 0, flank), block%compression(:, flank, 0), block), &
+                                     (block%piezo_expansion(flank)%momentum), block)
+            block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
+         end do
+         call reynolds_piezo_springs(flanks, block%strength, block%damping, block%pressing, block%compliance, block%static_load, &
+                                     force, block%piezo_expansion, films, block%momentum, block%compression)
       case default
          films(:, 1:, :) = 0.0_dp
          block%momentum(:, 1:) = 0.0_dp
@@ -249,6 +258,71 @@ contains
       end do
    end function load_group
 
+   !> Expand the load of an exact piezo-viscous film about the velocity at which it carries that of its spring: Newton's method from
+   !> a velocity near by, whose first pass is enough for most, and where it does not lead there the film law turned round. A lane
+   !> whose film and load are what they were is left as it is, or its bits would depend on the others.
+   pure subroutine expand_pressed_film(series, flank, film, load, near, block)
+      type(film_series_t), intent(in) :: series
+      integer, intent(in) :: flank
+      !> H or C, and its load group [-]
+      real(dp), intent(in) :: film(lanes)
+      real(dp), intent(in) :: load(lanes)
+      !> What its velocity is likely to be [-]
+      real(dp), intent(in) :: near(lanes)
+      type(lane_block_t), intent(inout) :: block
+      !> Largest step of asinh A that a pass is trusted with, and share of what a step may be off that a velocity is left off by
+      real(dp), parameter :: longest = 0.5_dp, left = 0.01_dp
+      real(dp), dimension(lanes) :: velocity, of_one, change, tolerance
+      logical :: known(lanes)
+      integer :: l
+
+      associate (squeeze => block%squeeze(flank), expansion => block%piezo_expansion(flank))
+         known = abs(load - squeeze%load) <= 0.0_dp .and. abs(film - expansion%film) <= 0.0_dp
+         if (all(known)) return
+         squeeze%load = load
+         of_one = sqrt(max(film, tiny(1.0_dp)))/block%damping
+         velocity = merge(expansion%momentum, near, known)
+         call expand_reynolds_piezo(film, velocity, block%damping, block%pressing, expansion)
+         change = (load - expansion%terms(:, 0))/expansion%load_slope
+         do l = 1, lanes
+            if (known(l)) cycle
+            squeeze%inside(l) = expansion%inside(l)
+            if (expansion%inside(l) > 0.0_dp .and. abs(change(l)) < longest*sqrt(1.0_dp + expansion%group(l)**2)) then
+               velocity(l) = velocity(l) + change(l)*of_one(l)
+            else
+               call turn_round(load(l), expansion%pressure_group(l), of_one(l), near(l), velocity(l), squeeze%inside(l))
+            end if
+         end do
+         call expand_reynolds_piezo(film, velocity, block%damping, block%pressing, expansion)
+         change = (load - expansion%terms(:, 0))/expansion%load_slope*of_one
+         tolerance = left*series%share*block%accuracy*film_weight(film)
+         do l = 1, lanes
+            if (known(l) .or. abs(change(l)) <= tolerance(l)) cycle
+            call turn_round(load(l), expansion%pressure_group(l), of_one(l), near(l), velocity(l), squeeze%inside(l))
+         end do
+         call expand_reynolds_piezo(film, velocity, block%damping, block%pressing, expansion)
+         squeeze%inside = squeeze%inside*expansion%inside
+      end associate
+   end subroutine expand_pressed_film
+
+   !> The velocity of an exact piezo-viscous film by its law turned round.
+   pure subroutine turn_round(load, pressure_group, of_one, near, velocity, inside)
+      !> Load group, B, velocity of A = 1, and what the velocity is likely to be [-]
+      real(dp), intent(in) :: load
+      real(dp), intent(in) :: pressure_group
+      real(dp), intent(in) :: of_one
+      real(dp), intent(in) :: near
+      !> The velocity [-], and 1; 0 where no film carries the load
+      real(dp), intent(out) :: velocity
+      real(dp), intent(out) :: inside
+      real(dp) :: group, by_load, by_pressure
+      integer :: outcome
+
+      call piezo_viscous_squeeze(load, pressure_group, near/of_one, group, by_load, by_pressure, outcome)
+      velocity = group*of_one
+      inside = merge(1.0_dp, 0.0_dp, outcome == load_carried .and. by_load < 0.0_dp)
+   end subroutine turn_round
+
    !> Reject the steps of teeth that give at whose end the series violates the film law. The squeeze group is expanded there, for the
    !> next step to begin with. The defect D of a film's velocity is that of the first terms left out, so D x/(n + 1) estimates the
    !> local error of the film: it must not exceed what the step control grants the last term.
@@ -259,8 +333,8 @@ contains
       !> H and C at the end of the step [-]
       real(dp), intent(in) :: next_films(lanes, 2)
       type(lane_block_t), intent(inout) :: block
-      real(dp), dimension(lanes) :: place, start, rise, thinner
-      real(dp) :: velocity, defect, granted
+      real(dp), dimension(lanes) :: place, start, rise, thinner, velocity, disturbance
+      real(dp) :: defect, granted
       integer :: flank, k, l
 
       if (.not. series%checked_at_end) return
@@ -270,22 +344,34 @@ contains
          start = load_group(series, films(:, 0, flank), block%compression(:, flank, 0), block)
          place = load_group(series, next_films(:, flank), block%next_compression(:, flank), block)
          place = merge(place, start, block%trust > 0.0_dp)
-         call expand_squeeze(series%pieces, place, block%squeeze(flank))
          rise = real(series%last_order, dp)*films(:, series%last_order, flank)
          do k = series%last_order - 1, 1, -1
             rise = rise*block%step + real(k, dp)*films(:, k, flank)
          end do
-         associate (there => block%squeeze(flank))
-            !$omp simd private(velocity, defect, granted)
-            do l = 1, lanes
-               velocity = sqrt(max(next_films(l, flank), 0.0_dp))/block%damping(l)
-               defect = abs(velocity*there%terms(l, 0) - rise(l)) - equation_rounding*velocity &
-                  *(abs(there%terms(l, 0)) + abs(there%terms(l, 1))*there%inverse_unit(l)*(place(l) + load_limit(series%pieces)))
-               granted = (real(series%last_order + 1, dp)*series%share) &
-                  *max(block%accuracy(l)*film_weight(thinner(l)), rounding*next_films(l, flank))
-               block%trust(l) = block%trust(l)*there%inside(l)*merge(1.0_dp, 0.0_dp, defect <= granted)
-            end do
-         end associate
+         ! What rounding of the load may move the velocity by
+         if (series%kernel == kernel_reynolds_piezo) then
+            call expand_pressed_film(series, flank, merge(next_films(:, flank), films(:, 0, flank), block%trust > 0.0_dp), place, &
+                                     rise, block)
+            associate (there => block%piezo_expansion(flank))
+               velocity = there%momentum
+               disturbance = (abs(there%group) + abs(place/there%load_slope))*there%film*there%root/block%damping
+            end associate
+         else
+            call expand_squeeze(series%pieces, place, block%squeeze(flank))
+            associate (there => block%squeeze(flank))
+               velocity = sqrt(max(next_films(:, flank), 0.0_dp))/block%damping
+               disturbance = velocity*(abs(there%terms(:, 0)) + abs(there%terms(:, 1))*there%inverse_unit* &
+                                       (place + load_limit(series%pieces)))
+               velocity = velocity*there%terms(:, 0)
+            end associate
+         end if
+         !$omp simd private(defect, granted)
+         do l = 1, lanes
+            defect = abs(velocity(l) - rise(l)) - equation_rounding*disturbance(l)
+            granted = (real(series%last_order + 1, dp)*series%share) &
+               *max(block%accuracy(l)*film_weight(thinner(l)), rounding*next_films(l, flank))
+            block%trust(l) = block%trust(l)*block%squeeze(flank)%inside(l)*merge(1.0_dp, 0.0_dp, defect <= granted)
+         end do
       end do
    end subroutine check_springs
 

@@ -197,12 +197,13 @@ contains
       block%momentum(lane, :) = 0.0_dp
       block%film(lane, 0) = 1.0_dp
       block%damping_rate(lane) = 0.0_dp
+      block%compliance(lane) = 0.0_dp
+      call start_period(lane, block)
       ! Springs that carry the static load
       block%compliance(lane) = 1.0_dp
       block%compression(lane, :, :) = 0.0_dp
       block%compression(lane, :, 0) = 1.0_dp
       block%next_compression(lane, :) = 0.0_dp
-      call start_period(lane, block)
       ! Far from the end of a period, so that it never ends one.
       block%phase(lane) = -1.0e6_dp
    end subroutine rest_lane
@@ -222,6 +223,11 @@ contains
       block%polynomial(lane, :) = 0.0_dp
       block%acceleration(lane) = 0.0_dp
       block%no_load(lane) = .false.
+      ! The velocity of a film on a spring is found by Newton's method: from that of the gear, not from where the last period ended.
+      if (.not. block%compliance(lane) > 0.0_dp) return
+      block%piezo_expansion(:)%film(lane) = 0.0_dp
+      block%piezo_expansion(1)%momentum(lane) = block%momentum(lane, 0)
+      block%piezo_expansion(2)%momentum(lane) = -block%momentum(lane, 0)
    end subroutine start_period
 
    !> State of a lane in units; the caller knows its period and method.

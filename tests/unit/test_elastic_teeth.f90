@@ -11,6 +11,7 @@ module test_elastic_teeth
    use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp
    use linear_motion, only: natural_motion
+   use many_motions, only: solve_motions
    use newmark, only: advance_period, newmark_state_t, start_motion
    use node_extremes, only: seen_coast_film, seen_coast_load, seen_load, seen_position
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
@@ -303,9 +304,9 @@ contains
    !> Taylor series and collocation solve the same equations, whatever the film law.
    subroutine test_two_ways(checks)
       type(check_list_t), intent(inout) :: checks
-      integer, parameter :: laws(4) = [law_iso_viscous, law_iso_viscous, law_piezo_viscous, law_iso_viscous]
-      integer, parameter :: models(4) = [model_published, model_published, model_published, model_reynolds]
-      integer, parameter :: ruptures(4) = [rupture_half_pi, rupture_solved, rupture_half_pi, rupture_half_pi]
+      integer, parameter :: laws(5) = [law_iso_viscous, law_iso_viscous, law_piezo_viscous, law_iso_viscous, law_piezo_viscous]
+      integer, parameter :: models(5) = [model_published, model_published, model_published, model_reynolds, model_reynolds]
+      integer, parameter :: ruptures(5) = [rupture_half_pi, rupture_solved, rupture_half_pi, rupture_half_pi, rupture_half_pi]
       type(scene_t) :: scene
       type(problem_t) :: problem
       type(motion_state_t) :: start
@@ -449,21 +450,54 @@ contains
 
    end subroutine test_mirror
 
-   !> A window carried on from its middle is the same to the last bit.
+   !> A window carried on from its middle is the same to the last bit, and so is a motion among others.
    subroutine test_no_company(checks)
       type(check_list_t), intent(inout) :: checks
-      type(problem_t) :: problem
-      type(ending_t) :: half, whole, ending
+      type(scene_t) :: scene
+      type(problem_t) :: problems(21)
+      type(motion_state_t) :: starts(size(problems))
+      type(ending_t) :: half, whole, ending, endings(size(problems))
       type(window_record_t) :: record
+      type(request_t) :: request
+      real(dp) :: none(0, 4, size(problems))
       real(dp), allocatable :: states(:, :), rest(:, :), z(:)
+      integer :: law, i
+      character(40) :: name
 
-      problem = between_flanks()
-      call solve_window(problem, start_of(problem), 1.0e-7_dp, 64, 6, 3, states, z, whole, record)
-      call solve_window(problem, start_of(problem), 1.0e-7_dp, 64, 3, 1, rest, z, half, record)
-      call solve_window(problem, half%motion_state_t, 1.0e-7_dp, 64, 6, 3, rest, z, ending, record)
-      call checks%check(all(abs(states - rest) <= 0.0_dp), 'carried on: the same bits')
-      call checks%check(abs(ending%velocity - whole%velocity) <= 0.0_dp, 'carried on: the same end')
-      call checks%check(size(states, 2) == 4 .and. of_velocity == 2, 'states of four numbers')
+      do law = 1, 2
+         name = 'exact iso-viscous'
+         problems = between_flanks()
+         if (law == 2) then
+            name = 'exact piezo-viscous'
+            scene = canonical_scene(law_piezo_viscous, 256)
+            scene%film%model = model_reynolds
+            scene%film%initial_film = 0.0_dp
+            scene%contact%stiffness = 2.0e8_dp
+            scene%contact%backlash = 1.0e-5_dp
+            do i = 1, size(problems)
+               scene%excitation%force_amplitude = 50.0_dp + real(i, dp)
+               problems(i) = problem_of(scene)
+            end do
+         end if
+         call solve_window(problems(1), start_of(problems(1)), 1.0e-7_dp, 64, 6, 3, states, z, whole, record)
+         call checks%check(is_success(whole%status) .and. (law == 1 .or. .not. whole%implicit), trim(name)//': solved')
+         call solve_window(problems(1), start_of(problems(1)), 1.0e-7_dp, 64, 3, 1, rest, z, half, record)
+         call solve_window(problems(1), half%motion_state_t, 1.0e-7_dp, 64, 6, 3, rest, z, ending, record)
+         call checks%check(all(abs(states - rest) <= 0.0_dp), trim(name)//', carried on: the same bits')
+         call checks%check(abs(ending%velocity - whole%velocity) <= 0.0_dp, trim(name)//', carried on: the same end')
+         call checks%check(size(states, 2) == 4 .and. of_velocity == 2, trim(name)//': states of four numbers')
+         do i = 1, size(problems)
+            starts(i) = start_of(problems(i))
+         end do
+         request%accuracy = 1.0e-7_dp
+         request%periods = 6
+         request%every_period = .true.
+         call solve_motions(problems, starts, request, none, endings)
+         call checks%check(all(abs(numbers_of(endings(1)) - numbers_of(whole)) <= 0.0_dp), trim(name)//': alone as among others')
+         call solve_motions(problems(size(problems):1:-1), starts(size(problems):1:-1), request, none, endings)
+         call checks%check(all(abs(numbers_of(endings(size(problems))) - numbers_of(whole)) <= 0.0_dp), &
+                           trim(name)//': the last one of them, too')
+      end do
    end subroutine test_no_company
 
 end module test_elastic_teeth
