@@ -29,8 +29,10 @@ module elastic_step
    integer, parameter :: most_passes = 12
    !> The second pass takes the slopes of the first, and so do the next ones while corrections fall to less than this in a pass.
    real(dp), parameter :: fast_fall = 1.0e-2_dp
-   !> Share of the accuracy at which the passes end, and for the last coefficient of a polynomial and the first one left out
-   real(dp), parameter :: pass_share = 1.0e-2_dp, last_share = 40.0_dp, next_share = 2.0_dp
+   !> Share of the accuracy at which the passes end
+   real(dp), parameter, public :: pass_share = 1.0e-2_dp
+   !> and for the last coefficient of a polynomial and the first one left out
+   real(dp), parameter :: last_share = 40.0_dp, next_share = 2.0_dp
    !> Corrections that fall by less than this in a pass, after some, lead nowhere
    real(dp), parameter :: slowest_fall = 0.9_dp
 

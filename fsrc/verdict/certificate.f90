@@ -113,6 +113,8 @@ contains
       certificate%certified = len(certificate%reason) == 0
       if (certificate%certified) certificate%reason = 'The class stands: solved tighter, it is the same, and no limit lies '// &
                                                       'within the errors.'
+      if (certificate%certified .and. verdict%class == class_irregular) certificate%reason = certificate%reason// &
+         ' The motion is irregular as long as it was followed; it may settle later.'
 
    contains
 

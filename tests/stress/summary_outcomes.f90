@@ -45,8 +45,8 @@ module summary_outcomes
    real(dp), parameter :: disturbance = 1.0e-9_dp, foreseeable_growth = 0.01_dp/(30.0_dp*1.0e-10_dp)
    !> A steady motion may be this many times its accuracy away from the one that repeats.
    real(dp), parameter :: steady_ratio = 30.0_dp
-   !> A motion repeats where its state is as near as this, relative to film and velocity.
-   real(dp), parameter :: same_state = 1.0e-6_dp
+   !> A motion repeats where its state is as near as this, and may be the one looked for within that, relative to film and velocity.
+   real(dp), parameter :: same_state = 1.0e-6_dp, nearby = 0.05_dp
 
    !> What became of a scene.
    type, public :: told_outcome_t
@@ -173,6 +173,8 @@ contains
       allowed(7:) = allowed(7:) + row_error*maxval(reference%harmonics)
       row%extreme_errors = allowed(:6)
       row%harmonic_errors = allowed(7:)
+      ! The lines of a window that holds a part of a longer orbit depend on which part.
+      if (told%class == 'subharmonic' .and. told%orbit == 0) row%harmonic_errors = huge(1.0_dp)
       fault = fault_of(row, reference, 0.0_dp*allowed, .true.)
       if (len(fault) == 0) return
       outcome%fault = fault
@@ -370,15 +372,19 @@ contains
       type(impact_reference_t), intent(in) :: reference
       character(:), allocatable :: fault
       type(tooth_t) :: tooth
-      type(tooth_state_t) :: state, later
+      type(tooth_state_t) :: ended, state, later
       integer :: periods
       logical :: solved
 
       fault = ''
       tooth = tooth_of_lane(drawn%resolved%problem)
-      state = reference%start
-      call find_orbit(tooth, rule, usual, told%repeats, state, solved)
+      ended = reference%start
+      call solve_periods(tooth, rule, usual, told%window, ended, solved)
       if (.not. solved) return
+      state = ended
+      call find_orbit(tooth, rule, usual, told%repeats, state, solved)
+      ! There may be another motion that repeats, farther away.
+      if (.not. solved .or. distance(tooth, state, ended) > nearby) return
       later = state
       do periods = 1, told%repeats - 1
          call solve_periods(tooth, rule, usual, 1, later, solved)

@@ -289,7 +289,7 @@ def test_no_sample_lies_beyond_the_extremes_told(run, scene_text, tmp_path: Path
 
 
 def test_a_force_of_high_orders_alone_has_all_its_lines_counted(run, scene_text, tmp_path: Path) -> None:
-    """Orders 15 and 24: every third line is one, and impacts too short for samples have more than the first 40 multiples."""
+    """Orders 15 and 24: every third multiple is a line, and impacts too short for samples have many."""
     groups = {
         "contact": {"radius": "4.872326888672092e-3", "length": "5.795388516972303e-3"},
         "lubricant": {"viscosity": "0.18345063391522218", "pressure_viscosity": "1.2024540627285404e-8"},
