@@ -5,8 +5,8 @@
 !> calls steady is not the one that repeats, or if a motion repeats after fewer periods than told. What the reference may be off
 !> itself, found by solving it with another tolerance, is allowed for. Where a disturbance of film and force by 1e-9 grows so far
 !> that no certificate could foresee the film (30 times the growth times the accuracy of a certificate, 1e-10, beyond 1 %), nothing
-!> can be asked for but that a motion called irregular is irregular. The same holds where the reference itself comes to other
-!> films with another tolerance.
+!> can be asked for but that a motion called irregular is irregular, or was so before and has settled by chance. The same holds
+!> where the reference itself comes to other films with another tolerance.
 !>
 !> A row of a campaign states no errors. It is right if its class is possible, its films are within 30 times its accuracy,
 !> and its accelerations and harmonics within 1 % of the largest and the noise floor of the scene; where disturbances
@@ -88,7 +88,12 @@ contains
       end if
       if (told%certified .and. told%class == 'irregular') then
          outcome%code = told_irregular
-         if (.not. class_is_possible(told, reference)) call fail(class_fault(told, reference))
+         if (class_is_possible(told, reference)) return
+         if (settles_by_chance(drawn, rule, told)) then
+            outcome%code = told_sensitive
+         else
+            call fail(class_fault(told, reference))
+         end if
          return
       end if
       own_errors = usual_error*abs(values_of(reference)) + noise(drawn)
@@ -142,6 +147,31 @@ contains
       end subroutine fail
 
    end subroutine outcome_of_summary
+
+   !> Whether a motion that is not irregular any more was so before, and settled at a time that no solution foresees: a disturbance
+   !> has grown a million times by some time before its window.
+   logical function settles_by_chance(drawn, rule, told) result(by_chance)
+      type(drawn_scene_t), intent(in) :: drawn
+      type(lobatto_rule_t), intent(in) :: rule
+      type(told_t), intent(in) :: told
+      real(dp), parameter :: grown = 1.0e6_dp*disturbance
+      integer, parameter :: parts = 8
+      type(impact_reference_t) :: before, disturbed
+      type(told_t) :: earlier
+      integer :: part
+
+      by_chance = .false.
+      earlier = told
+      earlier%window = 1
+      do part = 1, parts
+         earlier%periods = 1 + ((told%periods - told%window)*part)/parts
+         call reference_of(drawn, rule, earlier, usual, 0.0_dp, certified_margin, before)
+         call reference_of(drawn, rule, earlier, usual, disturbance, certified_margin, disturbed)
+         if (.not. (before%solved .and. disturbed%solved)) return
+         by_chance = distance(tooth_of_lane(drawn%resolved%problem), before%start, disturbed%start) > grown
+         if (by_chance) return
+      end do
+   end function settles_by_chance
 
    !> Judge a row of a campaign.
    subroutine outcome_of_row(drawn, rule, told, outcome)
