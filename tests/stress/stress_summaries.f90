@@ -159,7 +159,7 @@ contains
          end associate
          times = wall_seconds()
          ! A sweep hands on where a value ends.
-         too_long = too_long .or. any(steps_expected(drawn(i:i)) > longest)
+         if (.not. too_long) too_long = any(steps_expected(drawn(i:i)) > longest)
          if (too_long) then
             outcome = told_outcome_t(code=told_long, fault='')
          else
