@@ -75,7 +75,7 @@ def counts() -> Iterator[tuple[str, int, int]]:
     yield "Fortran files", len(fortran), 172
     yield "files that name a film law below scene", sum(map(names_law, fortran)), 2
     yield "files of scene and campaign that a varied key touches", sum(map(names_key, fortran)), 2
-    yield "Fortran lines without generated tables", lines, 32050
+    yield "Fortran lines without generated tables", lines, 32100
     yield "Python files in scripts", len(list(Path("scripts").rglob("*.py"))), 70
     yield "README lines", len(readme.splitlines()), 182
     yield "README words", len(readme.split()), 1800

@@ -13,7 +13,7 @@ module film_series
    use load_expansion, only: expand_load, expand_squeeze
    use load_pieces, only: exact_load, load_limit, published_load
    use problem, only: has_elastic_teeth, has_two_flanks, problem_t
-   use reynolds_piezo_expansion, only: expand_reynolds_piezo
+   use reynolds_piezo_expansion, only: expand_reynolds_piezo, highest_time_power
    use squeeze_of_load, only: load_carried, piezo_viscous_squeeze
    use taylor_iso_viscous, only: iso_viscous_series, iso_viscous_series_of_two
    use taylor_piezo_viscous, only: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
@@ -323,6 +323,27 @@ contains
       inside = merge(1.0_dp, 0.0_dp, outcome == load_carried .and. by_load < 0.0_dp)
    end subroutine turn_round
 
+   !> Whether an exact piezo-viscous film exists all through the steps, 1 or 0. Under a given load its squeeze group goes smoothly on
+   !> where sigma falls through zero and there is no film any more, and may come back before the step ends.
+   pure function film_throughout(sigma_series, step) result(exists)
+      !> Series of sigma, and the steps
+      real(dp), intent(in) :: sigma_series(lanes, 0:highest_time_power)
+      real(dp), intent(in) :: step(lanes)
+      real(dp) :: exists(lanes)
+      integer, parameter :: places = 16
+      real(dp) :: sigma(lanes)
+      integer :: place, k
+
+      exists = 1.0_dp
+      do place = 1, places
+         sigma = sigma_series(:, highest_time_power)
+         do k = highest_time_power - 1, 0, -1
+            sigma = sigma*(step*(real(place, dp)/real(places, dp))) + sigma_series(:, k)
+         end do
+         exists = exists*merge(1.0_dp, 0.0_dp, sigma > 0.0_dp)
+      end do
+   end function film_throughout
+
    !> Reject the steps of teeth that give at whose end the series violates the film law. The squeeze group is expanded there, for the
    !> next step to begin with. The defect D of a film's velocity is that of the first terms left out, so D x/(n + 1) estimates the
    !> local error of the film: it must not exceed what the step control grants the last term.
@@ -350,6 +371,7 @@ contains
          end do
          ! What rounding of the load may move the velocity by
          if (series%kernel == kernel_reynolds_piezo) then
+            block%trust = block%trust*film_throughout(block%piezo_expansion(flank)%sigma_series, block%step)
             call expand_pressed_film(series, flank, merge(next_films(:, flank), films(:, 0, flank), block%trust > 0.0_dp), place, &
                                      rise, block)
             associate (there => block%piezo_expansion(flank))

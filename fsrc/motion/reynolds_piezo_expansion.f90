@@ -16,6 +16,8 @@ module reynolds_piezo_expansion
    !> steps of a motion are hardly longer.
    integer, parameter, public :: highest_peak_power = 7, highest_sigma_power = 6
    integer, parameter, public :: highest_group_power(0:highest_sigma_power) = [8, 7, 6, 4, 3, 2, 0]
+   !> Highest power of time in the series of sigma: that of the series of the motion less one
+   integer, parameter, public :: highest_time_power = 11
    !> Terms of the load: ascending powers of A, for each power of sigma from its first term on.
    integer, parameter, public :: load_terms = sum(highest_group_power + 1)
    integer, parameter :: earlier(0:highest_sigma_power, 0:highest_sigma_power) = reshape( &
@@ -42,6 +44,8 @@ module reynolds_piezo_expansion
       real(dp) :: terms(lanes, 0:load_terms - 1) = 0.0_dp
       !> dPsi/dA at constant B
       real(dp) :: load_slope(lanes) = 0.0_dp
+      !> Where teeth give: the series of sigma in time
+      real(dp) :: sigma_series(lanes, 0:highest_time_power) = 1.0_dp
    end type reynolds_piezo_expansion_t
 
    public :: expand_reynolds_piezo

@@ -314,8 +314,8 @@ contains
       real(dp), intent(in) :: load(lanes)
       !> Derivatives of the force that oscillates, by module lane_force [-]
       real(dp), intent(in) :: force(lanes, order)
-      !> Psi about both films and their velocities
-      type(reynolds_piezo_expansion_t), intent(in) :: expansion(2)
+      !> Psi about both films and their velocities; the series of sigma is added
+      type(reynolds_piezo_expansion_t), intent(inout) :: expansion(2)
       !> Series of H and C, of V and of d_1 and d_2 [-]; coefficients 0 are given
       real(dp), intent(inout) :: films(lanes, 0:order, 2)
       real(dp), intent(inout) :: momentum(lanes, 0:order)
@@ -454,6 +454,10 @@ contains
          do flank = 1, flanks
             films(before + 1:before + half_block, 1:rupture_order, flank) = c(:, h, flank, 1:)
             compression(before + 1:before + half_block, flank, 1:rupture_order) = c(:, d, flank, 1:)
+            associate (there => expansion(flank))
+               there%sigma_series(before + 1:before + half_block, 0) = there%sigma(before + 1:before + half_block)
+               there%sigma_series(before + 1:before + half_block, 1:) = c(:, s, flank, 1:rupture_order - 1)
+            end associate
          end do
       end do
       films(:, rupture_order + 1:, :) = 0.0_dp

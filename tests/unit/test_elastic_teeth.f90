@@ -20,7 +20,7 @@ module test_elastic_teeth
       static_load
    use quantities, only: quantity_damping_ratio, quantity_natural_frequency
    use resolved_scene, only: resolved_scene_t
-   use scene_status, only: is_success, status_complete
+   use scene_status, only: is_success, status_complete, status_no_rigid_film
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
       scene_t
    use window_record, only: energy_gap, window_record_t
@@ -60,6 +60,7 @@ contains
       call test_small_motions(checks)
       call test_stiff_teeth(checks)
       call test_two_ways(checks)
+      call test_film_that_ceases(checks)
       call test_newmark(checks)
       call test_mirror(checks)
       call test_no_company(checks)
@@ -339,6 +340,37 @@ contains
          end do
       end do
    end subroutine test_two_ways
+
+   !> An exact piezo-viscous film that ceases to exist within a step, and would be there again at its end, ends the motion at any
+   !> accuracy.
+   subroutine test_film_that_ceases(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: forces(2) = [17.659496534923726_dp, 296.44855903492373_dp], &
+         frequencies(2) = [246.8073635611789_dp, 1549.7277682860056_dp], &
+         stiffnesses(2) = [12372396.299009396_dp, 116174302.15327093_dp], &
+         viscosities(2) = [0.1254321769887137_dp, 0.32252635606807356_dp]
+      type(scene_t) :: scene
+      type(problem_t) :: problem
+      type(ending_t) :: ending
+      type(window_record_t) :: record
+      real(dp), allocatable :: states(:, :), z(:)
+      integer :: i, digits
+
+      do i = 1, size(forces)
+         scene = canonical_scene(law_piezo_viscous, 256)
+         scene%film%model = model_reynolds
+         scene%film%initial_film = 0.0_dp
+         scene%excitation%force_amplitude = forces(i)
+         scene%excitation%frequency = frequencies(i)
+         scene%contact%stiffness = stiffnesses(i)
+         scene%lubricant%viscosity = viscosities(i)
+         problem = problem_of(scene)
+         do digits = 5, 8
+            call solve_window(problem, start_of(problem), 10.0_dp**(-digits), 64, 4, 1, states, z, ending, record)
+            call checks%check(ending%status == status_no_rigid_film, 'a film that ceases within a step')
+         end do
+      end do
+   end subroutine test_film_that_ceases
 
    !> Newmark's method is of the second order, for gear and films.
    subroutine test_newmark(checks)
