@@ -85,9 +85,8 @@ module engine
    !> State from which a run can be extended: carried on from it, a motion is the same to the last bit as if it had never stopped.
    !> 0 periods: the start of the motion, nothing else counts.
    type, extends(motion_state_t), public :: checkpoint_t
-      !> z'' [m/s2], and of Newmark's method, where teeth give, the velocities of both films [m/s]
+      !> z'' [m/s2]
       real(dp) :: acceleration = 0.0_dp
-      real(dp) :: film_velocity(2) = 0.0_dp
       !> Of a run until steady: the states that its search looks back on
       type(orbit_watch_t) :: watch = orbit_watch_t()
       !> and, once it is over, the periods after which the motion repeats; 0: it goes on

@@ -5,8 +5,8 @@ module newmark
    use force, only: force_at
    use kinds, only: dp, int64
    use newmark_step, only: newmark_state_t, take_step
-   use carried_loads, only: net_load, start_springs
-   use problem, only: has_elastic_teeth, problem_t
+   use carried_loads, only: net_load
+   use problem, only: problem_t
    use scene_status, only: status_complete, status_interrupted, status_not_converged
    use signals, only: must_stop
    implicit none(type, external)
@@ -41,21 +41,14 @@ contains
       state%film = problem%initial_film
       state%velocity = problem%initial_velocity
       count%evaluations = count%evaluations + 1
-      if (has_elastic_teeth(problem)) then
-         call start_springs(problem, state%compression)
-         state%film_velocity = [state%velocity, -state%velocity]
-         load = (state%compression(1) - state%compression(2))/problem%compliance
-      else
-         call net_load(problem, state%film, state%velocity, load, load_by_film, load_by_velocity, kernel)
-      end if
+      call net_load(problem, state%film, state%velocity, load, load_by_film, load_by_velocity, kernel)
       status = merge(status_complete, problem%film%status_without_load, load < overflow_load)
       if (status /= status_complete) return
       state%acceleration = (load - problem%weight - force_at(problem%force, 0.0_dp))/problem%mass
    end subroutine start_motion
 
    !> Advance one period of the force. On failure the state is that before the failing step.
-   subroutine advance_period(kernel, problem, request, force, state, count, films, velocities, accelerations, done, status, &
-                             compressions)
+   subroutine advance_period(kernel, problem, request, force, state, count, films, velocities, accelerations, done, status)
       !> Kernel of the film
       procedure(film_kernel) :: kernel
       !> What moves
@@ -76,8 +69,6 @@ contains
       integer, intent(out) :: done
       !> Status of scene_status
       integer, intent(out) :: status
-      !> Compressions of the springs of one or two flanks, where teeth give: step, flank [m]
-      real(dp), intent(out), optional :: compressions(:, :)
       type(newmark_state_t) :: next
       real(dp) :: time_step
       integer(int64) :: next_look
@@ -104,7 +95,6 @@ contains
          state = next
          films(i) = state%film
          velocities(i) = state%velocity
-         if (present(compressions)) compressions(i, :) = state%compression(:size(compressions, 2))
          accelerations(i) = state%acceleration
       end do
       done = i - 1

@@ -9,7 +9,7 @@ module newmark_engine
    use kinds, only: dp, int64
    use newmark, only: advance_period, start_motion
    use newmark_step, only: newmark_state_t
-   use problem, only: has_two_flanks, largest_state, of_drive_compression, of_film, of_velocity, problem_t, reference_film, &
+   use problem, only: has_two_flanks, of_film, of_velocity, problem_t, reference_film, &
       reference_films, settling_of, state_size
    use repetition, only: note_state, orbit_watch_t
    use scene_status, only: status_complete, status_steady
@@ -64,8 +64,7 @@ contains
       ending%status = problem%film%status_without_load
       if (.not. (associated(kernel) .and. problem%initial_film > 0.0_dp)) return
       if (checkpoint%periods > 0) then
-         state = newmark_state_t(checkpoint%film, checkpoint%velocity, checkpoint%acceleration, checkpoint%compression, &
-                                 checkpoint%film_velocity)
+         state = newmark_state_t(checkpoint%film, checkpoint%velocity, checkpoint%acceleration)
          ending%count = checkpoint%count
          ending%periods = checkpoint%periods
          states = checkpoint%watch
@@ -74,7 +73,7 @@ contains
          ending%film = state%film
          if (ending%status /= status_complete) return
          call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], &
-                        reshape([state%film, state%velocity, state%compression], [1, largest_state]), [state%acceleration], error)
+                        reshape([state%film, state%velocity], [1, 2]), [state%acceleration], error)
          if (allocated(error)) return
       end if
       ending%status = status_complete
@@ -93,12 +92,10 @@ contains
          period = period + 1
          first_step = int(period - 1, int64)*int(steps, int64) + 1_int64
          call advance_period(kernel, problem, request, force, state, ending%count, states_of_steps(:, of_film), &
-                             states_of_steps(:, of_velocity), accelerations, done, ending%status, &
-                             states_of_steps(:, of_drive_compression:))
+                             states_of_steps(:, of_velocity), accelerations, done, ending%status)
          call sink%take(first_step, force(:done), states_of_steps(:done, :), accelerations(:done), error)
          ending%film = state%film
          ending%velocity = state%velocity
-         ending%compression = state%compression
          ending%time = real(first_step + int(done - 1, int64), dp)/(problem%frequency*real(steps, dp))
          if (allocated(error) .or. ending%status /= status_complete) return
          ending%periods = period
@@ -113,7 +110,6 @@ contains
          end if
          if (period <= last_period - window) &
             checkpoint = checkpoint_t(periods=period, film=state%film, velocity=state%velocity, acceleration=state%acceleration, &
-                                      compression=state%compression, film_velocity=state%film_velocity, &
                                       watch=states, orbit=ending%orbit, count=ending%count)
          call watcher%period_done(period, last_period)
          if (period == last_period) exit
@@ -141,11 +137,11 @@ contains
       if (has_two_flanks(problem)) then
          unit = reference_film(problem)
          backlash = problem%backlash/unit
-         coast = problem%backlash - state%film + sum(state%compression)
+         coast = problem%backlash - state%film
       end if
       call note_state(states, state%film/unit, state%velocity/(unit*problem%frequency), 1.0_dp/two_pi, &
                       settling_of(problem, [state%film, coast], reference_films(problem)), repetition_tolerance, orbit, &
-                      distance, backlash, state%compression/unit)
+                      distance, backlash)
       if (orbit > periods_left) orbit = 0
    end subroutine look_back
 

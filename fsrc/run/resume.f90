@@ -171,8 +171,7 @@ contains
          names(fixed + watched + i) = 'watch_momentum_'//integer_text(i)
       end do
       if (.not. elastic) return
-      names = [character(column_name_bytes) :: names, 'drive_compression', 'coast_compression', 'drive_film_velocity', &
-               'coast_film_velocity']
+      names = [character(column_name_bytes) :: names, 'drive_compression', 'coast_compression']
       do i = 1, watched
          names = [character(column_name_bytes) :: names, 'watch_drive_compression_'//integer_text(i), &
                   'watch_coast_compression_'//integer_text(i)]
@@ -201,7 +200,7 @@ contains
                 real(state%count%cuts, dp), real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), watch%film, &
                 watch%momentum]
          if (.not. elastic) return
-         row = [row, state%compression, state%film_velocity]
+         row = [row, state%compression]
          if (allocated(watch%compression)) then
             row = [row, watch%compression]
          else
@@ -236,9 +235,8 @@ contains
       place = place + size(state%watch%momentum)
       if (size(row) == place) return
       state%compression = row(place + 1:place + 2)
-      state%film_velocity = row(place + 3:place + 4)
       allocate (state%watch%compression(2, 0:size(state%watch%film) - 1))
-      state%watch%compression(:, :) = reshape(row(place + 5:), [2, size(state%watch%film)])
+      state%watch%compression(:, :) = reshape(row(place + 3:), [2, size(state%watch%film)])
    end function state_of
 
 end module resume

@@ -131,9 +131,10 @@ contains
       integer :: i, dot
 
       if ((input%is_given('contact', 'stiffness') .or. input%is_given('gear', 'tooth_stiffness')) .and. &
-          input%word('solver', 'method') == 'newmark' .and. input%word('solver', 'iteration') == 'successive') &
-         call input%add_fault('solver', 'iteration', 'the successive iteration of the paper has rigid teeth; take newton, or '// &
-                              'leave contact.stiffness out', faults)
+          input%word('solver', 'method') == 'newmark') &
+         call input%add_fault('solver', 'method', 'the paper''s method is for the rigid teeth of the paper; take taylor, or '// &
+                              'leave '//trim(merge('contact.stiffness   ', 'gear.tooth_stiffness', &
+                                                   input%is_given('contact', 'stiffness')))//' out', faults)
       call input%put_numbers(scene)
       allocate (broken, source=broken_rules(scene))
       do i = 1, size(broken)

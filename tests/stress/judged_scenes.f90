@@ -283,7 +283,7 @@ contains
       end if
       if (number(3) < 0.5_dp) then
          scene%contact%stiffness = stiffness
-         scene%solver%iteration = iteration_newton
+         scene%solver%method = method_taylor
       end if
    end subroutine draw_flanks
 

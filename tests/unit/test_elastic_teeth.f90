@@ -12,7 +12,6 @@ module test_elastic_teeth
    use kinds, only: dp
    use linear_motion, only: natural_motion
    use many_motions, only: solve_motions
-   use newmark, only: advance_period, newmark_state_t, start_motion
    use node_extremes, only: seen_coast_film, seen_coast_load, seen_load, seen_position
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
    use carried_loads, only: coast_films, gear_positions
@@ -61,7 +60,6 @@ contains
       call test_stiff_teeth(checks)
       call test_two_ways(checks)
       call test_film_that_ceases(checks)
-      call test_newmark(checks)
       call test_mirror(checks)
       call test_no_company(checks)
       call test_soft_teeth(checks)
@@ -372,54 +370,6 @@ contains
       end do
    end subroutine test_film_that_ceases
 
-   !> Newmark's method is of the second order, for gear and films.
-   subroutine test_newmark(checks)
-      type(check_list_t), intent(inout) :: checks
-      type(problem_t) :: problem
-      type(ending_t) :: ending
-      type(window_record_t) :: record
-      real(dp), allocatable :: exact(:, :), z(:)
-      real(dp) :: errors(2), end_film
-      integer :: kind, i
-
-      do kind = 1, 3
-         select case (kind)
-         case (1)
-            problem = canonical(law_iso_viscous, model_reynolds, 3.0e8_dp)
-         case (2)
-            problem = canonical(law_piezo_viscous, model_published, 3.0e8_dp)
-         case default
-            problem = between_flanks()
-         end select
-         call solve_window(problem, start_of(problem), 1.0e-11_dp, 64, 1, 1, exact, z, ending, record)
-         do i = 1, 2
-            call one_period(2048*i, end_film)
-            errors(i) = abs(end_film - exact(64, of_film))
-         end do
-         call checks%check(errors(1)/errors(2) > 3.6_dp .and. errors(1)/errors(2) < 4.4_dp, 'newmark: second order')
-      end do
-
-   contains
-
-      !> Film at the end of the first period.
-      subroutine one_period(steps, film)
-         integer, intent(in) :: steps
-         real(dp), intent(out) :: film
-         type(newmark_state_t) :: state
-         type(motion_count_t) :: count
-         real(dp), dimension(steps) :: force, films, velocities, accelerations
-         integer :: done, status
-
-         call force_of_period(problem%force, force)
-         call start_motion(kernel_of(problem%film), problem, state, count, status)
-         call advance_period(kernel_of(problem%film), problem, request_t(tolerance=1.0e-16_dp, iteration_limit=100), force, state, &
-                             count, films, velocities, accelerations, done, status)
-         call checks%check(status == status_complete, 'newmark: solved')
-         film = state%film
-      end subroutine one_period
-
-   end subroutine test_newmark
-
    !> Turned round, load and force press the other flank: the same motion with its films exchanged. Soft teeth let the film of the
    !> flank that carries nothing grow beyond the backlash.
    subroutine test_mirror(checks)
@@ -429,7 +379,7 @@ contains
       type(ending_t) :: ending
       type(window_record_t) :: record
       real(dp), allocatable :: states(:, :), turned_states(:, :), z(:), turned_z(:)
-      integer :: i, status
+      integer :: i
 
       do i = 1, 2
          pressed = between_flanks()
@@ -452,34 +402,7 @@ contains
                            maxval(abs(turned_states(:, of_film)/coast_films(pressed, states) - 1.0_dp)) < 1.0e-6_dp, &
                            'mirror: the films change places')
          call checks%check(maxval(abs(turned_z + z)) < 1.0e-6_dp*maxval(abs(z)), 'mirror: the acceleration turns')
-         call three_periods(turned, status)
-         call checks%check(status == status_complete, 'mirror: solved on the coast flank by newmark')
       end do
-
-   contains
-
-      !> Films after three periods of Newmark's method, held against the last sample.
-      subroutine three_periods(problem, status)
-         type(problem_t), intent(in) :: problem
-         integer, intent(out) :: status
-         integer, parameter :: steps = 8192
-         type(newmark_state_t) :: state
-         type(motion_count_t) :: count
-         real(dp), dimension(steps) :: force, films, velocities, accelerations
-         real(dp) :: coast
-         integer :: done, period
-
-         call force_of_period(problem%force, force)
-         call start_motion(kernel_of(problem%film), problem, state, count, status)
-         do period = 1, 3
-            if (status /= status_complete) return
-            call advance_period(kernel_of(problem%film), problem, request_t(tolerance=1.0e-16_dp, iteration_limit=100), force, &
-                                state, count, films, velocities, accelerations, done, status)
-         end do
-         coast = problem%backlash - state%film + sum(state%compression)
-         call checks%check(abs(coast/states(64, of_film) - 1.0_dp) < 1.0e-3_dp, 'mirror: newmark agrees')
-      end subroutine three_periods
-
    end subroutine test_mirror
 
    !> A window carried on from its middle is the same to the last bit, and so is a motion among others.
