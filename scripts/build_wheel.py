@@ -32,7 +32,7 @@ def build_wheel(
     metadata_directory: str | None = None,
 ) -> str:
     """Write the wheel and return its name."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    project = read_project()
     stem = f"{project['name']}-{project['version']}"
     name = f"{stem}-{tag()}.whl"
     with tempfile.TemporaryDirectory() as folder:
@@ -53,7 +53,7 @@ def prepare_metadata_for_build_wheel(
     metadata_directory: str, config_settings: Mapping[str, Any] | None = None
 ) -> str:
     """Write what pip asks before it builds, and return its folder."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    project = read_project()
     name = f"{project['name']}-{project['version']}.dist-info"
     folder = Path(metadata_directory) / name
     folder.mkdir()
@@ -63,6 +63,12 @@ def prepare_metadata_for_build_wheel(
 
 def build_sdist(sdist_directory: str, config_settings: Mapping[str, Any] | None = None) -> str:
     raise NotImplementedError("rattle is installed from its checkout: pip install FOLDER")
+
+
+def read_project() -> dict[str, Any]:
+    """What pyproject.toml says of the project, and its version."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    return {**project, "version": (ROOT / "fsrc" / "VERSION").read_text().strip()}
 
 
 def make(stage: Path) -> None:

@@ -21,9 +21,7 @@ MAIN_LINES = 80
 # Where the version of fsrc/VERSION is repeated.
 VERSIONS = {
     "CITATION.cff": r"^version: (\S+)$",
-    "pyproject.toml": r'^version = "(\S+)"$',
-    "scripts/rattle/__init__.py": r'^version = "(\S+)"$',
-    "CHANGELOG.md": r"^## (\S+)$",
+    "CHANGELOG.md": r"^## (\S+)",
 }
 
 MODULE = re.compile(r"^\s*module\s+(?!procedure\b)(\w+)", re.IGNORECASE)

@@ -9,7 +9,7 @@ install -D -m 755 "$build/rattle" "$prefix/$scripts/rattle"
 package=$prefix/$packages/rattle
 rm -rf "$package"
 mkdir -p "$package"
-tar -C scripts/rattle --exclude=__pycache__ --exclude='*.so' -cf - . | tar -C "$package" -xf -
+tar -C scripts/rattle --dereference --exclude=__pycache__ --exclude='*.so' -cf - . | tar -C "$package" -xf -
 cp input/README.md "$package/keys.md"
 scripts/build_kernels.sh "$python" "$build/installed" "$objects" "$libraries" "$compiler" "$build" "$package"
 for name in campaign classify compare export plot report; do
