@@ -72,14 +72,15 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test unit user lint debug python bench bench-build bench-changed stress stress-sample faults faults-sample mutants test-cluster compilers clean install help format pages pictures FORCE
+.PHONY: all run test test-long unit user user-long lint debug python bench bench-build bench-changed stress stress-sample faults faults-sample mutants test-cluster compilers clean install help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
 help:
 	@echo 'make              build the program as $(BUILD)/rattle'
 	@echo 'make run          solve the two scenes of the paper, draw its figures, compare idle with creep'
-	@echo 'make test         unit tests (release and debug build) and user tests'
+	@echo 'make test         unit tests (release and debug build) and user tests: at most five minutes'
+	@echo 'make test-long    user tests that take long, samples of the studies of stress and faults'
 	@echo 'make lint         compiler warnings, house rules, style of Fortran and Python'
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
 	@echo 'make python       Python environment and the module of the Fortran kernels'
@@ -176,7 +177,9 @@ run: $(BUILD)/rattle $(BUILD)/kernels/built
 
 # --- tests: the unit tests in both builds, then what a user does -------------------------------------
 
-test: unit user stress-sample faults-sample
+# What takes long, a build in another place, a browser, faults and samples of the studies, is left to test-long.
+test: unit user
+test-long: user-long stress-sample faults-sample
 
 unit: $(BUILD)/unit_tests
 	@echo 'unit tests, release build'
@@ -185,9 +188,14 @@ unit: $(BUILD)/unit_tests
 	@echo 'unit tests, debug build with every run-time check'
 	@$(BUILD)/debug/unit_tests
 
+USER_TESTS = RATTLE_PROGRAM=$(abspath $(BUILD)/rattle) $(PYTHON) -m pytest -n $(shell nproc) --dist worksteal
 user: $(BUILD)/rattle $(BUILD)/unit_tests $(BUILD)/kernels/built
 	@echo 'user tests'
-	@RATTLE_PROGRAM=$(abspath $(BUILD)/rattle) $(PYTHON) -m pytest
+	@$(USER_TESTS) -m 'not long'
+
+user-long: $(BUILD)/rattle $(BUILD)/unit_tests $(BUILD)/kernels/built
+	@echo 'user tests that take long'
+	@$(USER_TESTS) -m long
 
 # --- longer studies ----------------------------------------------------------------------------------
 

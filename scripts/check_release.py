@@ -38,7 +38,9 @@ def faults(version: str, changelog: str, citation: str, tag: str) -> Iterator[st
         releases.append((tuple(map(int, found[1].split("."))), datetime.date.fromisoformat(found[2])))
         if len(lines) > SECTION_LINES:
             yield f"CHANGELOG.md: {found[1]} has {len(lines)} lines, more than {SECTION_LINES}"
-    if releases != sorted(releases, reverse=True) or len({release for release, _ in releases}) < len(releases):
+    if releases != sorted(releases, reverse=True) or len({release for release, _ in releases}) < len(
+        releases
+    ):
         yield "CHANGELOG.md: the newest version does not stand first"
     newest, date = releases[0] if releases else ((), None)
     if ".".join(map(str, newest)) != version:

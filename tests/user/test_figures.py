@@ -44,6 +44,7 @@ def test_one_run_of_each_law_gives_the_set_of_the_paper(iso, piezo, tmp_path):
         assert path.read_bytes().startswith(b"%PDF")
 
 
+@pytest.mark.long
 def test_same_results_give_the_same_bytes(iso, piezo, tmp_path):
     outputs = [tmp_path / "first", tmp_path / "second"]
     for output, zone in zip(outputs, ("UTC", "Asia/Tokyo"), strict=True):

@@ -41,6 +41,7 @@ def test_profiles_may_be_named_in_place_of_the_table(film, tmp_path):
     assert stems(tmp_path / "figures") == ["figure_03_film"]
 
 
+@pytest.mark.long
 def test_same_film_gives_the_same_bytes(film, tmp_path):
     for name in ("first", "second"):
         assert call("plot.py", "film", film, "--figures", "3,5", "--output", tmp_path / name).returncode == 0

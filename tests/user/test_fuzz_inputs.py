@@ -21,6 +21,8 @@ from outcomes import assert_no_crash, summary_of
 
 from rattle import read
 
+pytestmark = pytest.mark.long
+
 MOST_STEPS = 20_000
 MOST_ROWS_A_PERIOD = 5_000
 STATUSES = {

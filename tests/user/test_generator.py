@@ -7,6 +7,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+pytestmark = pytest.mark.long
+
 SCRIPT = Path("scripts") / "generate" / "reynolds_film.py"
 TABLES = Path("fsrc") / "film" / "coefficients"
 DIFFERS = "differs from what its generator makes"

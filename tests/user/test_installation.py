@@ -14,6 +14,8 @@ import pytest
 
 from rattle.keys import key_table
 
+pytestmark = pytest.mark.long
+
 SCRIPTS = ("campaign", "classify", "compare", "export", "plot", "report")
 
 

@@ -89,6 +89,7 @@ def test_critical_pressure_group_far_out():
     assert psi[1:] == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("lowest", "highest", "count"), [(0.1, 8.0, 20), (8.0, 30.0, 20), (30.0, 1e5, 16)])
 def test_stiffness_is_exact(lowest, highest, count):
     """Phi + A Phi'/2 and Psi + A dPsi/dA/2 + 3 B dPsi/dB/2: on fast separation their terms cancel."""
@@ -135,6 +136,7 @@ def test_iso_viscous_load_is_exact():
     assert worst(slope, [pair[1] for pair in exact]) < 1e-13
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("count", "shares", "load_bound", "slope_bound"),
     [

@@ -12,6 +12,8 @@ from outcomes import assert_no_crash, contents
 
 from rattle import read_campaign
 
+pytestmark = pytest.mark.long
+
 MILLION = 1_000_000
 CONTROLLED = {"method": "'taylor'", "steps_per_period": None}
 FILM = {

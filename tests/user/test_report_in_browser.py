@@ -32,7 +32,10 @@ onload = () => {{
 }};
 </script>"""
 
-pytestmark = pytest.mark.skipif(BROWSER is None, reason="there is no browser that runs without a window")
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(BROWSER is None, reason="there is no browser that runs without a window"),
+]
 
 
 def browse(place: Path, *options: str) -> str:

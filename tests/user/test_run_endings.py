@@ -57,6 +57,7 @@ def test_not_converged(run, scene_text, tmp_path: Path) -> None:
     assert summary["film_at_status_time"] > 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", ["published", "reynolds"])
 def test_periods_that_return_to_the_last_bit(model: str, run, scene_text, tmp_path: Path) -> None:
     """Ten million periods, computed one by one, would take minutes; the summary is that of three hundred."""
@@ -128,6 +129,7 @@ def test_interruption_keeps_what_was_computed(
     shutil.rmtree(tmp_path / "results")
 
 
+@pytest.mark.long
 def test_kill_leaves_a_readable_result(rattle: Path, scene_text, tmp_path: Path) -> None:
     (tmp_path / "long.nml").write_text(long_scene(scene_text))
     path = tmp_path / "results" / "long.rattle"
@@ -182,6 +184,7 @@ print(os.waitstatus_to_exitcode(status), usage.ru_maxrss)
 """
 
 
+@pytest.mark.long
 def test_memory_does_not_grow_with_the_periods(rattle: Path, scene_text, tmp_path: Path) -> None:
     """Without a series nothing is kept but the window."""
     peaks = []

@@ -78,6 +78,7 @@ def amplitude_scene(
     return {key: summary[key] for key in ("rattle_class", "line_count", "certificate") if key in summary}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("accuracy", ["1e-3", "1e-6", "1e-8", "1e-11"])
 @pytest.mark.parametrize(("law", "model"), FILMS)
 def test_campaign_at_rest_is_quiet(law: str, model: str, accuracy: str, run, tmp_path: Path) -> None:
