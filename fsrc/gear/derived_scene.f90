@@ -1,6 +1,7 @@
 !> The scene that follows from &gear, &shaft and &oil: contact, kinematics, load and lubricant of a loose gear. Whatever sets a
 !> number of these groups, an input, a sweep or a campaign, derives the scene from them behind it.
 module derived_scene
+   use constants, only: pi, two_pi
    use errors, only: fault_list_t
    use gear_contact, only: find_contact, gear_contact_t, gear_pair_t
    use input_entry, only: numbers_text
@@ -9,7 +10,7 @@ module derived_scene
    use kinds, only: dp
    use oil_data, only: kinematic_viscosity, least_viscosity_meant, oil_pressure_viscosity, oil_viscosity
    use scene_rules, only: rule_t, sentence_length
-   use scene_types, only: forced_orders, highest_order, scene_t, set_number, task_sweep
+   use scene_types, only: forced_orders, highest_order, scene_t, set_number, shaft_t, task_sweep
    use text, only: short_text
    use word_list, only: word_t
    implicit none(type, external)
@@ -60,10 +61,24 @@ contains
       if (.not. base > 0.0_dp) return
       scene%excitation%frequency = base*scene%shaft%speed_rpm/60.0_dp
       scene%excitation%force_orders = nint(scene%shaft%orders/base)
-      scene%excitation%force_amplitudes = force_per_acceleration*scene%shaft%accelerations
+      scene%excitation%force_amplitudes = force_per_acceleration*accelerations_of(scene%shaft)
       scene%excitation%force_phases = scene%shaft%phases
+      ! The derivative of a cosine leads it by a quarter of its period.
+      if (allocated(scene%shaft%speed_amplitudes)) scene%excitation%force_phases = scene%shaft%phases + 0.5_dp*pi
       scene%spectrum%forced = forced_orders(scene%excitation%force_orders, scene%excitation%force_amplitudes)
    end subroutine derive_force
+
+   !> Amplitudes of the angular acceleration of a shaft, order by order [rad/s2].
+   pure function accelerations_of(shaft) result(accelerations)
+      type(shaft_t), intent(in) :: shaft
+      real(dp), allocatable :: accelerations(:)
+
+      if (allocated(shaft%speed_amplitudes)) then
+         accelerations = shaft%speed_amplitudes*shaft%orders*two_pi*shaft%speed_rpm/60.0_dp
+      else
+         accelerations = shaft%accelerations
+      end if
+   end function accelerations_of
 
    !> Viscosity of the oil at a temperature [degC].
    pure real(dp) function viscosity_at(scene, temperature)
@@ -291,6 +306,8 @@ contains
             word_t('warning: the drag of '//short_text(excitation%steady_force, 4)//' N is larger than the inertia force of '// &
                    short_text(excitation%force_scale*sum(excitation%force_amplitudes), 4)// &
                    ' N at most: nothing drives the teeth apart')]
+         if (allocated(scene%shaft%speed_amplitudes)) &
+            call tell(scene, 'shaft.accelerations', accelerations_of(scene%shaft), 'rad/s2')
          call tell(scene, 'gear.base_radius_1', [contact%base_radius_1], 'm')
          call tell(scene, 'gear.base_radius_2', [contact%base_radius_2], 'm')
          call tell(scene, 'gear.centre_distance', [contact%centre_distance], 'm')

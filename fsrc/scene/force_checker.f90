@@ -83,13 +83,19 @@ contains
       type(scene_input_t), intent(in) :: input
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
-      character(*), parameter :: lists(3) = [character(13) :: 'orders', 'accelerations', 'phases']
+      character(*), parameter :: lists(4) = [character(16) :: 'orders', 'phases', 'accelerations', 'speed_amplitudes'], &
+                                 rule = 'give either accelerations or speed_amplitudes with orders, or signal'
       real(dp), allocatable :: orders(:)
       integer :: i
 
       if (.not. input%has_group('gear')) call faults%add(input%file, 0, 'gear', '', &
                                                         'this group is required where &shaft stands: it says what is driven')
-      if (any([(input%is_faulty('shaft', trim(lists(i))), i=1, 3)])) return
+      if (any([(input%is_faulty('shaft', trim(lists(i))), i=1, size(lists))])) return
+      if (input%is_given('shaft', 'accelerations') .and. input%is_given('shaft', 'speed_amplitudes')) then
+         call input%add_fault('shaft', 'speed_amplitudes', rule, faults)
+      else if (.not. (input%is_given('shaft', 'accelerations') .or. input%is_given('shaft', 'speed_amplitudes'))) then
+         call input%add_fault('shaft', 'accelerations', 'a motion of the shaft is required: '//rule, faults)
+      end if
       if (.not. input%is_given('shaft', 'orders')) return
       allocate (orders, source=input%numbers('shaft', 'orders'))
       call check_lengths(input, 'shaft', lists, faults)

@@ -253,18 +253,23 @@ module key_table
             example='2.0', &
             sensible=range_t(lower=0.1_dp, upper=1000.0_dp), &
             computable=range_t(1.0e-3_dp, .false., 1.0e6_dp, .false.)), &
-      key_t('shaft', 'accelerations', reals_kind, 'rad/s2', 'required', not_negative, '', of_motions, &
+      key_t('shaft', 'accelerations', reals_kind, 'rad/s2', '', not_negative, '', of_motions, &
             'Amplitude of the angular acceleration of each order; load.force_scale multiplies all of them.', &
             example='600.0', &
             sensible=range_t(lower=0.0_dp, upper=1.0e5_dp), &
             computable=an_amplitude), &
+      key_t('shaft', 'speed_amplitudes', reals_kind, 'rad/s', '', not_negative, '', of_motions, &
+            'Amplitude of the angular speed of each order instead of accelerations: differentiated at speed_rpm, whatever that '// &
+            'is varied to. A signal of a speed becomes this.', &
+            sensible=range_t(lower=0.0_dp, upper=1.0e3_dp), &
+            computable=an_amplitude), &
       key_t('shaft', 'phases', reals_kind, 'rad', '', any_number, '', of_motions, &
-            'Phase of each order: A cos(2 pi order t speed_rpm/60 + phase); absent: all 0.', &
+            'Phase of each order of accelerations or speed_amplitudes: A cos(2 pi order t speed_rpm/60 + phase); absent: all 0.', &
             sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
             computable=a_phase), &
       key_t('shaft', 'signal', text_kind, '', '', any_number, '', of_motions, &
             'CSV file, in the folder of this input, with one cycle of the motion of the shaft, uniformly sampled, instead of '// &
-            'orders, accelerations and phases.'), &
+            'orders, accelerations (or speed_amplitudes) and phases.'), &
       key_t('shaft', 'signal_column', text_kind, '', '', any_number, '', of_motions, &
             'Name of the signal in the header of the file; absent: the only column that is no time or angle.'), &
       key_t('shaft', 'signal_orders', integer_kind, '-', '', an_order, '', of_motions, &

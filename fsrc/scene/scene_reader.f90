@@ -257,7 +257,9 @@ contains
          end if
          if (input%has_group('shaft')) then
             scene%shaft%orders = input%numbers('shaft', 'orders')
-            scene%shaft%accelerations = input%numbers('shaft', 'accelerations')
+            if (input%is_given('shaft', 'accelerations')) scene%shaft%accelerations = input%numbers('shaft', 'accelerations')
+            if (input%is_given('shaft', 'speed_amplitudes')) &
+               scene%shaft%speed_amplitudes = input%numbers('shaft', 'speed_amplitudes')
             scene%shaft%phases = 0.0_dp*scene%shaft%orders
             if (input%is_given('shaft', 'phases')) scene%shaft%phases = input%numbers('shaft', 'phases')
          end if

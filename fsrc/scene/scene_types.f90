@@ -135,11 +135,13 @@ module scene_types
       real(dp) :: tooth_stiffness = 0.0_dp
    end type gear_t
 
-   !> &shaft: speed [1/min] and angular acceleration of the gear that drives, the sum of amplitude cos(2 pi order t/turn + phase)
+   !> &shaft: speed [1/min] and motion of the gear that drives, the sum of amplitude cos(2 pi order t/turn + phase)
    type, public :: shaft_t
       real(dp) :: speed_rpm = 0.0_dp
-      !> Multiples of the speed, halves among them; amplitudes [rad/s2] and phases [rad]
-      real(dp), allocatable :: orders(:), accelerations(:), phases(:)
+      !> Multiples of the speed, halves among them; phases [rad]
+      real(dp), allocatable :: orders(:), phases(:)
+      !> Amplitudes of the angular acceleration [rad/s2]; or of the angular speed [rad/s], which is differentiated at speed_rpm
+      real(dp), allocatable :: accelerations(:), speed_amplitudes(:)
    end type shaft_t
 
    !> Kind of base oil.

@@ -1,7 +1,7 @@
 !> &load signal and &shaft signal: one cycle of a force, or of the motion of the shaft, from a CSV file becomes orders, amplitudes
 !> and phases, as if the input gave them.
 module signal_reader
-   use constants, only: pi, two_pi
+   use constants, only: two_pi
    use csv_signal, only: read_csv_signal
    use errors, only: fault_list_t
    use fourier, only: trigonometric_interpolation
@@ -17,11 +17,11 @@ module signal_reader
 
    character(*), parameter :: force_keys(5) = [character(17) :: 'force_orders', 'force_amplitudes', 'force_phases', &
                                                'force_mean', 'force_amplitude'], &
-                              motion_keys(3) = [character(17) :: 'orders', 'accelerations', 'phases'], &
+                              motion_keys(4) = [character(17) :: 'orders', 'accelerations', 'phases', 'speed_amplitudes'], &
                               signal_keys(5) = [character(17) :: 'signal', 'signal_column', 'signal_orders', 'signal_kind', &
                                                 'cycle_revolutions']
-   !> Codes of signal_kind, in the order of the key table.
-   integer, parameter :: kind_acceleration = 1, kind_speed = 2, kind_speed_rpm = 3
+   !> Codes of signal_kind, in the order of the key table: 2 is a speed in rad/s.
+   integer, parameter :: kind_acceleration = 1, kind_speed_rpm = 3
 
    public :: take_signal
 
@@ -38,13 +38,13 @@ contains
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       character(len(force_keys)), allocatable :: shape_keys(:), keys(:)
-      real(dp), allocatable :: samples(:), orders(:), amplitudes(:), phases(:)
-      character(:), allocatable :: path, column, unit, fate, what
+      real(dp), allocatable :: samples(:), orders(:), amplitudes(:), phases(:), forces(:)
+      character(:), allocatable :: path, column, unit, fate, what, amplitude_key
       real(dp) :: mean, dropped
       integer :: i, before, last
 
       allocate (shape_keys(merge(size(force_keys), size(motion_keys), group == 'load')))
-      shape_keys(:3) = motion_keys
+      shape_keys(:4) = motion_keys
       if (group == 'load') shape_keys = force_keys
       what = trim(merge('the force ', 'the motion', group == 'load'))
       keys = signal_keys(:merge(3, 5, group == 'load'))
@@ -72,10 +72,13 @@ contains
       if (faults%count() > before) return
       call trigonometric_interpolation(samples, mean, amplitudes, phases)
       orders = [(real(i, dp), i=1, size(amplitudes))]
+      ! The force of each order, by a factor.
+      forces = amplitudes
       unit = ' N'
       fate = 'is added to steady_force'
+      amplitude_key = shape_keys(2)
       if (group == 'shaft') call shaft_motion()
-      if (.not. maxval(amplitudes) > 0.0_dp) then
+      if (.not. maxval(forces) > 0.0_dp) then
          call faults%add(path, 0, '', '', 'it has too few samples to be differentiated')
          return
       end if
@@ -83,7 +86,7 @@ contains
       dropped = dropped_share(last)
       notes = [notes, note()]
       call put(shape_keys(1), orders(:last))
-      call put(shape_keys(2), amplitudes(:last))
+      call put(amplitude_key, amplitudes(:last))
       call put(shape_keys(3), phases(:last))
       if (group == 'load') then
          associate (entry => input%entries(find_key('load', 'force_mean')))
@@ -101,21 +104,20 @@ contains
 
    contains
 
-      !> From the signal of a shaft to its angular acceleration: a speed is differentiated, at the mean speed that the input gives.
+      !> From the signal of a shaft to the amplitudes of its angular acceleration or speed. A speed is differentiated where the
+      !> scene is derived, at the speed_rpm that it has there.
       subroutine shaft_motion()
-         real(dp) :: per_minute
-
-         per_minute = merge(two_pi/60.0_dp, 1.0_dp, input%choice('shaft', 'signal_kind') == kind_speed_rpm)
          orders = orders/real(input%count('shaft', 'cycle_revolutions'), dp)
          unit = ' rad/s2'
          fate = 'is left out'
          if (input%choice('shaft', 'signal_kind') == kind_acceleration) return
-         ! Without a mean speed the input has another fault.
-         if (.not. input%number('shaft', 'speed_rpm') > 0.0_dp) return
-         amplitudes = amplitudes*per_minute*orders*two_pi*input%number('shaft', 'speed_rpm')/60.0_dp
-         phases = phases + 0.5_dp*pi
+         input%entries(find_key('shaft', 'accelerations'))%given = .false.
+         input%entries(find_key('shaft', 'accelerations'))%faulty = .false.
+         amplitude_key = 'speed_amplitudes'
+         amplitudes = amplitudes*merge(two_pi/60.0_dp, 1.0_dp, input%choice('shaft', 'signal_kind') == kind_speed_rpm)
          ! Of the order at half the samples the signs alone are known, not its phase.
          if (modulo(size(samples), 2) == 0) amplitudes(size(amplitudes)) = 0.0_dp
+         forces = amplitudes*orders
          unit = ' rad/s'
          if (input%choice('shaft', 'signal_kind') == kind_speed_rpm) unit = ' 1/min'
          fate = 'gives way to speed_rpm'
@@ -138,7 +140,7 @@ contains
       real(dp) function dropped_share(kept)
          integer, intent(in) :: kept
 
-         dropped_share = sum((amplitudes(kept + 1:)/maxval(amplitudes))**2)/sum((amplitudes/maxval(amplitudes))**2)
+         dropped_share = sum((forces(kept + 1:)/maxval(forces))**2)/sum((forces/maxval(forces))**2)
       end function dropped_share
 
       !> What was made of the signal.

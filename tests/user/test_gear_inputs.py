@@ -397,8 +397,8 @@ def test_the_highest_order_of_a_speed_has_no_derivative(check, tmp_path: Path) -
     signal = "signal = 'cycle.csv', signal_kind = 'angular_speed_rpm', signal_orders = 4"
     ended = check(PAIR.replace("orders = 2.0, accelerations = 600.0", signal))
     assert ended.returncode == 0, ended.stderr
-    kept = re.search(r"^   accelerations = (.*)$", ended.stdout, re.M)[1].split(",")
-    assert float(kept[0]) > 1.0 and float(kept[3]) == 0.0
+    kept = re.search(r"^   speed_amplitudes = (.*)$", ended.stdout, re.M)[1].split(",")
+    assert float(kept[0]) == pytest.approx(math.pi / 30.0) and float(kept[3]) == 0.0
 
 
 def test_faults_of_a_measured_cycle(check, tmp_path: Path) -> None:

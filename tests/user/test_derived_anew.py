@@ -1,0 +1,120 @@
+"""What follows from a drawing, a data sheet and a measured cycle is derived anew at every varied value."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from outcomes import summary_of
+
+import rattle as package
+
+SETTINGS = (
+    "solver.until='periods'",
+    "solver.periods=6",
+    "solver.accuracy=1e-6",
+    "spectrum.periods=2",
+    "spectrum.certify=.false.",
+)
+
+
+@pytest.fixture
+def cycle(repository: Path, tmp_path: Path) -> Path:
+    """The ready input with a measured cycle of speeds, in a folder of its own."""
+    for name in ("engine_cycle.nml", "engine_cycle.csv"):
+        shutil.copy(repository / "input" / name, tmp_path)
+    return tmp_path / "engine_cycle.nml"
+
+
+def settings(*more: str) -> list[str]:
+    return [word for setting in (*SETTINGS, *more) for word in ("--set", setting)]
+
+
+def single(run, cycle: Path, speed: float) -> dict:
+    ended = run("--overwrite", *settings(f"shaft.speed_rpm={speed}"), cycle.name, cwd=cycle.parent)
+    assert ended.returncode == 0, ended.stderr
+    return summary_of(cycle.parent / "results" / "engine_cycle.summary.nml")
+
+
+def test_rows_over_the_speed_have_the_accelerations_of_their_speed(run, cycle: Path) -> None:
+    """Speeds are differentiated at the speed of the row."""
+    text = cycle.read_text() + (
+        "&campaign vary = 'shaft.speed_rpm', values(:, 1) = 500, 800, 1600, samples_per_period = 512\n"
+        "record = 'acceleration_maximum', 'film_minimum', 'film_force_rms', 'dissipated_energy' /\n"
+    )
+    many = cycle.with_name("many.nml")
+    many.write_text(text)
+    ended = run(*settings("scene.task='campaign'"), many.name, cwd=many.parent)
+    # `certify` belongs to motions.
+    assert ended.returncode == 2 and "spectrum certify" in ended.stderr
+    words = settings("scene.task='campaign'")
+    place = words.index("spectrum.certify=.false.")
+    ended = run(*words[: place - 1], *words[place + 1 :], many.name, cwd=many.parent)
+    assert ended.returncode == 0, ended.stderr
+    rows = package.read_campaign(many.parent / "results" / "many.rattle")
+    for row, speed in enumerate((500.0, 800.0, 1600.0)):
+        alone = single(run, cycle, speed)
+        for name in ("acceleration_maximum", "film_minimum", "film_force_rms", "dissipated_energy"):
+            assert rows[name][row] == pytest.approx(alone[name], rel=1e-12), (speed, name)
+
+
+def test_amplitudes_of_the_speed_are_those_of_the_acceleration_over_the_circular_frequency(
+    run, tmp_path: Path
+) -> None:
+    """Two inputs of one motion, told by its accelerations and by its speeds."""
+    speed = 800.0
+    accelerations, orders, phases = np.array([600.0, 60.0]), np.array([2.0, 0.5]), np.array([0.3, -1.0])
+    amplitudes = accelerations / (orders * speed * np.pi / 30.0)
+    pair = """
+&gear teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96, face_width = 0.016
+   loose_inertia = 1.715e-3, drag_torque = 0.10, backlash = 1e-4 /
+&oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 40.0 /
+&film law = 'iso-viscous', model = 'reynolds' /
+"""
+    told = []
+    for name, values, shift in (
+        ("accelerations", accelerations, 0.0),
+        ("speed_amplitudes", amplitudes, 0.5 * np.pi),
+    ):
+        listed = [", ".join(str(value) for value in numbers) for numbers in (orders, values, phases - shift)]
+        (tmp_path / "pair.nml").write_text(
+            f"{pair}&shaft speed_rpm = {speed}, orders = {listed[0]}\n"
+            f"{name} = {listed[1]}\nphases = {listed[2]} /\n"
+        )
+        ended = run("--check", "pair.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+        told.append(
+            {
+                key: [float(word) for word in line.split("=")[1].rsplit(" ", 1)[0].split(",")]
+                for line in ended.stdout.splitlines()
+                for key in ("force_amplitudes", "force_phases")
+                if line.startswith(f"! derived: load.{key}")
+            }
+        )
+    assert told[1]["force_amplitudes"] == pytest.approx(told[0]["force_amplitudes"], rel=1e-14)
+    assert told[1]["force_phases"] == pytest.approx(told[0]["force_phases"], rel=1e-14)
+
+
+def test_the_motion_of_a_shaft_is_told_once(run, cycle: Path) -> None:
+    """Accelerations or speeds or a signal: none is refused, two are."""
+    pair = cycle.read_text()
+    start, end = pair.index("   signal = "), pair.index("/\n\n&oil")
+    for lines, words in (
+        ("orders = 2", "&shaft accelerations: a motion of the shaft is required"),
+        (
+            "orders = 2, accelerations = 600, speed_amplitudes = 1",
+            "&shaft speed_amplitudes: give either accelerations or speed_amplitudes",
+        ),
+        (
+            "orders = 2, speed_amplitudes = 1, 2",
+            "&shaft speed_amplitudes: as many values as orders has (1) are needed",
+        ),
+    ):
+        cycle.write_text(pair[:start] + lines + "\n" + pair[end:])
+        ended = run("--check", cycle.name, cwd=cycle.parent)
+        assert ended.returncode == 2 and words in ended.stderr, ended.stderr
+    cycle.write_text(pair[:start] + "speed_amplitudes = 1.0,\n" + pair[start:])
+    ended = run("--check", cycle.name, cwd=cycle.parent)
+    assert ended.returncode == 2 and "speed_amplitudes: the signal gives the motion" in ended.stderr
