@@ -10,7 +10,7 @@ module campaign_certificate
    use certify_scene, only: nearby_orbit, tighten
    use engine, only: motion_state_t, numbers_of, request_t, start_of
    use kinds, only: dp
-   use node_extremes, only: seen_acceleration, seen_coast_film, seen_film, seen_quantities
+   use node_extremes, only: seen_acceleration, seen_coast_film, seen_film, seen_load, seen_net_load, seen_quantities
    use periodic_orbit, only: attracting_period
    use carried_loads, only: films_of
    use problem, only: largest_state, of_film, problem_t
@@ -21,6 +21,7 @@ module campaign_certificate
    use scene_types, only: scene_t, spectrum_choice_t
    use signals, only: must_stop
    use window_extremes, only: extremes_of_record
+   use window_impacts, only: agreement_of, impact_agreement_t, impacts_of_record
    implicit none(type, external)
    private
 
@@ -32,7 +33,7 @@ module campaign_certificate
 contains
 
    !> Whether the classes of a group stand. After a signal to stop the answer is of no use.
-   subroutine certify_group(scene, resolved, choices, request, group, tight, stands)
+   subroutine certify_group(scene, resolved, choices, request, group, tight, stands, agree)
       !> The scene with its varied keys set, of any scene of the group
       type(scene_t), intent(in) :: scene
       !> What follows from the scenes, and the limits of their classes
@@ -45,6 +46,8 @@ contains
       !> Work space: the tighter solutions
       type(scene_group_t), intent(inout) :: tight
       logical, intent(out) :: stands(:)
+      !> Whether impacts are the same, where they are asked for
+      type(impact_agreement_t), intent(out), optional :: agree(:)
       type(request_t) :: tighter
       type(motion_state_t) :: starts(size(resolved))
       integer, allocatable :: irregular(:)
@@ -59,7 +62,12 @@ contains
       noise = resolved%noise_floor_at(tighter%accuracy)
       wants = .false.
       wants(compared) = .true.
-      call solve_group(resolved%problem, starts, tighter, wants, tight)
+      if (present(agree)) then
+         wants([seen_load, seen_net_load]) = .true.
+         call solve_group(resolved%problem, starts, tighter, wants, tight, choices%impact_limit)
+      else
+         call solve_group(resolved%problem, starts, tighter, wants, tight)
+      end if
       call classify_group(resolved%problem, choices, noise, tighter, tight)
       stands = .false.
       behind = .false.
@@ -68,6 +76,11 @@ contains
          if (.not. (is_success(group%endings(i)%status) .and. is_success(tight%endings(i)%status))) cycle
          if (tight%verdicts(i)%class == class_irregular) &
             call note_orbit(tight%verdicts(i), attracting_period(nearby_orbit(resolved(i)%problem, tight%endings(i))))
+         if (present(agree)) &
+            agree(i) = agreement_of(resolved(i)%problem, extremes_of_record(group%records(i)), &
+                                    impacts_of_record(group%records(i), resolved(i)%problem%frequency), &
+                                    extremes_of_record(tight%records(i)), &
+                                    impacts_of_record(tight%records(i), resolved(i)%problem%frequency))
          stands(i) = class_stands(resolved(i), choices(i), tighter, i, noise(i), group, tight)
          behind(i) = stands(i) .and. group%verdicts(i)%class == class_irregular
       end do

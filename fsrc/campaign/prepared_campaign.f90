@@ -7,7 +7,7 @@ module prepared_campaign
    use key_table, only: find_key
    use kinds, only: dp, int64
    use memory, only: expect_memory
-   use quantities, only: needs_certificate, quantity_table
+   use quantities, only: is_verified
    use sampling, only: largest_value, sample_plan_t
    use scene_types, only: scene_t, task_threshold
    use schedule, only: chunk_rows_for
@@ -61,7 +61,7 @@ contains
       if (faults%count() > 0) return
       longest = largest_value(campaign%plan, find_key('solver', 'periods'), real(scene%solver%periods, dp))
       campaign%layout%chunk_rows = int(chunk_rows_for(campaign%plan%size, longest, &
-                                       any(quantity_table(scene%campaign%record)%need == needs_certificate)), int64)
+                                       is_verified(scene%campaign%record)), int64)
       call share_of_part(scene, campaign%plan%size, merge(1_int64, campaign%layout%chunk_rows, scene%task == task_threshold), &
                          campaign%first, last)
       campaign%layout%input_text = scene%resolved_input

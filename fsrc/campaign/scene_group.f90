@@ -35,7 +35,7 @@ module scene_group
 contains
 
    !> Solve scenes side by side.
-   subroutine solve_group(problems, starts, request, wants, group)
+   subroutine solve_group(problems, starts, request, wants, group, impact_limits)
       !> What moves, and where each motion starts
       type(problem_t), intent(in) :: problems(:)
       type(motion_state_t), intent(in) :: starts(:)
@@ -45,6 +45,8 @@ contains
       logical, intent(in) :: wants(seen_quantities)
       !> The scenes, without their classes
       type(scene_group_t), intent(inout) :: group
+      !> Multiples of the largest force above which loads are impacts, where these are asked for
+      real(dp), intent(in), optional :: impact_limits(:)
       type(window_record_t) :: blank
       integer :: samples, numbers, n, i
 
@@ -61,6 +63,7 @@ contains
       blank%wants = wants
       do i = 1, n
          group%records(i) = blank
+         if (present(impact_limits)) group%records(i)%loads%impact_limit = impact_limits(i)
       end do
       call solve_motions(problems, starts, request, group%states(:, :, :n), group%endings(:n), records=group%records(:n))
    end subroutine solve_group

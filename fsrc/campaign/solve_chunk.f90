@@ -13,8 +13,8 @@ module solve_chunk
    use node_extremes, only: seen_pressure, seen_quantities
    use carried_loads, only: thinnest_film
    use periodic_orbit, only: periodic_orbit_t
-   use quantities, only: need_count, needs_certificate, needs_coast_film_range, needs_coast_load_range, needs_deflection, &
-      needs_film_range, needs_load_range, needs_regime, needs_spectrum, quantity_table
+   use quantities, only: is_verified, need_count, needs_certificate, needs_impacts, needs_of, needs_regime, needs_spectrum, &
+      needs_verified_impacts
    use regime_check, only: check_regime
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use sampling, only: chunk_values, largest_value, sample_plan_t
@@ -25,6 +25,7 @@ module solve_chunk
    use signals, only: must_stop
    use varied_keys, only: is_valid_scene, set_varied_keys
    use window_extremes, only: extremes_of_record
+   use window_impacts, only: impact_agreement_t, impacts_of_record
    implicit none(type, external)
    private
 
@@ -41,6 +42,8 @@ module solve_chunk
       !> Scenes that are solved together, their tighter solutions, and whether their classes stand
       type(scene_group_t) :: group, tight
       logical, allocatable :: stands(:)
+      !> And whether their impacts are the same
+      type(impact_agreement_t), allocatable :: agree(:)
       !> The scene judged last; its arrays serve the next one
       type(judged_scene_t) :: judged
    end type chunk_space_t
@@ -65,15 +68,12 @@ contains
       real(dp), allocatable :: values(:, :)
       type(scene_t) :: scene
       logical :: needed(need_count)
-      integer :: start, count, batch, i
+      integer :: start, count, batch
 
       batch = scenes_together(base, plan)
       allocate (values(size(plan%positions), min(batch, size(rows, 2))))
-      needed = [(any(quantity_table(base%campaign%record)%need == i), i=1, need_count)]
-      needed(needs_load_range) = any(needed([needs_load_range, needs_deflection]))
+      needed = needs_of(base%campaign%record)
       if (needed(needs_certificate)) needed(compared) = .true.
-      needed(needs_coast_film_range) = any(needed([needs_film_range, needs_coast_film_range]))
-      needed(needs_coast_load_range) = any(needed([needs_coast_load_range, needs_deflection]))
       scene = base
       scene%resolved_input = ''
       do start = 1, size(rows, 2), batch
@@ -95,7 +95,7 @@ contains
       scene_bytes = fixed_bytes + window_periods(base, plan)*(period_bytes + sample_bytes* &
                                                               real(base%campaign%samples_per_period, dp))
       ! The tighter solution stands beside it.
-      if (any(quantity_table(base%campaign%record)%need == needs_certificate)) scene_bytes = 2.0_dp*scene_bytes
+      if (is_verified(base%campaign%record)) scene_bytes = 2.0_dp*scene_bytes
    end function scene_bytes
 
    !> Most periods of a window.
@@ -166,7 +166,7 @@ contains
             call solve_side_by_side(scene, resolved(group), choices(group), requests(order(start)), needed, space)
             if (must_stop()) return
             do i = 1, together
-               call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%judged)
+               call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%agree(i), space%judged)
                call record_row(scene, first + int(group(i) - 1, int64), values(:, group(i)), space%judged, rows(:, group(i)))
             end do
          end associate
@@ -190,16 +190,24 @@ contains
       logical, intent(in) :: needed(:)
       type(chunk_space_t), intent(inout) :: space
 
-      if (allocated(space%stands)) deallocate (space%stands)
+      if (allocated(space%stands)) deallocate (space%stands, space%agree)
       allocate (space%stands(size(resolved)), source=.false.)
+      allocate (space%agree(size(resolved)))
       associate (problems => resolved%problem)
-         call solve_group(problems, start_of(problems), request, needed(:seen_quantities), space%group)
+         if (needed(needs_impacts)) then
+            call solve_group(problems, start_of(problems), request, needed(:seen_quantities), space%group, choices%impact_limit)
+         else
+            call solve_group(problems, start_of(problems), request, needed(:seen_quantities), space%group)
+         end if
          if (any(needed([needs_spectrum, needs_certificate]))) &
             call classify_group(problems, choices, resolved%noise_floor, request, space%group)
       end associate
       if (must_stop()) return
-      if (needed(needs_certificate)) &
+      if (needed(needs_verified_impacts)) then
+         call certify_group(scene, resolved, choices, request, space%group, space%tight, space%stands, space%agree)
+      else if (needed(needs_certificate)) then
          call certify_group(scene, resolved, choices, request, space%group, space%tight, space%stands)
+      end if
    end subroutine solve_side_by_side
 
    !> Whether all scenes of a batch ask for the same.
@@ -262,7 +270,7 @@ contains
    end subroutine note_ending
 
    !> What is known of a scene of a group.
-   pure subroutine judge_scene_of(group, place, resolved, needed, stands, judged)
+   pure subroutine judge_scene_of(group, place, resolved, needed, stands, agree, judged)
       !> The group, and the place of the scene in it
       type(scene_group_t), intent(in) :: group
       integer, intent(in) :: place
@@ -271,6 +279,8 @@ contains
       logical, intent(in) :: needed(:)
       !> Whether its class stands, if that is needed
       logical, intent(in) :: stands
+      !> And whether its impacts are the same
+      type(impact_agreement_t), intent(in) :: agree
       type(judged_scene_t), intent(inout) :: judged
 
       call note_ending(resolved, group%endings(place), judged)
@@ -279,11 +289,13 @@ contains
       associate (record => group%records(place), pressure => group%records(place)%highest(seen_pressure))
          judged%extremes = extremes_of_record(record)
          judged%loudness = loudness_of_record(record, resolved%problem%frequency)
+         judged%impacts = impacts_of_record(record, resolved%problem%frequency)
          if (needed(needs_regime)) judged%regime = check_regime(resolved%problem%film, pressure%value, &
                                                                 thinnest_film(resolved%problem, pressure%state))
       end associate
       judged%certificate%exists = needed(needs_certificate)
       judged%certificate%certified = stands
+      judged%certificate%impacts = agree
    end subroutine judge_scene_of
 
 end module solve_chunk

@@ -97,7 +97,8 @@ contains
    end function reserved_periods
 
    !> States and accelerations of the last periods of a motion, what its steps tell, and how it ended.
-   subroutine solve_window(problem, start, accuracy, samples_per_period, periods, window, states, values, ending, record)
+   subroutine solve_window(problem, start, accuracy, samples_per_period, periods, window, states, values, ending, record, &
+                           impact_limit)
       !> What moves
       type(problem_t), intent(in) :: problem
       !> Where the motion starts
@@ -116,12 +117,15 @@ contains
       type(ending_t), intent(out) :: ending
       !> What the steps tell of the last periods
       type(window_record_t), intent(out) :: record
+      !> Multiple of the largest force above which loads are impacts, where these are asked for
+      real(dp), intent(in), optional :: impact_limit
       type(request_t) :: request
       type(ending_t) :: endings(1)
       type(window_record_t) :: records(1)
       real(dp), allocatable :: samples(:, :, :)
 
       request = request_t(accuracy=accuracy, periods=periods, samples_per_period=samples_per_period, sampled_periods=window)
+      if (present(impact_limit)) records(1)%loads%impact_limit = impact_limit
       allocate (samples(window*samples_per_period, state_size(problem), 1), source=start%film)
       call solve_motions([problem], [start], request, samples, endings, records=records)
       ending = endings(1)
@@ -225,6 +229,7 @@ contains
       integer :: samples, sampled_from, last
 
       samples = request%samples_per_period
+      records(1)%loads%impact_limit = request%impact_limit
       sampled_from = merge(0, periods - window, request%all_samples)
       block_request = request_t(accuracy=request%accuracy)
       call sink%begin_window(int(periods - window, int64)*int(samples, int64) + 1_int64, window*samples)

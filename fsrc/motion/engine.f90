@@ -31,6 +31,8 @@ module engine
       logical :: forecast = .false.
       !> Hand over the samples of all periods, of a single motion
       logical :: all_samples = .false.
+      !> Loads above this multiple of the largest force are recorded as impacts; 0: none
+      real(dp) :: impact_limit = 0.0_dp
       !> Wall time that a single motion may take [s]; 0: no limit
       real(dp) :: time_limit = 0.0_dp
       !> Of Newmark's method: eps of (36) [m], most passes in a step, Newton's iteration or else the successive one, first iterate

@@ -48,7 +48,7 @@ module node_extremes
       logical :: exists = .false.
    end type extreme_t
 
-   public :: find_extremes
+   public :: find_extremes, narrow, top_of_parabola
 
 contains
 

@@ -19,6 +19,8 @@ module window_record
    use force, only: forces_on_circle
    use kinds, only: dp
    use lane_functions, only: lane_cosine_sine, lanes
+   use load_points, only: coast_flank, drive_flank
+   use load_record, only: load_record_t, record_loads, start_loads
    use node_extremes, only: block_nodes, block_pieces, extreme_t, find_extremes, seen_acceleration, seen_coast_film, &
       seen_coast_load, seen_film, seen_load, seen_net_load, seen_position, seen_pressure, seen_quantities, seen_velocity
    use carried_loads, only: coast_films, coast_loads, drive_loads, gear_positions, largest_pressures
@@ -36,6 +38,8 @@ module window_record
       !> coefficients are wanted for, 0: none
       logical :: wants(seen_quantities) = .true.
       integer :: multiples = 0
+      !> Impacts, where its limit asks for them, and for how long the drive film is unloaded
+      type(load_record_t) :: loads = load_record_t()
       !> Longest piece of a step, by the multiples [periods]
       real(dp) :: longest_piece = 1.0_dp
       !> Shortest piece met [periods]
@@ -83,7 +87,9 @@ contains
       !> The record
       type(window_record_t), intent(inout) :: record
 
-      record = window_record_t(wants=record%wants, multiples=record%multiples, start=start, end_velocity=start%velocity)
+      record = window_record_t(wants=record%wants, multiples=record%multiples, &
+                               loads=load_record_t(impact_limit=record%loads%impact_limit), start=start, &
+                               end_velocity=start%velocity)
       if (record%multiples == 0) return
       record%longest_piece = oscillations_per_piece/real(record%multiples, dp)
       allocate (record%line_sums(0:record%multiples), record%integrals(record%multiples), source=(0.0_dp, 0.0_dp))
@@ -100,6 +106,7 @@ contains
       type(window_record_t), intent(inout) :: record
       integer :: first, last
 
+      if (record%loads%impact_limit > 0.0_dp .and. record%periods == 0) call start_loads(problem, record%loads)
       do first = 1, nodes%pieces, block_pieces
          last = min(first + block_pieces - 1, nodes%pieces)
          call record_pieces(problem, nodes%start(first:last), nodes%length(first:last), &
@@ -159,8 +166,12 @@ contains
       end do
       call drive_loads(problem, states, loads(:n))
       call search(seen_load, loads(:n), record)
+      if (record%loads%impact_limit > 0.0_dp) &
+         call record_loads(problem, drive_flank, record%periods, start, length, states, loads(:n), record%loads)
       if (has_two_flanks(problem)) then
          call coast_loads(problem, states, coast(:n))
+         if (record%loads%impact_limit > 0.0_dp) &
+            call record_loads(problem, coast_flank, record%periods, start, length, states, coast(:n), record%loads)
          loads(:n) = loads(:n) - coast(:n)
          call search(seen_coast_load, coast(:n), record)
          call search(seen_net_load, loads(:n), record)

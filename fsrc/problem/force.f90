@@ -22,7 +22,7 @@ module force
       real(dp), allocatable :: others(:, :)
    end type force_t
 
-   public :: cosine_force, force_of, force_at, forces_on_circle, force_of_period, largest_oscillation
+   public :: cosine_force, force_of, force_at, forces_on_circle, force_of_period, largest_oscillation, largest_size
 
 contains
 
@@ -135,5 +135,71 @@ contains
          largest_oscillation = largest_oscillation + hypot(force%others(1, n), force%others(2, n))
       end do
    end function largest_oscillation
+
+   !> Largest size of a force and a steady one beside it [N]. Several orders are looked at in 16 places to the period of the highest
+   !> one; what may be larger between two of them than all others is followed to where it is largest.
+   pure real(dp) function largest_size(force, beside)
+      !> The force
+      type(force_t), intent(in) :: force
+      !> [N]
+      real(dp), intent(in) :: beside
+      integer, parameter :: places_per_wave = 16
+      !> Share of the oscillation by which a wave may rise above the nearest of the places: (pi/16)**2/2
+      real(dp), parameter :: between = 0.02_dp
+      real(dp), allocatable :: sizes(:)
+      real(dp) :: top
+      integer :: n, i
+
+      largest_size = abs(force%steady + beside) + hypot(force%cosine, force%sine)
+      if (force%highest < 2) return
+      n = places_per_wave*force%highest
+      allocate (sizes(n))
+      call force_of_period(force, sizes)
+      sizes = abs(sizes + beside)
+      top = maxval(sizes)
+      largest_size = top
+      do i = 1, n
+         if (sizes(i) + between*largest_oscillation(force) < top) cycle
+         if (sizes(i) < max(sizes(modulo(i - 2, n) + 1), sizes(modulo(i, n) + 1))) cycle
+         largest_size = max(largest_size, largest_near(real(i, dp)/real(n, dp), 1.0_dp/real(n, dp)))
+      end do
+
+   contains
+
+      !> Largest size between two phases that stand as far on both sides of one, by the golden section.
+      pure real(dp) function largest_near(phase, distance)
+         real(dp), intent(in) :: phase
+         real(dp), intent(in) :: distance
+         real(dp), parameter :: section = 0.6180339887498949_dp
+         !> After these what is left is 1e-9 of the wave, its height off by less than rounding.
+         integer, parameter :: passes = 42
+         real(dp) :: ends(2), inner(2), values(2)
+         integer :: pass, k
+
+         ends = phase + [-distance, distance]
+         inner = [ends(2) - section*(ends(2) - ends(1)), ends(1) + section*(ends(2) - ends(1))]
+         values = [(size_at(inner(k)), k=1, 2)]
+         do pass = 1, passes
+            if (values(1) >= values(2)) then
+               ends(2) = inner(2)
+               inner = [ends(2) - section*(ends(2) - ends(1)), inner(1)]
+               values = [size_at(inner(1)), values(1)]
+            else
+               ends(1) = inner(1)
+               inner = [inner(2), ends(1) + section*(ends(2) - ends(1))]
+               values = [values(2), size_at(inner(2))]
+            end if
+         end do
+         largest_near = maxval(values)
+      end function largest_near
+
+      !> Size at a phase [N].
+      pure real(dp) function size_at(phase)
+         real(dp), intent(in) :: phase
+
+         size_at = abs(force_at(force, modulo(phase, 1.0_dp)) + beside)
+      end function size_at
+
+   end function largest_size
 
 end module force

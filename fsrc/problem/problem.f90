@@ -14,7 +14,7 @@
 !> digits however stiff the tooth is, a position would not.
 module problem
    use film_law, only: film_load, film_t, new_film, steady_film
-   use force, only: force_of, force_t
+   use force, only: force_of, force_t, largest_size
    use kinds, only: dp
    use scene_types, only: scene_t
    implicit none(type, external)
@@ -51,8 +51,8 @@ module problem
       real(dp) :: rate = huge(1.0_dp)
    end type settling_t
 
-   public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, static_load, film_at_rest, films_at_rest, &
-             loads_at_rest, reference_films, reference_film, thinner_film, linearise, settling_of
+   public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, static_load, largest_applied_force, &
+             film_at_rest, films_at_rest, loads_at_rest, reference_films, reference_film, thinner_film, linearise, settling_of
 
 contains
 
@@ -79,6 +79,13 @@ contains
 
       static_load = problem%force%steady + problem%weight
    end function static_load
+
+   !> Largest |F + m g| of a period [N].
+   pure real(dp) function largest_applied_force(problem)
+      type(problem_t), intent(in) :: problem
+
+      largest_applied_force = largest_size(problem%force, problem%weight)
+   end function largest_applied_force
 
    !> Whether there is a coast flank.
    elemental logical function has_two_flanks(problem)

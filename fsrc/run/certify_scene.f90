@@ -19,6 +19,7 @@ module certify_scene
    use text, only: integer_text
    use text_output, only: lock_texts, unlock_texts
    use window_extremes, only: extremes_of_record, window_extremes_t
+   use window_impacts, only: agreement_of, impacts_of_record, window_impacts_t
    implicit none(type, external)
    private
 
@@ -32,7 +33,7 @@ module certify_scene
 contains
 
    !> Certificate and periodic motion of a judged scene.
-   subroutine certify(scene, resolved, periods, window, extremes, loudness, verdict, certificate, error, orbit)
+   subroutine certify(scene, resolved, periods, window, extremes, loudness, impacts, verdict, certificate, error, orbit)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
@@ -41,9 +42,10 @@ contains
       integer, intent(in) :: periods
       !> Window at their end
       type(window_t), intent(in) :: window
-      !> Its extremes and loudness
+      !> Its extremes, loudness and impacts
       type(window_extremes_t), intent(in) :: extremes
       type(loudness_t), intent(in) :: loudness
+      type(window_impacts_t), intent(in) :: impacts
       !> Verdict to be tested; an irregular motion found to repeat becomes subharmonic
       type(rattle_verdict_t), intent(inout) :: verdict
       !> Its certificate
@@ -99,6 +101,8 @@ contains
                               extremes_of_record(tight%record), verdict, tight_verdict, unclosed, scene%spectrum, &
                               scene%spectrum%certificate_tolerance, accuracy, resolved%noise_floor_at(accuracy), certificate)
       end associate
+      certificate%impacts = agreement_of(resolved%problem, extremes, impacts, extremes_of_record(tight%record), &
+                                         impacts_of_record(tight%record, resolved%problem%frequency))
       certificate%loudness_error = loudness_error(loudness, loudness_of_record(tight%record, resolved%problem%frequency), accuracy)
    end subroutine certify
 

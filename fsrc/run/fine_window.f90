@@ -68,7 +68,7 @@ contains
 
       call unlock_texts()
       call solve_window(problem, start, accuracy, window%samples_per_period, periods, window%periods, window%states, &
-                        window%accelerations, ending, window%record)
+                        window%accelerations, ending, window%record, scene%spectrum%impact_limit)
       call lock_texts()
       if (is_success(ending%status)) call judge_window(scene, problem, accuracy, noise_floor, window, verdict, error)
    end subroutine solve_whole_window
@@ -102,7 +102,7 @@ contains
          finer%samples_per_period = 2*window%samples_per_period
          call unlock_texts()
          call solve_window(problem, window%record%start, accuracy, finer%samples_per_period, finer%periods, finer%periods, &
-                           finer%states, finer%accelerations, ending, finer%record)
+                           finer%states, finer%accelerations, ending, finer%record, scene%spectrum%impact_limit)
          call lock_texts()
          if (.not. is_success(ending%status)) exit
          window = finer

@@ -16,6 +16,7 @@ module judge_scene
    use scene_types, only: scene_t
    use signals, only: must_stop
    use window_extremes, only: extremes_of_record, extremes_of_samples
+   use window_impacts, only: impacts_of_record, impacts_of_samples
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -77,18 +78,22 @@ contains
       if (window%record%periods > 0) then
          judged%extremes = extremes_of_record(record)
          judged%loudness = loudness_of_record(record, scene%excitation%frequency)
+         judged%impacts = impacts_of_record(record, scene%excitation%frequency)
       else
          judged%extremes = extremes_of_samples(judged%resolved%problem, window%states, &
                                                window%accelerations)
          judged%loudness = loudness_of_samples(judged%resolved%problem, window%samples_per_period, window%states(:, of_velocity), &
                                                window%accelerations)
+         judged%impacts = impacts_of_samples(judged%resolved%problem, scene%spectrum%impact_limit, window%samples_per_period, &
+                                             window%states)
       end if
       associate (pressure => judged%extremes%highest(seen_pressure))
          judged%regime = check_regime(judged%resolved%problem%film, pressure%value, &
                                       thinnest_film(judged%resolved%problem, pressure%state))
       end associate
       if (scene%spectrum%certify) call certify(scene, judged%resolved, judged%periods, window, judged%extremes, &
-                                               judged%loudness, judged%rattle, judged%certificate, error, judged%orbit)
+                                               judged%loudness, judged%impacts, judged%rattle, judged%certificate, error, &
+                                               judged%orbit)
       judged%judged = .not. allocated(error)
    end subroutine judge
 

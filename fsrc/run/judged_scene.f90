@@ -3,10 +3,12 @@ module judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use certificate, only: certificate_t
    use engine, only: motion_count_t
+   use impacts, only: impact_count_t
    use kinds, only: dp
+   use load_points, only: coast_flank, drive_flank
    use loudness, only: loudness_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
-      seen_net_load, seen_position, seen_velocity
+      seen_position, seen_velocity
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
@@ -15,7 +17,12 @@ module judged_scene
       quantity_deflection, quantity_deflection_share, quantity_dissipated_energy, quantity_dissipated_power, &
       quantity_double_sided, quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, &
       quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
-      quantity_gear_position_maximum, quantity_gear_position_minimum, quantity_first_harmonic, quantity_floquet_modulus, &
+      quantity_gear_position_maximum, quantity_gear_position_minimum, quantity_impact_impulse_maximum_coast, &
+      quantity_impact_impulse_maximum_drive, quantity_impact_impulse_mean_coast, quantity_impact_impulse_mean_drive, &
+      quantity_impact_load_maximum_coast, quantity_impact_load_maximum_drive, quantity_impact_velocity_maximum_coast, &
+      quantity_impact_velocity_maximum_drive, quantity_impacts_per_period_coast, quantity_impacts_per_period_drive, &
+      quantity_impacts_verified, quantity_reversal, quantity_separation, quantity_unloaded_share, quantity_verdict, &
+      quantity_verdict_verified, quantity_first_harmonic, quantity_floquet_modulus, &
       quantity_floquet_multipliers, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
       quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, quantity_iterations_per_step, &
       quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, quantity_lines_by_integrals, &
@@ -32,6 +39,7 @@ module judged_scene
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: status_complete
    use window_extremes, only: window_extremes_t
+   use window_impacts, only: double_sided_impacts, has_reversal, has_separation, verdict_of, window_impacts_t
    implicit none(type, external)
    private
 
@@ -53,6 +61,7 @@ module judged_scene
       !> Extremes of the window
       type(window_extremes_t) :: extremes
       type(loudness_t) :: loudness
+      type(window_impacts_t) :: impacts
       type(rattle_verdict_t) :: rattle
       type(regime_verdict_t) :: regime
       type(certificate_t) :: certificate
@@ -158,8 +167,6 @@ contains
             if (has_elastic_teeth(problem)) value = highest(seen_position)%value
          case (quantity_coast_load_maximum)
             if (has_two_flanks(problem)) value = highest(seen_coast_load)%value
-         case (quantity_double_sided)
-            if (has_two_flanks(problem)) value = flag(lowest(seen_net_load)%value < 0.0_dp)
          case (quantity_reversals_per_period)
             value = judged%rattle%reversals_per_period
          case (quantity_first_harmonic)
@@ -198,13 +205,71 @@ contains
             value = real(regime%regime, dp)
          case (quantity_law_contradicted)
             value = flag(regime%law_contradicted)
+         case (quantity_verdict_verified)
+            if (certificate%exists .and. judged%impacts%exists) value = flag(certificate%impacts%verdict)
+         case (quantity_impacts_verified)
+            if (certificate%exists .and. judged%impacts%exists) value = flag(certificate%impacts%numbers)
          case (quantity_loudness_error)
             if (allocated(certificate%harmonic_errors) .and. lines%moving) value = error_value(quantity, certificate)
-         case default
+         case (quantity_film_error, quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
+               quantity_acceleration_minimum_error, quantity_acceleration_maximum_error)
             if (allocated(certificate%harmonic_errors)) value = error_value(quantity, certificate)
+         case default
+            if (judged%impacts%exists) value = impact_value(quantity, judged)
          end select
       end associate
    end function window_value
+
+   !> Value of a quantity that rests on separation and impacts; those of the coast flank are known where there is one.
+   pure real(dp) function impact_value(quantity, judged) result(value)
+      integer, intent(in) :: quantity
+      type(judged_scene_t), intent(in) :: judged
+
+      value = ieee_value(value, ieee_quiet_nan)
+      associate (impacts => judged%impacts, problem => judged%resolved%problem, extremes => judged%extremes)
+         select case (quantity)
+         case (quantity_reversal)
+            value = flag(has_reversal(problem, extremes))
+         case (quantity_unloaded_share)
+            value = impacts%unloaded_share
+         case (quantity_separation)
+            value = flag(has_separation(problem, extremes, impacts))
+         case (quantity_verdict)
+            value = real(verdict_of(problem, extremes, impacts), dp)
+         case (quantity_double_sided)
+            if (has_two_flanks(problem)) value = flag(verdict_of(problem, extremes, impacts) == double_sided_impacts)
+         case (quantity_impacts_per_period_drive, quantity_impact_load_maximum_drive, quantity_impact_velocity_maximum_drive, &
+               quantity_impact_impulse_maximum_drive, quantity_impact_impulse_mean_drive)
+            value = flank_value(quantity, impacts%flanks(drive_flank), impacts%periods)
+         case default
+            if (has_two_flanks(problem)) value = flank_value(quantity, impacts%flanks(coast_flank), impacts%periods)
+         end select
+      end associate
+   end function impact_value
+
+   !> Value of a quantity of the impacts on a flank.
+   pure real(dp) function flank_value(quantity, impacts, periods) result(value)
+      integer, intent(in) :: quantity
+      type(impact_count_t), intent(in) :: impacts
+      !> Periods that they were counted in
+      integer, intent(in) :: periods
+
+      value = ieee_value(value, ieee_quiet_nan)
+      select case (quantity)
+      case (quantity_impacts_per_period_drive, quantity_impacts_per_period_coast)
+         value = real(impacts%count, dp)/real(periods, dp)
+      case (quantity_impact_load_maximum_drive, quantity_impact_load_maximum_coast)
+         value = impacts%load_maximum
+      case (quantity_impact_velocity_maximum_drive, quantity_impact_velocity_maximum_coast)
+         value = impacts%velocity_maximum
+      case (quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast)
+         value = impacts%impulse_maximum
+      case (quantity_impact_impulse_mean_drive, quantity_impact_impulse_mean_coast)
+         value = impacts%impulse_sum/real(max(1, impacts%count), dp)
+      case default
+         continue
+      end select
+   end function flank_value
 
    !> By which share of the film a tooth gives way under the largest load of it, at the flank where that is more [-].
    pure real(dp) function deflection_share(judged) result(share)

@@ -95,6 +95,7 @@ contains
       request%sampled_periods = scene%spectrum%periods
       request%until_steady = scene%solver%until == until_steady
       request%all_samples = scene%output%series
+      request%impact_limit = scene%spectrum%impact_limit
       request%time_limit = scene%solver%time_limit
       request%tolerance = scene%solver%tolerance
       request%iteration_limit = scene%solver%iteration_limit

@@ -31,10 +31,10 @@ module resume
                                                  '-', '-', '-', '-']
 
    !> Keys that may change when a run is carried on: they do not touch what has been solved.
-   character(*), parameter :: free_keys(10) = [character(30) :: 'solver.periods', 'solver.time_limit', 'solver.until', &
+   character(*), parameter :: free_keys(11) = [character(30) :: 'solver.periods', 'solver.time_limit', 'solver.until', &
                                                'spectrum.periods', 'spectrum.line_threshold', 'spectrum.idle_lines', &
-                                               'spectrum.quiet_limit', 'spectrum.irregular_limit', 'spectrum.certify', &
-                                               'spectrum.certificate_tolerance']
+                                               'spectrum.quiet_limit', 'spectrum.irregular_limit', 'spectrum.impact_limit', &
+                                               'spectrum.certify', 'spectrum.certificate_tolerance']
 
    !> What to do with a state that cannot be carried on.
    character(*), parameter :: begin_anew = '; --overwrite instead of --resume begins the run anew'

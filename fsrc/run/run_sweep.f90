@@ -32,6 +32,7 @@ module run_sweep
    use text, only: counted, integer_text, short_text
    use text_output, only: lock_texts, unlock_texts
    use window_extremes, only: extremes_of_record
+   use window_impacts, only: impacts_of_record
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -242,6 +243,7 @@ contains
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
       judged%extremes = extremes_of_record(window%record)
       judged%loudness = loudness_of_record(window%record, scene%excitation%frequency)
+      judged%impacts = impacts_of_record(window%record, scene%excitation%frequency)
    end subroutine solve_value
 
    !> What the sweep did.

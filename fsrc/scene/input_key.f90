@@ -33,7 +33,7 @@ module input_key
       !> Allowed numbers
       type(range_t) :: range
       !> Allowed words, separated by blanks; empty: any text that the reader accepts
-      character(1400) :: choices
+      character(2400) :: choices
       !> 'group.key=word[|word] [& ...]': legal only then; empty: always
       character(48) :: used_when
       !> What it means

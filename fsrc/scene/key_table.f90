@@ -342,6 +342,8 @@ module key_table
             'Below this harmonic distortion the motion is quiet.'), &
       key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', of_motions, &
             'Above this share of power off the harmonics the motion is irregular, or subharmonic if it is known to repeat.'), &
+      key_t('spectrum', 'impact_limit', real_kind, '-', '1.5', range_t(lower=1.0_dp), '', of_motions, &
+            'A largest load of a film above this multiple of the largest force |F + m g| is an impact.'), &
       key_t('spectrum', 'certify', logical_kind, '', '.true.', any_number, '', certified, &
             'Whether the scene is solved again tighter, to say how large its errors are and whether its class stands.'), &
       key_t('spectrum', 'certificate_tolerance', real_kind, '-', '0.01', fraction, '', certified, &

@@ -14,7 +14,8 @@ module quantities
    integer, parameter :: needs_nothing = 0, needs_film_range = 1, needs_velocity_range = 2, needs_acceleration_range = 3, &
                                  needs_load_range = 4, needs_regime = 5, needs_coast_load_range = 6, needs_net_load_range = 7, &
                                  needs_coast_film_range = 8, needs_position_range = 9, needs_deflection = 10, &
-                                 needs_spectrum = 11, needs_certificate = 12, need_count = 12
+                                 needs_spectrum = 11, needs_certificate = 12, needs_impacts = 13, needs_verified_impacts = 14, &
+                                 need_count = 14
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_lines = 3, part_class = 4, part_errors = 5, &
@@ -27,11 +28,17 @@ module quantities
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
          quantity_acceleration_rms, quantity_crest_factor, quantity_acceleration_kurtosis, quantity_film_force_rms, &
          quantity_dissipated_energy, quantity_dissipated_power, quantity_coast_film_minimum, quantity_coast_film_maximum, &
-         quantity_coast_load_maximum, quantity_double_sided, quantity_gear_position_minimum, quantity_gear_position_maximum, &
+         quantity_coast_load_maximum, quantity_reversal, quantity_unloaded_share, quantity_separation, &
+         quantity_impacts_per_period_drive, quantity_impacts_per_period_coast, quantity_impact_load_maximum_drive, &
+         quantity_impact_load_maximum_coast, quantity_impact_velocity_maximum_drive, quantity_impact_velocity_maximum_coast, &
+         quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast, quantity_impact_impulse_mean_drive, &
+         quantity_impact_impulse_mean_coast, quantity_double_sided, quantity_verdict, &
+         quantity_gear_position_minimum, quantity_gear_position_maximum, &
          quantity_model_limit, quantity_reversals_per_period, &
          quantity_harmonics, quantity_first_harmonic, quantity_line_count, quantity_line_count_is_bound, &
          quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, &
-         quantity_sampling_sufficient, quantity_rattle_class, quantity_certified, quantity_film_error, &
+         quantity_sampling_sufficient, quantity_rattle_class, quantity_certified, &
+         quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
          quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
          quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_loudness_error, &
          quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, quantity_floquet_multipliers, &
@@ -43,7 +50,7 @@ module quantities
    !> One quantity.
    type :: quantity_t
       integer :: code
-      character(28) :: name
+      character(32) :: name
       !> SI unit, '-' for a pure number
       character(4) :: unit
       integer :: kind
@@ -60,8 +67,8 @@ module quantities
       integer :: digits = 5
    end type quantity_t
 
-   !> All of them, each in the place of its code.
-   type(quantity_t), parameter :: quantity_table(*) = [ &
+   !> Those of the scene and of the motion over its window.
+   type(quantity_t), parameter, private :: quantities_of_motion(*) = [ &
       quantity_t(quantity_status, 'status', '-', a_code, part_scene, needs_nothing, 'sweep', &
          'How the motion ended; in every summary and row.', &
          'complete|steady|not_converged|film_lost|no_rigid_film|overflow|interrupted|time_limit|not_written|invalid'), &
@@ -127,10 +134,60 @@ module quantities
          'Largest film of the coast flank over the window.'), &
       quantity_t(quantity_coast_load_maximum, 'coast_load_maximum', 'N', a_number, part_window, needs_coast_load_range, &
          'summary campaign', &
-         'Largest load of the film of the coast flank over the window.'), &
-      quantity_t(quantity_double_sided, 'double_sided', '-', a_flag, part_window, needs_net_load_range, &
+         'Largest load of the film of the coast flank over the window.')]
+
+   !> Those of separation and impacts.
+   type(quantity_t), parameter, private :: quantities_of_impacts(*) = [ &
+      quantity_t(quantity_reversal, 'reversal', '-', a_flag, part_window, needs_impacts, 'summary sweep campaign', &
+         'Whether the load of the drive film less that of the coast film changes its sign over the window.'), &
+      quantity_t(quantity_unloaded_share, 'unloaded_share', '-', a_number, part_window, needs_impacts, &
+         'summary sweep campaign', &
+         'Share of the window in which the drive film carries less than a hundredth of |Q + m g|; of F_max where that is 0.'), &
+      quantity_t(quantity_separation, 'separation', '-', a_flag, part_window, needs_impacts, 'summary sweep campaign', &
+         'Whether the tooth leaves the drive flank: reversal, or an unloaded share above 0.'), &
+      quantity_t(quantity_impacts_per_period_drive, 'impacts_per_period_drive', '-', a_number, part_window, needs_impacts, &
+         'summary sweep campaign', &
+         'Impacts on the drive flank a period: maxima of its load above impact_limit times F_max, the largest |F + m g|.'), &
+      quantity_t(quantity_impacts_per_period_coast, 'impacts_per_period_coast', '-', a_number, part_window, needs_impacts, &
+         'summary flanks campaign', &
+         'Impacts on the coast flank a period: maxima of its load above impact_limit times F_max, the largest |F + m g|.'), &
+      quantity_t(quantity_impact_load_maximum_drive, 'impact_load_maximum_drive', 'N', a_number, part_window, needs_impacts, &
+         'summary sweep campaign', &
+         'Largest load of an impact on the drive flank; 0: there is none.'), &
+      quantity_t(quantity_impact_load_maximum_coast, 'impact_load_maximum_coast', 'N', a_number, part_window, needs_impacts, &
+         'summary flanks campaign', &
+         'Largest load of an impact on the coast flank; 0: there is none.'), &
+      quantity_t(quantity_impact_velocity_maximum_drive, 'impact_velocity_maximum_drive', 'm/s', a_number, part_window, &
+         needs_impacts, 'summary sweep campaign', &
+         'Largest velocity at which the gear approaches the drive flank where its load passes F_max to an impact; 0: '// &
+         'there is none.'), &
+      quantity_t(quantity_impact_velocity_maximum_coast, 'impact_velocity_maximum_coast', 'm/s', a_number, part_window, &
+         needs_impacts, 'summary flanks campaign', &
+         'Largest velocity at which the gear approaches the coast flank where its load passes F_max to an impact; 0: '// &
+         'there is none.'), &
+      quantity_t(quantity_impact_impulse_maximum_drive, 'impact_impulse_maximum_drive', 'N s', a_number, part_window, &
+         needs_impacts, &
+         'summary sweep campaign', &
+         'Largest impulse of an impact on the drive flank: integral of its load while it exceeds F_max; 0: there is none.'), &
+      quantity_t(quantity_impact_impulse_maximum_coast, 'impact_impulse_maximum_coast', 'N s', a_number, part_window, &
+         needs_impacts, &
+         'summary flanks campaign', &
+         'Largest impulse of an impact on the coast flank: integral of its load while it exceeds F_max; 0: there is none.'), &
+      quantity_t(quantity_impact_impulse_mean_drive, 'impact_impulse_mean_drive', 'N s', a_number, part_window, needs_impacts, &
+         'summary sweep campaign', &
+         'Mean impulse of the impacts on the drive flank; 0: there is none.'), &
+      quantity_t(quantity_impact_impulse_mean_coast, 'impact_impulse_mean_coast', 'N s', a_number, part_window, needs_impacts, &
+         'summary flanks campaign', &
+         'Mean impulse of the impacts on the coast flank; 0: there is none.'), &
+      quantity_t(quantity_double_sided, 'double_sided', '-', a_flag, part_window, needs_impacts, &
          'summary flanks campaign log', &
-         'Whether the coast film carries more than the drive film at some time of the window: the tooth strikes both flanks.'), &
+         'Whether there are impacts on both flanks in the window.'), &
+      quantity_t(quantity_verdict, 'verdict', '-', a_code, part_window, needs_impacts, 'summary sweep campaign log', &
+         'What the tooth does in its gap: separation is no impact, and impacts on one flank are not yet rattle between both.', &
+         'no separation|separation|single-sided impacts|double-sided impacts')]
+
+   !> The others.
+   type(quantity_t), parameter, private :: other_quantities(*) = [ &
       quantity_t(quantity_gear_position_minimum, 'gear_position_minimum', 'm', a_number, part_window, needs_position_range, &
          'summary campaign', &
          'Smallest gap that the gear leaves over the window, its teeth taken as unloaded: the film less what they give.'), &
@@ -169,6 +226,12 @@ module quantities
          'quiet|creep|idle|irregular|subharmonic', first_code=1), &
       quantity_t(quantity_certified, 'certified', '-', a_flag, part_class, needs_certificate, 'campaign', &
          'Whether the class stands when the scene is solved again, tighter.'), &
+      quantity_t(quantity_verdict_verified, 'verdict_verified', '-', a_flag, part_class, needs_verified_impacts, &
+         'summary campaign', &
+         'Whether the verdict is the same when the scene is solved again, tighter.'), &
+      quantity_t(quantity_impacts_verified, 'impacts_verified', '-', a_flag, part_class, needs_verified_impacts, &
+         'summary campaign', &
+         'Whether each flank has as many impacts a period when the scene is solved again, tighter; irregular motions seldom do.'), &
       quantity_t(quantity_film_error, 'film_error', '-', a_number, part_errors, needs_certificate, 'summary', &
          'Largest error of the films of both flanks over the window, relative to the thinner one.'), &
       quantity_t(quantity_film_minimum_error, 'film_minimum_error', 'm', a_number, part_errors, needs_certificate, 'summary', &
@@ -223,6 +286,9 @@ module quantities
       quantity_t(quantity_iterations_per_step, 'iterations_per_step', '-', a_number, part_cost, needs_nothing, 'summary', &
          'Evaluations of the film a step.')]
 
+   !> All of them, each in the place of its code.
+   type(quantity_t), parameter :: quantity_table(*) = [quantities_of_motion, quantities_of_impacts, other_quantities]
+
    !> Names of those that a campaign can record, blanks between them. Element by element, as flang 19 folds no other way.
    integer, private :: i
    logical, parameter, private :: in_campaigns(*) = [(index(quantity_table(i)%told_in, 'campaign') > 0, &
@@ -260,6 +326,32 @@ contains
       end do
       word = word(:index(word, '|') - 1)
    end function quantity_word
+
+   !> What has to be found for some quantities, with what that needs itself.
+   pure function needs_of(quantities) result(needed)
+      !> Codes
+      integer, intent(in) :: quantities(:)
+      logical :: needed(need_count)
+      integer :: i
+
+      needed = [(any(quantity_table(quantities)%need == i), i=1, need_count)]
+      needed(needs_impacts) = any(needed([needs_impacts, needs_verified_impacts]))
+      needed(needs_certificate) = any(needed([needs_certificate, needs_verified_impacts]))
+      needed(needs_load_range) = any(needed([needs_load_range, needs_deflection, needs_impacts]))
+      needed(needs_net_load_range) = any(needed([needs_net_load_range, needs_impacts]))
+      needed(needs_coast_film_range) = any(needed([needs_film_range, needs_coast_film_range]))
+      needed(needs_coast_load_range) = any(needed([needs_coast_load_range, needs_deflection]))
+   end function needs_of
+
+   !> Whether some quantities ask for the scene to be solved again, tighter.
+   pure logical function is_verified(quantities)
+      !> Codes
+      integer, intent(in) :: quantities(:)
+      logical :: needed(need_count)
+
+      needed = needs_of(quantities)
+      is_verified = needed(needs_certificate)
+   end function is_verified
 
    !> Codes of the quantities that are told somewhere, in the order of the table.
    pure function quantities_told_in(place) result(codes)

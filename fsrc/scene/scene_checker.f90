@@ -423,7 +423,7 @@ contains
          call input%add_fault('threshold', 'level', criterion//' is a number: give the level that it has to reach', faults)
       if (input%is_given('threshold', 'level') .and. .not. takes_level) &
          call input%add_fault('threshold', 'level', criterion//' changes by itself and has no level; leave it out', faults)
-      if ((criterion == 'double_sided' .or. index(criterion, 'coast_') == 1) .and. &
+      if ((criterion == 'double_sided' .or. index(criterion, 'coast') > 0) .and. &
           .not. (input%is_given('contact', 'backlash') .or. input%is_given('gear', 'backlash'))) &
          call input%add_fault('threshold', 'criterion', criterion//' needs a backlash', faults)
    end subroutine check_threshold

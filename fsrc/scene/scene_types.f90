@@ -210,6 +210,8 @@ module scene_types
       real(dp) :: quiet_limit = 0.35_dp
       !> Irregular fraction above this: irregular, or subharmonic
       real(dp) :: irregular_limit = 0.01_dp
+      !> Largest loads of a film above this multiple of the largest force: impacts
+      real(dp) :: impact_limit = 1.5_dp
       !> Whether the scene is solved again tighter, and the film error [-] up to which its class is certified
       logical :: certify = .true.
       real(dp) :: certificate_tolerance = 0.01_dp
@@ -468,6 +470,8 @@ contains
             spectrum%quiet_limit = value
          case ('spectrum.irregular_limit')
             spectrum%irregular_limit = value
+         case ('spectrum.impact_limit')
+            spectrum%impact_limit = value
          case default
             if (present(known)) known = .false.
          end select

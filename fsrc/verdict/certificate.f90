@@ -9,6 +9,7 @@ module certificate
    use scene_types, only: spectrum_choice_t
    use text, only: counted, integer_text, short_text
    use window_extremes, only: window_extremes_t
+   use window_impacts, only: impact_agreement_t
    use window_record, only: energy_gap, momentum_gap, window_record_t
    implicit none(type, external)
    private
@@ -32,6 +33,8 @@ module certificate
       real(dp) :: acceleration_error = 0.0_dp
       !> Largest relative error of the numbers of loudness [-]
       real(dp) :: loudness_error = 0.0_dp
+      !> Whether the impacts are the same
+      type(impact_agreement_t) :: impacts = impact_agreement_t()
       !> Errors of the lines [m/s2]
       real(dp), allocatable :: harmonic_errors(:)
       !> Why it is not certified, or that it is

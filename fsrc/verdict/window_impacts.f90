@@ -1,0 +1,131 @@
+!> Separation and impacts of a window: whether the tooth leaves its flank, and which flanks it strikes how hard.
+module window_impacts
+   use impacts, only: impact_count_t, impacts_of_watch
+   use kinds, only: dp
+   use load_record, only: load_record_t, record_load_samples, start_loads
+   use node_extremes, only: seen_load, seen_net_load
+   use problem, only: has_two_flanks, problem_t
+   use window_extremes, only: window_extremes_t
+   use window_record, only: window_record_t
+   implicit none(type, external)
+   private
+
+   !> Verdicts.
+   integer, parameter, public :: no_separation = 0, separation_alone = 1, single_sided_impacts = 2, double_sided_impacts = 3
+
+   !> Impacts of drive and coast flank, with times in periods since the window began and impulses in N s.
+   type, public :: window_impacts_t
+      logical :: exists = .false.
+      !> Periods that they were looked for in: those of the window, but for what only repeats them
+      integer :: periods = 0
+      type(impact_count_t) :: flanks(2)
+      !> Share of the window in which the drive film is unloaded [-]
+      real(dp) :: unloaded_share = 0.0_dp
+   end type window_impacts_t
+
+   !> Whether a motion solved again, tighter, has the same verdict, and as many impacts a period on each flank.
+   type, public :: impact_agreement_t
+      logical :: verdict = .false.
+      logical :: numbers = .false.
+   end type impact_agreement_t
+
+   public :: impacts_of_record, impacts_of_samples, has_reversal, has_separation, verdict_of, agreement_of
+
+contains
+
+   !> Impacts that the steps of the engine tell.
+   pure type(window_impacts_t) function impacts_of_record(record, frequency) result(impacts)
+      !> Record of the window that was asked for impacts
+      type(window_record_t), intent(in) :: record
+      !> Frequency of the force [Hz]
+      real(dp), intent(in) :: frequency
+
+      if (record%loads%impact_limit > 0.0_dp) impacts = impacts_of_loads(record%loads, record%periods, frequency)
+   end function impacts_of_record
+
+   !> Impacts of samples.
+   pure type(window_impacts_t) function impacts_of_samples(problem, impact_limit, samples_per_period, states) result(impacts)
+      type(problem_t), intent(in) :: problem
+      !> Multiple of the largest force
+      real(dp), intent(in) :: impact_limit
+      integer, intent(in) :: samples_per_period
+      !> Sample, number of its state; whole periods
+      real(dp), intent(in) :: states(:, :)
+      type(load_record_t) :: loads
+
+      loads%impact_limit = impact_limit
+      call start_loads(problem, loads)
+      call record_load_samples(problem, samples_per_period, states, loads)
+      impacts = impacts_of_loads(loads, size(states, 1)/samples_per_period, problem%frequency)
+   end function impacts_of_samples
+
+   !> Impacts of recorded loads.
+   pure type(window_impacts_t) function impacts_of_loads(loads, periods, frequency) result(impacts)
+      type(load_record_t), intent(in) :: loads
+      integer, intent(in) :: periods
+      !> [Hz]
+      real(dp), intent(in) :: frequency
+      integer :: flank
+
+      impacts%exists = .true.
+      impacts%periods = periods
+      impacts%unloaded_share = loads%unloaded/real(periods, dp)
+      do flank = 1, size(impacts%flanks)
+         associate (of_flank => impacts%flanks(flank))
+            of_flank = impacts_of_watch(loads%flanks(flank), real(periods, dp))
+            of_flank%impulse_maximum = of_flank%impulse_maximum/frequency
+            of_flank%impulse_sum = of_flank%impulse_sum/frequency
+            if (allocated(of_flank%kept)) of_flank%kept%impulse = of_flank%kept%impulse/frequency
+         end associate
+      end do
+   end function impacts_of_loads
+
+   !> Whether what both films carry together changes its sign.
+   pure logical function has_reversal(problem, extremes)
+      type(problem_t), intent(in) :: problem
+      !> Extremes of the net load, or of the load of a single flank
+      type(window_extremes_t), intent(in) :: extremes
+      integer :: carried
+
+      carried = merge(seen_net_load, seen_load, has_two_flanks(problem))
+      has_reversal = extremes%lowest(carried)%value < 0.0_dp .and. extremes%highest(carried)%value > 0.0_dp
+   end function has_reversal
+
+   !> Whether the tooth leaves the drive flank: what both films carry changes its sign, or the drive film is unloaded for a time.
+   pure logical function has_separation(problem, extremes, impacts)
+      type(problem_t), intent(in) :: problem
+      type(window_extremes_t), intent(in) :: extremes
+      type(window_impacts_t), intent(in) :: impacts
+
+      has_separation = has_reversal(problem, extremes) .or. impacts%unloaded_share > 0.0_dp
+   end function has_separation
+
+   !> What separation and impacts amount to.
+   pure integer function verdict_of(problem, extremes, impacts)
+      type(problem_t), intent(in) :: problem
+      type(window_extremes_t), intent(in) :: extremes
+      type(window_impacts_t), intent(in) :: impacts
+
+      select case (count(impacts%flanks%count > 0))
+      case (2)
+         verdict_of = double_sided_impacts
+      case (1)
+         verdict_of = single_sided_impacts
+      case default
+         verdict_of = merge(separation_alone, no_separation, has_separation(problem, extremes, impacts))
+      end select
+   end function verdict_of
+
+   !> In what two windows of a motion agree.
+   pure type(impact_agreement_t) function agreement_of(problem, extremes, impacts, other_extremes, others) result(agreement)
+      type(problem_t), intent(in) :: problem
+      type(window_extremes_t), intent(in) :: extremes
+      type(window_impacts_t), intent(in) :: impacts
+      type(window_extremes_t), intent(in) :: other_extremes
+      type(window_impacts_t), intent(in) :: others
+
+      agreement%verdict = verdict_of(problem, extremes, impacts) == verdict_of(problem, other_extremes, others)
+      agreement%numbers = all(impacts%flanks%count*others%periods == others%flanks%count*impacts%periods)
+   end function agreement_of
+
+end module window_impacts
