@@ -124,6 +124,10 @@ contains
       if (allocated(impacts%kept)) then
          impacts%kept = impacts%kept(:min(size(impacts%kept), impacts%count))
          impacts%kept%time = modulo(impacts%kept%time, periods)
+         do i = 2, size(impacts%kept)
+            first = count(impacts%kept(:i - 1)%time <= impacts%kept(i)%time)
+            impacts%kept(first + 1:i) = [impacts%kept(i), impacts%kept(first + 1:i - 1)]
+         end do
       end if
    end function impacts_of_watch
 

@@ -12,7 +12,7 @@ module load_points
    integer, parameter, public :: drive_flank = 1, coast_flank = 2
 
    !> Points of a piece: its nodes, its ends and the turns between.
-   integer, parameter :: most_points = 2*nodes_per_piece + 2
+   integer, parameter :: most_points = 2*nodes_per_piece + 4
 
    !> Points of W in a piece, in their order: place from 0 to 1, W [N], velocity of the gear [m/s], and whether W turns there.
    type, public :: piece_points_t
@@ -65,9 +65,10 @@ contains
       call load_at(problem, flank, states, piece, x(0), y(0), v(0))
       call load_at(problem, flank, states, piece, x(nodes_per_piece + 1), y(nodes_per_piece + 1), v(nodes_per_piece + 1))
       call add(x(0), y(0), v(0), .false., points)
+      call add_turn_at_end(0, points)
       do i = 1, nodes_per_piece
          if ((y(i) - y(i - 1))*(y(i + 1) - y(i)) < 0.0_dp) then
-            call find_turn(x(i - 1:i + 1), y(i - 1:i + 1), place, load, velocity)
+            call find_turn(x(i - 1:i + 1), y(i - 1:i + 1), v(i), place, load, velocity)
             if (place < x(i)) call add(place, load, velocity, .true., points)
             call add(x(i), y(i), v(i), .false., points)
             if (place > x(i)) call add(place, load, velocity, .true., points)
@@ -75,6 +76,7 @@ contains
             call add(x(i), y(i), v(i), .false., points)
          end if
       end do
+      call add_turn_at_end(nodes_per_piece, points)
       call add(x(nodes_per_piece + 1), y(nodes_per_piece + 1), v(nodes_per_piece + 1), .false., &
                points)
 
@@ -98,10 +100,31 @@ contains
          points%turns(points%count) = turns
       end subroutine add
 
+      !> Add where W turns between an end of the piece and the node next to it, if it does.
+      pure subroutine add_turn_at_end(first, points)
+         !> The first of both points
+         integer, intent(in) :: first
+         type(piece_points_t), intent(inout) :: points
+         real(dp) :: top, estimate, here, speed, place, load, velocity, sign_of
+         integer :: k
+
+         k = min(max(first, 1), nodes_per_piece)
+         ! A turn of either kind is the highest point of a parabola, of W or of -W.
+         sign_of = merge(1.0_dp, -1.0_dp, (y(k + 1) - y(k))*(x(k) - x(k - 1)) < (y(k) - y(k - 1))*(x(k + 1) - x(k)))
+         call top_of_parabola(x(k - 1:k + 1), sign_of*y(k - 1:k + 1), top, estimate)
+         if (.not. (top > x(first) .and. top < x(first + 1))) return
+         call load_at(problem, flank, states, piece, top, here, speed)
+         if (.not. sign_of*here > max(sign_of*y(first), sign_of*y(first + 1))) return
+         call find_turn([x(first), top, x(first + 1)], [y(first), here, y(first + 1)], speed, place, load, velocity)
+         call add(place, load, velocity, .true., points)
+      end subroutine add_turn_at_end
+
       !> Where W turns between three places, the middle one above or below both others.
-      pure subroutine find_turn(places, values, place, load, velocity)
+      pure subroutine find_turn(places, values, speed, place, load, velocity)
          real(dp), intent(in) :: places(3)
          real(dp), intent(in) :: values(3)
+         !> Velocity at the middle one [m/s]
+         real(dp), intent(in) :: speed
          real(dp), intent(out) :: place
          real(dp), intent(out) :: load
          real(dp), intent(out) :: velocity
@@ -115,7 +138,7 @@ contains
          height = sign_of*values
          place = places(2)
          load = values(2)
-         velocity = v(i)
+         velocity = speed
          do pass = 1, most_renewals
             call top_of_parabola(at, height, top, estimate)
             if (.not. (top > at(1) .and. top < at(3))) exit

@@ -21,7 +21,10 @@ module judged_scene
       quantity_impact_impulse_maximum_drive, quantity_impact_impulse_mean_coast, quantity_impact_impulse_mean_drive, &
       quantity_impact_load_maximum_coast, quantity_impact_load_maximum_drive, quantity_impact_velocity_maximum_coast, &
       quantity_impact_velocity_maximum_drive, quantity_impacts_per_period_coast, quantity_impacts_per_period_drive, &
-      quantity_impacts_verified, quantity_reversal, quantity_separation, quantity_unloaded_share, quantity_verdict, &
+      quantity_impacts_verified, quantity_impact_impulses_coast, quantity_impact_impulses_drive, quantity_impact_loads_coast, &
+      quantity_impact_loads_drive, quantity_impact_periods, quantity_impact_times_coast, quantity_impact_times_drive, &
+      quantity_impact_velocities_coast, quantity_impact_velocities_drive, quantity_impacts_coast, quantity_impacts_drive, &
+      quantity_reversal, quantity_separation, quantity_unloaded_share, quantity_verdict, &
       quantity_verdict_verified, quantity_first_harmonic, quantity_floquet_modulus, &
       quantity_floquet_multipliers, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
       quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, quantity_iterations_per_step, &
@@ -234,6 +237,10 @@ contains
             value = impacts%unloaded_share
          case (quantity_separation)
             value = flag(has_separation(problem, extremes, impacts))
+         case (quantity_impact_periods)
+            value = real(impacts%periods, dp)
+         case (quantity_impacts_drive)
+            value = real(impacts%flanks(drive_flank)%count, dp)
          case (quantity_verdict)
             value = real(verdict_of(problem, extremes, impacts), dp)
          case (quantity_double_sided)
@@ -258,6 +265,8 @@ contains
       select case (quantity)
       case (quantity_impacts_per_period_drive, quantity_impacts_per_period_coast)
          value = real(impacts%count, dp)/real(periods, dp)
+      case (quantity_impacts_coast)
+         value = real(impacts%count, dp)
       case (quantity_impact_load_maximum_drive, quantity_impact_load_maximum_coast)
          value = impacts%load_maximum
       case (quantity_impact_velocity_maximum_drive, quantity_impact_velocity_maximum_coast)
@@ -334,10 +343,37 @@ contains
       case (quantity_floquet_multipliers)
          if (judged%orbit%period > 0) list = [(judged%orbit%multipliers(i)%re, judged%orbit%multipliers(i)%im, &
                                                i=1, size(judged%orbit%multipliers))]
+      case (quantity_impact_times_drive, quantity_impact_loads_drive, quantity_impact_velocities_drive, &
+            quantity_impact_impulses_drive)
+         list = impact_list(quantity, judged%impacts%flanks(drive_flank), judged)
+      case (quantity_impact_times_coast, quantity_impact_loads_coast, quantity_impact_velocities_coast, &
+            quantity_impact_impulses_coast)
+         list = impact_list(quantity, judged%impacts%flanks(coast_flank), judged)
       case default
          continue
       end select
    end function quantity_list
+
+   !> A number of each impact on a flank that is kept.
+   pure function impact_list(quantity, impacts, judged) result(list)
+      integer, intent(in) :: quantity
+      type(impact_count_t), intent(in) :: impacts
+      type(judged_scene_t), intent(in) :: judged
+      real(dp), allocatable :: list(:)
+
+      allocate (list(0))
+      if (.not. allocated(impacts%kept)) return
+      select case (quantity)
+      case (quantity_impact_times_drive, quantity_impact_times_coast)
+         list = (real(judged%periods - judged%window_periods, dp) + impacts%kept%time)/judged%resolved%problem%frequency
+      case (quantity_impact_loads_drive, quantity_impact_loads_coast)
+         list = impacts%kept%load
+      case (quantity_impact_velocities_drive, quantity_impact_velocities_coast)
+         list = impacts%kept%velocity
+      case default
+         list = impacts%kept%impulse
+      end select
+   end function impact_list
 
    !> 1 or 0.
    elemental real(dp) function flag(is_set)

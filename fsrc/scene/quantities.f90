@@ -33,6 +33,11 @@ module quantities
          quantity_impact_load_maximum_coast, quantity_impact_velocity_maximum_drive, quantity_impact_velocity_maximum_coast, &
          quantity_impact_impulse_maximum_drive, quantity_impact_impulse_maximum_coast, quantity_impact_impulse_mean_drive, &
          quantity_impact_impulse_mean_coast, quantity_double_sided, quantity_verdict, &
+         quantity_impact_periods, quantity_impacts_drive, quantity_impacts_coast, &
+         quantity_impact_times_drive, quantity_impact_loads_drive, quantity_impact_velocities_drive, &
+         quantity_impact_impulses_drive, &
+         quantity_impact_times_coast, quantity_impact_loads_coast, quantity_impact_velocities_coast, &
+         quantity_impact_impulses_coast, &
          quantity_gear_position_minimum, quantity_gear_position_maximum, &
          quantity_model_limit, quantity_reversals_per_period, &
          quantity_harmonics, quantity_first_harmonic, quantity_line_count, quantity_line_count_is_bound, &
@@ -184,7 +189,31 @@ module quantities
          'Whether there are impacts on both flanks in the window.'), &
       quantity_t(quantity_verdict, 'verdict', '-', a_code, part_window, needs_impacts, 'summary sweep campaign log', &
          'What the tooth does in its gap: separation is no impact, and impacts on one flank are not yet rattle between both.', &
-         'no separation|separation|single-sided impacts|double-sided impacts')]
+         'no separation|separation|single-sided impacts|double-sided impacts'), &
+      quantity_t(quantity_impact_periods, 'impact_periods', '-', a_count, part_window, needs_impacts, 'summary', &
+         'Periods of the window in which impacts were counted: fewer than window_periods where the others repeat them.'), &
+      quantity_t(quantity_impacts_drive, 'impacts_drive', '-', a_count, part_window, needs_impacts, 'summary', &
+         'Impacts on the drive flank in impact_periods.'), &
+      quantity_t(quantity_impacts_coast, 'impacts_coast', '-', a_count, part_window, needs_impacts, 'summary', &
+         'Impacts on the coast flank in impact_periods.'), &
+      quantity_t(quantity_impact_times_drive, 'impact_times_drive', 's', a_list, part_window, needs_impacts, 'summary', &
+         'Of up to 20 impacts on the drive flank in impact_periods: when the load is largest, since the start of the motion.'), &
+      quantity_t(quantity_impact_loads_drive, 'impact_loads_drive', 'N', a_list, part_window, needs_impacts, 'summary', &
+         'Of the impacts of impact_times_drive: largest load.'), &
+      quantity_t(quantity_impact_velocities_drive, 'impact_velocities_drive', 'm/s', a_list, part_window, needs_impacts, &
+      'summary', &
+         'Of the impacts of impact_times_drive: velocity at which the gear approaches where the load passes F_max.'), &
+      quantity_t(quantity_impact_impulses_drive, 'impact_impulses_drive', 'N s', a_list, part_window, needs_impacts, 'summary', &
+         'Of the impacts of impact_times_drive: integral of the load while it exceeds F_max.'), &
+      quantity_t(quantity_impact_times_coast, 'impact_times_coast', 's', a_list, part_window, needs_impacts, 'summary', &
+         'Of up to 20 impacts on the coast flank in impact_periods: when the load is largest, since the start of the motion.'), &
+      quantity_t(quantity_impact_loads_coast, 'impact_loads_coast', 'N', a_list, part_window, needs_impacts, 'summary', &
+         'Of the impacts of impact_times_coast: largest load.'), &
+      quantity_t(quantity_impact_velocities_coast, 'impact_velocities_coast', 'm/s', a_list, part_window, needs_impacts, &
+      'summary', &
+         'Of the impacts of impact_times_coast: velocity at which the gear approaches where the load passes F_max.'), &
+      quantity_t(quantity_impact_impulses_coast, 'impact_impulses_coast', 'N s', a_list, part_window, needs_impacts, 'summary', &
+         'Of the impacts of impact_times_coast: integral of the load while it exceeds F_max.')]
 
    !> The others.
    type(quantity_t), parameter, private :: other_quantities(*) = [ &

@@ -12,8 +12,10 @@ module test_quantities
    use key_table, only: find_key
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
-   use quantities, only: a_list, a_number, quantities_told_in, quantity_certified, quantity_gear_position_maximum, &
-                         quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, quantity_word
+      use quantities, only: a_list, a_number, needs_impacts, quantities_told_in, quantity_impacts_coast, &
+                         quantity_impacts_drive, quantity_certified, quantity_gear_position_maximum, &
+                         quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
+                         quantity_word
    use resolved_scene, only: request_of, resolve
    use run_sweep, only: carried_state_t, solve_value
    use sample_recorder, only: sample_recorder_t
@@ -70,7 +72,12 @@ contains
       integer :: i
 
       do i = 1, size(quantity_table)
-         if (quantity_table(i)%kind == a_list) then
+         if (quantity_table(i)%kind == a_list .and. quantity_table(i)%need == needs_impacts) then
+            call checks%check(size(quantity_list(i, single)) == &
+                              nint(quantity_value(merge(quantity_impacts_drive, quantity_impacts_coast, &
+                                                        index(quantity_table(i)%name, 'drive') > 0), single)), &
+                              trim(quantity_table(i)%name)//' has a number of each impact')
+         else if (quantity_table(i)%kind == a_list) then
             call checks%check(size(quantity_list(i, single)) > 0, trim(quantity_table(i)%name)//' has numbers')
          else if (any(i == [quantity_gear_position_minimum, quantity_gear_position_maximum]) .and. &
                   .not. has_elastic_teeth(single%resolved%problem)) then

@@ -1,0 +1,184 @@
+"""Separation and impacts: what a summary, a sweep and a row tell, held against a motion solved by other means."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from impact_reference import (
+    ExactIsoViscous,
+    PublishedIsoViscous,
+    PublishedPiezoViscous,
+    Tooth,
+    find_impacts,
+    share_below,
+    solve,
+)
+from outcomes import summary_of
+
+import rattle
+
+CONTACT = {"radius": 0.0127, "length": 0.010}
+ISO = PublishedIsoViscous(1.905, 0.0127, 0.010, 0.3)
+PIEZO = PublishedPiezoViscous(1.905, 1.000449736566e-06, 199.2 + 3.0 * 9.80665)
+EXACT = ExactIsoViscous(3.81, 0.0127, 0.010, 0.3)
+CANONICAL = Tooth(ISO, 3.0, 600.0, 199.2, ((1, 205.7, 0.0),))
+LOOSE = Tooth(
+    ExactIsoViscous(2.14, 7.5e-3, 0.02, 0.05),
+    0.45,
+    26.7,
+    5.0,
+    ((1, 7.9, 0.0), (2, 2.0, 0.5), (3, 0.8, 1.1)),
+    gravity=0.0,
+    backlash=1e-4,
+)
+# The canonical scenes and those of real gears, by their names.
+SCENES = {
+    "idle": CANONICAL,
+    "creep": replace(CANONICAL, film=PIEZO),
+    "R1": LOOSE,
+    "R2": replace(CANONICAL, orders=((1, 150.0, 0.0), (2, 60.0, 0.7), (3, 25.0, -1.2))),
+    "R3": replace(CANONICAL, film=PIEZO, steady_force=20.0, gravity=0.0, backlash=4e-6),
+    "R4": Tooth(
+        PublishedIsoViscous(1.07, 7.5e-3, 0.02, 0.05),
+        0.45,
+        26.7,
+        0.0,
+        ((1, 6.0, 0.0), (4, 3.0, 0.3)),
+        gravity=0.0,
+        backlash=8e-5,
+    ),
+    "S1": replace(CANONICAL, film=EXACT, stiffness=1e8),
+    "S2": replace(CANONICAL, film=EXACT, stiffness=3e8),
+    "S3": replace(CANONICAL, stiffness=1e9),
+    "S4": replace(CANONICAL, film=PIEZO, stiffness=3e8),
+    "S5": replace(LOOSE, stiffness=5e7),
+}
+VERDICTS = {
+    "idle": "single-sided impacts",
+    "creep": "no separation",
+    "R1": "separation",
+    "R2": "no separation",
+    "R3": "separation",
+    "R4": "double-sided impacts",
+    "S1": "single-sided impacts",
+    "S2": "single-sided impacts",
+    "S3": "single-sided impacts",
+    "S4": "single-sided impacts",
+    "S5": "separation",
+}
+
+
+def text_of(tooth: Tooth, extra: str = "") -> str:
+    """The scene of a tooth."""
+    film = tooth.film
+    law, model, speed = "iso-viscous", "published", "entrainment_speed"
+    radius, length, viscosity = 0.0127, 0.010, 0.3
+    if isinstance(film, PublishedPiezoViscous):
+        law = "piezo-viscous"
+    else:
+        radius, length, viscosity = film.radius, film.length, film.viscosity
+    if isinstance(film, ExactIsoViscous):
+        model, speed = "reynolds", "rolling_speed"
+    contact = f"radius = {radius!r}, length = {length!r}"
+    columns = "'time', 'film_thickness', 'squeeze_velocity', 'acceleration'"
+    if tooth.backlash is not None:
+        contact += f", backlash = {tooth.backlash!r}"
+        columns += ", 'coast_film'"
+    if tooth.stiffness is not None:
+        contact += f", stiffness = {tooth.stiffness!r}"
+        columns += ", 'gear_position'"
+    orders, amplitudes, phases = (
+        ", ".join(repr(order[i]) for order in tooth.orders) for i in range(3)
+    )
+    return f"""
+&contact {contact} /
+&lubricant viscosity = {viscosity!r}, pressure_viscosity = 2.0e-8 /
+&kinematics {speed} = {film.speed!r} /
+&load mass = {tooth.mass!r}, steady_force = {tooth.steady_force!r}, gravity = {tooth.gravity!r},
+   frequency = {tooth.frequency!r}, force_orders = {orders}, force_amplitudes = {amplitudes},
+   force_phases = {phases} /
+&film law = '{law}', model = '{model}' /
+&solver method = 'taylor', until = 'steady', periods = 400, samples_per_period = 512, accuracy = 1.0e-9 /
+&spectrum periods = 4 /
+&output columns = {columns} /
+{extra}
+"""
+
+
+def true_window(tooth: Tooth, result: rattle.ResultFile, first: int, periods: int, points: int):
+    """Times, states and loads of a window from the state where it begins, by other means."""
+    start = [result["film_thickness"][first], result["squeeze_velocity"][first]]
+    if tooth.stiffness is not None:
+        start = [result["gear_position"][first], start[1], start[0]]
+        if tooth.backlash is not None:
+            start.append(result["coast_film"][first])
+    size = max(result["film_thickness"][first:])
+    least = min(result["film_thickness"][first:])
+    if tooth.backlash is not None:
+        least = min(least, min(result["coast_film"][first:]))
+    speed = max(abs(np.array(result["squeeze_velocity"][first:])))
+    scales = (max(least, 1e-3 * size), speed, *(max(least, 1e-3 * size),) * (len(start) - 2))
+    times, states = solve(
+        tooth.rates, tuple(map(float, start)), scales, periods / tooth.frequency, fewest=points * periods
+    )
+    # The motion repeats: the program's steady state is one by other means, too.
+    assert np.all(np.abs(states[-1] - states[0]) < 1e-6 * np.array([size, speed, size, size][: len(start)]))
+    loads = np.array([tooth.loads(tuple(state)) for state in states])
+    return times, states, loads
+
+
+def largest_force(tooth: Tooth) -> float:
+    times = np.linspace(0.0, 1.0 / tooth.frequency, 200_001)
+    return max(abs(tooth.force(time)) for time in times)
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.long if name == "S5" else ()) for name in SCENES]
+)
+def test_impacts_are_those_of_a_motion_solved_by_other_means(name: str, run, tmp_path: Path) -> None:
+    tooth = SCENES[name]
+    (tmp_path / "tooth.nml").write_text(text_of(tooth))
+    ended = run("tooth.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    told = summary_of(tmp_path / "results" / "tooth.summary.nml")
+    result = rattle.read(tmp_path / "results" / "tooth.rattle")
+    periods = told["window_periods"]
+    first = (told["periods_solved"] - periods) * 512
+    begin = (told["periods_solved"] - periods) / tooth.frequency
+    times, states, loads = true_window(tooth, result, first, periods, 16000 if name == "R4" else 4000)
+
+    force = largest_force(tooth)
+    static = abs(tooth.steady_force + tooth.mass * tooth.gravity)
+    net = loads[:, 0] - loads[:, 1]
+    assert told["reversal"] is bool(net.min() < 0.0 < net.max())
+    share = share_below(times, loads[:, 0], 0.01 * (static or force))
+    assert told["unloaded_share"] == pytest.approx(share, abs=1e-6)
+    assert told["separation"] is (told["reversal"] or share > 0.0)
+    assert told["impact_periods"] == periods
+    counts = []
+    flanks = ("drive",) if tooth.backlash is None else ("drive", "coast")
+    for flank, column, toward in zip(flanks, (0, 1), (-1.0, 1.0), strict=False):
+        impacts = find_impacts(times, loads[:, column], toward * states[:, 1], force, 1.5)
+        impacts = sorted(impact._replace(time=impact.time % (periods / tooth.frequency)) for impact in impacts)
+        counts.append(len(impacts))
+        assert told[f"impacts_{flank}"] == len(impacts)
+        assert told[f"impacts_per_period_{flank}"] == len(impacts) / periods
+        lists = {
+            key: np.atleast_1d(told.get(f"impact_{key}_{flank}", []))
+            for key in ("times", "loads", "velocities", "impulses")
+        }
+        # The points of the other solution are 1/4000 of a period apart; in R4, whose impacts are short, 1/16000.
+        assert lists["times"] == pytest.approx([i.time + begin for i in impacts], abs=1e-5 / tooth.frequency)
+        assert lists["loads"] == pytest.approx([i.load for i in impacts], rel=1e-5)
+        assert lists["velocities"] == pytest.approx([i.velocity for i in impacts], rel=2e-5)
+        assert lists["impulses"] == pytest.approx([i.impulse for i in impacts], rel=1e-5)
+        for key, lot in (("load", "loads"), ("velocity", "velocities"), ("impulse", "impulses")):
+            assert told[f"impact_{key}_maximum_{flank}"] == max(lists[lot], default=0.0)
+        mean = sum(lists["impulses"]) / max(1, len(impacts))
+        assert told[f"impact_impulse_mean_{flank}"] == pytest.approx(mean, rel=1e-14)
+    assert told["verdict"] == VERDICTS[name]
+    assert told.get("double_sided") == (None if len(counts) == 1 else all(counts))
+    assert told["verdict_verified"] is True and told["impacts_verified"] is True
