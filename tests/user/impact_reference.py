@@ -1,5 +1,7 @@
-"""Impacts of a tooth by other means than the program's: a period of the motion by Dormand and Prince's method, with films
-written down anew, and impacts counted on thousands of points of it by the words of their definition.
+"""Impacts of a tooth by other means than the program's.
+
+A period of the motion by Dormand and Prince's method, with films written down anew, and impacts counted on
+thousands of points of it by the words of their definition.
 """
 
 from __future__ import annotations
@@ -42,9 +44,7 @@ class PublishedPiezoViscous:
     steady_load: float
 
     def load(self, film: float, velocity: float) -> float:
-        return (
-            self.steady_load * (self.steady_film / film) ** 3.5 * math.exp(-703.0 * velocity / self.speed)
-        )
+        return self.steady_load * (self.steady_film / film) ** 3.5 * math.exp(-703.0 * velocity / self.speed)
 
     def velocity(self, film: float, load: float) -> float:
         return -self.speed / 703.0 * math.log(load / self.steady_load * (film / self.steady_film) ** 3.5)
@@ -110,8 +110,10 @@ Film = PublishedIsoViscous | PublishedPiezoViscous | ExactIsoViscous
 
 @dataclass
 class Tooth:
-    """A mass between one flank or two, its teeth rigid or not. The state is the gear's place and velocity, then the films
-    of elastic teeth."""
+    """A mass between one flank or two, its teeth rigid or not.
+
+    The state is the gear's place and velocity, then the films of elastic teeth.
+    """
 
     film: Film
     mass: float
@@ -211,7 +213,7 @@ class Impact(NamedTuple):
 def find_impacts(
     times: np.ndarray, loads: np.ndarray, velocities: np.ndarray, largest_force: float, limit: float
 ) -> list[Impact]:
-    """The impacts of one cycle of W(t) whose ends are the same place; velocities are those towards the flank."""
+    """The impacts of one cycle of W(t), whose ends are the same; velocities are those towards the flank."""
     # The cycle begins where W is lowest; its last point is its first one.
     low = int(np.argmin(loads[:-1]))
     span = times[-1] - times[0]

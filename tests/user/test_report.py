@@ -140,12 +140,15 @@ def test_regime_and_law_are_told_as_the_summary_has_them(motion, regime, contrad
         ("line_count_is_bound", ".true.", "At least"),
         ("stiffness_matters", ".true.", "no fair assumption"),
         ("stiffness_matters", ".false.", "is a fair assumption"),
-        ("double_sided", ".true.", "strikes both flanks"),
-        ("double_sided", ".false.", "strikes one flank only"),
+        ("verdict", "'double-sided impacts'", "strikes both flanks"),
+        ("verdict", "'single-sided impacts'", "strikes one flank"),
+        ("verdict", "'separation'", "leaves its drive flank, without an impact"),
+        ("verdict", "'no separation'", "stays on its drive flank"),
+        ("double_sided", ".true.", "crosses its gap"),
     ),
 )
 def test_what_must_be_known_beside_the_class_is_told_only_where_it_is_so(motion, key, value, words):
-    with_summary(motion, rattle_class="'idle'", stiffness_matters=None, double_sided=None)
+    with_summary(motion, rattle_class="'idle'", stiffness_matters=None, double_sided=None, verdict=None)
     assert words not in read_page(report(motion)).verdicts[0]
     with_summary(motion, **{key: value})
     assert words in read_page(report(motion)).verdicts[0]

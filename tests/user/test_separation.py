@@ -1,4 +1,4 @@
-"""Separation and impacts: what a summary, a sweep and a row tell, held against a motion solved by other means."""
+"""Separation and impacts: what summaries and rows tell, held against motions solved by other means."""
 
 from __future__ import annotations
 
@@ -90,9 +90,7 @@ def text_of(tooth: Tooth, extra: str = "") -> str:
     if tooth.stiffness is not None:
         contact += f", stiffness = {tooth.stiffness!r}"
         columns += ", 'gear_position'"
-    orders, amplitudes, phases = (
-        ", ".join(repr(order[i]) for order in tooth.orders) for i in range(3)
-    )
+    orders, amplitudes, phases = (", ".join(repr(order[i]) for order in tooth.orders) for i in range(3))
     return f"""
 &contact {contact} /
 &lubricant viscosity = {viscosity!r}, pressure_viscosity = 2.0e-8 /
@@ -162,7 +160,9 @@ def test_impacts_are_those_of_a_motion_solved_by_other_means(name: str, run, tmp
     flanks = ("drive",) if tooth.backlash is None else ("drive", "coast")
     for flank, column, toward in zip(flanks, (0, 1), (-1.0, 1.0), strict=False):
         impacts = find_impacts(times, loads[:, column], toward * states[:, 1], force, 1.5)
-        impacts = sorted(impact._replace(time=impact.time % (periods / tooth.frequency)) for impact in impacts)
+        impacts = sorted(
+            impact._replace(time=impact.time % (periods / tooth.frequency)) for impact in impacts
+        )
         counts.append(len(impacts))
         assert told[f"impacts_{flank}"] == len(impacts)
         assert told[f"impacts_per_period_{flank}"] == len(impacts) / periods
@@ -170,7 +170,7 @@ def test_impacts_are_those_of_a_motion_solved_by_other_means(name: str, run, tmp
             key: np.atleast_1d(told.get(f"impact_{key}_{flank}", []))
             for key in ("times", "loads", "velocities", "impulses")
         }
-        # The points of the other solution are 1/4000 of a period apart; in R4, whose impacts are short, 1/16000.
+        # The other solution has 4000 points a period; of R4, whose impacts are short, 16000.
         assert lists["times"] == pytest.approx([i.time + begin for i in impacts], abs=1e-5 / tooth.frequency)
         assert lists["loads"] == pytest.approx([i.load for i in impacts], rel=1e-5)
         assert lists["velocities"] == pytest.approx([i.velocity for i in impacts], rel=2e-5)
@@ -182,3 +182,97 @@ def test_impacts_are_those_of_a_motion_solved_by_other_means(name: str, run, tmp
     assert told["verdict"] == VERDICTS[name]
     assert told.get("double_sided") == (None if len(counts) == 1 else all(counts))
     assert told["verdict_verified"] is True and told["impacts_verified"] is True
+
+
+QUANTITIES = [
+    "verdict",
+    "reversal",
+    "unloaded_share",
+    "separation",
+    "double_sided",
+    "verdict_verified",
+    "impacts_verified",
+    "impacts_per_period_drive",
+    "impacts_per_period_coast",
+    "impact_load_maximum_drive",
+    "impact_load_maximum_coast",
+    "impact_velocity_maximum_drive",
+    "impact_velocity_maximum_coast",
+    "impact_impulse_maximum_drive",
+    "impact_impulse_maximum_coast",
+    "impact_impulse_mean_drive",
+    "impact_impulse_mean_coast",
+]
+WORDS = ("no separation", "separation", "single-sided impacts", "double-sided impacts")
+
+
+@pytest.mark.parametrize("name", ("idle", "creep", "R1", "R4", "S1"))
+def test_a_row_tells_what_the_summary_tells(name: str, run, tmp_path: Path) -> None:
+    """To the last bit, of as many periods from the same start; the row beside it has another force."""
+    text = text_of(SCENES[name]).replace("until = 'steady', periods = 400", "periods = 40")
+    (tmp_path / "tooth.nml").write_text(text)
+    campaign = "&scene task = 'campaign' /\n&campaign vary = 'load.force_scale', first = 1.0, last = 1.2, "
+    campaign += f"count = 2, samples_per_period = 512, record = {', '.join(map(repr, QUANTITIES))} /\n"
+    (tmp_path / "rows.nml").write_text(text[: text.index("&output")] + campaign)
+    for scene in ("tooth.nml", "rows.nml"):
+        ended = run(scene, cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+    told = summary_of(tmp_path / "results" / "tooth.summary.nml")
+    rows = rattle.read_campaign(tmp_path / "results" / "rows.rattle")
+    assert told["verdict"] == VERDICTS[name]
+    for quantity in QUANTITIES:
+        value = rows[quantity][0]
+        if quantity not in told:
+            assert np.isnan(value), quantity
+        elif quantity == "verdict":
+            assert WORDS[int(value)] == told[quantity]
+        else:
+            assert value == float(told[quantity]), quantity
+
+
+def test_a_higher_limit_leaves_fewer_impacts(run, tmp_path: Path) -> None:
+    """R4 strikes the drive flank with 26.3 and 32.5 N, the coast flank with 217 N; its force is 9 N."""
+    scene = SCENES["R4"]
+    force = largest_force(scene)
+    verdicts = {}
+    for limit, drive, coast in (
+        (1.5, 2, 1),
+        (29.0 / force, 1, 1),
+        (40.0 / force, 0, 1),
+        (250.0 / force, 0, 0),
+    ):
+        text = text_of(scene).replace("&spectrum", f"&spectrum impact_limit = {limit!r},")
+        (tmp_path / "tooth.nml").write_text(text)
+        assert run("tooth.nml", "--overwrite", cwd=tmp_path).returncode == 0
+        told = summary_of(tmp_path / "results" / "tooth.summary.nml")
+        assert (told["impacts_per_period_drive"], told["impacts_per_period_coast"]) == (drive, coast)
+        assert told["double_sided"] is (drive > 0 and coast > 0)
+        verdicts[(drive, coast)] = told["verdict"]
+    assert verdicts[(0, 1)] == "single-sided impacts" and verdicts[(0, 0)] == "separation"
+    (tmp_path / "tooth.nml").write_text(text_of(scene).replace("&spectrum", "&spectrum impact_limit = 1.0,"))
+    assert run("--check", "tooth.nml", cwd=tmp_path).returncode == 2
+
+
+def test_newmarks_samples_tell_the_same_impacts(run, tmp_path: Path) -> None:
+    """Straight lines between 8192 samples a period, whose motion is off by some 1e-5 itself."""
+    text = text_of(SCENES["idle"]).replace(", 'squeeze_velocity'", "")
+    fine = "method = 'newmark', tolerance = 1e-15, steps_per_period = 8192, periods = 40"
+    lists = []
+    for solver in ("method = 'taylor', periods = 40", fine):
+        begin, rest = text.split("&solver", 1)
+        (tmp_path / "tooth.nml").write_text(f"{begin}&solver {solver} /{rest.partition('/')[2]}")
+        ended = run("tooth.nml", "--overwrite", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+        lists.append(summary_of(tmp_path / "results" / "tooth.summary.nml"))
+    first, second = lists
+    assert first["verdict"] == second["verdict"] == "single-sided impacts"
+    # The periods of the one motion repeat to the last bit and are recorded once, those of the other are not.
+    assert first["impact_periods"] < second["impact_periods"] == second["window_periods"] == 4
+    assert first["impacts_drive"] == first["impact_periods"] and second["impacts_drive"] == 4
+    assert first["impacts_per_period_drive"] == second["impacts_per_period_drive"] == 1.0
+    for quantity in ("load_maximum", "velocity_maximum", "impulse_maximum", "impulse_mean"):
+        key = f"impact_{quantity}_drive"
+        assert second[key] == pytest.approx(first[key], rel=1e-4), quantity
+    turns = [np.mod(np.array(told["impact_times_drive"]) * 600.0, 1.0) for told in lists]
+    assert turns[1] == pytest.approx(np.full(4, turns[0][0]), abs=2e-4)
+    assert second["unloaded_share"] == first["unloaded_share"] == 0.0

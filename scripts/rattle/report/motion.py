@@ -87,10 +87,13 @@ REMARKS = {
         "The stiffness of the teeth matters: a rigid tooth is no fair assumption for this motion.",
         "The stiffness of the teeth hardly matters: a rigid tooth is a fair assumption for this motion.",
     ),
-    "double_sided": (
-        "The tooth strikes both flanks of its gap (double-sided rattle).",
-        "The tooth strikes one flank only; the flank on the other side of the gap is not reached.",
-    ),
+}
+# What the verdict on separation and impacts says.
+VERDICTS = {
+    "no separation": "The tooth stays on its drive flank: no separation, and no impact.",
+    "separation": "The tooth leaves its drive flank, without an impact.",
+    "single-sided impacts": "The tooth strikes one flank (single-sided impacts).",
+    "double-sided impacts": "The tooth strikes both flanks of its gap (double-sided impacts).",
 }
 REMARK_WORDS = ("stiffness", "deflection", "double_sided", "coast", "backlash")
 
@@ -145,6 +148,12 @@ def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
     limit = LIMITS.get(str(summary.get("model_limit", "")).strip())
     if limit:
         yield limit
+    verdict = VERDICTS.get(str(summary.get("verdict", "")).strip())
+    if verdict:
+        yield verdict
+    elif summary.get("double_sided"):
+        # Of a version that knew no impacts.
+        yield "The coast film carries more than the drive film at times: the tooth crosses its gap."
     for name, (if_true, if_false) in REMARKS.items():
         if name in summary:
             yield if_true if summary[name] else if_false
