@@ -1,15 +1,14 @@
-!> Small motions of teeth that give about their rest. With the stiffnesses K and dampings C of the films, and kappa of the springs,
+!> Small motions about the rest. With the stiffness K and damping C of each film, and springs k in series with them, they are
+!> those of
 !>
-!>     z' = v ,   m kappa v' = d_1 - d_2 ,
-!>     C_1 (v + d_1') = -K_1 (z + d_1) - d_1/kappa ,    C_2 (-v + d_2') = -K_2 (d_2 - z) - d_2/kappa ,
+!>     m s^2 + S(s) = 0 ,      S(s) = sum over the films of k (K + C s)/(k + K + C s) ,
 !>
-!> whose eigenvalues, for one flank, are the roots of m C s^3 + m (k + K) s^2 + k C s + k K = 0.
+!> for one film m C s^3 + m (k + K) s^2 + k C s + k K = 0; between rigid teeth S(s) = K + C s.
 module linear_motion
    use constants, only: two_pi
-   use film_law, only: film_load, steady_film
+   use film_law, only: film_load
    use kinds, only: dp
-   use matrix_values, only: eigenvalues
-   use problem, only: has_two_flanks, loads_at_rest, problem_t, static_load
+   use problem, only: has_elastic_teeth, has_two_flanks, problem_t
    implicit none(type, external)
    private
 
@@ -17,71 +16,92 @@ module linear_motion
 
 contains
 
-   !> Natural frequency and damping ratio of the pair of eigenvalues that swings, or where none does of the two slowest ones.
-   !> Both are 0 where no eigenvalues are found.
-   pure subroutine natural_motion(problem, natural_frequency, damping_ratio)
-      !> With teeth that give, and a film at rest
+   !> Natural frequency |s|/(2 pi) and damping ratio -Re s/|s| of the pair of roots that oscillates; both 0 where none does.
+   pure subroutine natural_motion(problem, films, natural_frequency, damping_ratio)
       type(problem_t), intent(in) :: problem
-      !> Size of the eigenvalues over 2 pi [Hz]
+      !> Films of drive and coast flank at rest [m]
+      real(dp), intent(in) :: films(2)
+      !> [Hz]
       real(dp), intent(out) :: natural_frequency
-      !> Minus the real part over the size [-]
+      !> [-]
       real(dp), intent(out) :: damping_ratio
-      real(dp), dimension(2) :: loads, stiffness, damping
-      real(dp) :: matrix(4, 4), rate
-      complex(dp), allocatable :: values(:)
-      complex(dp) :: slow(2)
-      integer :: flanks, flank, n, i
+      real(dp) :: stiffness(2), damping(2), load, by_film, by_velocity, spring, twice_decay, square
+      integer :: flanks, flank
+      integer, allocatable :: order(:)
 
-      loads = [static_load(problem), 0.0_dp]
-      if (has_two_flanks(problem)) call loads_at_rest(problem, static_load(problem), loads(1), loads(2))
       flanks = merge(2, 1, has_two_flanks(problem))
       do flank = 1, flanks
-         call slopes_at_rest(loads(flank), stiffness(flank), damping(flank))
+         call film_load(problem%film, films(flank), 0.0_dp, load, by_film, by_velocity)
+         stiffness(flank) = -by_film
+         damping(flank) = -by_velocity
       end do
-      n = 2 + flanks
-      matrix = 0.0_dp
-      ! Time in units of the gear on one spring: then no number of the matrix is far from one for its physics alone.
-      rate = 1.0_dp/sqrt(problem%mass*problem%compliance)
-      matrix(1, 2) = 1.0_dp
-      do flank = 1, flanks
-         associate (turn => real(3 - 2*flank, dp), own => 2 + flank)
-            matrix(2, own) = turn
-            matrix(own, 1) = -turn*stiffness(flank)/(damping(flank)*rate)
-            matrix(own, 2) = -turn
-            matrix(own, own) = -(stiffness(flank) + 1.0_dp/problem%compliance)/(damping(flank)*rate)
-         end associate
-      end do
-      allocate (values, source=eigenvalues(matrix(:n, :n)))
+      if (has_elastic_teeth(problem)) then
+         spring = 1.0_dp/problem%compliance
+         order = [(flank, flank=1, flanks)]
+         if ((spring + stiffness(1))/damping(1) > (spring + stiffness(flanks))/damping(flanks)) order = [2, 1]
+         call pair_on_springs(problem%mass, spring, stiffness(order), damping(order), twice_decay, square)
+      else
+         twice_decay = sum(damping(:flanks))/problem%mass
+         square = sum(stiffness(:flanks))/problem%mass
+      end if
       natural_frequency = 0.0_dp
       damping_ratio = 0.0_dp
-      if (size(values) == 0) return
-      values = values*cmplx(rate, 0.0_dp, dp)
-      i = minloc(-values%re/abs(values), dim=1, mask=abs(values%im) > 0.0_dp)
-      if (i > 0) then
-         natural_frequency = abs(values(i))/two_pi
-         damping_ratio = -values(i)%re/abs(values(i))
-      else
-         ! The largest stand first.
-         slow = values(n - 1:)
-         natural_frequency = sqrt(slow(1)%re*slow(2)%re)/two_pi
-         damping_ratio = -(slow(1)%re + slow(2)%re)/(2.0_dp*two_pi*natural_frequency)
-      end if
-
-   contains
-
-      !> K [N/m] and C [N s/m] of a film at rest.
-      pure subroutine slopes_at_rest(carried, film_stiffness, film_damping)
-         !> Its load [N]
-         real(dp), intent(in) :: carried
-         real(dp), intent(out) :: film_stiffness
-         real(dp), intent(out) :: film_damping
-         real(dp) :: load, by_film, by_velocity
-
-         call film_load(problem%film, steady_film(problem%film, carried), 0.0_dp, load, by_film, by_velocity)
-         film_stiffness = -by_film
-         film_damping = -by_velocity
-      end subroutine slopes_at_rest
-
+      if (.not. twice_decay < 2.0_dp*sqrt(square)) return
+      natural_frequency = sqrt(square)/two_pi
+      damping_ratio = 0.5_dp*twice_decay/sqrt(square)
    end subroutine natural_motion
+
+   !> Sum and product of the last two roots of films on springs, s^2 + twice_decay s + square = 0. The others are real: S rises
+   !> from minus to plus infinity between its poles, and from minus infinity to a positive value between the last pole and 0, so
+   !> that a root lies to the right of each pole. Taken out, these leave the last two (Vieta). Nothing is lost where the films
+   !> differ by many powers of ten; the eigenvalues of a matrix would lose the smaller film.
+   pure subroutine pair_on_springs(mass, spring, stiffness, damping, twice_decay, square)
+      !> [kg]
+      real(dp), intent(in) :: mass
+      !> Stiffness of a tooth k [N/m]
+      real(dp), intent(in) :: spring
+      !> K [N/m] and C [N s/m] of each film, the one with the smaller (k + K)/C first
+      real(dp), intent(in) :: stiffness(:)
+      real(dp), intent(in) :: damping(:)
+      !> [1/s]
+      real(dp), intent(out) :: twice_decay
+      !> [1/s2]
+      real(dp), intent(out) :: square
+      !> Logarithms between which the ratio of the ways from root to pole and to the next pole lies
+      real(dp), parameter :: least = -250.0_dp, most = 250.0_dp
+      real(dp), dimension(size(damping)) :: poles, from_poles
+      real(dp) :: next_pole, way, rest, root, low, high, middle
+      integer :: own
+
+      ! Poles and roots are counted without their sign.
+      poles = (spring + stiffness)/damping
+      twice_decay = 0.0_dp
+      square = sum(1.0_dp/(1.0_dp/spring + 1.0_dp/stiffness))/mass
+      next_pole = 0.0_dp
+      do own = 1, size(poles)
+         way = poles(own) - next_pole
+         low = least
+         high = most
+         ! Of two equal poles one is a root, too.
+         root = poles(own)
+         from_poles = 0.0_dp
+         do while (way > 0.0_dp)
+            middle = 0.5_dp*(low + high)
+            rest = way/(1.0_dp + exp(middle))
+            root = next_pole + rest
+            from_poles(:own - 1) = poles(:own - 1) - next_pole - rest
+            from_poles(own:) = poles(own:) - poles(own) + way/(1.0_dp + exp(-middle))
+            if (.not. (middle > low .and. middle < high)) exit
+            if (mass*root*root + sum(spring*(stiffness - damping*root)/(damping*from_poles)) < 0.0_dp) then
+               low = middle
+            else
+               high = middle
+            end if
+         end do
+         twice_decay = twice_decay + from_poles(own)
+         square = square*poles(own)/root
+         next_pole = poles(own)
+      end do
+   end subroutine pair_on_springs
 
 end module linear_motion

@@ -1,6 +1,5 @@
 !> A scene with all that follows from it before anything is solved.
 module resolved_scene
-   use constants, only: two_pi
    use elastic_step, only: pass_share
    use engine, only: request_t
    use film_pressure, only: pressure_scale
@@ -21,7 +20,7 @@ module resolved_scene
       type(problem_t) :: problem = problem_t()
       !> Film that carries Q + m g [m]; 0 where no rigid film does: then nothing that rests on it is known
       real(dp) :: steady_film = 0.0_dp
-      !> sqrt(k/m)/(2 pi) and c/(2 sqrt(k m)) with the total derivatives of the scene's own film; 0: not known
+      !> Of small motions about it, with the total derivatives of the scene's own film; 0: they do not oscillate, or it is not known
       real(dp) :: natural_frequency = 0.0_dp
       real(dp) :: damping_ratio = 0.0_dp
       !> Squeeze group A at t = 0 [-]
@@ -64,10 +63,7 @@ contains
          resolved%noise_floor = resolved%rounding_noise
          if (.not. resolved%steady_film > 0.0_dp) return
          call linearise(problem, rest, stiffness, damping)
-         resolved%natural_frequency = sqrt(stiffness/mass)/two_pi
-         resolved%damping_ratio = damping/(2.0_dp*sqrt(stiffness*mass))
-         if (has_elastic_teeth(problem)) &
-            call natural_motion(problem, resolved%natural_frequency, resolved%damping_ratio)
+         call natural_motion(problem, rest, resolved%natural_frequency, resolved%damping_ratio)
          force = static_load
          if (has_two_flanks(problem)) force = max(abs(static_load) + largest_oscillation(problem%force), least_static_load)
          resolved%noise_by_accuracy = noise_of_steps(minval(rest), stiffness/mass, damping/mass, &

@@ -54,6 +54,8 @@ contains
       call report_head(log, scene, law_sentence(scene))
       if (judged%resolved%steady_film > 0.0_dp) then
          call report_part(log, judged, part_scene)
+         if (.not. judged%resolved%natural_frequency > 0.0_dp) &
+            call log%line('  no natural frequency: small motions about the steady film are overdamped')
       else
          call log%line('  no rigid piezo-viscous film carries the static load')
       end if
@@ -154,6 +156,8 @@ contains
          if (resolved%natural_frequency > 0.0_dp) lines = lines// &
                  '! natural frequency                    '//short_text(resolved%natural_frequency, 6)//' Hz'//end_of_line// &
                  '! damping ratio                        '//short_text(resolved%damping_ratio, 5)//end_of_line
+         if (.not. resolved%natural_frequency > 0.0_dp) lines = lines// &
+                 '! no natural frequency: small motions about the steady film are overdamped'//end_of_line
          lines = lines// &
                  '! pressure group B at the steady film  '//short_text(resolved%pressure_group, 5)//end_of_line// &
                  '! largest alpha p at the steady film   '//short_text(resolved%alpha_p, 5)//end_of_line// &

@@ -81,9 +81,9 @@ module quantities
          'Film that carries the static load Q + m g without motion.'), &
       quantity_t(quantity_natural_frequency, 'natural_frequency', 'Hz', a_number, part_scene, needs_nothing, &
          'summary sweep campaign log', &
-         'Of small motions about the steady film, undamped.'), &
+         'Of small motions about the steady film, undamped; unknown where they are overdamped.'), &
       quantity_t(quantity_damping_ratio, 'damping_ratio', '-', a_number, part_scene, needs_nothing, 'summary campaign log', &
-         'Of small motions about the steady film, 1: critical.', digits=4), &
+         'Of small motions about the steady film; unknown where they are overdamped.', digits=4), &
       quantity_t(quantity_window_periods, 'window_periods', '-', a_count, part_window, needs_nothing, 'summary', &
          'Periods of the force at the end of the run that are judged.'), &
       quantity_t(quantity_samples_per_period, 'samples_per_period', '-', a_count, part_window, needs_nothing, 'summary', &

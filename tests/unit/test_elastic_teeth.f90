@@ -1,6 +1,6 @@
 !> Tests of teeth that give: references of independent codes, the limit of stiff teeth, small motions, order of Newmark's method.
 module test_elastic_teeth
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use canonical_scenes, only: canonical_scene, loose_gear
    use checks, only: check_list_t
    use controlled_engine, only: find_steady_motion, solve_window
@@ -15,8 +15,8 @@ module test_elastic_teeth
    use node_extremes, only: seen_coast_film, seen_coast_load, seen_load, seen_position
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
    use carried_loads, only: coast_films, gear_positions
-   use problem, only: film_at_rest, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, problem_t, &
-      static_load
+   use problem, only: film_at_rest, films_at_rest, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, &
+      problem_t, static_load
    use quantities, only: quantity_damping_ratio, quantity_natural_frequency
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_complete, status_no_rigid_film
@@ -256,25 +256,55 @@ contains
       type(check_list_t), intent(inout) :: checks
       type(problem_t) :: problem
       type(judged_scene_t) :: judged
-      real(dp) :: frequency, ratio
+      real(dp) :: frequency, ratio, alone, ratio_alone, films(2)
+      integer :: i
 
-      call natural_motion(canonical(law_iso_viscous, model_reynolds, 3.0e8_dp), frequency, ratio)
+      call pair_of(canonical(law_iso_viscous, model_reynolds, 3.0e8_dp), frequency, ratio)
       call checks%check_close(frequency, 948.37_dp, 0.005_dp, 'natural frequency of 3e8 N/m')
       call checks%check_close(ratio, 0.1896_dp, 5.0e-5_dp, 'damping ratio')
-      call natural_motion(canonical(law_iso_viscous, model_reynolds, 1.0e8_dp), frequency, ratio)
+      call pair_of(canonical(law_iso_viscous, model_reynolds, 1.0e8_dp), frequency, ratio)
       call checks%check_close(frequency, 725.63_dp, 0.005_dp, 'natural frequency of 1e8 N/m')
       call checks%check_close(ratio, 0.0847_dp, 6.0e-5_dp, 'damping ratio')
-      call natural_motion(canonical(law_iso_viscous, model_reynolds, 1.0e14_dp), frequency, ratio)
+      call pair_of(canonical(law_iso_viscous, model_reynolds, 1.0e14_dp), frequency, ratio)
       call checks%check_close(frequency, 1114.5_dp, 0.05_dp, 'natural frequency of stiff teeth')
       call checks%check_close(ratio, 0.3454_dp, 5.0e-4_dp, 'damping ratio')
-      problem = canonical(law_iso_viscous, model_reynolds, 1.0e8_dp)
-      problem%mass = ieee_value(1.0_dp, ieee_quiet_nan)
-      call natural_motion(problem, frequency, ratio)
-      call checks%check(max(frequency, ratio) <= 0.0_dp, 'no eigenvalues: nothing is known')
+      ! A coast film of a load of 1e-12 N takes no part in the motion.
+      problem = canonical(law_piezo_viscous, model_published, 1.0e13_dp)
+      call pair_of(problem, alone, ratio_alone)
+      problem%backlash = 0.01_dp
+      call pair_of(problem, frequency, ratio)
+      call checks%check_close(frequency/alone, 1.0_dp, 1.0e-9_dp, 'natural frequency beside a soft coast film')
+      call checks%check_close(ratio/ratio_alone, 1.0_dp, 1.0e-9_dp, 'damping ratio beside a soft coast film')
+      ! Without a load both films are one: half of each film's spring and film in series, twice.
+      problem = between_flanks()
+      problem%force%steady = -problem%weight
+      call pair_of(problem, frequency, ratio)
+      problem%mass = 0.5_dp*problem%mass
+      films = films_at_rest(problem, static_load(problem))
+      problem%backlash = huge(1.0_dp)
+      call natural_motion(problem, films, alone, ratio_alone)
+      call checks%check_close(frequency/alone, 1.0_dp, 1.0e-12_dp, 'natural frequency between equal films')
+      call checks%check_close(ratio/ratio_alone, 1.0_dp, 1.0e-12_dp, 'damping ratio between equal films')
+      do i = 0, 1
+         problem = canonical(law_iso_viscous, model_reynolds, 1.0e13_dp)
+         if (i == 0) problem%compliance = 0.0_dp
+         problem%mass = 0.01_dp*problem%mass
+         call pair_of(problem, frequency, ratio)
+         call checks%check(max(frequency, ratio) <= 0.0_dp, 'an overdamped motion has no natural frequency')
+      end do
       judged%resolved = resolved_scene_t(steady_film=1.0e-6_dp)
       call checks%check(ieee_is_nan(quantity_value(quantity_natural_frequency, judged)) .and. &
                         ieee_is_nan(quantity_value(quantity_damping_ratio, judged)), 'nothing known is no number')
    end subroutine test_small_motions
+
+   !> Natural frequency and damping ratio about the rest under the static load.
+   subroutine pair_of(problem, frequency, ratio)
+      type(problem_t), intent(in) :: problem
+      real(dp), intent(out) :: frequency
+      real(dp), intent(out) :: ratio
+
+      call natural_motion(problem, films_at_rest(problem, static_load(problem)), frequency, ratio)
+   end subroutine pair_of
 
    !> Teeth of 1e15 N/m are rigid, and the difference falls as one over the stiffness.
    subroutine test_stiff_teeth(checks)
