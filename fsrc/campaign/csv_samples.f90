@@ -117,7 +117,7 @@ contains
       integer :: i
 
       position = 0
-      word = unquoted(field%word())
+      word = field%bare()
       if (len(word) == 0) then
          message = 'a key must be named here, as in load.mass'
          return
@@ -205,16 +205,5 @@ contains
          message = "'"//field%shown()//"' is not a number"
       end if
    end subroutine read_number
-
-   !> Name without the quotes around it.
-   pure function unquoted(word) result(name)
-      character(*), intent(in) :: word
-      character(:), allocatable :: name
-
-      name = word
-      if (len(word) < 2) return
-      if (scan(word(1:1), '"'//"'") > 0 .and. word(1:1) == word(len(word):)) &
-         name = trim(adjustl(word(2:len(word) - 1)))
-   end function unquoted
 
 end module csv_samples

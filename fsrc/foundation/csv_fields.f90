@@ -22,6 +22,7 @@ module csv_fields
    contains
       procedure :: word => field_word
       procedure :: shown => field_shown
+      procedure :: bare => field_without_quotes
    end type field_t
 
    !> An open file.
@@ -180,6 +181,16 @@ contains
          word = self%letters(first:verify(self%letters, blanks, back=.true.))
       end if
    end function field_word
+
+   !> The word without the quotes around it.
+   pure function field_without_quotes(self) result(word)
+      class(field_t), intent(in) :: self
+      character(:), allocatable :: word
+
+      word = self%word()
+      if (len(word) < 2) return
+      if (scan(word(1:1), '"'//"'") > 0 .and. word(1:1) == word(len(word):)) word = trim(adjustl(word(2:len(word) - 1)))
+   end function field_without_quotes
 
    !> The field for a sentence: short, and every character can be printed.
    pure function field_shown(self) result(word)

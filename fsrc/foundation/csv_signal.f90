@@ -1,45 +1,63 @@
-!> One cycle of a measured signal from a CSV file: a header with names, then a line of numbers for each of its uniform samples.
-!> Lines that begin with '#' are comments, empty ones are skipped. A column of time or angle tells whether the samples are uniform.
+!> A recorded signal from a CSV file: a header with names, then a line of numbers for each of its uniform samples. Lines that
+!> begin with '#' are comments, empty ones are skipped. A column of time or angle tells where the samples stand. What is wrong is
+!> told with its line and column, never with what stands there: a path may lead to a file that is nobody's business.
 module csv_signal
+   use axis_unit, only: axis_unit_t, no_axis, unit_of_name
    use csv_fields, only: csv_text_t, field_t
    use errors, only: fault_list_t
    use kinds, only: dp, int64
    use number_text, only: read_strict_real
-   use text, only: integer_text, lower, short_text
+   use text, only: integer_text, short_text
    use word_list, only: word_t
    implicit none(type, external)
    private
 
    !> Samples of a cycle
-   integer, parameter :: least_samples = 4, most_samples = 10000000
+   integer, parameter, public :: least_samples = 4
+   integer, parameter :: most_samples = 10000000
+
+   !> What a file holds.
+   type, public :: recording_t
+      !> Names of the column that was read and of its axis; the latter is empty if there is none
+      character(:), allocatable :: column
+      character(:), allocatable :: axis_name
+      type(axis_unit_t) :: axis_unit
+      !> Samples, where each stands on the axis, and its line
+      real(dp), allocatable :: samples(:)
+      real(dp), allocatable :: axis(:)
+      integer, allocatable :: lines(:)
+      !> What the last digit of the axis is worth, in its unit
+      real(dp) :: last_digit = 0.0_dp
+   contains
+      procedure :: step => mean_step
+   end type recording_t
 
    public :: read_csv_signal
 
 contains
 
-   !> Read a column; what is wrong with the file is told with its line.
-   subroutine read_csv_signal(path, column, name, samples, faults)
+   !> Read a column and its axis.
+   subroutine read_csv_signal(path, column, recording, faults)
       !> Path of the file
       character(*), intent(in) :: path
       !> Name of the column in the header; empty: the only one that is no time or angle
       character(*), intent(in) :: column
-      !> Name of the column that was read
-      character(:), allocatable, intent(out) :: name
-      !> Its samples; of use only if no fault was added
-      real(dp), allocatable, intent(out) :: samples(:)
+      !> What it holds; of use only if no fault was added
+      type(recording_t), intent(out) :: recording
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       type(csv_text_t) :: text
       type(word_t), allocatable :: names(:)
+      type(field_t), allocatable :: fields(:)
       character(:), allocatable :: message
-      real(dp), allocatable :: times(:)
-      integer, allocatable :: at(:)
       integer(int64) :: lines
-      integer :: before, line, chosen, abscissa
+      integer :: before, line, header, chosen, axis, count
 
       before = faults%count()
-      name = ''
-      allocate (names(0), samples(0), times(0), at(0))
+      allocate (names(0))
+      recording%column = ''
+      recording%axis_name = ''
+      allocate (recording%samples(0), recording%axis(0), recording%lines(0))
       call text%open(path, lines, message)
       if (len(message) > 0) then
          call faults%add(path, 0, '', '', message)
@@ -47,20 +65,24 @@ contains
       end if
       line = 0
       if (lines > int(most_samples, int64)) then
-         call faults%add(path, 0, '', '', 'it has more than '//integer_text(most_samples)//' lines; that is no cycle of a signal')
+         call faults%add(path, 0, '', '', 'it has more than '//integer_text(most_samples)//' lines; that is no signal')
       else
-         call read_names(text, int(lines), line, names)
-         if (size(names) == 0) call faults%add(path, 0, '', '', &
-            'the file is empty; its first line must name its columns, such as time,force')
+         call next_line(text, int(lines), line, fields, count)
+         header = line
+         call read_names(path, header, fields(:count), names, faults)
       end if
-      if (faults%count() == before) call choose_column(path, line, names, column, chosen, abscissa, faults)
       if (faults%count() == before) then
-         name = names(chosen)%text
-         call read_rows(text, path, int(lines), line, names, chosen, abscissa, samples, times, at, faults)
+         call next_line(text, int(lines), line, fields, count)
+         call choose_column(path, header, names, is_row(fields(:count), size(names)), column, chosen, axis, faults)
+      end if
+      if (faults%count() == before) then
+         recording%column = names(chosen)%text
+         if (axis > 0) recording%axis_name = names(axis)%text
+         if (axis > 0) recording%axis_unit = unit_of_name(recording%axis_name)
+         call read_rows(text, path, int(lines), line, size(names), chosen, axis, fields, count, recording, faults)
       end if
       call text%close()
-      if (faults%count() == before) call check_uniform(path, times, at, faults)
-      if (faults%count() == before) call check_cycle(path, at, samples, faults)
+      if (faults%count() == before) call check_uniform(path, recording, faults)
    end subroutine read_csv_signal
 
    !> The next line that is neither a comment nor empty, as its fields; none at the end of the file.
@@ -93,196 +115,297 @@ contains
       end do
    end subroutine next_line
 
-   !> The header.
-   subroutine read_names(text, lines, line, names)
-      type(csv_text_t), intent(inout) :: text
-      integer, intent(in) :: lines
-      integer, intent(inout) :: line
+   !> The header: names that commas separate.
+   subroutine read_names(path, line, fields, names, faults)
+      character(*), intent(in) :: path
+      integer, intent(in) :: line
+      type(field_t), intent(in) :: fields(:)
       !> Without quotes around them
-      type(word_t), allocatable, intent(out) :: names(:)
-      type(field_t), allocatable :: fields(:)
-      character(:), allocatable :: word
-      integer :: count, i
+      type(word_t), allocatable, intent(inout) :: names(:)
+      type(fault_list_t), intent(inout) :: faults
+      character(:), allocatable :: message
+      real(dp) :: number
+      logical :: sound
+      integer :: i
 
-      call next_line(text, lines, line, fields, count)
-      allocate (names(count))
-      do i = 1, count
-         word = fields(i)%word()
-         if (len(word) > 1) then
-            if (scan(word(1:1), '"'//"'") > 0 .and. word(1:1) == word(len(word):)) word = trim(adjustl(word(2:len(word) - 1)))
-         end if
-         names(i)%text = word
+      message = ''
+      deallocate (names)
+      allocate (names(size(fields)))
+      do i = 1, size(fields)
+         names(i)%text = fields(i)%bare()
+         if (len(message) > 0) cycle
+         call read_strict_real(names(i)%text, number, sound)
+         if (sound) message = 'the first line holds numbers; it must name the columns, such as time_s,force'
+         if (index(names(i)%text, achar(0)) > 0) message = 'it is no plain text; save it as CSV in UTF-8'
+         if (index(names(i)%text, achar(13)) > 0) message = 'carriage returns alone end its lines; line feeds are needed'
+         if (len(wrong_separator(fields)) > 0) message = wrong_separator(fields)
       end do
+      if (size(fields) == 0) message = 'the file is empty; its first line must name its columns, such as time_s,force'
+      if (len(message) > 0) call faults%add(path, merge(line, 0, size(fields) > 0), '', '', message)
    end subroutine read_names
 
-   !> Which column is the signal, and which one its time or angle (0: none is).
-   subroutine choose_column(path, line, names, column, chosen, abscissa, faults)
+   !> What separates the columns of a line if it is no comma, as a fault; empty if nothing seems to.
+   pure function wrong_separator(fields) result(message)
+      type(field_t), intent(in) :: fields(:)
+      character(:), allocatable :: message
+      character(*), parameter :: tab = achar(9)
+      character(:), allocatable :: word, bare
+      integer :: i
+
+      message = ''
+      do i = 1, size(fields)
+         word = fields(i)%word()
+         bare = fields(i)%bare()
+         ! A name in one pair of quotes may hold anything.
+         if (word /= bare .and. scan(bare, '"'//"'") == 0) cycle
+         if (index(word, ';') > 0) message = 'semicolons separate the columns; commas are needed, and points in the numbers'
+         if (len(message) == 0 .and. index(word, tab) > 0) message = 'tabs separate the columns; commas are needed'
+      end do
+   end function wrong_separator
+
+   !> Whether a line has a field for each name, and a number among them: then its header is one.
+   pure logical function is_row(fields, columns)
+      type(field_t), intent(in) :: fields(:)
+      integer, intent(in) :: columns
+      real(dp) :: number
+      logical :: sound
+      integer :: i
+
+      is_row = .false.
+      if (size(fields) /= columns) return
+      do i = 1, size(fields)
+         call read_strict_real(fields(i)%bare(), number, sound)
+         is_row = is_row .or. sound
+      end do
+   end function is_row
+
+   !> Which column is the signal, and which one its axis (0: none is).
+   subroutine choose_column(path, line, names, is_table, column, chosen, axis, faults)
       character(*), intent(in) :: path
       !> Where the header stands
       integer, intent(in) :: line
       type(word_t), intent(in) :: names(:)
+      !> Whether the file is a table of numbers, whose names may be told
+      logical, intent(in) :: is_table
       character(*), intent(in) :: column
       integer, intent(out) :: chosen
-      integer, intent(out) :: abscissa
+      integer, intent(out) :: axis
       type(fault_list_t), intent(inout) :: faults
+      type(axis_unit_t) :: unit
       character(:), allocatable :: list
-      real(dp) :: number
-      logical :: sound
-      integer :: i, others
+      integer :: i, others, other
 
       chosen = 0
-      abscissa = 0
+      axis = 0
       others = 0
+      other = 0
       list = ''
       do i = 1, size(names)
-         call read_strict_real(names(i)%text, number, sound)
-         if (sound) then
-            call faults%add(path, line, '', '', "'"//names(i)%text//"' is a number; the first line must name the columns")
-            return
-         end if
          list = list//', '//names(i)%text
-         if (names(i)%text == column) then
+         if (len(column) > 0 .and. names(i)%text == column) then
             if (chosen > 0) call faults%add(path, line, '', '', "two columns are named '"//column//"'")
             chosen = i
+            cycle
          end if
-         if (abscissa == 0 .and. is_abscissa(names(i)%text)) then
-            abscissa = i
-         else
+         unit = unit_of_name(names(i)%text)
+         if (unit%kind /= no_axis) then
+            if (axis == 0) axis = i
+         else if (len(names(i)%text) > 0) then
             others = others + 1
+            other = i
          end if
       end do
+      if (.not. is_table) list = ', which cannot be told: the line below is no line of as many numbers'
       if (len(column) == 0 .and. size(names) == 1) then
          chosen = 1
+         axis = 0
       else if (len(column) == 0 .and. others == 1) then
-         chosen = merge(2, 1, abscissa == 1)
+         chosen = other
       else if (len(column) == 0) then
          call faults%add(path, line, '', '', 'signal_column must name one of its columns: '//list(3:))
       else if (chosen == 0) then
          call faults%add(path, line, '', '', "there is no column '"//column//"'; its columns are "//list(3:))
       end if
-      if (abscissa == chosen) abscissa = 0
    end subroutine choose_column
 
-   !> Whether a name is that of a time or an angle, whatever its unit.
-   pure logical function is_abscissa(name)
-      character(*), intent(in) :: name
-      character(:), allocatable :: word
-
-      word = lower(name(:scan(name//' ', ' [(_/,;') - 1))
-      is_abscissa = any(word == [character(5) :: 't', 'time', 'angle', 'phase', 'crank'])
-   end function is_abscissa
-
    !> All other lines.
-   subroutine read_rows(text, path, lines, line, names, chosen, abscissa, samples, times, at, faults)
+   subroutine read_rows(text, path, lines, line, names, chosen, axis, fields, columns, recording, faults)
       type(csv_text_t), intent(inout) :: text
       character(*), intent(in) :: path
       integer, intent(in) :: lines
       integer, intent(inout) :: line
-      type(word_t), intent(in) :: names(:)
+      !> Columns of the header
+      integer, intent(in) :: names
       integer, intent(in) :: chosen
-      integer, intent(in) :: abscissa
-      !> The signal, its time or angle if there is a column of it, and the line of each sample
-      real(dp), allocatable, intent(inout) :: samples(:)
-      real(dp), allocatable, intent(inout) :: times(:)
-      integer, allocatable, intent(inout) :: at(:)
+      integer, intent(in) :: axis
+      !> Of the first of these lines, which is read already
+      type(field_t), allocatable, intent(inout) :: fields(:)
+      integer, intent(inout) :: columns
+      type(recording_t), intent(inout) :: recording
       type(fault_list_t), intent(inout) :: faults
-      type(field_t), allocatable :: fields(:)
-      real(dp), allocatable :: read_samples(:), read_times(:)
-      integer, allocatable :: read_at(:)
-      integer :: count, columns, before
+      !> No time or angle is as large, and its powers can still be computed with
+      real(dp), parameter :: farthest = 1.0e30_dp
+      real(dp), allocatable :: read_samples(:), read_axis(:)
+      integer, allocatable :: read_lines(:)
+      integer :: count, before, digits, decimals, most_digits, most_decimals
+      logical :: is_hopeless
 
       before = faults%count()
-      allocate (read_samples(lines), read_times(lines), read_at(lines))
+      is_hopeless = .false.
+      allocate (read_samples(lines), read_axis(lines), read_lines(lines))
       count = 0
+      most_digits = 0
+      most_decimals = -range(1.0_dp)
       do
-         call next_line(text, lines, line, fields, columns)
          if (text%broken) call faults%add(path, line, '', '', 'it cannot be read to its end')
          if (text%stopped) call faults%add(path, line, '', '', 'there was no time to read it to its end')
          if (columns == 0 .or. text%broken .or. text%stopped .or. faults%not_kept() > 0) exit
          count = count + 1
-         read_at(count) = line
-         if (columns /= size(names)) then
+         read_lines(count) = line
+         if (columns == names) then
+            call read_number(chosen, read_samples(count))
+            if (axis > 0) then
+               call read_number(axis, read_axis(count))
+               call count_digits(fields(axis)%bare(), digits, decimals)
+               most_digits = max(most_digits, digits)
+               if (digits > 0) most_decimals = max(most_decimals, decimals)
+            end if
+         else
             call faults%add(path, line, '', '', 'the line has '//integer_text(columns)//' columns, the header '// &
-                            integer_text(size(names)))
-            cycle
+                            integer_text(names)//cause_of_count())
+            ! What is wrong with the first line, or with how the numbers are written, is wrong with all that follow.
+            is_hopeless = count == 1 .or. len(cause_of_count()) > 0
          end if
-         call read_number(chosen, read_samples(count))
-         if (abscissa > 0) call read_number(abscissa, read_times(count))
+         if (is_hopeless) exit
+         call next_line(text, lines, line, fields, columns)
       end do
-      samples = read_samples(:count)
-      at = read_at(:count)
-      if (abscissa > 0) times = read_times(:count)
-      if (faults%count() == before .and. count < least_samples) call faults%add(path, 0, '', '', 'it has '// &
-         integer_text(count)//' samples; a cycle needs at least '//integer_text(least_samples))
+      recording%samples = read_samples(:count)
+      recording%lines = read_lines(:count)
+      if (faults%count() > before) return
+      if (count < least_samples) call faults%add(path, 0, '', '', 'it has '//integer_text(count)// &
+                                                 ' samples; a cycle needs at least '//integer_text(least_samples))
+      if (axis == 0 .or. count == 0) return
+      recording%axis = read_axis(:count)
+      if (maxval(abs(recording%axis)) > farthest) then
+         call faults%add(path, 0, '', '', 'its axis reaches to '//short_text(maxval(abs(recording%axis)), 2)//'; that is no axis')
+         return
+      end if
+      ! Fixed decimals, or as many digits of every number
+      recording%last_digit = 10.0_dp**(-most_decimals)
+      if (maxval(abs(recording%axis)) > 0.0_dp) recording%last_digit = &
+         max(recording%last_digit, 10.0_dp**(floor(log10(maxval(abs(recording%axis)))) + 1 - most_digits))
 
    contains
 
       subroutine read_number(position, number)
          integer, intent(in) :: position
          real(dp), intent(out) :: number
+         character(:), allocatable :: word, place
          logical :: sound
 
-         call read_strict_real(fields(position)%word(), number, sound)
-         if (sound) return
-         if (len(fields(position)%word()) == 0) then
-            call faults%add(path, line, '', '', "column '"//names(position)%text//"': a number is missing")
+         word = fields(position)%bare()
+         call read_strict_real(word, number, sound)
+         if (sound .or. is_hopeless) return
+         place = 'column '//integer_text(position)//': '
+         is_hopeless = len(wrong_separator(fields(:columns))) > 0
+         if (is_hopeless) then
+            call faults%add(path, line, '', '', wrong_separator(fields(:columns)))
+         else if (len(word) == 0) then
+            call faults%add(path, line, '', '', place//'a number is missing')
+         else if (count == 1) then
+            call faults%add(path, line, '', '', place//'no number stands here; units belong into the name, as in time_s')
+            is_hopeless = .true.
          else
-            call faults%add(path, line, '', '', "column '"//names(position)%text//"': '"//fields(position)%shown()// &
-                            "' is not a number")
+            call faults%add(path, line, '', '', place//'no number stands here')
          end if
       end subroutine read_number
 
+      !> Why a line may have too many columns.
+      function cause_of_count() result(cause)
+         character(:), allocatable :: cause
+         real(dp) :: number
+         logical :: sound
+         integer :: i
+
+         cause = ''
+         if (len(wrong_separator(fields(:columns))) > 0) cause = ': '//wrong_separator(fields(:columns))
+         if (len(cause) > 0 .or. columns < names) return
+         do i = 1, columns
+            call read_strict_real(without_half_quotes(fields(i)%bare()), number, sound)
+            if (.not. sound) return
+         end do
+         cause = ': with a decimal comma a number is two columns; write a decimal point'
+      end function cause_of_count
+
    end subroutine read_rows
 
-   !> The samples follow each other in equal steps. Times that were rounded when they were written may be off a little.
-   subroutine check_uniform(path, times, at, faults)
+   !> A field without a quote at its begin or its end: a number with a decimal comma begins in one field and ends in the next.
+   pure function without_half_quotes(word) result(rest)
+      character(*), intent(in) :: word
+      character(:), allocatable :: rest
+
+      rest = word
+      if (index(rest, '"') == 1) rest = rest(2:)
+      if (len(rest) > 0 .and. index(rest, '"') == len(rest)) rest = rest(:len(rest) - 1)
+   end function without_half_quotes
+
+   !> How many significant digits a number has, and how many of them behind the point of one without an exponent.
+   pure subroutine count_digits(word, digits, decimals)
+      !> A sound number
+      character(*), intent(in) :: word
+      integer, intent(out) :: digits
+      integer, intent(out) :: decimals
+      integer :: mark, exponent, stat, point, first
+
+      mark = scan(word//'e', 'eEdD')
+      exponent = 0
+      if (mark < len(word)) read (word(mark + 1:), *, iostat=stat) exponent
+      point = index(word(:mark - 1), '.')
+      decimals = -exponent
+      if (point > 0) decimals = mark - 1 - point - exponent
+      first = scan(word(:mark - 1), '123456789')
+      digits = 0
+      if (first == 0) return
+      digits = mark - first
+      if (point > first) digits = digits - 1
+   end subroutine count_digits
+
+   !> Mean step from one sample to the next.
+   pure real(dp) function mean_step(self)
+      class(recording_t), intent(in) :: self
+
+      associate (n => size(self%axis))
+         mean_step = (self%axis(n) - self%axis(1))/real(n - 1, dp)
+      end associate
+   end function mean_step
+
+   !> The samples follow each other in equal steps. Numbers that were rounded when they were written may be off a little, but not
+   !> by so much that a sample could be missing.
+   subroutine check_uniform(path, recording, faults)
       character(*), intent(in) :: path
-      !> Of each sample; none: they are taken for uniform
-      real(dp), intent(in) :: times(:)
-      integer, intent(in) :: at(:)
+      type(recording_t), intent(in) :: recording
       type(fault_list_t), intent(inout) :: faults
-      real(dp), parameter :: rounding = 0.05_dp
-      real(dp) :: step
+      real(dp), parameter :: least_rounding = 0.05_dp, most_rounding = 0.25_dp
+      character(:), allocatable :: message
+      real(dp) :: step, allowed
       integer :: i
 
-      if (size(times) < 2) return
-      step = (times(size(times)) - times(1))/real(size(times) - 1, dp)
-      do i = 2, size(times)
-         if (step > 0.0_dp .and. abs(times(i) - times(1) - step*real(i - 1, dp)) <= rounding*step) cycle
-         call faults%add(path, at(i), '', '', 'the samples are not uniform: after '//short_text(times(i - 1), 7)//' comes '// &
-                         short_text(times(i), 7)//', the mean step is '//short_text(step, 7))
-         return
-      end do
+      if (size(recording%axis) < 2) return
+      step = recording%step()
+      allowed = min(max(least_rounding*step, recording%last_digit), most_rounding*step)
+      associate (axis => recording%axis, n => size(recording%axis))
+         message = 'the axis descends'
+         i = findloc(axis(2:) < axis(:n - 1), .true., dim=1) + 1
+         if (i == 1) then
+            message = 'the samples are not uniform'
+            if (recording%last_digit > most_rounding*step .and. step > 0.0_dp) &
+               message = message//' (or the axis has too few digits to show it)'
+            i = findloc([(abs(axis(i) - axis(1) - step*real(i - 1, dp)) > allowed .or. .not. axis(i) > axis(i - 1), i=2, n)], &
+                        .true., dim=1) + 1
+         end if
+         if (i > 1) call faults%add(path, recording%lines(i), '', '', message//': after '//short_text(axis(i - 1), 7)// &
+                                    ' comes '//short_text(axis(i), 7)//', the mean step is '//short_text(step, 7))
+      end associate
    end subroutine check_uniform
-
-   !> The signal is one cycle: behind its last sample it goes on with the first.
-   subroutine check_cycle(path, at, samples, faults)
-      character(*), intent(in) :: path
-      integer, intent(in) :: at(:)
-      real(dp), intent(in) :: samples(:)
-      type(fault_list_t), intent(inout) :: faults
-      !> A step back to the first sample that is so many times the largest other one is a jump
-      real(dp), parameter :: largest_jump = 5.0_dp, rounding = 1.0e-9_dp
-      real(dp) :: range, largest_step, closing_step, next
-      integer :: n
-
-      n = size(samples)
-      range = maxval(samples) - minval(samples)
-      if (.not. range > 0.0_dp) then
-         call faults%add(path, at(n), '', '', 'all samples are '//short_text(samples(1), 7)//'; nothing oscillates')
-         return
-      end if
-      largest_step = maxval(abs(samples(2:) - samples(:n - 1)))
-      closing_step = abs(samples(1) - samples(n))
-      ! What would follow: the first sample after one whole cycle, the second after one that repeats its start.
-      next = 4.0_dp*(samples(n) + samples(n - 2)) - 6.0_dp*samples(n - 1) - samples(n - 3)
-      if (closing_step <= rounding*range .and. abs(next - samples(2)) < abs(next - samples(1))) then
-         call faults%add(path, at(n), '', '', 'the last sample repeats the first; a cycle ends one step before, leave it out')
-      else if (closing_step > largest_jump*largest_step) then
-         call faults%add(path, at(n), '', '', 'the cycle does not close: from the last sample to the first it is '// &
-                         short_text(closing_step/largest_step, 3)//' times the largest other step; if this jump is real, '// &
-                         'let the cycle begin elsewhere')
-      end if
-   end subroutine check_cycle
 
 end module csv_signal

@@ -1,7 +1,7 @@
 !> What Fortran lacks of the file system: whole files as text, folders, permissions, terminals.
 !> Thin calls of the C library.
 module file_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int16_t, c_int32_t, c_int64_t, c_null_char
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int16_t, c_int32_t, c_int64_t, c_null_char, c_ptr, c_associated
    use file_descriptor, only: close_descriptor, open_existing, read_bytes, read_only, standard_input, standard_output
    use kinds, only: int64
    implicit none(type, external)
@@ -9,7 +9,7 @@ module file_system
 
    public :: read_whole_file, first_bytes, path_exists, file_state_t, state_of_path, state_of_descriptor, &
              is_directory, is_writable, make_directory, rename_file, &
-             delete_file, is_terminal
+             delete_file, is_terminal, lies_inside
 
    !> What stands at a path.
    type :: file_state_t
@@ -74,6 +74,13 @@ module file_system
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int) :: stat
       end function c_unlink
+
+      function c_realpath(path, real_path) bind(c, name='realpath') result(place)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: real_path(*)
+         type(c_ptr) :: place
+      end function c_realpath
 
       function c_isatty(descriptor) bind(c, name='isatty') result(answer)
          import :: c_int
@@ -193,6 +200,32 @@ contains
 
       is_directory = c_access(trim(path)//'/.'//c_null_char, test_exists) == 0
    end function is_directory
+
+   !> Whether a file lies in a folder or below it, wherever links and '..' on the way to both lead. One that is not there
+   !> lies nowhere else.
+   logical function lies_inside(path, folder)
+      !> Path of the file
+      character(*), intent(in) :: path
+      !> Path of the folder; empty: the working directory
+      character(*), intent(in) :: folder
+      character(:), allocatable :: place, base
+
+      place = real_path(path)
+      base = real_path(folder//'.')
+      if (base(len(base):) /= '/') base = base//'/'
+      lies_inside = len(place) == 0 .or. index(place, base) == 1
+   end function lies_inside
+
+   !> Path without links and '..'; empty if nothing can be found there.
+   function real_path(path)
+      character(*), intent(in) :: path
+      character(:), allocatable :: real_path
+      integer, parameter :: longest_path = 4096
+      character(longest_path) :: buffer
+
+      real_path = ''
+      if (c_associated(c_realpath(trim(path)//c_null_char, buffer))) real_path = buffer(:index(buffer, c_null_char) - 1)
+   end function real_path
 
    !> Whether files can be made in a directory.
    logical function is_writable(directory)

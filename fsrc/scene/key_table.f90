@@ -147,12 +147,16 @@ module key_table
             sensible=range_t(lower=-1.0e6_dp, upper=1.0e6_dp), &
             computable=a_signed_force), &
       key_t('load', 'signal', text_kind, '', '', any_number, '', of_motions, &
-            'CSV file, in the folder of this input, with one cycle of the force [N], uniformly sampled; it becomes '// &
-            'force_orders and, by its mean, force_mean.', given_by='shaft'), &
+            'CSV file, in the folder of this input, with cycles of the force [N], uniformly sampled; it becomes force_orders '// &
+            'and, by its mean, force_mean. A column of time or angle, its unit in its name, must fit frequency.', &
+            given_by='shaft'), &
       key_t('load', 'signal_column', text_kind, '', '', any_number, '', of_motions, &
             'Name of the signal in the header of the file; absent: the only column that is no time or angle.', given_by='shaft'), &
       key_t('load', 'signal_orders', integer_kind, '-', '', an_order, '', of_motions, &
             'Orders that are kept of a signal, from the first on; absent: those that hold all but 1e-6 of its power.', &
+            given_by='shaft'), &
+      key_t('load', 'signal_cycles', integer_kind, '-', '', range_t(1.0_dp, .false., 1.0e6_dp, .false.), '', of_motions, &
+            'Cycles in the file, which are averaged; absent: as many as its axis of time or angle spans, one without it.', &
             given_by='shaft'), &
       key_t('load', 'force_scale', real_kind, '-', '1.0', not_negative, '', of_motions, &
             'Multiplies all that oscillates of the force.', &
@@ -268,12 +272,14 @@ module key_table
             sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
             computable=a_phase), &
       key_t('shaft', 'signal', text_kind, '', '', any_number, '', of_motions, &
-            'CSV file, in the folder of this input, with one cycle of the motion of the shaft, uniformly sampled, instead of '// &
-            'orders, accelerations (or speed_amplitudes) and phases.'), &
+            'CSV file, in the folder of this input, with cycles of the motion of the shaft, uniformly sampled, instead of '// &
+            'orders, accelerations (or speed_amplitudes) and phases. Its time or angle must fit speed_rpm and cycle_revolutions.'), &
       key_t('shaft', 'signal_column', text_kind, '', '', any_number, '', of_motions, &
             'Name of the signal in the header of the file; absent: the only column that is no time or angle.'), &
       key_t('shaft', 'signal_orders', integer_kind, '-', '', an_order, '', of_motions, &
             'Harmonics of the cycle that are kept, from the first on; absent: those that hold all but 1e-6 of its power.'), &
+      key_t('shaft', 'signal_cycles', integer_kind, '-', '', range_t(1.0_dp, .false., 1.0e6_dp, .false.), '', of_motions, &
+            'Cycles in the file, which are averaged; absent: as many as its axis of time or angle spans, one without it.'), &
       key_t('shaft', 'signal_kind', text_kind, '', 'angular_acceleration', any_number, &
             'angular_acceleration angular_speed angular_speed_rpm', of_motions, &
             'What the signal is: rad/s2, rad/s or 1/min; a speed is differentiated at speed_rpm.'), &

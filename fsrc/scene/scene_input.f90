@@ -20,6 +20,8 @@ module scene_input
       !> Which of several gear pairs it takes, from 1, and the line of its group; 0: there is one pair at most
       integer :: pair = 1
       integer :: line_of_pair = 0
+      !> What was found on the way from its files to its keys, as comments of the resolved input
+      character(:), allocatable :: found
    contains
       procedure :: set_all
       procedure :: put_numbers
@@ -36,6 +38,7 @@ module scene_input
       procedure :: numbers => numbers_of
       procedure :: columns => columns_of
       procedure :: add_fault
+      procedure :: tell
    end type scene_input_t
 
    public :: new_scene_input
@@ -53,6 +56,7 @@ contains
       integer :: i
 
       input%file = file
+      input%found = ''
       allocate (input%entries(size(keys)))
       do i = 1, size(keys)
          input%entries(i) = new_entry(keys(i), file)
@@ -252,5 +256,14 @@ contains
          call faults%add(entry%file, entry%line, group, name, message)
       end associate
    end subroutine add_fault
+
+   !> Tell what was found in a file.
+   pure subroutine tell(self, finding)
+      class(scene_input_t), intent(inout) :: self
+      !> As 'group.name = number'
+      character(*), intent(in) :: finding
+
+      self%found = self%found//'! derived: '//finding//new_line('a')
+   end subroutine tell
 
 end module scene_input

@@ -153,7 +153,7 @@ contains
       end if
       scene%output = read_output(input)
       scene%lines = input%entries%line
-      scene%resolved_input = resolved_text(input, trim(scene%name))
+      scene%resolved_input = resolved_text(input, trim(scene%name))//input%found
       scene%warnings = [scene%warnings, odd_numbers_of_input(input)]
    end subroutine put_values
 

@@ -1,16 +1,20 @@
-!> &load signal and &shaft signal: one cycle of a force, or of the motion of the shaft, from a CSV file becomes orders, amplitudes
+!> &load signal and &shaft signal: the mean cycle of a force, or of the motion of the shaft, from a CSV file becomes orders, amplitudes
 !> and phases, as if the input gave them.
 module signal_reader
+   use axis_unit, only: no_axis
    use constants, only: two_pi
-   use csv_signal, only: read_csv_signal
+   use csv_signal, only: read_csv_signal, recording_t
    use errors, only: fault_list_t
+   use file_system, only: lies_inside
    use fourier, only: trigonometric_interpolation
    use key_table, only: find_key
    use keys_in_use, only: in_use
    use kinds, only: dp
    use scene_input, only: scene_input_t
    use scene_types, only: highest_order
-   use text, only: integer_text, printable, real_text, short_text
+   use signal_cycles, only: cycle_scatter, drift_of_cycles, fault_of_cycle, mean_cycle
+   use signal_span, only: count_cycles
+   use text, only: counted, integer_text, printable, real_text, short_text
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -18,8 +22,8 @@ module signal_reader
    character(*), parameter :: force_keys(5) = [character(17) :: 'force_orders', 'force_amplitudes', 'force_phases', &
                                                'force_mean', 'force_amplitude'], &
                               motion_keys(4) = [character(17) :: 'orders', 'accelerations', 'phases', 'speed_amplitudes'], &
-                              signal_keys(5) = [character(17) :: 'signal', 'signal_column', 'signal_orders', 'signal_kind', &
-                                                'cycle_revolutions']
+                              signal_keys(6) = [character(17) :: 'signal', 'signal_column', 'signal_orders', 'signal_cycles', &
+                                                'signal_kind', 'cycle_revolutions']
    !> Codes of signal_kind, in the order of the key table: 2 is a speed in rad/s.
    integer, parameter :: kind_acceleration = 1, kind_speed_rpm = 3
 
@@ -38,16 +42,17 @@ contains
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       character(len(force_keys)), allocatable :: shape_keys(:), keys(:)
+      type(recording_t) :: recording
       real(dp), allocatable :: samples(:), orders(:), amplitudes(:), phases(:), forces(:)
-      character(:), allocatable :: path, column, unit, fate, what, amplitude_key
-      real(dp) :: mean, dropped
-      integer :: i, before, last
+      character(:), allocatable :: folder, path, unit, fate, what, told, amplitude_key
+      real(dp) :: mean, dropped, scatter
+      integer :: i, before, last, cycles
 
       allocate (shape_keys(merge(size(force_keys), size(motion_keys), group == 'load')))
       shape_keys(:4) = motion_keys
       if (group == 'load') shape_keys = force_keys
       what = trim(merge('the force ', 'the motion', group == 'load'))
-      keys = signal_keys(:merge(3, 5, group == 'load'))
+      keys = signal_keys(:merge(4, 6, group == 'load'))
       if (.not. input%is_given(group, 'signal')) then
          do i = 2, size(keys)
             if (input%is_given(group, trim(keys(i)))) &
@@ -67,8 +72,17 @@ contains
       if (group == 'shaft') input%entries([(find_key(group, trim(shape_keys(i))), i=1, 2)])%faulty = .true.
       if (any([(input%is_faulty(group, trim(keys(i))), i=1, size(keys))])) return
       path = input%word(group, 'signal')
-      if (path(1:1) /= '/') path = input%file(:index(input%file, '/', back=.true.))//path
-      call read_csv_signal(path, input%word(group, 'signal_column'), column, samples, faults)
+      folder = input%file(:index(input%file, '/', back=.true.))
+      if (path(1:1) /= '/') path = folder//path
+      if (.not. lies_inside(path, folder)) then
+         call input%add_fault(group, 'signal', 'the file lies outside the folder of this input; bring it there', faults)
+         return
+      end if
+      call read_csv_signal(path, input%word(group, 'signal_column'), recording, faults)
+      if (faults%count() == before) call count_cycles(input, group, path, recording, cycles, told, faults)
+      ! A cycle that is not known is so by a fault of the input, which is told in its place.
+      if (faults%count() > before .or. cycles == 0) return
+      call average()
       if (faults%count() > before) return
       call trigonometric_interpolation(samples, mean, amplitudes, phases)
       orders = [(real(i, dp), i=1, size(amplitudes))]
@@ -85,6 +99,8 @@ contains
       last = kept_orders()
       dropped = dropped_share(last)
       notes = [notes, note()]
+      if (cycles > 1) call input%tell(group//'.signal_cycles = '//integer_text(cycles))
+      if (cycles > 1) call input%tell(group//'.signal_scatter = '//short_text(scatter, 5))
       call put(shape_keys(1), orders(:last))
       call put(amplitude_key, amplitudes(:last))
       call put(shape_keys(3), phases(:last))
@@ -103,6 +119,42 @@ contains
       end do
 
    contains
+
+      !> From the recording to its mean cycle, which must be one, and of which the cycles must be repetitions.
+      subroutine average()
+         !> What a mean of the cycles may be uncertain by, of what it is; and what they may drift by [samples]
+         real(dp), parameter :: most_uncertain = 0.5_dp, most_drift = 0.5_dp
+         character(:), allocatable :: message, words
+         real(dp) :: drift
+
+         samples = mean_cycle(recording%samples, cycles)
+         message = ''
+         if (cycles > 1) then
+            ! Of cycles that cancel each other nothing oscillates.
+            scatter = huge(1.0_dp)
+            if (maxval(samples) > minval(samples)) scatter = cycle_scatter(recording%samples, samples)
+            drift = drift_of_cycles(recording%samples, samples)
+            words = 'its '//integer_text(cycles)//' cycles ('//told//') '
+            if (scatter > most_uncertain*sqrt(real(cycles, dp))) then
+               message = words//'are no repetitions: their rms deviation from their mean is '//short_text(scatter, 3)// &
+                         ' times the rms of what oscillates of it, at most '// &
+                         short_text(most_uncertain*sqrt(real(cycles, dp)), 3)//' is allowed; '//cycle_keys()
+            else if (abs(drift) > most_drift) then
+               message = words//'do not line up: from the first to the last they drift by '//short_text(abs(drift), 3)// &
+                         ' of '//integer_text(size(samples))//' samples, half a sample is allowed; '//cycle_keys()
+            end if
+         end if
+         if (len(message) == 0) message = fault_of_cycle(samples, recording%axis_unit%kind == no_axis .and. cycles == 1)
+         if (len(message) > 0) call faults%add(path, recording%lines(size(recording%lines)), '', '', message)
+      end subroutine average
+
+      !> The keys that say what a cycle is.
+      function cycle_keys() result(words)
+         character(:), allocatable :: words
+
+         words = 'signal_cycles and '//trim(merge('frequency        ', 'cycle_revolutions', group == 'load'))// &
+                 ' say what a cycle is'
+      end function cycle_keys
 
       !> From the signal of a shaft to the amplitudes of its angular acceleration or speed. A speed is differentiated where the
       !> scene is derived, at the speed_rpm that it has there.
@@ -145,10 +197,17 @@ contains
 
       !> What was made of the signal.
       type(word_t) function note()
-         note%text = 'signal '//printable(path, .false.)//", column '"//column//"': "//integer_text(size(samples))// &
-                 ' samples; orders '//order_text(1)//' to '//order_text(last)//' are kept, '// &
+         character(:), allocatable :: words
+
+         words = ''
+         if (cycles > 1) words = 'in '//integer_text(cycles)//' cycles of '//integer_text(size(samples))// &
+                                 ', whose rms deviation from their mean is '//short_text(100.0_dp*scatter, 3)// &
+                                 ' % of the rms of what oscillates of it; '
+         note%text = 'signal '//printable(path, .false.)//", column '"//recording%column//"': "// &
+                     integer_text(size(recording%samples))//' samples; '//words//'orders '//order_text(1)//' to '// &
+                     order_text(last)//' are kept, '// &
                      short_text(100.0_dp*dropped, 2)//' % of its power is dropped; its mean of '//short_text(mean, 5)// &
-                     unit//' '//fate
+                     unit//' '//fate//'; '//counted(cycles, 'cycle')//': '//told
       end function note
 
       pure function order_text(i) result(words)

@@ -1,12 +1,10 @@
-!> Tests of the reading of a cycle of a signal: what is taken, and every fault with its line.
+!> Tests of the reading of a recorded signal: what is taken, and every fault with its line, which quotes nothing of the file.
 module test_csv_signal
    use checks, only: check_list_t
-   use constants, only: two_pi
-   use csv_signal, only: read_csv_signal
+   use csv_signal, only: read_csv_signal, recording_t
    use errors, only: fault_list_t
    use file_system, only: delete_file
    use kinds, only: dp
-   use text, only: real_text
    implicit none(type, external)
    private
 
@@ -25,7 +23,7 @@ contains
       call test_sound_files(checks)
       call test_columns(checks)
       call test_faults(checks)
-      call test_cycles(checks)
+      call test_foreign_files(checks)
       call delete_file(path)
       call refuse(checks, '', '', 'there is no such file')
    end subroutine run_csv_signal_tests
@@ -40,6 +38,9 @@ contains
       call take(checks, '"Time [s]", "force"'//both_ends//'0, 1'//both_ends//'0.1,3'//both_ends//'0.2,2'//both_ends//'0.3,0', '', &
                 'force', 'quotes, blanks, both ends and none')
       call take(checks, lines('t,a,b', '0,9,1', '1,x,3', '2,,2', '3,9,0'), 'b', 'b', 'a column beside one of words')
+      call take(checks, lines('"t","force"', '"0","1"', '"1","3"', '"2","2"', '"3","0"'), '', 'force', 'numbers in quotes')
+      call take(checks, lines('time,angle,force', '0,0,1', '1,9,3', '2,10,2', '3,12,0'), '', 'force', 'two axes')
+      call take(checks, lines('time,time_lag', '0,1', '1,3', '2,2', '3,0'), 'time_lag', 'time_lag', 'a signal called a time')
       call take(checks, lines('a,b', '9,1', '9,3', '9,2', '9,0'), 'b', 'b', 'a column of several')
       call take(checks, lines('time,force', '0,1', '0.033,3', '0.067,2', '0.1,0'), '', 'force', 'times that were rounded')
    end subroutine test_sound_files
@@ -51,7 +52,7 @@ contains
       call refuse(checks, lines('time,a,b', '0,1,2'), '', ':1: signal_column must name one of its columns: time, a, b')
       call refuse(checks, lines('# head', 'time,a', '0,1'), 'c', ":2: there is no column 'c'; its columns are time, a")
       call refuse(checks, lines('a,a', '0,1'), 'a', ":1: two columns are named 'a'")
-      call refuse(checks, lines('0,1', '1,2'), '', ":1: '0' is a number; the first line must name the columns")
+      call refuse(checks, lines('0,1', '1,2'), '', ':1: the first line holds numbers; it must name the columns')
    end subroutine test_columns
 
    !> Files that are no signal.
@@ -61,47 +62,43 @@ contains
       call refuse(checks, '', '', 'the file is empty')
       call refuse(checks, lines('# nothing', '', '# else'), '', 'the file is empty')
       call refuse(checks, lines('force', '1', '2', '3'), '', 'it has 3 samples; a cycle needs at least 4')
-      call refuse(checks, lines('force', '1', 'two', '3', '1'), '', ":3: column 'force': 'two' is not a number")
-      call refuse(checks, lines('force', '1', 'nan', '3', '1'), '', ":3: column 'force': 'nan' is not a number")
-      call refuse(checks, lines('time,force', '0,1', '1,', '2,3', '3,1'), '', ":3: column 'force': a number is missing")
+      call refuse(checks, lines('force', '1', 'two', '3', '1'), '', ":3: column 1: no number stands here")
+      call refuse(checks, lines('force', '1', 'nan', '3', '1'), '', ":3: column 1: no number stands here")
+      call refuse(checks, lines('time,force', '0,1', '1,', '2,3', '3,1'), '', ":3: column 2: a number is missing")
       call refuse(checks, lines('time,force', '0,1', '1,3', '2', '3,1'), '', ':4: the line has 1 columns, the header 2')
       call refuse(checks, lines('time,force', '0,1', '1,3', '2,2', '4,0'), '', ':3: the samples are not uniform: after 0 comes 1')
-      call refuse(checks, lines('time,force', '3,1', '2,3', '1,2', '0,0'), '', ':3: the samples are not uniform')
-      call refuse(checks, lines('force', '7', '7', '7', '7'), '', ':5: all samples are 7')
+      call refuse(checks, lines('time,force', '3,1', '2,3', '1,2', '0,0'), '', ':3: the axis descends: after 3 comes 2')
    end subroutine test_faults
 
-   !> Cycles that repeat their first sample or jump at their end, and some that only look so.
-   subroutine test_cycles(checks)
+   !> Of a file that is no table of numbers nothing is told; one cause has one fault.
+   subroutine test_foreign_files(checks)
       type(check_list_t), intent(inout) :: checks
-      integer :: n
+      character(*), parameter :: tab = achar(9), decimal_comma = ': with a decimal comma a number is two columns'
 
-      do n = 8, 100, 23
-         call accept(checks, wave(n, 0, 0.0_dp, 0.0_dp), 'a cosine')
-         call accept(checks, wave(n, 0, 0.5_dp, 0.0_dp), 'a cosine whose ends are alike by symmetry')
-         call accept(checks, wave(n, 0, 0.3_dp, 0.0_dp), 'a cosine between')
-         call refuse(checks, wave(n, 1, 0.0_dp, 0.0_dp), '', 'the last sample repeats the first')
-         call refuse(checks, wave(n, 1, 0.3_dp*real(n, dp), 0.0_dp), '', 'the last sample repeats the first')
-      end do
-      call refuse(checks, wave(100, 0, 0.0_dp, 1.0_dp), '', ':101: the cycle does not close')
-      call accept(checks, lines('force', '0', '0', '0', '1', '1', '1'), 'a rectangle')
-      call accept(checks, lines('force', '0', '0', '5', '0', '0', '0'), 'a pulse')
-   end subroutine test_cycles
-
-   !> A cosine of n samples and some more, that begins behind its crest, with a drift in its cycle.
-   function wave(n, more, shift, drift) result(content)
-      integer, intent(in) :: n
-      integer, intent(in) :: more
-      !> [samples]
-      real(dp), intent(in) :: shift
-      real(dp), intent(in) :: drift
-      character(:), allocatable :: content
-      integer :: i
-
-      content = 'force'//line_feed
-      do i = 0, n + more - 1
-         content = content//real_text(cos(two_pi*(real(i, dp) + shift)/real(n, dp)) + drift*real(i, dp)/real(n, dp))//line_feed
-      end do
-   end function wave
+      call refuse(checks, lines('root:x:0', 'daemon:x:1'), '', ':2: column 1: no number stands here')
+      call refuse(checks, lines('user,word', 'bob,secret', 'eve,more'), 'c', &
+                  ":1: there is no column 'c'; its columns are which cannot be told")
+      call refuse(checks, lines('user,word', 'bob,secret'), '', ':1: signal_column must name one of its columns: which cannot')
+      call refuse(checks, lines('time;force', '0;1', '1;3', '2;2', '3;0'), '', ':1: semicolons separate the columns')
+      call refuse(checks, lines('"time";"force"', '0;1', '1;3', '2;2', '3;0'), '', ':1: semicolons separate the columns')
+      call refuse(checks, lines('0;1', '1;3', '2;2', '3;0'), '', ':1: semicolons separate the columns')
+      call refuse(checks, lines('time,force', '0;1', '1;3', '2;2', '3;0'), '', &
+                  ':2: the line has 1 columns, the header 2: semicolons')
+      call refuse(checks, lines('force', '1;', '3;', '2;', '0;'), '', ':2: semicolons separate the columns')
+      call refuse(checks, lines('time'//tab//'force', '0'//tab//'1'), '', ':1: tabs separate the columns')
+      call refuse(checks, lines('time,force', '0,017', '1,017,2', '2,1'), '', ':3: the line has 3 columns, the header 2'// &
+                  decimal_comma)
+      call refuse(checks, lines('time,force', '"0,0","1,5"', '"1,0","2,5"', '"2,0","1,5"'), '', ':2: the line has 4 columns')
+      call refuse(checks, lines('force', '0,017', '1,5', '2,5', '3,5'), '', decimal_comma)
+      call refuse(checks, lines('time,force', 's,N', '0,1', '1,3', '2,1', '3,0'), 'force', &
+                  ':2: column 2: no number stands here; units')
+      call refuse(checks, 'force'//achar(13)//'1'//achar(13)//'2', '', ':1: carriage returns alone')
+      call refuse(checks, 'f'//achar(0)//'o'//achar(0), '', ':1: it is no plain text')
+      call refuse(checks, lines('time,force', '0,1', '1,3', '2,2', '1,0'), '', ':5: the axis descends: after 2 comes 1')
+      call refuse(checks, lines('time,force', '0,1', '1e31,3', '2e31,2', '3e31,0'), '', 'that is no axis')
+      call accept(checks, lines('"force; left","t"', '1,0', '3,1', '2,2', '0,3'), 'a semicolon in a name')
+      call accept(checks, lines('time,force,', '0,1,', '1,3,', '2,2,', '3,1,'), 'a comma at the end of every line')
+   end subroutine test_foreign_files
 
    !> Lines of a file.
    pure function lines(a, b, c, d, e, f, g, h, i) result(content)
@@ -127,14 +124,13 @@ contains
       character(*), intent(in) :: expected
       character(*), intent(in) :: what
       type(fault_list_t) :: faults
-      character(:), allocatable :: name
-      real(dp), allocatable :: samples(:)
+      type(recording_t) :: recording
 
       call write_file(content)
-      call read_csv_signal(path, column, name, samples, faults)
-      call checks%check(faults%count() == 0 .and. name == expected .and. size(samples) == 4, 'taken: '//what)
-      if (size(samples) /= 4) return
-      call checks%check(all(abs(samples - [1.0_dp, 3.0_dp, 2.0_dp, 0.0_dp]) <= 0.0_dp), 'its samples: '//what)
+      call read_csv_signal(path, column, recording, faults)
+      call checks%check(faults%count() == 0 .and. recording%column == expected .and. size(recording%samples) == 4, 'taken: '//what)
+      if (size(recording%samples) /= 4) return
+      call checks%check(all(abs(recording%samples - [1.0_dp, 3.0_dp, 2.0_dp, 0.0_dp]) <= 0.0_dp), 'its samples: '//what)
    end subroutine take
 
    !> Whether a file is taken.
@@ -143,11 +139,10 @@ contains
       character(*), intent(in) :: content
       character(*), intent(in) :: what
       type(fault_list_t) :: faults
-      character(:), allocatable :: name
-      real(dp), allocatable :: samples(:)
+      type(recording_t) :: recording
 
       call write_file(content)
-      call read_csv_signal(path, '', name, samples, faults)
+      call read_csv_signal(path, '', recording, faults)
       call checks%check(faults%count() == 0, 'taken: '//what)
    end subroutine accept
 
@@ -158,11 +153,11 @@ contains
       character(*), intent(in) :: column
       character(*), intent(in) :: words
       type(fault_list_t) :: faults
-      character(:), allocatable :: name, found
-      real(dp), allocatable :: samples(:)
+      type(recording_t) :: recording
+      character(:), allocatable :: found
 
       if (words /= 'there is no such file') call write_file(content)
-      call read_csv_signal(path, column, name, samples, faults)
+      call read_csv_signal(path, column, recording, faults)
       found = 'no fault'
       if (faults%count() > 0) found = faults%sentence(1)
       call checks%check(faults%count() == 1 .and. index(found, path) == 1 .and. index(found, words) > 0, &

@@ -23,7 +23,7 @@ def force(phase: np.ndarray) -> np.ndarray:
 
 def cycle_text(samples: np.ndarray, head: str = "time,force") -> str:
     """A file with a comment, times and samples."""
-    rows = [f"{i / len(samples):.9f},{float(value)!r}\n" for i, value in enumerate(samples)]
+    rows = [f"{i / len(samples) / 600.0:.9f},{float(value)!r}\n" for i, value in enumerate(samples)]
     return "# a test bench, 2026\n" + head + "\n" + "".join(rows)
 
 
@@ -198,7 +198,7 @@ def test_every_fault_of_a_file_is_told_with_its_line(refused, folder: Path) -> N
         refused("scene.nml"),
         "cycle.csv",
         [
-            "5: column 'force': 'many' is not a number",
+            "5: column 2: no number stands here",
             "8: the line has 1 columns, the header 2",
         ],
     )
