@@ -85,6 +85,8 @@ contains
          unit = radians
       case ('rev', 'revs', 'revolution', 'revolutions', 'turn', 'turns')
          unit = revolutions
+      case default
+         unit = axis_unit_t()
       end select
    end function known_unit
 

@@ -273,7 +273,7 @@ module key_table
             computable=a_phase), &
       key_t('shaft', 'signal', text_kind, '', '', any_number, '', of_motions, &
             'CSV file, in the folder of this input, with cycles of the motion of the shaft, uniformly sampled, instead of '// &
-            'orders, accelerations (or speed_amplitudes) and phases. Its time or angle must fit speed_rpm and cycle_revolutions.'), &
+            'orders, accelerations (or speed_amplitudes) and phases. Its axis must fit speed_rpm and cycle_revolutions.'), &
       key_t('shaft', 'signal_column', text_kind, '', '', any_number, '', of_motions, &
             'Name of the signal in the header of the file; absent: the only column that is no time or angle.'), &
       key_t('shaft', 'signal_orders', integer_kind, '-', '', an_order, '', of_motions, &

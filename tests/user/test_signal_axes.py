@@ -1,4 +1,4 @@
-"""The axis of a recorded signal is evidence: what it spans fits the keys, or is refused with both numbers and the key to mend."""
+"""The axis of a recorded signal is evidence: what it spans fits the keys, or is refused with both numbers."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def write(scene_text, tmp_path: Path):
     return call
 
 
-# What is wrong: the recording, the number that its axis says, the number that the keys say, and what would mend it.
+# What is wrong: the recording, what its axis says, what the keys say, and what would mend it.
 PERIOD = 1.0 / FREQUENCY
 WRONG = {
     "half a period": (
@@ -129,7 +129,12 @@ WRONG = {
         "0.001666667 s",
         "frequency = 586.9565 w",
     ),
-    "its end repeats its start": (load(steps(91, PERIOD / 90), "t"), "0.001685185 s", "0.001666667 s", "leave line 92 out"),
+    "its end repeats its start": (
+        load(steps(91, PERIOD / 90), "t"),
+        "0.001685185 s",
+        "0.001666667 s",
+        "leave line 92 out",
+    ),
     "ten periods and their end": (
         load(steps(901, PERIOD / 90), "t"),
         "0.01668519 s",
@@ -301,7 +306,12 @@ WRONG = {
         "and in radians",
         "angle_deg or angle_rad",
     ),
-    "an unknown unit": (shaft(spread(800, 800.0), "angle [gon]"), "'angle [gon]'", "deg, rad and rev", "unit"),
+    "an unknown unit": (
+        shaft(spread(800, 800.0), "angle [gon]"),
+        "'angle [gon]'",
+        "deg, rad and rev",
+        "unit",
+    ),
     "a time of one revolution": (
         shaft(spread(360, CYCLE / 2), "time_s", 0.5),
         "0.075 s",
@@ -397,7 +407,9 @@ def test_an_axis_that_is_none_is_refused(case: str, write, refused) -> None:
     assert words in fault, fault
 
 
-def as_lines(recording: Recording, head: str = "", end: str = "\n", quote: str = "", blank: str = "") -> bytes:
+def as_lines(
+    recording: Recording, head: str = "", end: str = "\n", quote: str = "", blank: str = ""
+) -> bytes:
     lines = recording.text().splitlines()
     lines = [",".join(f"{quote}{word}{quote}" for word in line.split(",")) for line in lines]
     return (head + (end + blank).join(lines) + end).encode()
@@ -483,7 +495,13 @@ def assert_solved_as(expected: dict, run, folder: Path) -> None:
     ended = run("scene.nml", cwd=folder)
     assert (ended.returncode, ended.stderr) == (0, ""), ended
     summary = summary_of(folder / "results" / "scene.summary.nml")
-    for name in ("steady_film", "film_minimum", "film_maximum", "acceleration_minimum", "acceleration_maximum"):
+    for name in (
+        "steady_film",
+        "film_minimum",
+        "film_maximum",
+        "acceleration_minimum",
+        "acceleration_maximum",
+    ):
         assert summary[name] == pytest.approx(expected[name], rel=1e-7), name
 
 
@@ -499,3 +517,122 @@ def test_a_file_in_any_dress_is_its_orders(case: str, write, run, by_hand, tmp_p
     keys = {"signal_column": "'signal'"} if case == "further columns" else None
     write("load", DRESSES[case], keys)
     assert_solved_as(by_hand["load"], run, tmp_path)
+
+
+def test_the_scatter_of_cycles_is_told(write, run, tmp_path: Path) -> None:
+    """In --check, the log and the resolved input, as a share of what oscillates of the mean."""
+    count, cycles, noise = 90, 10, 12.0
+    one = force(np.arange(count) / count)
+    # Cycles that are off by a level of their own, whose mean is none.
+    levels = noise * np.array([1.0, -1.0] * (cycles // 2))
+    samples = (levels[:, None] + one[None, :]).ravel()
+    rows = "".join(f"{i * PERIOD / count!r},{float(x)!r}\n" for i, x in enumerate(samples))
+    write("load", "time_s,signal\n" + rows)
+    told = 100.0 * noise / math.sqrt(sum(0.5 * a**2 for _, a, _ in FORCE_ORDERS))
+    for options, file in ((("--check",), None), ((), "scene.log")):
+        ended = run(*options, "scene.nml", cwd=tmp_path)
+        assert (ended.returncode, ended.stderr) == (0, "")
+        text = ended.stdout if file is None else (tmp_path / "results" / file).read_text()
+        (line,) = (line for line in text.splitlines() if "column 'signal'" in line)
+        assert "900 samples; in 10 cycles of 90, whose rms deviation from their mean is " in line
+        assert float(line.split("from their mean is ")[1].split(" %")[0]) == pytest.approx(told, rel=5e-3)
+        assert line.endswith("10 cycles: by its axis 'time_s' in s")
+        if file is None:
+            assert "\n! derived: load.signal_cycles = 10\n" in text
+            (line,) = (line for line in text.splitlines() if "load.signal_scatter" in line)
+            assert float(line.split(" = ")[1]) == pytest.approx(told / 100.0, rel=5e-5)
+    result = package.read(tmp_path / "results" / "scene.rattle")
+    assert result.input["load"]["force_amplitudes"] == pytest.approx([a for _, a, _ in FORCE_ORDERS])
+
+
+def test_noisy_cycles_are_averaged(write, run, tmp_path: Path) -> None:
+    """Chance is no drift: forty cycles with noise of a fifth are taken, and their mean is near."""
+    generator = np.random.default_rng(29)
+    count, cycles = 90, 40
+    samples = np.tile(force(np.arange(count) / count), cycles)
+    samples = samples + 0.2 * np.std(samples) * generator.standard_normal(samples.size)
+    rows = "".join(f"{i * PERIOD / count!r},{float(x)!r}\n" for i, x in enumerate(samples))
+    write("load", "time_s,signal\n" + rows, {"signal_orders": "3"})
+    ended = run("scene.nml", cwd=tmp_path)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    kept = package.read(tmp_path / "results" / "scene.rattle").input["load"]["force_amplitudes"]
+    # An amplitude of a harmonic is off by noise*sqrt(2/samples): 0.55 N here; four times that is allowed.
+    assert kept == pytest.approx([a for _, a, _ in FORCE_ORDERS], abs=4 * 0.2 * 116.0 * math.sqrt(2 / 3600))
+
+
+@pytest.mark.parametrize("way", ["..", "absolute", "link", "link of a folder", "link and back"])
+def test_a_signal_outside_the_folder_of_the_input_is_refused(way: str, write, run, tmp_path: Path) -> None:
+    outside, inside = tmp_path / "outside", tmp_path / "inside"
+    outside.mkdir()
+    inside.mkdir()
+    (outside / "secret.csv").write_text(ONE.text())
+    write("load", ONE.text())
+    path = {
+        "..": "../outside/secret.csv",
+        "absolute": str(outside / "secret.csv"),
+        "link": "link.csv",
+        "link of a folder": "folder/secret.csv",
+        "link and back": "folder/../outside/secret.csv",
+    }[way]
+    (inside / "link.csv").symlink_to(outside / "secret.csv")
+    (inside / "folder").symlink_to(outside)
+    text = (tmp_path / "scene.nml").read_text().replace("'cycle.csv'", f"'{path}'")
+    (inside / "scene.nml").write_text(text)
+    for folder in (inside, tmp_path):
+        ended = run("--check", (inside / "scene.nml").relative_to(folder), cwd=folder)
+        assert ended.returncode == 2
+        (fault,) = ended.stderr.splitlines()
+        assert "&load signal: the file lies outside the folder of this input" in fault
+    # The working directory is the folder of an input that comes from standard input.
+    ended = run("--check", "-", cwd=inside, stdin=text)
+    assert ended.returncode == 2 and "outside the folder" in ended.stderr
+
+
+def test_a_signal_below_the_folder_is_taken(write, run, tmp_path: Path) -> None:
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "cycle.csv").write_text(ONE.text())
+    write("load", "", {"signal": "'data/../data/cycle.csv'"})
+    for path in ("data/../data/cycle.csv", str(tmp_path / "data" / "cycle.csv")):
+        ended = run("--check", "--set", f"load.signal='{path}'", "scene.nml", cwd=tmp_path)
+        assert (ended.returncode, ended.stderr) == (0, ""), ended
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "root:x:0:0:root:/root:/bin/bash\ndaemon:x:1:1:daemon:/usr/sbin:/bin/false\n",
+        "root,secret\nbob,hidden\n" * 4,
+        "-----BEGIN KEY-----\nAAAA,secret,BBBB\nhidden\n",
+        "password = secret; hidden\n" * 3,
+        "time,signal\n0,secret\n1,hidden\n2,3\n3,4\n",
+        "\tsecret\thidden\nroot\n",
+    ],
+)
+def test_no_line_of_a_foreign_file_is_quoted(text: str, write, refused) -> None:
+    for column in ({}, {"signal_column": "'other'"}, {"signal_column": "'root'"}):
+        write("load", text, column)
+        for fault in refused("--check", "scene.nml"):
+            assert fault.startswith("cycle.csv:")
+            told = fault.replace("column 'other'", "").replace("column 'root'", "")
+            assert not [word for word in ("secret", "hidden", "root", "KEY", "bob") if word in told], fault
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (ONE.text().replace(",", ";"), "cycle.csv:1: semicolons separate the columns; commas are needed"),
+        (ONE.text().replace(",", ";").replace(".", ","), "cycle.csv:1: semicolons separate the columns"),
+        (ONE.text().replace(".", ","), "a decimal comma a number is two columns; write a decimal point"),
+        (ONE.text().replace(",", "\t"), "cycle.csv:1: tabs separate the columns"),
+        (ONE.text().split("\n", 1)[1], "cycle.csv:1: the first line holds numbers; it must name the columns"),
+        (
+            ONE.text().replace("\n", "\ns,N\n", 1),
+            "cycle.csv:2: column 2: no number stands here; units belong",
+        ),
+        (ONE.text().replace("\n", "\r"), "cycle.csv:1: carriage returns alone end its lines"),
+    ],
+)
+def test_one_cause_has_one_fault(text: str, words: str, write, refused) -> None:
+    write("load", text)
+    (fault,) = refused("--check", "scene.nml")
+    assert words in fault
