@@ -47,6 +47,7 @@ NEAREST_TESTS = {
         "tasks",
         "commands",
     ),
+    "fsrc/scene/signal": ("signal_axes", "force_signal"),
     "fsrc/film": ("columns", "kernels*", "tasks", "scenes_at_rest"),
     "fsrc/gear": ("gear_inputs", "force_signal", "varied_keys"),
     "fsrc/problem": ("two_flanks", "elastic_teeth", "tooth_stiffness", "force_orders", "scenes_at_rest"),
