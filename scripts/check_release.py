@@ -1,7 +1,7 @@
 """Checks that a release is told alike everywhere, and prints the text of its tag.
 
-The version stands in fsrc/VERSION; CITATION.cff, the newest section of CHANGELOG.md and the tag, where there is one, must
-agree with it. Every section of the changelog has a date and at most 40 lines, the newest first.
+The version stands in fsrc/VERSION; CITATION.cff, the newest section of CHANGELOG.md and the tag, where there
+is one, must agree with it. Every section of the changelog has a date and at most 40 lines, the newest first.
 """
 
 from __future__ import annotations

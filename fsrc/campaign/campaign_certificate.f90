@@ -8,7 +8,7 @@ module campaign_certificate
    use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_strikes, &
       windows_behind
    use certify_scene, only: nearby_orbit, tighten
-   use engine, only: motion_state_t, numbers_of, request_t, start_of
+   use engine, only: motion_state_t, request_t, start_of
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film, seen_load, seen_net_load, seen_quantities
    use periodic_orbit, only: attracting_period
@@ -116,7 +116,7 @@ contains
          if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, samples/tighter%samples_per_period)
          if (len(unclosed) == 0) unclosed = &
             doubt_of_return(verdict, samples/tighter%samples_per_period, &
-                            films_of(problem, reshape([numbers_of(tight_record%start), numbers_of(tight%endings(place))], &
+                            films_of(problem, reshape([tight_record%start%numbers, tight%endings(place)%numbers], &
                                                       [2, largest_state], order=[2, 1])), choice%certificate_tolerance)
          !$omp end critical (sentences)
          class_stands = len(unclosed) == 0 .and. verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient

@@ -5,14 +5,14 @@
 !> orbit that it is judged by.
 module controlled_engine
    use clock, only: wall_seconds
-   use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, numbers_of, request_t, sample_sink_t, &
+   use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, request_t, sample_sink_t, &
       start_of, status_of_stop
    use errors, only: error_t
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
    use carried_loads, only: acceleration_at, accelerations_of_samples
-   use problem, only: largest_state, problem_t, state_size
+   use problem, only: largest_state, of_film, problem_t, state_size
    use repetition, only: longest_orbit, orbit_watch_t
    use scene_status, only: is_success, status_complete, status_interrupted, status_steady
    use window_record, only: window_record_t
@@ -59,8 +59,8 @@ contains
          here = checkpoint%motion_state_t
       else
          here = start_of(problem)
-         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], reshape(numbers_of(here), [1, largest_state]), &
-                        [acceleration_at(problem, numbers_of(here), 0.0_dp)], error)
+         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], reshape(here%numbers, [1, largest_state]), &
+                        [acceleration_at(problem, here%numbers, 0.0_dp)], error)
          if (allocated(error)) return
       end if
       periods = request%periods
@@ -126,7 +126,7 @@ contains
 
       request = request_t(accuracy=accuracy, periods=periods, samples_per_period=samples_per_period, sampled_periods=window)
       if (present(impact_limit)) records(1)%loads%impact_limit = impact_limit
-      allocate (samples(window*samples_per_period, state_size(problem), 1), source=start%film)
+      allocate (samples(window*samples_per_period, state_size(problem), 1), source=start%numbers(of_film))
       call solve_motions([problem], [start], request, samples, endings, records=records)
       ending = endings(1)
       record = records(1)

@@ -4,8 +4,8 @@ module engine
    use clock, only: wall_seconds
    use errors, only: error_t
    use kinds, only: dp, int64
-   use carried_loads, only: start_springs
-   use problem, only: has_elastic_teeth, largest_state, problem_t
+   use carried_loads, only: initial_state
+   use problem, only: largest_state, problem_t
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_interrupted, status_time_limit
    use signals, only: caught_signal
@@ -47,14 +47,11 @@ module engine
    type, public :: motion_state_t
       !> Whole periods done
       integer :: periods = 0
-      !> h [m], z' [m/s]
-      real(dp) :: film = 0.0_dp
-      real(dp) :: velocity = 0.0_dp
-      !> Of the teeth on both flanks, where they give [m]
-      real(dp) :: compression(2) = 0.0_dp
-      !> Of the controlled engine: scaled momentum [-], whether it stands for the velocity, so that the motion goes on as if it had
-      !> never stopped, and whether the motion goes on by the implicit method
-      real(dp) :: momentum = 0.0_dp
+      !> Its numbers, named by module problem
+      real(dp) :: numbers(largest_state) = 0.0_dp
+      !> Of the controlled engine: scaled Lienard variable [-], whether it stands for the velocity, so that the motion goes on as if
+      !> it had never stopped, and whether the motion goes on by the implicit method
+      real(dp) :: lienard_variable = 0.0_dp
       logical :: carried_on = .false.
       logical :: implicit = .false.
    end type motion_state_t
@@ -148,7 +145,7 @@ module engine
       end subroutine watch_period
    end interface
 
-   public :: start_of, numbers_of, status_of_stop
+   public :: start_of, status_of_stop
 
 contains
 
@@ -156,18 +153,8 @@ contains
    elemental type(motion_state_t) function start_of(problem)
       type(problem_t), intent(in) :: problem
 
-      start_of = motion_state_t(film=problem%initial_film, velocity=problem%initial_velocity)
-      if (.not. (has_elastic_teeth(problem) .and. problem%initial_film > 0.0_dp)) return
-      call start_springs(problem, start_of%compression)
+      start_of = motion_state_t(numbers=initial_state(problem))
    end function start_of
-
-   !> The numbers of a state, in the order of module problem.
-   pure function numbers_of(state) result(numbers)
-      class(motion_state_t), intent(in) :: state
-      real(dp) :: numbers(largest_state)
-
-      numbers = [state%film, state%velocity, state%compression]
-   end function numbers_of
 
    !> Whether a motion may go on, status_complete, or must stop between two periods and why.
    integer function status_of_stop(request, started) result(status)

@@ -2,8 +2,8 @@
 !>
 !> Time is counted in periods of the force, x = f_exc t, within a period from 0 to 1, so the phase is as exact
 !> after hundreds of periods as in the first. The film is scaled by the power of two next to the reference
-!> film: scaling costs no digit, and a motion carried on from `film` and `momentum` of its ending goes on as
-!> if never stopped.
+!> film: scaling costs no digit, and a motion carried on from the state of its ending goes on as if never
+!> stopped.
 module lane_block
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
@@ -16,8 +16,8 @@ module lane_block
    use load_expansion, only: load_expansion_t, squeeze_expansion_t
    use memory, only: allocate_lines
    use carried_loads, only: net_load
-   use problem, only: has_elastic_teeth, has_two_flanks, problem_t, reference_film, reference_films, settling_of, settling_t, &
-      static_load, thinner_film
+   use problem, only: has_elastic_teeth, has_two_flanks, largest_state, of_coast_compression, of_drive_compression, of_film, &
+      of_velocity, problem_t, reference_film, reference_films, settling_of, settling_t, static_load, thinner_film
    use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
@@ -84,7 +84,8 @@ module lane_block
    !> Scaled film that counts as lost [-]
    real(dp), parameter, public :: lost_film = 1.0e-9_dp
 
-   public :: place_block, load_problem, rest_lane, start_period, state_of_lane, slip_velocity, start_status, lane_accuracy
+   public :: place_block, load_problem, rest_lane, start_period, state_of_lane, scaled_state, place_state, thinner_scaled_film, &
+             slip_velocity, start_status, lane_accuracy
 
 contains
 
@@ -114,14 +115,16 @@ contains
       real(dp) :: load, load_by_film, load_by_velocity
 
       start_status = status_film_lost
-      if (.not. (ieee_is_finite(start%film) .and. ieee_is_finite(start%velocity))) return
+      if (.not. all(ieee_is_finite(start%numbers))) return
       if (has_elastic_teeth(problem)) then
-         if (start%film <= 0.0_dp .or. .not. all(ieee_is_finite(start%compression))) return
-         start_status = merge(status_complete, status_overflow, maxval(abs(start%compression)) < overflow_load*problem%compliance)
+         if (start%numbers(of_film) <= 0.0_dp) return
+         start_status = merge(status_complete, status_overflow, &
+                              maxval(abs(start%numbers(of_drive_compression:of_coast_compression))) &
+                              < overflow_load*problem%compliance)
          return
       end if
-      if (thinner_film(problem, start%film) <= 0.0_dp) return
-      call net_load(problem, start%film, start%velocity, load, load_by_film, load_by_velocity)
+      if (thinner_film(problem, start%numbers(of_film)) <= 0.0_dp) return
+      call net_load(problem, start%numbers(of_film), start%numbers(of_velocity), load, load_by_film, load_by_velocity)
       start_status = merge(status_complete, status_overflow, abs(load) < overflow_load)
    end function start_status
 
@@ -166,11 +169,11 @@ contains
       block%force(lane) = abs(block%static_load(lane)) + largest_oscillation(problem%force)/force_scale
       if (has_two_flanks(problem)) block%force(lane) = max(block%force(lane), least_static_load/force_scale)
       block%accuracy(lane) = lane_accuracy(problem, accuracy)
-      block%film(lane, 0) = start%film/film_scale
-      block%momentum(lane, 0) = start%velocity/block%velocity_scale(lane)
-      if (start%carried_on) block%momentum(lane, 0) = start%momentum
+      block%film(lane, 0) = start%numbers(of_film)/film_scale
+      block%momentum(lane, 0) = start%numbers(of_velocity)/block%velocity_scale(lane)
+      if (start%carried_on) block%momentum(lane, 0) = start%lienard_variable
       block%compliance(lane) = problem%compliance*(force_scale/film_scale)
-      block%compression(lane, :, 0) = start%compression/film_scale
+      block%compression(lane, :, 0) = start%numbers(of_drive_compression:of_coast_compression)/film_scale
       block%next_compression(lane, :) = 0.0_dp
       call start_period(lane, block)
    end subroutine load_problem
@@ -235,12 +238,48 @@ contains
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
 
-      state%film = block%film(lane, 0)*block%film_scale(lane)
-      state%momentum = block%momentum(lane, 0)
-      state%compression = block%compression(lane, :, 0)*block%film_scale(lane)
-      state%velocity = (state%momentum + slip_velocity(block%film(lane, 0), lane, block))*block%velocity_scale(lane)
+      state%numbers(of_film) = block%film(lane, 0)*block%film_scale(lane)
+      state%lienard_variable = block%momentum(lane, 0)
+      state%numbers(of_drive_compression:of_coast_compression) = block%compression(lane, :, 0)*block%film_scale(lane)
+      state%numbers(of_velocity) = (state%lienard_variable + slip_velocity(block%film(lane, 0), lane, block)) &
+                                   *block%velocity_scale(lane)
       state%carried_on = .true.
    end function state_of_lane
+
+   !> Scaled state of a lane: all that a period follows from, the Lienard variable in place of the velocity [-].
+   pure function scaled_state(lane, block) result(state)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      real(dp) :: state(largest_state)
+
+      state = 0.0_dp
+      state(of_film) = block%film(lane, 0)
+      state(of_velocity) = block%momentum(lane, 0)
+      state(of_drive_compression:of_coast_compression) = block%compression(lane, :, 0)
+   end function scaled_state
+
+   !> Put a scaled state into a lane.
+   pure subroutine place_state(state, lane, block)
+      !> As of scaled_state
+      real(dp), intent(in) :: state(largest_state)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(inout) :: block
+
+      block%film(lane, 0) = state(of_film)
+      block%momentum(lane, 0) = state(of_velocity)
+      block%compression(lane, :, 0) = state(of_drive_compression:of_coast_compression)
+   end subroutine place_state
+
+   !> The thinner one of the scaled films of both flanks [-].
+   pure real(dp) function thinner_scaled_film(state, lane, block) result(thinner)
+      !> As of scaled_state
+      real(dp), intent(in) :: state(largest_state)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      thinner = min(state(of_film), &
+                    block%backlash(lane) - state(of_film) + sum(state(of_drive_compression:of_coast_compression)))
+   end function thinner_scaled_film
 
    !> H' less V at some film.
    pure real(dp) function slip_velocity(film, lane, block)

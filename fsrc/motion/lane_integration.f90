@@ -14,12 +14,13 @@ module lane_integration
    use film_series, only: series_of, set_coefficients
    use kinds, only: dp, int64
    use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step, take_springs_step
-   use lane_block, only: load_problem, lost_film, place_block, rest_lane, start_period, start_status, state_of_lane
+   use lane_block, only: load_problem, lost_film, place_block, place_state, rest_lane, scaled_state, start_period, start_status, &
+      state_of_lane, thinner_scaled_film
    use lane_functions, only: lanes
    use lane_repetition, only: find_repetition, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
-   use problem, only: has_elastic_teeth, problem_t
+   use problem, only: has_elastic_teeth, of_velocity, problem_t, state_size
    use repetition, only: orbit_watch_t, watch_from
    use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
@@ -139,10 +140,9 @@ contains
             watch%period = starts(scene)%periods
             watch%last_period = request%periods
             watch%sample_from = max(0, request%periods - request%sampled_periods)
-            watch%film = run%block%film(lane, 0)
-            watch%momentum = run%block%momentum(lane, 0)
-            watch%compression = run%block%compression(lane, :, 0)
-            watch%states = watch_from(watch%film, watch%momentum, watch%compression)
+            watch%state = scaled_state(lane, run%block)
+            watch%states = watch_from(watch%state(:state_size(problems(scene))), &
+                                      thinner_scaled_film(watch%state, lane, run%block))
             watch%departure%period = 0
             watch%excursions = 0
             if (present(watches) .and. starts(scene)%carried_on) watch%states = watches(scene)
@@ -212,14 +212,12 @@ contains
       associate (watch => run%watches(lane), block => run%block)
          if (present(records) .and. run%samples%sampled(lane)) then
             state = state_of_lane(lane, block)
-            call record_period(problems(watch%scene), state%velocity, run%nodes(lane), records(watch%scene))
+            call record_period(problems(watch%scene), state%numbers(of_velocity), run%nodes(lane), records(watch%scene))
          end if
          watch%ending%count%steps = watch%ending%count%steps + nint(block%period_steps(lane), int64)
          call start_period(lane, block)
          watch%period = watch%period + 1
-         watch%film = block%film(lane, 0)
-         watch%momentum = block%momentum(lane, 0)
-         watch%compression = block%compression(lane, :, 0)
+         watch%state = scaled_state(lane, block)
          call find_repetition(lane, problems(watch%scene), request, states, run)
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_period(lane, run, records)
@@ -242,9 +240,7 @@ contains
          ! Samples of the period that was not finished do not count.
          run%samples%written(lane) = samples_before(watch, run%samples)
          run%nodes(lane)%pieces = 0
-         block%film(lane, 0) = watch%film
-         block%momentum(lane, 0) = watch%momentum
-         block%compression(lane, :, 0) = watch%compression
+         call place_state(watch%state, lane, block)
          watch%last_period = watch%period
       end associate
    end subroutine give_up
@@ -265,9 +261,7 @@ contains
          ! What was done of the period does not count: it is solved again when the motion is carried on.
          run%watches(l)%ending%status = status_interrupted
          run%samples%written(l) = samples_before(run%watches(l), run%samples)
-         run%block%film(l, 0) = run%watches(l)%film
-         run%block%momentum(l, 0) = run%watches(l)%momentum
-         run%block%compression(l, :, 0) = run%watches(l)%compression
+         call place_state(run%watches(l)%state, l, run%block)
          call finish(l, problems, run, endings, watches)
       end do
       do i = run%taken + 1, size(queue)

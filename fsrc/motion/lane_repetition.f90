@@ -14,9 +14,11 @@
 module lane_repetition
    use engine, only: request_t
    use kinds, only: dp, int64
+   use lane_block, only: place_state, thinner_scaled_film
    use lane_run, only: departure_t, lane_run_t
    use lane_sampling, only: repeat_samples
-   use problem, only: films_at_rest, has_elastic_teeth, problem_t, settling_of, settling_t, static_load
+   use problem, only: films_at_rest, has_elastic_teeth, largest_state, of_coast_compression, of_drive_compression, of_film, &
+      of_velocity, problem_t, settling_of, settling_t, state_size, static_load
    use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, state_of_age, &
       watch_from, weight_of_film
    use scene_status, only: status_steady
@@ -56,15 +58,17 @@ contains
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       !> The block, its period counted and its state that of the period's end
       type(lane_run_t), intent(inout) :: run
-      real(dp) :: weight, distance
+      real(dp) :: weight, distance, weights(state_size(problem))
       integer :: orbit
 
       associate (watch => run%watches(lane), block => run%block)
          ! A run without samples is one to be carried on: there the last state counts like the others.
          if (request%until_steady .and. (watch%period < watch%sample_from .or. request%sampled_periods == 0)) then
-            weight = momentum_weight(minval(films_of_lane(lane, run)), block%damping_rate(lane), block%force(lane))
-            call note_state(watch%states, watch%film, watch%momentum, weight, settling_of_lane(lane, problem, run), &
-                            repetition_share*request%accuracy, orbit, distance, block%backlash(lane), watch%compression)
+            weight = momentum_weight(thinner_scaled_film(watch%state, lane, block), block%damping_rate(lane), block%force(lane))
+            weights = 1.0_dp
+            weights(of_velocity) = weight
+            call note_state(watch%states, watch%state(:size(weights)), thinner_scaled_film(watch%state, lane, block), weights, &
+                            settling_of_lane(lane, problem, run), repetition_share*request%accuracy, orbit, distance)
             if (orbit > 0) then
                watch%ending%orbit = orbit
                watch%ending%distance = distance
@@ -88,7 +92,8 @@ contains
       real(dp) :: films(2)
 
       associate (watch => run%watches(lane))
-         films = [watch%film, run%block%backlash(lane) - watch%film + sum(watch%compression)]
+         films = [watch%state(of_film), run%block%backlash(lane) - watch%state(of_film) &
+                  + sum(watch%state(of_drive_compression:of_coast_compression))]
       end associate
    end function films_of_lane
 
@@ -121,7 +126,7 @@ contains
       integer :: cycle_periods, cycles
 
       associate (watch => run%watches(lane))
-         call look_back(watch%past, watch%period, [watch%film, watch%momentum, watch%compression], watch%ending%count%steps, &
+         call look_back(watch%past, watch%period, watch%state, watch%ending%count%steps, &
                         cycle_periods, cycle_steps)
          if (cycle_periods == 0) return
          cycles = 0
@@ -146,7 +151,7 @@ contains
       !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
-      real(dp) :: film, momentum
+      real(dp) :: rest(2), state(largest_state)
       integer :: orbit, back_at
 
       associate (watch => run%watches(lane))
@@ -155,17 +160,20 @@ contains
             watch%forecasts = 0
          end if
          orbit = 0
-         if (watch%forecasts < most_forecasts) call forecast_rest(watch%states, weight, orbit, film, momentum)
+         if (watch%forecasts < most_forecasts) call forecast_rest(watch%states, weight, run%block%backlash(lane), orbit, rest)
          back_at = watch%period + excursion_once + excursion_per_period*orbit
          if (orbit > 0 .and. back_at < watch%sample_from) then
             if (watch%departure%period == 0) then
                watch%excursions = watch%excursions + 1
-               watch%departure = departure_t(watch%period, watch%film, watch%momentum, watch%states)
+               watch%departure = departure_t(watch%period, watch%state, watch%states)
             end if
             watch%back_at = back_at
             watch%forecasts = watch%forecasts + 1
-            watch%states = watch_from(film, momentum)
-            call place(film, momentum, lane, run)
+            state = watch%state
+            state(of_film) = rest(1)
+            state(of_velocity) = rest(2)
+            watch%states = watch_from(state(:size(watch%states%states, 1)), thinner_scaled_film(state, lane, run%block))
+            call place(state, lane, run)
          else if (watch%departure%period > 0 .and. watch%period >= watch%back_at) then
             call restore_departure(lane, run)
          end if
@@ -182,42 +190,39 @@ contains
          watch%period = watch%departure%period
          watch%states = watch%departure%states
          watch%departure%period = 0
-         call place(watch%departure%film, watch%departure%momentum, lane, run)
+         call place(watch%departure%state, lane, run)
       end associate
    end subroutine restore_departure
 
    !> Let a period start from a state.
-   pure subroutine place(film, momentum, lane, run)
-      !> Scaled film and momentum [-]
-      real(dp), intent(in) :: film
-      real(dp), intent(in) :: momentum
+   pure subroutine place(state, lane, run)
+      !> Scaled [-]
+      real(dp), intent(in) :: state(largest_state)
       !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
 
-      run%block%film(lane, 0) = film
-      run%block%momentum(lane, 0) = momentum
-      run%watches(lane)%film = film
-      run%watches(lane)%momentum = momentum
+      call place_state(state, lane, run%block)
+      run%watches(lane)%state = state
    end subroutine place
 
    !> The state in which the motion will come to rest.
-   pure subroutine forecast_rest(watch, momentum_weight, orbit, film, momentum)
+   pure subroutine forecast_rest(watch, momentum_weight, backlash, orbit, place)
       !> The last states of the motion
       type(orbit_watch_t), intent(in) :: watch
       !> Film that a momentum of one counts as [-]
       real(dp), intent(in) :: momentum_weight
+      !> Scaled backlash, huge where there is one flank [-]
+      real(dp), intent(in) :: backlash
       !> Periods after which it will repeat; 0: there is no forecast to be trusted
       integer, intent(out) :: orbit
       !> Scaled film H and momentum V there [-]
-      real(dp), intent(out) :: film
-      real(dp), intent(out) :: momentum
+      real(dp), intent(out) :: place(2)
       real(dp) :: older(2), rest(2), multiplier, older_multiplier, state(2), weight(2)
       integer :: periods, longest
 
       orbit = 0
-      film = 0.0_dp
-      momentum = 0.0_dp
+      place = 0.0_dp
       state = state_of_age(watch, 0)
       weight = [1.0_dp, momentum_weight]/weight_of_film(watch, 0)
       ! Longer orbits are looked for now and again: most motions do not have them.
@@ -228,9 +233,8 @@ contains
          if (.not. (multiplier > fast .and. multiplier < slowest .and. maxval(abs(rest)) < near)) cycle
          call settle(watch, weight, periods, 1, older_multiplier, older)
          if (.not. abs(older_multiplier - multiplier) < agreement*(1.0_dp - multiplier)) cycle
-         film = state(1) + rest(1)/weight(1)
-         momentum = state(2) + rest(2)/weight(2)
-         if (min(film, watch%backlash - film) > 0.0_dp) orbit = periods
+         place = state + rest/weight
+         if (min(place(1), backlash - place(1)) > 0.0_dp) orbit = periods
          return
       end do
    end subroutine forecast_rest

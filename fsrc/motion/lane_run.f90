@@ -7,6 +7,7 @@ module lane_run
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
    use lane_sampling, only: lane_samples_t
+   use problem, only: largest_state
    use repetition, only: orbit_watch_t, recurrence_t
    use step_nodes, only: step_nodes_t
    implicit none(type, external)
@@ -16,7 +17,8 @@ module lane_run
    type, public :: departure_t
       !> Period 0: it is on its own way
       integer :: period = 0
-      real(dp) :: film = 0.0_dp, momentum = 0.0_dp
+      !> Scaled [-]
+      real(dp) :: state(largest_state) = 0.0_dp
       type(orbit_watch_t) :: states = orbit_watch_t()
    end type departure_t
 
@@ -26,8 +28,8 @@ module lane_run
       integer :: scene = 0
       !> Periods done, to be done, and from which on to sample
       integer :: period = 0, last_period = 0, sample_from = 0
-      !> Start of the present period: scaled film, momentum and compressions
-      real(dp) :: film = 0.0_dp, momentum = 0.0_dp, compression(2) = 0.0_dp
+      !> Scaled state at the start of the present period [-]
+      real(dp) :: state(largest_state) = 0.0_dp
       !> Looks for repetition, and for return to the last bit
       type(orbit_watch_t) :: states = orbit_watch_t()
       type(recurrence_t) :: past = recurrence_t()

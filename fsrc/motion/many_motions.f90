@@ -9,7 +9,7 @@ module many_motions
    use lane_block, only: lane_accuracy, start_status
    use lane_integration, only: integrate_lanes
    use carried_loads, only: net_load
-   use problem, only: has_elastic_teeth, has_two_flanks, problem_t, static_load, thinner_film
+   use problem, only: has_elastic_teeth, has_two_flanks, of_film, of_velocity, problem_t, static_load, thinner_film
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_film_lost, status_not_converged
    use window_record, only: window_record_t
@@ -62,8 +62,7 @@ contains
          if (left(i)) cycle
          left(i) = any(endings(i)%status == [status_not_converged, status_film_lost])
          ! The rest of a motion that Taylor series could not finish.
-         if (left(i)) rest(i) = motion_state_t(periods=endings(i)%periods, film=endings(i)%film, velocity=endings(i)%velocity, &
-                                               compression=endings(i)%compression, implicit=.true.)
+         if (left(i)) rest(i) = motion_state_t(periods=endings(i)%periods, numbers=endings(i)%numbers, implicit=.true.)
       end do
       ! Teeth that give are followed by steps of their own.
       do i = 0, 1
@@ -84,23 +83,25 @@ contains
       real(dp), parameter :: thinnest = 1.0e-30_dp
       !> Rate at which a stiff spring and its film come to rest that no series is to follow [1/periods]
       real(dp), parameter :: largest_rate = 1.0e4_dp
-      real(dp) :: load, load_by_film, load_by_velocity, rate, thinner
+      real(dp) :: film, velocity, load, load_by_film, load_by_velocity, rate, thinner
 
       outgrows_series = .false.
       ! A motion that is carried on goes on as it went; one that cannot start is not for this procedure to refuse.
       if (start%carried_on) return
       if (start_status(problem, start) /= status_complete) return
+      film = start%numbers(of_film)
+      velocity = start%numbers(of_velocity)
       if (has_elastic_teeth(problem)) then
-         call film_load(problem%film, start%film, start%velocity, load, load_by_film, load_by_velocity)
+         call film_load(problem%film, film, velocity, load, load_by_film, load_by_velocity)
          outgrows_series = .not. abs(load_by_velocity)*(problem%compliance*problem%frequency*largest_rate) > 1.0_dp
          return
       end if
-      thinner = thinner_film(problem, start%film)
+      thinner = thinner_film(problem, film)
       if (.not. thinner > thinnest) return
-      call net_load(problem, start%film, start%velocity, load, load_by_film, load_by_velocity)
+      call net_load(problem, film, velocity, load, load_by_film, load_by_velocity)
       load = load + abs(static_load(problem)) + largest_oscillation(problem%force)
       rate = largest_growth*problem%frequency
-      outgrows_series = abs(start%velocity) > rate*thinner .or. &
+      outgrows_series = abs(velocity) > rate*thinner .or. &
                         abs(load_by_velocity) > rate*problem%mass .or. abs(load_by_film) > rate**2*problem%mass .or. &
                         load > rate**2*problem%mass*thinner
    end function outgrows_series

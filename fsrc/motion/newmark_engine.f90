@@ -64,13 +64,13 @@ contains
       ending%status = problem%film%status_without_load
       if (.not. (associated(kernel) .and. problem%initial_film > 0.0_dp)) return
       if (checkpoint%periods > 0) then
-         state = newmark_state_t(checkpoint%film, checkpoint%velocity, checkpoint%acceleration)
+         state = newmark_state_t(checkpoint%numbers(of_film), checkpoint%numbers(of_velocity), checkpoint%acceleration)
          ending%count = checkpoint%count
          ending%periods = checkpoint%periods
          states = checkpoint%watch
       else
          call start_motion(kernel, problem, state, ending%count, ending%status)
-         ending%film = state%film
+         ending%numbers(of_film) = state%film
          if (ending%status /= status_complete) return
          call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], &
                         reshape([state%film, state%velocity], [1, 2]), [state%acceleration], error)
@@ -94,8 +94,8 @@ contains
          call advance_period(kernel, problem, request, force, state, ending%count, states_of_steps(:, of_film), &
                              states_of_steps(:, of_velocity), accelerations, done, ending%status)
          call sink%take(first_step, force(:done), states_of_steps(:done, :), accelerations(:done), error)
-         ending%film = state%film
-         ending%velocity = state%velocity
+         ending%numbers(of_film) = state%film
+         ending%numbers(of_velocity) = state%velocity
          ending%time = real(first_step + int(done - 1, int64), dp)/(problem%frequency*real(steps, dp))
          if (allocated(error) .or. ending%status /= status_complete) return
          ending%periods = period
@@ -109,7 +109,7 @@ contains
             end if
          end if
          if (period <= last_period - window) &
-            checkpoint = checkpoint_t(periods=period, film=state%film, velocity=state%velocity, acceleration=state%acceleration, &
+            checkpoint = checkpoint_t(periods=period, numbers=ending%numbers, acceleration=state%acceleration, &
                                       watch=states, orbit=ending%orbit, count=ending%count)
          call watcher%period_done(period, last_period)
          if (period == last_period) exit
@@ -139,9 +139,9 @@ contains
          backlash = problem%backlash/unit
          coast = problem%backlash - state%film
       end if
-      call note_state(states, state%film/unit, state%velocity/(unit*problem%frequency), 1.0_dp/two_pi, &
-                      settling_of(problem, [state%film, coast], reference_films(problem)), repetition_tolerance, orbit, &
-                      distance, backlash)
+      call note_state(states, [state%film/unit, state%velocity/(unit*problem%frequency)], &
+                      min(state%film/unit, backlash - state%film/unit), [1.0_dp, 1.0_dp/two_pi], &
+                      settling_of(problem, [state%film, coast], reference_films(problem)), repetition_tolerance, orbit, distance)
       if (orbit > periods_left) orbit = 0
    end subroutine look_back
 

@@ -37,7 +37,7 @@
 !> its rest by d_h over the root of k.
 module repetition
    use kinds, only: dp, int64
-   use problem, only: settling_t
+   use problem, only: largest_state, of_film, of_velocity, settling_t
    use taylor_step_control, only: film_weight
    implicit none(type, external)
    private
@@ -46,7 +46,7 @@ module repetition
    integer, parameter, public :: longest_orbit = 8
 
    !> Four orbits: three distances, two ratios.
-   integer, parameter :: kept = 4*longest_orbit
+   integer, parameter, public :: kept_states = 4*longest_orbit
    !> Longer orbits are looked for from here on, and then now and again: most motions do not have them.
    integer, parameter :: longer_from = 12
    integer, parameter, public :: longer_every = 4
@@ -60,12 +60,10 @@ module repetition
    type, public :: orbit_watch_t
       integer :: count = 0
       integer :: newest = 0
-      real(dp) :: film(0:kept - 1) = 0.0_dp
-      real(dp) :: momentum(0:kept - 1) = 0.0_dp
-      !> Scaled compressions of teeth that give [-]; of rigid ones there are none
-      real(dp), allocatable :: compression(:, :)
-      !> Scaled backlash [-], told with every state; huge: there is one flank
-      real(dp) :: backlash = huge(1.0_dp)
+      !> Number of the state, place; without a state there is none [-]
+      real(dp), allocatable :: states(:, :)
+      !> Thinnest film of each [-]
+      real(dp) :: thinnest(0:kept_states - 1) = 0.0_dp
    end type orbit_watch_t
 
    !> A film that settles at a lower rate does so slowly [1/periods].
@@ -77,8 +75,8 @@ module repetition
    !> A state at the start of a period.
    type :: mark_t
       integer :: period = -1
-      !> Bits of H, V and the compressions
-      integer(int64) :: state(4) = 0_int64
+      !> Bits of the scaled state
+      integer(int64) :: state(largest_state) = 0_int64
       !> Steps up to there
       integer(int64) :: steps = 0_int64
    end type mark_t
@@ -94,32 +92,36 @@ module repetition
 contains
 
    !> Watcher of a motion that starts from a state.
-   pure type(orbit_watch_t) function watch_from(film, momentum, compression)
-      !> Scaled film H [-]
-      real(dp), intent(in) :: film
-      !> Scaled momentum V [-]
-      real(dp), intent(in) :: momentum
-
-      !> Scaled compressions, where teeth give [-]
-      real(dp), intent(in), optional :: compression(2)
+   pure type(orbit_watch_t) function watch_from(state, thinnest)
+      !> Scaled [-]
+      real(dp), intent(in) :: state(:)
+      !> Its thinnest film [-]
+      real(dp), intent(in) :: thinnest
 
       watch_from%count = 1
-      watch_from%film(watch_from%newest) = film
-      watch_from%momentum(watch_from%newest) = momentum
-      if (present(compression)) call note_compression(compression, watch_from)
+      call keep(state, thinnest, watch_from)
    end function watch_from
 
-   !> Scaled film and momentum of some periods ago, at most `count` - 1 and `kept` - 1.
+   !> Put a state into its place.
+   pure subroutine keep(state, thinnest, watch)
+      real(dp), intent(in) :: state(:)
+      real(dp), intent(in) :: thinnest
+      type(orbit_watch_t), intent(inout) :: watch
+
+      if (.not. allocated(watch%states)) allocate (watch%states(size(state), 0:kept_states - 1), source=0.0_dp)
+      watch%states(:, watch%newest) = state
+      watch%thinnest(watch%newest) = thinnest
+   end subroutine keep
+
+   !> Scaled film and velocity of some periods ago, at most `count` - 1 and `kept_states` - 1.
    pure function state_of_age(watch, age) result(state)
       !> Watcher of a motion
       type(orbit_watch_t), intent(in) :: watch
       !> Periods since then
       integer, intent(in) :: age
       real(dp) :: state(2)
-      integer :: place
 
-      place = modulo(watch%newest - age, kept)
-      state = [watch%film(place), watch%momentum(place)]
+      state = watch%states([of_film, of_velocity], modulo(watch%newest - age, kept_states))
    end function state_of_age
 
    !> Film error that counted as one some periods ago: that of the thinner film of both flanks [-].
@@ -127,26 +129,20 @@ contains
       type(orbit_watch_t), intent(in) :: watch
       !> Periods since then
       integer, intent(in) :: age
-      real(dp) :: coast
-      integer :: place
 
-      place = modulo(watch%newest - age, kept)
-      coast = watch%backlash - watch%film(place)
-      if (allocated(watch%compression)) coast = coast + sum(watch%compression(:, place))
-      weight_of_film = film_weight(min(watch%film(place), coast))
+      weight_of_film = film_weight(watch%thinnest(modulo(watch%newest - age, kept_states)))
    end function weight_of_film
 
    !> Take the state at the end of a period.
-   pure subroutine note_state(watch, film, momentum, momentum_weight, settling, tolerance, orbit, distance, &
-                              backlash, compression)
+   pure subroutine note_state(watch, state, thinnest, weights, settling, tolerance, orbit, distance)
       !> Watcher of this motion
       type(orbit_watch_t), intent(inout) :: watch
-      !> Scaled film H [-]
-      real(dp), intent(in) :: film
-      !> Scaled momentum V [-]
-      real(dp), intent(in) :: momentum
-      !> Film that a momentum of one counts as [-]
-      real(dp), intent(in) :: momentum_weight
+      !> Scaled [-]
+      real(dp), intent(in) :: state(:)
+      !> Its thinnest film [-]
+      real(dp), intent(in) :: thinnest
+      !> Film that one of each number counts as [-]
+      real(dp), intent(in) :: weights(:)
       !> How the film settles by its law
       type(settling_t), intent(in) :: settling
       !> Distance from the repeating motion that is small enough [-]
@@ -155,18 +151,10 @@ contains
       integer, intent(out) :: orbit
       !> Bound of the distance from the motion that repeats, where there is one [-]
       real(dp), intent(out) :: distance
-      !> Scaled backlash, where there are two flanks [-]
-      real(dp), intent(in), optional :: backlash
-      !> Scaled compressions, where teeth give [-]
-      real(dp), intent(in), optional :: compression(2)
       integer :: last, periods
 
-      if (present(backlash)) watch%backlash = backlash
-
-      watch%newest = modulo(watch%newest + 1, kept)
-      watch%film(watch%newest) = film
-      watch%momentum(watch%newest) = momentum
-      if (present(compression)) call note_compression(compression, watch)
+      watch%newest = modulo(watch%newest + 1, kept_states)
+      call keep(state, thinnest, watch)
       watch%count = watch%count + 1
       last = 1
       if (watch%count >= longer_from .and. modulo(watch%count, longer_every) == 0) last = longest_orbit
@@ -177,11 +165,11 @@ contains
          if (settling%rate < slow_rate) then
             distance = creeping_distance(watch, periods, settling)
          else
-            distance = orbit_distance(watch, periods, momentum_weight, tolerance)
+            distance = orbit_distance(watch, periods, weights, tolerance)
          end if
          if (distance > tolerance) cycle
          orbit = periods
-         call shorten(watch, momentum_weight, tolerance, orbit)
+         call shorten(watch, weights, tolerance, orbit)
          return
       end do
    end subroutine note_state
@@ -189,9 +177,9 @@ contains
    !> A motion that repeats after p periods may do so sooner: a spiral whose turn is near 360/p degrees is back after p of
    !> them first. States that are within the tolerance of one point are within twice it of each other, the older ones a
    !> little more: those that are have the shorter orbit.
-   pure subroutine shorten(watch, momentum_weight, tolerance, orbit)
+   pure subroutine shorten(watch, weights, tolerance, orbit)
       type(orbit_watch_t), intent(in) :: watch
-      real(dp), intent(in) :: momentum_weight
+      real(dp), intent(in) :: weights(:)
       real(dp), intent(in) :: tolerance
       !> Periods after which the motion repeats
       integer, intent(inout) :: orbit
@@ -199,7 +187,7 @@ contains
 
       do shorter = 1, orbit - 1
          if (modulo(orbit, shorter) /= 0) cycle
-         if (cycle_distance(watch, shorter, 0, momentum_weight) > 3.0_dp*tolerance) cycle
+         if (cycle_distance(watch, shorter, 0, weights) > 3.0_dp*tolerance) cycle
          orbit = shorter
          return
       end do
@@ -231,11 +219,11 @@ contains
    end function creeping_distance
 
    !> Bound of the distance from a motion that repeats after `orbit` periods, huge where there is none.
-   pure real(dp) function orbit_distance(watch, orbit, momentum_weight, tolerance)
+   pure real(dp) function orbit_distance(watch, orbit, weights, tolerance)
       type(orbit_watch_t), intent(in) :: watch
       integer, intent(in) :: orbit
-      !> Film that a momentum of one counts as [-]
-      real(dp), intent(in) :: momentum_weight
+      !> Film that one of each number counts as [-]
+      real(dp), intent(in) :: weights(:)
       !> Distance that is small enough [-]
       real(dp), intent(in) :: tolerance
       !> Ratio below which a motion settles fast enough for two ratios to do
@@ -245,7 +233,7 @@ contains
 
       orbit_distance = huge(1.0_dp)
       ratio = 0.0_dp
-      last = cycle_distance(watch, orbit, 0, momentum_weight)
+      last = cycle_distance(watch, orbit, 0, weights)
       ! The map has no memory: a state met again to the last bit comes again for ever.
       if (last <= rounding) orbit_distance = last
       if (last <= rounding) return
@@ -253,21 +241,21 @@ contains
       do age = 1, merge(3, 2, orbit == 1)
          if (age == 3 .and. ratio < fast) exit
          if (age == 3 .and. watch%count < 5) return
-         older = cycle_distance(watch, orbit, age, momentum_weight)
+         older = cycle_distance(watch, orbit, age, weights)
          if (newer >= largest_ratio*older) return
          ratio = max(ratio, newer/older)
          newer = older
       end do
-      orbit_distance = max(last*ratio/(1.0_dp - ratio), distance_across(watch, orbit, momentum_weight, tolerance, ratio))
+      orbit_distance = max(last*ratio/(1.0_dp - ratio), distance_across(watch, orbit, weights, tolerance, ratio))
    end function orbit_distance
 
    !> Bound of the distance in the direction along which the motion does not settle by the ratio of its distances, huge where
    !> there is none.
-   pure real(dp) function distance_across(watch, orbit, momentum_weight, tolerance, ratio)
+   pure real(dp) function distance_across(watch, orbit, weights, tolerance, ratio)
       type(orbit_watch_t), intent(in) :: watch
       integer, intent(in) :: orbit
-      !> Film that a momentum of one counts as [-]
-      real(dp), intent(in) :: momentum_weight
+      !> Film that one of each number counts as [-]
+      real(dp), intent(in) :: weights(:)
       !> Distance that is small enough [-]
       real(dp), intent(in) :: tolerance
       !> Of the distances
@@ -280,7 +268,7 @@ contains
       states(:, 1) = state_of_age(watch, orbit)
       states(:, 2) = state_of_age(watch, 2*orbit)
       states(:, 3) = state_of_age(watch, 3*orbit)
-      states(2, :) = states(2, :)*momentum_weight
+      states(2, :) = states(2, :)*weights(of_velocity)
       states = states/weight_of_film(watch, 0)
       a = states(:, 2) - states(:, 3)
       b = states(:, 1) - states(:, 2)
@@ -297,57 +285,32 @@ contains
    end function distance_across
 
    !> Largest distance of the states of an orbit, `age` orbits back, from those one orbit before.
-   pure real(dp) function cycle_distance(watch, orbit, age, momentum_weight)
+   pure real(dp) function cycle_distance(watch, orbit, age, weights)
       type(orbit_watch_t), intent(in) :: watch
       integer, intent(in) :: orbit
       integer, intent(in) :: age
-      real(dp), intent(in) :: momentum_weight
+      real(dp), intent(in) :: weights(:)
       integer :: back
 
       cycle_distance = 0.0_dp
       do back = age*orbit, (age + 1)*orbit - 1
-         cycle_distance = max(cycle_distance, apart(watch, back, back + orbit, momentum_weight))
+         cycle_distance = max(cycle_distance, apart(watch, back, back + orbit, weights))
       end do
    end function cycle_distance
 
    !> Distance of two states, in the measure of the step control.
-   pure real(dp) function apart(watch, back_1, back_2, momentum_weight)
+   pure real(dp) function apart(watch, back_1, back_2, weights)
       type(orbit_watch_t), intent(in) :: watch
       !> How many periods they lie back
       integer, intent(in) :: back_1
       integer, intent(in) :: back_2
-      real(dp), intent(in) :: momentum_weight
+      real(dp), intent(in) :: weights(:)
       integer :: i, j
 
-      i = modulo(watch%newest - back_1, kept)
-      j = modulo(watch%newest - back_2, kept)
-      apart = max(abs(watch%film(i) - watch%film(j)), abs(watch%momentum(i) - watch%momentum(j))*momentum_weight, &
-                  compressed_apart(watch, i, j))/weight_of_film(watch, back_1)
+      i = modulo(watch%newest - back_1, kept_states)
+      j = modulo(watch%newest - back_2, kept_states)
+      apart = maxval(abs(watch%states(:, i) - watch%states(:, j))*weights)/weight_of_film(watch, back_1)
    end function apart
-
-   !> Distance of the compressions of two states, 0 of rigid teeth [-].
-   pure real(dp) function compressed_apart(watch, i, j) result(distance)
-      type(orbit_watch_t), intent(in) :: watch
-      !> Their places
-      integer, intent(in) :: i
-      integer, intent(in) :: j
-
-      distance = 0.0_dp
-      if (allocated(watch%compression)) distance = maxval(abs(watch%compression(:, i) - watch%compression(:, j)))
-   end function compressed_apart
-
-   !> Keep the compressions of the newest state; those of rigid teeth are 0 and take no room.
-   pure subroutine note_compression(compression, watch)
-      !> Scaled [-]
-      real(dp), intent(in) :: compression(2)
-      type(orbit_watch_t), intent(inout) :: watch
-
-      if (.not. allocated(watch%compression)) then
-         if (.not. maxval(abs(compression)) > 0.0_dp) return
-         allocate (watch%compression(2, 0:kept - 1), source=0.0_dp)
-      end if
-      watch%compression(:, watch%newest) = compression
-   end subroutine note_compression
 
    !> Compare the state at the start of a period with earlier ones, and keep it.
    pure subroutine look_back(past, period, state, steps, cycle_periods, cycle_steps)
@@ -355,8 +318,8 @@ contains
       type(recurrence_t), intent(inout) :: past
       !> Periods done
       integer, intent(in) :: period
-      !> Scaled film H, momentum V and compressions [-]
-      real(dp), intent(in) :: state(4)
+      !> Scaled [-]
+      real(dp), intent(in) :: state(largest_state)
       !> Steps up to here
       integer(int64), intent(in) :: steps
       !> Periods since the motion was in this very state, 0: it is new

@@ -89,7 +89,7 @@ contains
 
       record = window_record_t(wants=record%wants, multiples=record%multiples, &
                                loads=load_record_t(impact_limit=record%loads%impact_limit), start=start, &
-                               end_velocity=start%velocity)
+                               end_velocity=start%numbers(of_velocity))
       if (record%multiples == 0) return
       record%longest_piece = oscillations_per_piece/real(record%multiples, dp)
       allocate (record%line_sums(0:record%multiples), record%integrals(record%multiples), source=(0.0_dp, 0.0_dp))
@@ -337,7 +337,8 @@ contains
 
       gap = 0.0_dp
       if (record%acceleration_size > 0.0_dp) &
-         gap = abs(record%acceleration_sum - (record%end_velocity - record%start%velocity)*frequency)/record%acceleration_size
+         gap = abs(record%acceleration_sum - (record%end_velocity - record%start%numbers(of_velocity))*frequency) &
+               /record%acceleration_size
    end function momentum_gap
 
    !> By how much the works of film and force miss the change of kinetic energy, as a share of what went to and fro [-].
@@ -349,7 +350,8 @@ contains
       real(dp) :: kinetic
 
       gap = 0.0_dp
-      kinetic = 0.5_dp*mass*(record%end_velocity - record%start%velocity)*(record%end_velocity + record%start%velocity)
+      kinetic = 0.5_dp*mass*(record%end_velocity - record%start%numbers(of_velocity)) &
+                *(record%end_velocity + record%start%numbers(of_velocity))
       if (record%work_size > 0.0_dp) gap = abs(record%film_work - record%force_work - kinetic)/record%work_size
    end function energy_gap
 

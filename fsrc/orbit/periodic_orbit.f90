@@ -5,7 +5,7 @@
 !> fixed point of it.
 module periodic_orbit
    use constants, only: two_pi
-   use engine, only: ending_t, motion_state_t, numbers_of, request_t
+   use engine, only: ending_t, motion_state_t, request_t
    use film_law, only: never_pulls
    use kinds, only: dp
    use many_motions, only: solve_motions
@@ -85,20 +85,17 @@ contains
       type(problem_t) :: problems(size(states, 2))
       type(motion_state_t) :: starts(size(states, 2))
       type(ending_t) :: endings(size(states, 2))
-      real(dp) :: none(0, 2, size(states, 2)), numbers(largest_state)
+      real(dp) :: none(0, 2, size(states, 2))
       integer :: i
 
       problems = problem
       do i = 1, size(starts)
-         starts(i)%film = states(of_film, i)
-         starts(i)%velocity = states(of_velocity, i)
-         starts(i)%compression(:size(states, 1) - of_velocity) = states(of_drive_compression:, i)
+         starts(i)%numbers(:size(states, 1)) = states(:, i)
       end do
       call solve_motions(problems, starts, request_t(accuracy=accuracy, periods=periods), none, endings)
       mapped = all(endings%status == status_complete)
       do i = 1, size(endings)
-         numbers = numbers_of(endings(i))
-         states(:, i) = numbers(:size(states, 1))
+         states(:, i) = endings(i)%numbers(:size(states, 1))
       end do
    end subroutine map_states
 

@@ -5,13 +5,14 @@ module carried_loads
    use film_pressure, only: exact_pressures
    use force, only: force_at, force_of_period
    use kinds, only: dp
-   use problem, only: has_elastic_teeth, has_two_flanks, of_coast_compression, of_drive_compression, of_film, of_velocity, problem_t
+   use problem, only: has_elastic_teeth, has_two_flanks, largest_state, of_coast_compression, of_drive_compression, of_film, &
+      of_velocity, problem_t
    use squeeze_of_load, only: load_carried
    implicit none(type, external)
    private
 
    public :: thinnest_film, net_load, net_loads, drive_loads, coast_loads, coast_films, films_of, gear_positions, &
-             start_springs, largest_pressures, acceleration_at, accelerations_of_samples
+             initial_state, largest_pressures, acceleration_at, accelerations_of_samples
 
 contains
 
@@ -148,6 +149,18 @@ contains
       positions = states(:, of_film)
       if (has_elastic_teeth(problem)) positions = positions - states(:, of_drive_compression)
    end function gear_positions
+
+   !> State in which the motion of a problem starts.
+   pure function initial_state(problem) result(state)
+      type(problem_t), intent(in) :: problem
+      real(dp) :: state(largest_state)
+
+      state = 0.0_dp
+      state(of_film) = problem%initial_film
+      state(of_velocity) = problem%initial_velocity
+      if (has_elastic_teeth(problem) .and. problem%initial_film > 0.0_dp) &
+         call start_springs(problem, state(of_drive_compression:of_coast_compression))
+   end function initial_state
 
    !> Compressions of the springs at the start: the drive film carries the first one at the velocity of the gear, the coast film,
    !> whose gap grows by both, the other.

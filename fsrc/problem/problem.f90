@@ -40,6 +40,10 @@ module problem
 
    !> Numbers of a state and their most: film of the drive flank h_1 [m], velocity z' [m/s], compressions d_1 and d_2 [m].
    integer, parameter, public :: of_film = 1, of_velocity = 2, of_drive_compression = 3, of_coast_compression = 4, largest_state = 4
+   !> What files call them, and their units
+   character(*), parameter, public :: state_names(largest_state) = [character(17) :: 'film', 'velocity', 'drive_compression', &
+                                                                    'coast_compression']
+   character(*), parameter, public :: state_units(largest_state) = [character(3) :: 'm', 'm/s', 'm', 'm']
 
    !> The film in the neighbourhood of rest, h'' + d h' + k h = 0 with the period of the force as the unit of time.
    type, public :: settling_t

@@ -4,7 +4,7 @@
 module certify_scene
    use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_strikes, &
       loudness_error, no_certificate, windows_behind
-   use engine, only: ending_t, motion_state_t, numbers_of, start_of
+   use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
@@ -88,7 +88,7 @@ contains
       if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, window%periods)
       if (len(unclosed) == 0) unclosed = &
          doubt_of_return(verdict, window%periods, &
-                         films_of(resolved%problem, reshape([numbers_of(tight%record%start), numbers_of(ending)], &
+                         films_of(resolved%problem, reshape([tight%record%start%numbers, ending%numbers], &
                                                             [2, largest_state], order=[2, 1])), &
                          scene%spectrum%certificate_tolerance)
       if (len(unclosed) == 0 .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
@@ -131,7 +131,7 @@ contains
       type(ending_t), intent(in) :: ending
 
       call unlock_texts()
-      nearby_orbit = find_periodic_orbit(problem, numbers_of(ending), orbit_nearness)
+      nearby_orbit = find_periodic_orbit(problem, ending%numbers, orbit_nearness)
       call lock_texts()
    end function nearby_orbit
 

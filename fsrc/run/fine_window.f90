@@ -2,13 +2,13 @@
 !> by integrals over the steps where no number of samples would do.
 module fine_window
    use controlled_engine, only: solve_window
-   use engine, only: ending_t, motion_state_t, numbers_of, request_t
+   use engine, only: ending_t, motion_state_t, request_t
    use errors, only: error_t
    use kinds, only: dp
    use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
    use carried_loads, only: acceleration_at
-   use problem, only: problem_t, state_size
+   use problem, only: of_velocity, problem_t, state_size
    use rattle_class, only: classify, classify_steps, rattle_verdict_t
    use scene_status, only: is_success
    use scene_types, only: scene_t, spectrum_choice_t
@@ -205,7 +205,7 @@ contains
       integer :: n
 
       n = size(z)
-      start = acceleration_at(problem, numbers_of(record%start), 0.0_dp)
+      start = acceleration_at(problem, record%start%numbers, 0.0_dp)
       error_of_ends = (abs(z(n) - start) + abs((z(n) - z(n - 1)) - (z(1) - start)))/real(n, dp)
    end function error_of_ends
 
@@ -222,7 +222,7 @@ contains
       integer :: i
 
       count = real(size(z), dp)
-      start = acceleration_at(problem, numbers_of(record%start), 0.0_dp)
+      start = acceleration_at(problem, record%start%numbers, 0.0_dp)
       ! By the trapezium, which leaves no error where the motion is smooth and repeats.
       mean = -0.5_dp*(z(size(z)) - start)
       power = -0.5_dp*(z(size(z))**2 - start**2)
@@ -233,7 +233,7 @@ contains
       end do
       mean = mean/count
       power = power/count
-      true_mean = (record%end_velocity - record%start%velocity)*problem%frequency/real(record%periods, dp)
+      true_mean = (record%end_velocity - record%start%numbers(of_velocity))*problem%frequency/real(record%periods, dp)
       true_power = record%acceleration_square/real(record%periods, dp)
       samples_agree = abs(mean - true_mean) <= mean_share*forced_line + noise_floor .and. &
                       abs(power - true_power) <= power_share*true_power + 4.0_dp*noise_floor*sqrt(true_power)

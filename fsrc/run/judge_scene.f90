@@ -8,7 +8,7 @@ module judge_scene
    use loudness, only: loudness_of_record, loudness_of_samples
    use node_extremes, only: seen_pressure
    use carried_loads, only: thinnest_film
-   use problem, only: of_velocity
+   use problem, only: of_film, of_velocity
    use rattle_class, only: note_orbit
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
@@ -32,7 +32,7 @@ contains
 
       judged%status = ending%status
       judged%time = ending%time
-      judged%film = ending%film
+      judged%film = ending%numbers(of_film)
       judged%periods = ending%periods
       judged%repeats_after = ending%orbit
       judged%count = ending%count

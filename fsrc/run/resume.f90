@@ -12,7 +12,8 @@ module resume
    use input_difference, only: first_difference
    use kinds, only: dp, int64
    use output_place, only: result_path, state_path
-   use repetition, only: orbit_watch_t
+   use problem, only: problem_of, state_names, state_size, state_units
+   use repetition, only: kept_states, orbit_watch_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
@@ -23,12 +24,12 @@ module resume
    implicit none(type, external)
    private
 
-   !> Columns of a state; those of the watch follow.
-   character(*), parameter :: state_names(12) = [character(column_name_bytes) :: 'periods', 'film', 'velocity', 'acceleration', &
-                                                 'momentum', 'implicit', 'steps', 'evaluations', 'cuts', 'orbit', &
-                                                 'watch_count', 'watch_newest']
-   character(*), parameter :: state_units(12) = [character(column_unit_bytes) :: '-', 'm', 'm/s', 'm/s2', '-', '-', '-', '-', &
-                                                 '-', '-', '-', '-']
+   !> Columns of a file of state; the numbers of the state follow, and those that the search for repetition looks back on.
+   character(*), parameter :: head_names(11) = [character(column_name_bytes) :: 'periods', 'acceleration', 'lienard_variable', &
+                                                'implicit', 'steps', 'evaluations', 'cuts', 'orbit', 'watch_count', &
+                                                'watch_newest', 'watch_states']
+   character(*), parameter :: head_units(11) = [character(column_unit_bytes) :: '-', 'm/s2', '-', '-', '-', '-', '-', '-', '-', &
+                                                '-', '-']
 
    !> Keys that may change when a run is carried on: they do not touch what has been solved.
    character(*), parameter :: free_keys(11) = [character(30) :: 'solver.periods', 'solver.time_limit', 'solver.until', &
@@ -56,11 +57,9 @@ contains
       character(column_unit_bytes), allocatable :: units(:)
       real(dp), allocatable :: row(:, :)
 
-      allocate (names, source=column_names(scene%contact%stiffness > 0.0_dp))
-      allocate (units(size(names)), row(size(names), 1))
-      units(:) = '-'
-      units(:size(state_units)) = state_units
-      row(:, 1) = row_of(state, scene%contact%stiffness > 0.0_dp)
+      call columns_of(state_size(problem_of(scene)), names, units)
+      allocate (row(size(names), 1))
+      row(:, 1) = row_of(state, state_size(problem_of(scene)))
       call writer%open(state_path(scene), scene%resolved_input, names, units, 1_int64, .false., error)
       if (.not. allocated(error)) call writer%write_rows(row, error)
       if (.not. allocated(error)) call writer%close(error)
@@ -77,11 +76,12 @@ contains
       type(file_state_t) :: kept
       type(result_reader_t) :: reader
       character(column_name_bytes), allocatable :: names(:)
+      character(column_unit_bytes), allocatable :: units(:)
       real(dp), allocatable :: row(:, :)
 
       kept = state_of_path(state_path(scene))
       if (kept%bytes == 0_int64) return
-      allocate (names, source=column_names(scene%contact%stiffness > 0.0_dp))
+      call columns_of(state_size(problem_of(scene)), names, units)
       allocate (row(size(names), 1))
       call open_earlier(scene, state_path(scene), free_keys, reader, error)
       if (.not. allocated(error) .and. .not. equal_names(reader%names, names)) &
@@ -90,7 +90,7 @@ contains
       if (.not. allocated(error)) call reader%read_rows(1_int64, row, error)
       call reader%close()
       if (allocated(error)) return
-      state = state_of(row(:, 1))
+      state = state_of(row(:, 1), state_size(problem_of(scene)))
       if (state%periods == 0) return
       if (scene%solver%until /= until_steady) then
          ! The search ends here: what it has seen does not follow the motion any more.
@@ -154,29 +154,30 @@ contains
       end associate
    end function latest_start
 
-   !> Columns of a state.
-   pure function column_names(elastic) result(names)
-      !> Whether the teeth give: then compressions stand at the end
-      logical, intent(in) :: elastic
-      character(column_name_bytes), allocatable :: names(:)
-      type(orbit_watch_t) :: watch
-      integer :: i, fixed, watched
+   !> Columns of a file of state.
+   pure subroutine columns_of(numbers, names, units)
+      !> How many a state has
+      integer, intent(in) :: numbers
+      character(column_name_bytes), allocatable, intent(out) :: names(:)
+      character(column_unit_bytes), allocatable, intent(out) :: units(:)
+      integer :: place, age, i
 
-      fixed = size(state_names)
-      watched = size(watch%film)
-      allocate (names(fixed + 2*watched))
-      names(:fixed) = state_names
-      do i = 1, watched
-         names(fixed + i) = 'watch_film_'//integer_text(i)
-         names(fixed + watched + i) = 'watch_momentum_'//integer_text(i)
+      place = size(head_names)
+      allocate (names(place + numbers + (numbers + 1)*kept_states), units(place + numbers + (numbers + 1)*kept_states))
+      names(:place) = head_names
+      units(:) = '-'
+      units(:place) = head_units
+      names(place + 1:place + numbers) = state_names(:numbers)
+      units(place + 1:place + numbers) = state_units(:numbers)
+      place = place + numbers
+      do age = 1, kept_states
+         do i = 1, numbers
+            names(place + i) = 'watch_'//trim(state_names(i))//'_'//integer_text(age)
+         end do
+         names(place + numbers + 1) = 'watch_thinnest_'//integer_text(age)
+         place = place + numbers + 1
       end do
-      if (.not. elastic) return
-      names = [character(column_name_bytes) :: names, 'drive_compression', 'coast_compression']
-      do i = 1, watched
-         names = [character(column_name_bytes) :: names, 'watch_drive_compression_'//integer_text(i), &
-                  'watch_coast_compression_'//integer_text(i)]
-      end do
-   end function column_names
+   end subroutine columns_of
 
    !> Whether two lists of names are the same.
    pure logical function equal_names(some, others)
@@ -188,55 +189,49 @@ contains
    end function equal_names
 
    !> A state as a row; see `state_of`.
-   pure function row_of(state, elastic) result(row)
+   pure function row_of(state, numbers) result(row)
       type(checkpoint_t), intent(in) :: state
-      !> Whether the teeth give
-      logical, intent(in) :: elastic
+      !> How many it has
+      integer, intent(in) :: numbers
       real(dp), allocatable :: row(:)
+      real(dp) :: watched(numbers + 1, kept_states)
 
       associate (watch => state%watch)
-         row = [real(state%periods, dp), state%film, state%velocity, state%acceleration, state%momentum, &
-                merge(1.0_dp, 0.0_dp, state%implicit), real(state%count%steps, dp), real(state%count%evaluations, dp), &
-                real(state%count%cuts, dp), real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), watch%film, &
-                watch%momentum]
-         if (.not. elastic) return
-         row = [row, state%compression]
-         if (allocated(watch%compression)) then
-            row = [row, watch%compression]
-         else
-            row = [row, spread(0.0_dp, 1, 2*size(watch%film))]
-         end if
+         watched = 0.0_dp
+         if (allocated(watch%states)) watched(:numbers, :) = watch%states
+         watched(numbers + 1, :) = watch%thinnest
+         row = [real(state%periods, dp), state%acceleration, state%lienard_variable, merge(1.0_dp, 0.0_dp, state%implicit), &
+                real(state%count%steps, dp), real(state%count%evaluations, dp), real(state%count%cuts, dp), &
+                real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), &
+                merge(1.0_dp, 0.0_dp, allocated(watch%states)), state%numbers(:numbers), watched]
       end associate
    end function row_of
 
    !> The state of a row; see `row_of`.
-   pure function state_of(row) result(state)
+   pure function state_of(row, numbers) result(state)
       real(dp), intent(in) :: row(:)
+      !> How many it has
+      integer, intent(in) :: numbers
       type(checkpoint_t) :: state
+      real(dp) :: watched(numbers + 1, 0:kept_states - 1)
       integer :: place
 
       state%periods = nint(row(1))
-      state%film = row(2)
-      state%velocity = row(3)
-      state%acceleration = row(4)
-      state%momentum = row(5)
-      state%implicit = row(6) > 0.5_dp
+      state%acceleration = row(2)
+      state%lienard_variable = row(3)
+      state%implicit = row(4) > 0.5_dp
       state%carried_on = state%periods > 0
-      state%count%steps = nint(row(7), int64)
-      state%count%evaluations = nint(row(8), int64)
-      state%count%cuts = nint(row(9), int64)
-      state%orbit = nint(row(10))
-      state%watch%count = nint(row(11))
-      state%watch%newest = nint(row(12))
-      place = size(state_names)
-      state%watch%film(:) = row(place + 1:place + size(state%watch%film))
-      place = place + size(state%watch%film)
-      state%watch%momentum(:) = row(place + 1:place + size(state%watch%momentum))
-      place = place + size(state%watch%momentum)
-      if (size(row) == place) return
-      state%compression = row(place + 1:place + 2)
-      allocate (state%watch%compression(2, 0:size(state%watch%film) - 1))
-      state%watch%compression(:, :) = reshape(row(place + 3:), [2, size(state%watch%film)])
+      state%count%steps = nint(row(5), int64)
+      state%count%evaluations = nint(row(6), int64)
+      state%count%cuts = nint(row(7), int64)
+      state%orbit = nint(row(8))
+      place = size(head_names)
+      state%numbers(:numbers) = row(place + 1:place + numbers)
+      watched(:, :) = reshape(row(place + numbers + 1:), shape(watched))
+      state%watch%count = nint(row(9))
+      state%watch%newest = nint(row(10))
+      if (row(11) > 0.5_dp) allocate (state%watch%states(numbers, 0:kept_states - 1), source=watched(:numbers, :))
+      state%watch%thinnest = watched(numbers + 1, :)
    end function state_of
 
 end module resume

@@ -5,7 +5,7 @@ module run_sweep
    use clock, only: wall_seconds
    use controlled_engine, only: find_steady_motion
    use derived_scene, only: derive
-   use engine, only: ending_t, motion_state_t, numbers_of, start_of
+   use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use finished_files, only: place_files
@@ -15,6 +15,7 @@ module run_sweep
    use log_file, only: log_t
    use loudness, only: loudness_of_record
    use output_place, only: log_path, result_path, summary_path
+   use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity
    use periodic_orbit, only: attracting_period, find_periodic_orbit
    use progress, only: progress_t
    use quantities, only: quantities_told_in, quantity_model_limit, quantity_table
@@ -209,7 +210,7 @@ contains
          end if
          if (.not. problem%initial_film > 0.0_dp) return
          start = start_of(problem)
-         if (state%film > 0.0_dp) start%compression = problem%compliance*state%spring_loads
+         if (state%film > 0.0_dp) start%numbers(of_drive_compression:of_coast_compression) = problem%compliance*state%spring_loads
          call unlock_texts()
          call find_steady_motion(problem, start, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
          call lock_texts()
@@ -217,13 +218,13 @@ contains
          judged%periods = ending%periods
          state = carried_state_t()
          if (.not. is_success(ending%status)) return
-         state%film = ending%film
-         state%velocity = ending%velocity
-         if (problem%compliance > 0.0_dp) state%spring_loads = ending%compression/problem%compliance
-         problem%initial_film = ending%film
-         problem%initial_velocity = ending%velocity
-         start = start_of(problem)
-         start%compression = ending%compression
+         state%film = ending%numbers(of_film)
+         state%velocity = ending%numbers(of_velocity)
+         if (problem%compliance > 0.0_dp) state%spring_loads = &
+            ending%numbers(of_drive_compression:of_coast_compression)/problem%compliance
+         problem%initial_film = state%film
+         problem%initial_velocity = state%velocity
+         start = motion_state_t(numbers=ending%numbers)
          window%periods = scene%spectrum%periods
          if (ending%orbit > 0) window%periods = ending%orbit
          window%samples_per_period = scene%solver%samples_per_period()
@@ -238,7 +239,7 @@ contains
       end if
       judged%repeats_after = ending%orbit
       call unlock_texts()
-      judged%orbit = find_periodic_orbit(judged%resolved%problem, numbers_of(ending), orbit_nearness)
+      judged%orbit = find_periodic_orbit(judged%resolved%problem, ending%numbers, orbit_nearness)
       call lock_texts()
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
       judged%extremes = extremes_of_record(window%record)

@@ -4,6 +4,7 @@ module certificate
    use loudness, only: loudness_t
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
    use quantities, only: quantity_rattle_class, quantity_word
+   use problem, only: of_velocity
    use rattle_class, only: class_irregular, class_subharmonic, rattle_verdict_t
    use scene_status, only: is_success, status_name
    use scene_types, only: spectrum_choice_t
@@ -221,7 +222,8 @@ contains
           closing_share*record%acceleration_size + noise_floor*real(record%periods, dp)) then
          reason = 'The window does not close: the mean of z" is '// &
                   short_text(record%acceleration_sum/real(record%periods, dp), 3)//' m/s2, while the change of velocity gives '// &
-                  short_text((record%end_velocity - record%start%velocity)*frequency/real(record%periods, dp), 3)//' m/s2.'
+                  short_text((record%end_velocity - record%start%numbers(of_velocity)) &
+                             *frequency/real(record%periods, dp), 3)//' m/s2.'
       else if (.not. energy_gap(record, mass) <= closing_share) then
          reason = 'The window does not close: the film takes '//short_text(-record%film_work, 3)//' J, the forces give '// &
                   short_text(-record%force_work, 3)//' J.'

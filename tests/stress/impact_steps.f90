@@ -18,7 +18,7 @@ module impact_steps
    use film_law, only: film_load, film_t, never_pulls, overflow_load, squeeze_velocity
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t, nodes, solve_linear
-   use problem, only: problem_t
+   use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity, problem_t
    use squeeze_of_load, only: load_carried
    implicit none(type, external)
    private
@@ -106,9 +106,9 @@ contains
       real(dp), intent(in) :: offset
       type(tooth_state_t) :: state
 
-      state%film = start%film*(1.0_dp + offset)
-      state%velocity = start%velocity
-      state%compression = start%compression
+      state%film = start%numbers(of_film)*(1.0_dp + offset)
+      state%velocity = start%numbers(of_velocity)
+      state%compression = start%numbers(of_drive_compression:of_coast_compression)
       if (lane%backlash < huge(1.0_dp)) state%coast = lane%backlash - state%film + sum(state%compression)
    end function start_of_tooth
 

@@ -120,7 +120,7 @@ contains
       do place = 1, size(members)
          associate (ending => endings(place))
             bits(:, place) = [transfer(states(:, :, place), [1_int64]), &
-                              transfer([ending%film, ending%velocity, ending%momentum], [1_int64]), &
+                              transfer([ending%numbers(:2), ending%lienard_variable], [1_int64]), &
                               int([ending%status, ending%periods], int64), ending%count%steps]
          end associate
       end do

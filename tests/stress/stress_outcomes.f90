@@ -67,9 +67,9 @@ contains
       outcome = outcome_of_status(ending%status, reference)
       if (ending%count%steps > most_steps) outcome = silent('too many steps')
       if (outcome%code /= 0) return
-      if (.not. is_motion(films(:ending%samples)) .or. .not. is_motion([ending%film]) .or. &
+      if (.not. is_motion(films(:ending%samples)) .or. .not. is_motion(ending%numbers(:1)) .or. &
           ending%samples == 0 .or. &
-          .not. ieee_is_finite(ending%velocity)) then
+          .not. ieee_is_finite(ending%numbers(2))) then
          outcome = silent('no film')
          return
       end if

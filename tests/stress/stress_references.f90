@@ -100,13 +100,13 @@ contains
       off = off(:, solved)
       unused = middle
       rest = starts
-      rest%film = starts%film*(1.0_dp + offset)
+      rest%numbers(1) = starts%numbers(1)*(1.0_dp + offset)
       off_problems = problems
       off_problems%force%steady = problems%force%steady + offset*(static_load(problems) + problems%force%cosine)
       call last_periods(off_problems, rest, off, group%periods, accuracy, unused, endings)
       call note_growth()
       rest = middle%motion_state_t
-      rest%film = middle%film*(1.0_dp + offset)
+      rest%numbers(1) = middle%numbers(1)*(1.0_dp + offset)
       call last_periods(problems, rest, off, group%periods, accuracy, unused, endings)
       call note_growth()
 

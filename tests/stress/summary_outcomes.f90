@@ -272,8 +272,8 @@ contains
       call disturb(offset, tooth)
       start = start_of(drawn%resolved%problem)
       if (drawn%before%film > 0.0_dp) &
-         start = motion_state_t(film=drawn%before%film, velocity=drawn%before%velocity, &
-                                compression=tooth%compliance*drawn%before%spring_loads)
+         start = motion_state_t(numbers=[drawn%before%film, drawn%before%velocity, &
+                                         tooth%compliance*drawn%before%spring_loads])
       state = start_of_tooth(drawn%resolved%problem, start, offset)
       call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)
       if (solved) call solve_reference(tooth, rule, tolerance, told%window, drawn%scene%spectrum, drawn%resolved%noise_floor, &

@@ -4,7 +4,7 @@ module test_elastic_teeth
    use canonical_scenes, only: canonical_scene, loose_gear
    use checks, only: check_list_t
    use controlled_engine, only: find_steady_motion, solve_window
-   use engine, only: ending_t, motion_count_t, motion_state_t, numbers_of, request_t, start_of
+   use engine, only: ending_t, motion_count_t, motion_state_t, request_t, start_of
    use film_law, only: film_load, kernel_of
    use force, only: force_of_period
    use fourier, only: amplitude_spectrum
@@ -14,7 +14,7 @@ module test_elastic_teeth
    use many_motions, only: solve_motions
    use node_extremes, only: seen_coast_film, seen_coast_load, seen_load, seen_position
    use periodic_orbit, only: find_periodic_orbit, periodic_orbit_t
-   use carried_loads, only: coast_films, gear_positions
+   use carried_loads, only: coast_films, gear_positions, initial_state
    use problem, only: film_at_rest, films_at_rest, loads_at_rest, of_drive_compression, of_film, of_velocity, problem_of, &
       problem_t, static_load
    use quantities, only: quantity_damping_ratio, quantity_natural_frequency
@@ -137,7 +137,7 @@ contains
          call near([record%highest(seen_coast_load)%value], coast_loads(2:), 1.0e-3_dp, 'largest load of the coast film')
       end if
       call checks%check(energy_gap(record, problem%mass) < 1.0e-7_dp, name//': energy closes')
-      orbit = find_periodic_orbit(problem, numbers_of(found), 0.02_dp)
+      orbit = find_periodic_orbit(problem, found%numbers, 0.02_dp)
       call checks%check(orbit%period == 1, name//': a periodic orbit')
       if (orbit%period == 1) call checks%check(size(orbit%multipliers) == merge(4, 3, present(coast_films)) .and. &
                                                abs(orbit%multipliers(1)) < 1.0_dp, name//': as many multipliers as states')
@@ -243,7 +243,7 @@ contains
       problem = between_flanks()
       call loads_at_rest(problem, static_load(problem), drive, coast)
       call checks%check_close(drive - coast, 5.0_dp, 1.0e-13_dp, 'rest: static load')
-      start = numbers_of(start_of(problem))
+      start = initial_state(problem)
       call checks%check_close(start(3)/(problem%compliance*drive), 1.0_dp, 1.0e-12_dp, 'rest: spring of the drive flank')
       call checks%check_close(start(4)/(problem%compliance*coast), 1.0_dp, 1.0e-9_dp, 'rest: spring of the coast flank')
       gap = problem%backlash - start(1) + start(3) + start(4)
@@ -469,7 +469,7 @@ contains
          call solve_window(problems(1), start_of(problems(1)), 1.0e-7_dp, 64, 3, 1, rest, z, half, record)
          call solve_window(problems(1), half%motion_state_t, 1.0e-7_dp, 64, 6, 3, rest, z, ending, record)
          call checks%check(all(abs(states - rest) <= 0.0_dp), trim(name)//', carried on: the same bits')
-         call checks%check(abs(ending%velocity - whole%velocity) <= 0.0_dp, trim(name)//', carried on: the same end')
+         call checks%check(all(abs(ending%numbers - whole%numbers) <= 0.0_dp), trim(name)//', carried on: the same end')
          call checks%check(size(states, 2) == 4 .and. of_velocity == 2, trim(name)//': states of four numbers')
          do i = 1, size(problems)
             starts(i) = start_of(problems(i))
@@ -478,9 +478,9 @@ contains
          request%periods = 6
          request%every_period = .true.
          call solve_motions(problems, starts, request, none, endings)
-         call checks%check(all(abs(numbers_of(endings(1)) - numbers_of(whole)) <= 0.0_dp), trim(name)//': alone as among others')
+         call checks%check(all(abs(endings(1)%numbers - whole%numbers) <= 0.0_dp), trim(name)//': alone as among others')
          call solve_motions(problems(size(problems):1:-1), starts(size(problems):1:-1), request, none, endings)
-         call checks%check(all(abs(numbers_of(endings(size(problems))) - numbers_of(whole)) <= 0.0_dp), &
+         call checks%check(all(abs(endings(size(problems))%numbers - whole%numbers) <= 0.0_dp), &
                            trim(name)//': the last one of them, too')
       end do
    end subroutine test_no_company

@@ -225,7 +225,7 @@ contains
          call checks%check(whole(i)%orbit > 0 .and. piece(1)%orbit == whole(i)%orbit .and. &
                            piece(1)%periods == whole(i)%periods .and. &
                            abs(piece(1)%distance - whole(i)%distance) <= 0.0_dp .and. &
-                           abs(piece(1)%momentum - whole(i)%momentum) <= 0.0_dp, &
+                           abs(piece(1)%lienard_variable - whole(i)%lienard_variable) <= 0.0_dp, &
                            trim(names(1 + modulo(i - 1, size(kernels))))//': search in pieces')
       end do
    end subroutine test_search_in_pieces
@@ -418,8 +418,8 @@ contains
       integer, intent(in) :: j               !> The one of them
 
       same = all(same_bits(some%states(:, :, i), others%states(:, :, j))) .and. &
-             same_bits(some%endings(i)%film, others%endings(j)%film) .and. &
-             same_bits(some%endings(i)%momentum, others%endings(j)%momentum) .and. &
+             all(same_bits(some%endings(i)%numbers, others%endings(j)%numbers)) .and. &
+             same_bits(some%endings(i)%lienard_variable, others%endings(j)%lienard_variable) .and. &
              some%endings(i)%status == others%endings(j)%status .and. &
              some%endings(i)%periods == others%endings(j)%periods
    end function same

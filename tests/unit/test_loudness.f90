@@ -131,9 +131,10 @@ contains
       problem%initial_velocity = -2.0e-3_dp
       call solve(problem, .false., 2, 2, states, accelerations, record)
       found = loudness_of_record(record, problem%frequency)
-      work = -record%force_work + static_load(problem)*(states(2*samples, of_film) - record%start%film) &
-             - 0.5_dp*problem%mass*(states(2*samples, of_velocity)**2 - record%start%velocity**2)
-      call checks%check(abs(states(2*samples, of_film)/record%start%film - 1.0_dp) > 0.1_dp, 'unclosed: the film has changed')
+      work = -record%force_work + static_load(problem)*(states(2*samples, of_film) - record%start%numbers(of_film)) &
+             - 0.5_dp*problem%mass*(states(2*samples, of_velocity)**2 - record%start%numbers(of_velocity)**2)
+      call checks%check(abs(states(2*samples, of_film)/record%start%numbers(of_film) - 1.0_dp) > 0.1_dp, &
+                        'unclosed: the film has changed')
       call checks%check_close(2.0_dp*found%dissipated_energy/work, 1.0_dp, 1.0e-8_dp, 'unclosed: energy of the window')
       mean = sum(accelerations)/(2.0_dp*real(samples, dp))
       variance = sum((accelerations - mean)**2)/(2.0_dp*real(samples, dp))

@@ -42,11 +42,12 @@ contains
 
       type(orbit_watch_t) :: watch
 
-      watch = watch_from(films(0), momenta(0))
+      watch = watch_from([films(0), momenta(0)], films(0))
       orbit = 0
       distance = huge(1.0_dp)
       do place = 1, ubound(films, 1)
-         call note_state(watch, films(place), momenta(place), momentum_weight, settling_t(), tolerance, orbit, distance)
+         call note_state(watch, [films(place), momenta(place)], films(place), [1.0_dp, momentum_weight], settling_t(), tolerance, &
+                         orbit, distance)
          if (orbit > 0) return
       end do
       place = ubound(films, 1)
@@ -243,12 +244,13 @@ contains
                momentum = merge(1.0e-3_dp, merge(-1.0e-3_dp*rates(r), 0.0_dp, start == 1), start == 0)
                parts(1) = (momentum - roots(2)*film)/(roots(1) - roots(2))
                parts(2) = film - parts(1)
-               watch = watch_from(1.0_dp + film, momentum)
+               watch = watch_from([1.0_dp + film, momentum], 1.0_dp + film)
                orbit = 0
                do mean = 1, 1000000
                   left(0) = real(sum(parts*exp(roots*mean)), dp)
                   left(1) = real(sum(parts*roots*exp(roots*mean)), dp)
-                  call note_state(watch, 1.0_dp + left(0), left(1), 1.0_dp/(2.0_dp + dampings(i)), settling, tolerance, orbit, &
+                  call note_state(watch, [1.0_dp + left(0), left(1)], 1.0_dp + left(0), &
+                                  [1.0_dp, 1.0_dp/(2.0_dp + dampings(i))], settling, tolerance, orbit, &
                                   distance)
                   if (orbit > 0) exit
                end do
@@ -261,12 +263,14 @@ contains
          end do
       end do
       ! A step below the last bit is still a step of a film that has nothing to bring it back.
-      watch = watch_from(1.0_dp, 0.0_dp)
+      watch = watch_from([1.0_dp, 0.0_dp], 1.0_dp)
       do i = 1, 40
-         call note_state(watch, 1.0_dp, 0.0_dp, 1.0_dp, settling_t(1.0e-12_dp, 1.0_dp, 1.0e-12_dp), tolerance, orbit, distance)
+         call note_state(watch, [1.0_dp, 0.0_dp], 1.0_dp, [1.0_dp, 1.0_dp], settling_t(1.0e-12_dp, 1.0_dp, 1.0e-12_dp), tolerance, &
+                         orbit, distance)
          call checks%check(orbit == 0, 'slow films: less than the last bit')
       end do
-      call note_state(watch, 1.0_dp, 0.0_dp, 1.0_dp, settling_t(1.0e-5_dp, 1.0_dp, 1.0e-5_dp), tolerance, orbit, distance)
+      call note_state(watch, [1.0_dp, 0.0_dp], 1.0_dp, [1.0_dp, 1.0_dp], settling_t(1.0e-5_dp, 1.0_dp, 1.0e-5_dp), tolerance, &
+                      orbit, distance)
       call checks%check(orbit == 1 .and. distance > 0.0_dp .and. distance < tolerance, 'slow films: the last bit is near enough')
    end subroutine test_slow_films
 

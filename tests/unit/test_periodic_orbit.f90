@@ -68,14 +68,15 @@ contains
 
       lane = lane_of(205.7_dp, 1.905_dp)
       true = settled(lane, 120)
-      scale = true%film*2.0_dp*acos(-1.0_dp)*lane%frequency
+      scale = true%numbers(of_film)*2.0_dp*acos(-1.0_dp)*lane%frequency
       do i = 1, size(shares, 2)
-         film = true%film*(1.0_dp + shares(1, i))
-         velocity = true%velocity + scale*shares(2, i)
+         film = true%numbers(of_film)*(1.0_dp + shares(1, i))
+         velocity = true%numbers(of_velocity) + scale*shares(2, i)
          orbit = find_periodic_orbit(lane, [film, velocity], 0.02_dp)
          call checks%check(orbit%period == 1, 'off the orbit: found')
-         call checks%check_close(orbit%state(of_film)/true%film, 1.0_dp, 1.0e-9_dp, 'off the orbit: its film')
-         call checks%check_close((orbit%state(of_velocity) - true%velocity)/scale, 0.0_dp, 1.0e-9_dp, 'off the orbit: its velocity')
+         call checks%check_close(orbit%state(of_film)/true%numbers(of_film), 1.0_dp, 1.0e-9_dp, 'off the orbit: its film')
+         call checks%check_close((orbit%state(of_velocity) - true%numbers(of_velocity))/scale, 0.0_dp, 1.0e-9_dp, &
+                                 'off the orbit: its velocity')
          call checks%check_close(orbit%distance, maxval(abs(shares(:, i))), 1.0e-8_dp, 'off the orbit: how far')
          orbit = find_periodic_orbit(lane, [film, velocity], 0.0045_dp)
          call checks%check(orbit%period == 0, 'off the orbit: too far away')
@@ -93,10 +94,10 @@ contains
       lane = lane_of(100.0_dp, 1.905_dp)
       lane%frequency = 6.0e5_dp
       true = settled(lane, 5000)
-      orbit = find_periodic_orbit(lane, [1.05_dp*true%film, true%velocity], 0.06_dp)
+      orbit = find_periodic_orbit(lane, [1.05_dp*true%numbers(of_film), true%numbers(of_velocity)], 0.06_dp)
       call checks%check(orbit%period == 1, 'slow return: found within the nearness')
       call checks%check_close(orbit%distance, 0.05_dp, 1.0e-8_dp, 'slow return: how far')
-      orbit = find_periodic_orbit(lane, [1.05_dp*true%film, true%velocity], 0.04_dp)
+      orbit = find_periodic_orbit(lane, [1.05_dp*true%numbers(of_film), true%numbers(of_velocity)], 0.04_dp)
       call checks%check(orbit%period == 0, 'slow return: too far away')
    end subroutine test_slow_return
 
@@ -112,13 +113,13 @@ contains
 
       lane = lane_of(100.0_dp, 8.0_dp)
       true = settled(lane, 200)
-      orbit = find_periodic_orbit(lane, [1.001_dp*true%film, true%velocity], 0.02_dp)
+      orbit = find_periodic_orbit(lane, [1.001_dp*true%numbers(of_film), true%numbers(of_velocity)], 0.02_dp)
       do i = 1, 2
          step = 5.0e-4_dp*real(i, dp)
-         film_step = step*true%film
+         film_step = step*true%numbers(of_film)
          velocity_step = film_step*2.0_dp*acos(-1.0_dp)*lane%frequency
-         states(of_film, :) = true%film + [film_step, -film_step, 0.0_dp, 0.0_dp]
-         states(of_velocity, :) = true%velocity + [0.0_dp, 0.0_dp, velocity_step, -velocity_step]
+         states(of_film, :) = true%numbers(of_film) + [film_step, -film_step, 0.0_dp, 0.0_dp]
+         states(of_velocity, :) = true%numbers(of_velocity) + [0.0_dp, 0.0_dp, velocity_step, -velocity_step]
          call map_states(lane, 1, 1.0e-12_dp, states, mapped)
          trace(i) = (states(of_film, 1) - states(of_film, 2))/(2.0_dp*film_step) + &
                     (states(of_velocity, 3) - states(of_velocity, 4))/(2.0_dp*velocity_step)
@@ -142,9 +143,9 @@ contains
       do i = 1, size(periods)
          lane = lane_of(amplitudes(i), speeds(i))
          true = settled(lane, 800)
-         orbit = find_periodic_orbit(lane, [true%film*(1.0_dp + 1.0e-5_dp), true%velocity], 1.0e-3_dp)
+         orbit = find_periodic_orbit(lane, [true%numbers(of_film)*(1.0_dp + 1.0e-5_dp), true%numbers(of_velocity)], 1.0e-3_dp)
          call checks%check(orbit%period == periods(i) .and. attracting_period(orbit) == periods(i), 'periods: its own')
-         call checks%check_close(orbit%state(of_film)/true%film, 1.0_dp, 1.0e-7_dp, 'periods: its film')
+         call checks%check_close(orbit%state(of_film)/true%numbers(of_film), 1.0_dp, 1.0e-7_dp, 'periods: its film')
       end do
    end subroutine test_periods
 
@@ -161,10 +162,11 @@ contains
 
       lane = lane_of(396.0_dp, 8.405158309469508_dp)
       true = settled(lane, 800)
-      there = [true%film*(1.0_dp + offset), true%velocity]
+      there = [true%numbers(of_film)*(1.0_dp + offset), true%numbers(of_velocity)]
       image(:, 1) = there
       call map_states(lane, 1, 1.0e-12_dp, image, mapped)
-      call checks%check(mapped .and. abs(image(of_film, 1) - there(of_film)) > nearness*true%film, 'shortest: far after a period')
+      call checks%check(mapped .and. abs(image(of_film, 1) - there(of_film)) > nearness*true%numbers(of_film), &
+                        'shortest: far after a period')
       orbit = find_periodic_orbit(lane, there, nearness)
       call checks%check(orbit%period == 1, 'shortest: its period')
       call checks%check_close(orbit%distance, offset, 1.0e-7_dp, 'shortest: how far')

@@ -42,16 +42,18 @@ contains
       real(dp), intent(out) :: film       !> Forecast
       real(dp), intent(out) :: momentum   !> Forecast
       type(orbit_watch_t) :: watch
-      real(dp) :: away(2), distance
+      real(dp) :: away(2), place(2), distance
       integer :: i, orbit
 
       away = start
-      watch = watch_from(rest(1) + away(1), rest(2) + away(2))
+      watch = watch_from(rest + away, rest(1) + away(1))
       do i = 2, states
          away = matmul(map, away)
-         call note_state(watch, rest(1) + away(1), rest(2) + away(2), weight, settling_t(), 0.0_dp, orbit, distance)
+         call note_state(watch, rest + away, rest(1) + away(1), [1.0_dp, weight], settling_t(), 0.0_dp, orbit, distance)
       end do
-      call forecast_rest(watch, weight, orbit, film, momentum)
+      call forecast_rest(watch, weight, huge(1.0_dp), orbit, place)
+      film = place(1)
+      momentum = place(2)
       found = orbit > 0
    end subroutine follow
 

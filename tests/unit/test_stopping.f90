@@ -8,7 +8,7 @@ module test_stopping
    use errors, only: fault_list_t
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
-   use problem, only: problem_of, problem_t
+   use problem, only: of_film, problem_of, problem_t
    use scene_status, only: status_complete, status_interrupted
    use scene_types, only: law_iso_viscous, scene_t
    use signals, only: lift_time_limit, limit_time, must_stop
@@ -84,7 +84,7 @@ contains
       call lift_time_limit()
       call checks%check(all(endings%status == status_interrupted), 'motions: interrupted')
       call checks%check(all(endings%periods == 0 .and. endings%samples == 0), 'motions: nothing solved')
-      call checks%check(all(same_bits(endings%film, lanes%initial_film)), 'motions: where they began')
+      call checks%check(all(same_bits(endings%numbers(of_film), lanes%initial_film)), 'motions: where they began')
       call solve_motions(lanes, starts, request, states, endings)
       call checks%check(all(endings%status == status_complete .and. endings%periods == 3), 'motions: solved in the end')
    end subroutine test_motions
