@@ -1,0 +1,135 @@
+!> Tests of impacts by hand: loads of straight lines, whose impacts can be counted and integrated on paper, wherever the window
+!> begins; and of the largest force of several orders.
+module test_impacts
+   use checks, only: check_list_t
+   use constants, only: two_pi
+   use force, only: cosine_force, force_t, largest_size
+   use kinds, only: dp
+   use problem, only: of_drive_compression, of_velocity, problem_t
+   use window_impacts, only: impacts_of_samples, window_impacts_t
+   implicit none(type, external)
+   private
+
+   integer, parameter :: samples = 16
+
+   public :: run_impacts_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_impacts_tests(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('impacts')
+      ! F_max is 1 N: the triangle of 2 N exceeds it for a sample, with 1.5 N on average.
+      call compare([2.0_dp], [2.0_dp], [1.5_dp], 'one impact')
+      call compare([1.4_dp, 0.0_dp, 1.4_dp], [real(dp) ::], [real(dp) ::], 'below the limit')
+      call compare([4.0_dp, 2.5_dp, 3.0_dp], [4.0_dp], [0.75_dp*2.5_dp + 3.25_dp + 2.75_dp + 2.0_dp/3.0_dp*2.0_dp], &
+                   'two maxima of an impact')
+      ! The stretch parts at 1.4 N.
+      call compare([4.0_dp, 1.4_dp, 3.0_dp], [4.0_dp, 3.0_dp], &
+                   [0.75_dp*2.5_dp + 2.7_dp, 2.2_dp + 2.0_dp/3.0_dp*2.0_dp], 'two impacts in a stretch')
+      call compare([4.0_dp, 0.0_dp, 3.0_dp], [4.0_dp, 3.0_dp], [1.5_dp*2.5_dp, 4.0_dp/3.0_dp*2.0_dp], 'two impacts')
+      ! The dip to 0.95 N is above half of 1.7 N: the interval is the stretch about 1.8 N.
+      call compare([1.8_dp, 0.95_dp, 1.7_dp], [1.8_dp], [(0.8_dp/1.8_dp + 0.8_dp/0.85_dp)*1.4_dp], 'a dip below the force')
+      call test_unloaded(checks)
+      call test_largest_force(checks)
+
+   contains
+
+      !> Impacts of some loads with nothing behind them, beginning with each of the samples.
+      subroutine compare(loads, tops, impulses, name)
+         real(dp), intent(in) :: loads(:)     !> One after the other [N]
+         real(dp), intent(in) :: tops(:)      !> Loads of their impacts [N]
+         real(dp), intent(in) :: impulses(:)  !> And their impulses [N samples]
+         character(*), intent(in) :: name     !> Of the case
+         type(window_impacts_t) :: impacts
+         real(dp) :: all_loads(samples), rounding
+         integer :: shift
+
+         rounding = 16.0_dp*epsilon(1.0_dp)
+         all_loads = 0.0_dp
+         all_loads(2:1 + size(loads)) = loads
+         do shift = 0, samples - 1
+            impacts = impacts_of_samples(pressed(0.0_dp), 1.5_dp, samples, states_of(cshift(all_loads, shift)))
+            associate (drive => impacts%flanks(1))
+               call checks%check(drive%count == size(tops) .and. impacts%flanks(2)%count == 0, name//': their number')
+               if (size(tops) == 0) cycle
+               call checks%check_close(drive%load_maximum, maxval(tops), 0.0_dp, name//': largest load')
+               call checks%check_close(drive%impulse_maximum, maxval(impulses)/real(samples, dp), rounding, name//': impulse')
+               call checks%check_close(drive%impulse_sum, sum(impulses)/real(samples, dp), rounding, name//': all impulses')
+               call checks%check_close(drive%kept(1 + findloc(drive%kept%load >= maxval(tops), .true., dim=1) - 1)%time, &
+                                       modulo(real(1 + maxloc(loads, dim=1) - shift, dp)/real(samples, dp), 1.0_dp), rounding, &
+                                       name//': when')
+            end associate
+         end do
+      end subroutine compare
+
+   end subroutine run_impacts_tests
+
+   !> A tooth on a spring of 1 N/m under a force of 1 N at most, or that beside a steady one.
+   pure type(problem_t) function pressed(steady)
+      real(dp), intent(in) :: steady  !> [N]
+
+      pressed%force = cosine_force(steady, 1.0_dp)
+      pressed%compliance = 1.0_dp
+      pressed%frequency = 1.0_dp
+   end function pressed
+
+   !> States that carry some loads.
+   pure function states_of(loads) result(states)
+      real(dp), intent(in) :: loads(:)  !> [N]
+      real(dp) :: states(size(loads), 3)
+
+      states = 1.0_dp
+      states(:, of_velocity) = 0.0_dp
+      states(:, of_drive_compression) = loads
+   end function states_of
+
+   !> The film is unloaded below a hundredth of the static load, or of the largest force where there is none.
+   subroutine test_unloaded(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(window_impacts_t) :: impacts
+
+      ! A line from 0 to 1 N and back, over two samples of four; two samples stand at 0.
+      impacts = impacts_of_samples(pressed(0.5_dp), 1.5_dp, 4, states_of([0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp]))
+      call checks%check_close(impacts%unloaded_share, 0.5_dp + 2.0_dp*0.005_dp/4.0_dp, 1.0e-14_dp, 'unloaded: static load')
+      impacts = impacts_of_samples(pressed(0.0_dp), 1.5_dp, 4, states_of([0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp]))
+      call checks%check_close(impacts%unloaded_share, 0.5_dp + 2.0_dp*0.01_dp/4.0_dp, 1.0e-14_dp, 'unloaded: largest force')
+      impacts = impacts_of_samples(pressed(0.0_dp), 1.5_dp, 2, states_of([0.0_dp, 1.0_dp, 0.0_dp, 1.0_dp]))
+      call checks%check_close(impacts%unloaded_share, 4.0_dp*0.01_dp/4.0_dp, 1.0e-14_dp, 'unloaded: share of two periods')
+   end subroutine test_unloaded
+
+   !> The largest force of several orders is that of very many places, and a little more.
+   subroutine test_largest_force(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      integer, parameter :: places = 100000, highest = 7, forces = 20
+      type(force_t) :: several
+      real(dp) :: drawn(2*highest), top, value, turn
+      integer :: i, k, n
+
+      do i = 1, forces
+         drawn = [(modulo(0.61803398874989485_dp*real(13*i + k, dp)*real(k, dp), 1.0_dp) - 0.5_dp, k=1, 2*highest)]
+         several = cosine_force(0.3_dp*drawn(3), drawn(1))
+         several%sine = drawn(2)
+         several%highest = highest
+         if (allocated(several%others)) deallocate (several%others)
+         allocate (several%others(2, 2:highest))
+         several%others = reshape(drawn(3:), [2, highest - 1])
+         top = 0.0_dp
+         do k = 1, places
+            turn = two_pi*real(k, dp)/real(places, dp)
+            value = 0.2_dp + several%steady + drawn(1)*cos(turn) + drawn(2)*sin(turn)
+            do n = 2, highest
+               value = value + several%others(1, n)*cos(real(n, dp)*turn) + several%others(2, n)*sin(real(n, dp)*turn)
+            end do
+            top = max(top, abs(value))
+         end do
+         value = largest_size(several, 0.2_dp)
+         ! Between places 1e-5 of a period apart a wave of order 7 rises by (7 pi 1e-5)**2/2 at most.
+         call checks%check(value >= top*(1.0_dp - 1.0e-14_dp) .and. value <= top*(1.0_dp + 1.0e-7_dp), 'largest force')
+      end do
+      call checks%check_close(largest_size(cosine_force(-3.0_dp, 2.0_dp), 0.5_dp), 4.5_dp, 1.0e-15_dp, 'largest force: one order')
+   end subroutine test_largest_force
+
+end module test_impacts
