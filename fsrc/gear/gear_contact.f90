@@ -44,9 +44,10 @@ module gear_contact
       !> Ends of the line of action, where it touches the base circles [m]
       real(dp) :: first_position = 0.0_dp
       real(dp) :: last_position = 0.0_dp
-      !> Equivalent radius R and length l of the contact [m]
+      !> Equivalent radius R and length l of the contact, and width of all teeth in contact [m]
       real(dp) :: radius = 0.0_dp
       real(dp) :: length = 0.0_dp
+      real(dp) :: tooth_width = 0.0_dp
       !> Surface speeds u_1 and u_2, and entrainment speed U [m/s]
       real(dp) :: surface_speed_1 = 0.0_dp
       real(dp) :: surface_speed_2 = 0.0_dp
@@ -105,7 +106,8 @@ contains
          return
       end if
       contact%radius = rho_1*rho_2/((rho_1 + rho_2)*cos(base_helix))
-      contact%length = pair%face_width*pair%contact_lines/cos(base_helix)
+      contact%tooth_width = pair%face_width*pair%contact_lines
+      contact%length = contact%tooth_width/cos(base_helix)
       contact%surface_speed_1 = two_pi*shaft_speed*rho_1
       contact%surface_speed_2 = two_pi*shaft_speed*rho_2*real(pair%teeth_1, dp)/real(pair%teeth_2, dp)
       contact%entrainment_speed = 0.5_dp*(contact%surface_speed_1 + contact%surface_speed_2)

@@ -51,7 +51,7 @@ contains
       real(dp) :: static_load, stiffness, damping, rest(2), force
 
       resolved%problem = problem_of(scene)
-      resolved%tooth_compliance = 1.0_dp/(steel_tooth*scene%contact%length)
+      resolved%tooth_compliance = 1.0_dp/scene%contact%flank_stiffness(steel_tooth)
       if (scene%contact%stiffness > 0.0_dp) resolved%tooth_compliance = 1.0_dp/scene%contact%stiffness
       static_load = scene%excitation%static_load()
       rest = films_at_rest(resolved%problem, static_load)

@@ -297,8 +297,12 @@ contains
       warning = short_text(100.0_dp*share, 2)//' % of'
       if (share > 1.0_dp) warning = short_text(share, 2)//' times'
       warning = 'warning: '//when//' a steel tooth gives way by '//warning//' the film, while these teeth are rigid '// &
-                '(stiffness_matters). Teeth that give may move otherwise, and fall into another class: steel ones have '// &
-                'contact.stiffness = '//short_text(steel_tooth*scene%contact%length, 2)//' N/m'
+                '(stiffness_matters). Teeth that give may move otherwise, and fall into another class: steel ones have '
+      if (scene%gear%given) then
+         warning = warning//'gear.tooth_stiffness = '//short_text(steel_tooth, 2)//' N/m2'
+      else
+         warning = warning//'contact.stiffness = '//short_text(scene%contact%flank_stiffness(steel_tooth), 2)//' N/m'
+      end if
    end function stiffness_warning
 
    !> What samples that are too few for the motion mean, and how many would do.

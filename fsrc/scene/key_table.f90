@@ -244,7 +244,8 @@ module key_table
             sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
             computable=a_play), &
       key_t('gear', 'tooth_stiffness', real_kind, 'N/m2', '', positive, '', of_motions, &
-            'Stiffness of the teeth for each metre of face width, c'' of ISO 6336-1 (1.4e10 for steel); absent: rigid.', &
+            'Stiffness of the teeth for each metre of face width, c'' of ISO 6336-1 (1.4e10 for steel); a flank has it times '// &
+            'face_width and contact_lines; absent: rigid.', &
             sensible=range_t(lower=1.0e7_dp, upper=1.0e12_dp), &
             computable=a_stiffness), &
       key_t('shaft', 'speed_rpm', real_kind, '1/min', 'required', positive, '', of_motions, &

@@ -60,6 +60,10 @@ module scene_types
       real(dp) :: backlash = 0.0_dp
       !> Stiffness of a flank and its tooth, in series with the film [N/m]; 0: rigid
       real(dp) :: stiffness = 0.0_dp
+      !> Width of all teeth in contact [m]; 0: the contact length
+      real(dp) :: tooth_width = 0.0_dp
+   contains
+      procedure :: flank_stiffness
    end type contact_t
 
    !> Sums of keys that are smaller than this come of rounding, and lead out of the range of the reals: Q + m g [N], U [m/s]
@@ -489,6 +493,15 @@ contains
       forced = .false.
       forced(pack(orders, orders <= highest_order .and. amplitudes >= least_share*maxval(amplitudes))) = .true.
    end function forced_orders
+
+   !> Stiffness of a flank whose teeth have one for each metre of their width [N/m].
+   elemental real(dp) function flank_stiffness(self, tooth_stiffness)
+      class(contact_t), intent(in) :: self
+      !> c' of ISO 6336-1 [N/m2]
+      real(dp), intent(in) :: tooth_stiffness
+
+      flank_stiffness = tooth_stiffness*merge(self%tooth_width, self%length, self%tooth_width > 0.0_dp)
+   end function flank_stiffness
 
    !> Weight m g of the tooth pair [N].
    elemental real(dp) function weight(self)
