@@ -18,7 +18,7 @@ module campaign_certificate
    use resolved_scene, only: resolved_scene_t
    use scene_group, only: classify_group, scene_group_t, solve_group
    use scene_status, only: is_success, status_steady
-   use scene_types, only: scene_t, spectrum_choice_t
+   use scene_types, only: method_taylor, spectrum_choice_t
    use signals, only: must_stop
    use window_extremes, only: extremes_of_record
    use window_impacts, only: agreement_of, impact_agreement_t, impacts_of_record
@@ -33,9 +33,7 @@ module campaign_certificate
 contains
 
    !> Whether the classes of a group stand. After a signal to stop the answer is of no use.
-   subroutine certify_group(scene, resolved, choices, request, group, tight, stands, agree)
-      !> The scene with its varied keys set, of any scene of the group
-      type(scene_t), intent(in) :: scene
+   subroutine certify_group(resolved, choices, request, group, tight, stands, agree)
       !> What follows from the scenes, and the limits of their classes
       type(resolved_scene_t), intent(in) :: resolved(:)
       type(spectrum_choice_t), intent(in) :: choices(:)
@@ -57,7 +55,7 @@ contains
 
       tighter = request
       starts = start_of(resolved%problem)
-      call tighten(scene, tighter%accuracy, starts(1)%implicit)
+      call tighten(method_taylor, request%accuracy, tighter%accuracy, starts(1)%implicit)
       starts%implicit = starts(1)%implicit
       noise = resolved%noise_floor_at(tighter%accuracy)
       wants = .false.

@@ -163,7 +163,7 @@ contains
       together = merge(solved, 1, alike(requests(order(:solved))))
       do start = 1, solved, max(1, together)
          associate (group => order(start:start + together - 1))
-            call solve_side_by_side(scene, resolved(group), choices(group), requests(order(start)), needed, space)
+            call solve_side_by_side(resolved(group), choices(group), requests(order(start)), needed, space)
             if (must_stop()) return
             do i = 1, together
                call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%agree(i), space%judged)
@@ -178,9 +178,7 @@ contains
    end subroutine solve_batch
 
    !> Solve scenes that ask for the same, find their classes, and whether they stand, as far as columns ask for it.
-   subroutine solve_side_by_side(scene, resolved, choices, request, needed, space)
-      !> Any of the scenes
-      type(scene_t), intent(in) :: scene
+   subroutine solve_side_by_side(resolved, choices, request, needed, space)
       type(resolved_scene_t), intent(in) :: resolved(:)
       !> Limits of their classes
       type(spectrum_choice_t), intent(in) :: choices(:)
@@ -204,9 +202,9 @@ contains
       end associate
       if (must_stop()) return
       if (needed(needs_verified_impacts)) then
-         call certify_group(scene, resolved, choices, request, space%group, space%tight, space%stands, space%agree)
+         call certify_group(resolved, choices, request, space%group, space%tight, space%stands, space%agree)
       else if (needed(needs_certificate)) then
-         call certify_group(scene, resolved, choices, request, space%group, space%tight, space%stands)
+         call certify_group(resolved, choices, request, space%group, space%tight, space%stands)
       end if
    end subroutine solve_side_by_side
 

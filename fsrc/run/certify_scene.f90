@@ -63,7 +63,7 @@ contains
       real(dp) :: accuracy
 
       start = start_of(resolved%problem)
-      call tighten(scene, accuracy, start%implicit)
+      call tighten(scene%solver%method, scene%solver%accuracy, accuracy, start%implicit)
       tight%periods = window%periods
       tight%samples_per_period = window%samples_per_period
       call solve_whole_window(scene, resolved%problem, start, accuracy, periods, resolved%noise_floor_at(accuracy), tight, &
@@ -107,20 +107,22 @@ contains
    end subroutine certify
 
    !> How a scene is solved tighter.
-   pure subroutine tighten(scene, accuracy, by_collocation)
-      !> Checked scene
-      type(scene_t), intent(in) :: scene
-      !> Relative accuracy [-]
+   pure subroutine tighten(method, own_accuracy, accuracy, by_collocation)
+      !> Code of its method
+      integer, intent(in) :: method
+      !> Relative accuracy that it was solved with [-]
+      real(dp), intent(in) :: own_accuracy
+      !> Relative accuracy of the tighter solution [-]
       real(dp), intent(out) :: accuracy
       !> Whether by the implicit method, whatever the film law
       logical, intent(out) :: by_collocation
 
       accuracy = tight_accuracy
       by_collocation = .false.
-      if (scene%solver%method /= method_taylor) return
-      accuracy = min(accuracy, max(tightest_accuracy, 0.01_dp*scene%solver%accuracy))
+      if (method /= method_taylor) return
+      accuracy = min(accuracy, max(tightest_accuracy, 0.01_dp*own_accuracy))
       ! Where there is no room for a tighter solution, another method tells the errors.
-      by_collocation = accuracy > 0.05_dp*scene%solver%accuracy
+      by_collocation = accuracy > 0.05_dp*own_accuracy
    end subroutine tighten
 
    !> The periodic motion at the end of a run, if there is one.

@@ -148,7 +148,7 @@ def test_a_flank_is_as_stiff_as_all_its_lines(run, tmp_path: Path) -> None:
     result = package.read(tmp_path / "results" / "pair.rattle")
     film, load = (np.array(result[name])[-1024:] for name in ("film_thickness", "film_load"))
     worst = int(np.argmax(load))
-    # About its maximum the load is flat while the film moves on. By contact length the share would be 12 % less.
+    # About its maximum the load is flat while the film moves on. By contact length it would be 12 % less.
     assert summary["deflection_share"] == pytest.approx(load[worst] / (stiffness * film[worst]), rel=0.03)
 
 
