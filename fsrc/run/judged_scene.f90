@@ -37,10 +37,10 @@ module judged_scene
    use carried_loads, only: coast_films
    use problem, only: has_elastic_teeth, has_two_flanks, largest_state, of_film
    use rattle_class, only: rattle_verdict_t
-   use regime, only: deflection_limit
+   use regime, only: deflection_limit, film_elastohydrodynamic
    use regime_check, only: model_limit, regime_verdict_t
    use resolved_scene, only: resolved_scene_t
-   use scene_status, only: status_complete
+   use scene_status, only: status_complete, status_no_rigid_film
    use window_extremes, only: window_extremes_t
    use window_impacts, only: double_sided_impacts, has_reversal, has_separation, verdict_of, window_impacts_t
    implicit none(type, external)
@@ -106,6 +106,9 @@ contains
          if (judged%count%steps > 0) value = real(judged%count%evaluations, dp)/real(judged%count%steps, dp)
       case default
          if (judged%judged) value = window_value(quantity, judged)
+         ! No film of the scene's own law carries its load: that much is known of a motion that never began.
+         if (judged%status == status_no_rigid_film .and. quantity == quantity_film_regime) value = real(film_elastohydrodynamic, dp)
+         if (judged%status == status_no_rigid_film .and. quantity == quantity_law_contradicted) value = flag(.true.)
       end select
    end function quantity_value
 

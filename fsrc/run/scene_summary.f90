@@ -7,9 +7,8 @@ module scene_summary
    use key_table, only: choice_word
    use kinds, only: dp, int64
    use quantities, only: a_code, a_count, a_flag, a_list, part_class, part_cost, part_errors, part_lines, part_orbit, part_regime, &
-                         part_scene, part_window, quantity_film_regime, quantity_orbit_period, quantity_t, quantity_table, &
-                         quantity_word
-   use regime, only: film_elastohydrodynamic
+                         part_scene, part_window, quantity_film_regime, quantity_law_contradicted, quantity_orbit_period, &
+                         quantity_t, quantity_table, quantity_word
    use scene_report, only: speed_meaning
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_sentence
    use scene_types, only: scene_t
@@ -57,8 +56,9 @@ contains
       end if
       if (.not. is_success(judged%status) .and. judged%film > 0.0_dp) call summary%add('film_at_status_time', judged%film)
       if (judged%status == status_no_rigid_film) then
-         call summary%add('film_regime', quantity_word(quantity_film_regime, film_elastohydrodynamic))
-         call summary%add('law_contradicted', .true.)
+         call summary%add('film_regime', &
+                          quantity_word(quantity_film_regime, nint(quantity_value(quantity_film_regime, judged))))
+         call summary%add('law_contradicted', quantity_value(quantity_law_contradicted, judged) > 0.0_dp)
       end if
       call add_part(summary, judged, part_cost)
       call summary%add('wall_seconds', seconds)

@@ -107,7 +107,7 @@ contains
             call refuse('takes no index')
             return
          else if (size(assignment%values) > 1) then
-            call refuse('takes one value, '//integer_text(size(assignment%values))//' are given')
+            call refuse('takes one value, '//integer_text(size(assignment%values))//' are given'//comma_hint())
             return
          end if
       else if (assignment%first_element > length + 1) then
@@ -132,6 +132,19 @@ contains
       if (.not. entry%faulty) entry%present = .true.
 
    contains
+
+      !> Two whole numbers with a comma between them are surely one number with a decimal comma.
+      pure function comma_hint() result(hint)
+         character(:), allocatable :: hint
+         character(*), parameter :: digits = '0123456789'
+
+         hint = ''
+         if (key%kind /= real_kind .or. .not. assignment%has_comma .or. size(assignment%values) /= 2) return
+         associate (whole => assignment%values(1)%text, decimals => assignment%values(2)%text)
+            if (verify(whole, '+-'//digits) > 0 .or. verify(decimals, digits//'eEdD+-') > 0) return
+            hint = '; the decimal comma is a point here: '//whole//'.'//decimals
+         end associate
+      end function comma_hint
 
       subroutine refuse(message)
          character(*), intent(in) :: message

@@ -554,6 +554,7 @@ contains
       !> Name that is not in it
       character(*), intent(in) :: name
       character(:), allocatable :: hint
+      integer, parameter :: shortest_word = 4
       integer :: i, distance, best, nearest
 
       best = huge(1)
@@ -565,6 +566,8 @@ contains
          end if
          if (keys(i)%group /= group) cycle
          distance = edit_distance(name(:min(len(name), 40)), trim(keys(i)%name))
+         ! A word of a longer name, such as modul, is near it, whatever else is to be added.
+         if (len(name) >= shortest_word .and. index(keys(i)%name, name) > 0) distance = min(distance, 2)
          if (distance >= best) cycle
          best = distance
          nearest = i

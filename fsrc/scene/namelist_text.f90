@@ -28,6 +28,8 @@ module namelist_text
       !> Whether the index was (:, first_element): a column of a table
       logical :: whole_column = .false.
       type(value_t), allocatable :: values(:)
+      !> Whether a comma stands among them
+      logical :: has_comma = .false.
    end type assignment_t
 
    public :: scan_namelists
@@ -214,6 +216,7 @@ contains
                sound = .false.
             end if
             comma_before = .true.
+            assignment%has_comma = .true.
             call scanner%step()
             cycle
          end if

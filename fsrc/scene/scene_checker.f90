@@ -98,6 +98,11 @@ contains
          if (keys(i)%default /= 'required' .or. input%entries(i)%given .or. .not. in_use(input, i)) cycle
          ! Which keys a task requires is not known before the task is.
          if (keys(i)%used_when /= '' .and. input%is_faulty('scene', 'task')) cycle
+         if (keys(i)%given_by == 'oil' .and. input%has_group('gear')) then
+            call input%add_fault(trim(keys(i)%group), trim(keys(i)%name), 'this key is required, or the data sheet of the oil '// &
+                                 'in &oil; allowed: '//allowed_text(keys(i)), faults)
+            cycle
+         end if
          call input%add_fault(trim(keys(i)%group), trim(keys(i)%name), 'this key is required; allowed: '//allowed_text(keys(i)), &
                               faults)
       end do

@@ -158,3 +158,23 @@ def test_rigid_teeth_of_a_gear_are_told_the_key_that_makes_them_give(run, tmp_pa
     words = [word for setting in settings for word in ("--set", setting)]
     told = run("--check", *words, "pair.nml", cwd=tmp_path).stdout
     assert "steel ones have gear.tooth_stiffness = 1.4E10 N/m2" in told, told
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("&load mass = 0,017 /", "takes one value, 2 are given; the decimal comma is a point here: 0.017"),
+        (
+            PAIR.replace("normal_module", "modul"),
+            "&gear modul: unknown key; the nearest known key is normal_module",
+        ),
+        (
+            "\n".join(line for line in PAIR.splitlines() if not line.startswith("&oil")),
+            "&lubricant viscosity: this key is required, or the data sheet of the oil in &oil",
+        ),
+    ],
+)
+def test_faults_name_what_was_meant(text: str, words: str, run, tmp_path: Path) -> None:
+    (tmp_path / "pair.nml").write_text(text)
+    ended = run("--check", "pair.nml", cwd=tmp_path)
+    assert ended.returncode == 2 and words in ended.stderr, ended.stderr
