@@ -11,7 +11,7 @@ module run_campaign
    use output_lock, only: output_lock_t
    use output_place, only: claim_output_place, log_path, progress_path, result_path, summary_path
    use prepared_campaign, only: campaign_t, prepare_campaign
-   use ranks, only: abort_ranks, next_ticket, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
+   use ranks, only: abort_ranks, next_tickets, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
    use scene_report, only: law_sentence
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
@@ -151,7 +151,7 @@ contains
       !$omp parallel default(shared) private(ticket, chunk, first_row, last_row, rows, space, own_error)
       do
          if (caught_signal() /= 0 .or. failed) exit
-         ticket = next_ticket()
+         ticket = next_tickets(1_int64)
          if (ticket > size(pending, kind=int64)) exit
          chunk = pending(ticket)
          call results%chunk_bounds(chunk, first_row, last_row)

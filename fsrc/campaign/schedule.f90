@@ -14,6 +14,22 @@ module schedule
    !> half: a time limit of two minutes always lets a campaign go on.
    real(dp), parameter :: most_periods = 2.0_dp**18, most_certified_periods = 2.0_dp**16
 
+   !> What a thread takes at a time [s]: a signal or a kill loses it, and no progress is told before it is done. Scenes that are
+   !> many times slower than those before them still take less than ten seconds.
+   real(dp), parameter :: wanted_seconds = 4.0_dp
+   !> How many times as many scenes it takes at most as before, and at most at all
+   integer, parameter :: largest_growth = 8, most_scenes = 2048
+
+   !> What the scenes that a thread solved last have taken.
+   type, public :: pace_t
+      private
+      integer :: scenes = 0
+      real(dp) :: seconds = 0.0_dp
+   contains
+      procedure :: note
+      procedure :: next_scenes
+   end type pace_t
+
    public :: chunk_rows_for, cost_order
 
 contains
@@ -39,6 +55,27 @@ contains
          chunk_rows_for = chunk_rows_for/2
       end do
    end function chunk_rows_for
+
+   !> Note what some scenes have taken.
+   pure subroutine note(self, scenes, seconds)
+      class(pace_t), intent(inout) :: self
+      integer, intent(in) :: scenes
+      real(dp), intent(in) :: seconds
+
+      self%scenes = scenes
+      self%seconds = seconds
+   end subroutine note
+
+   !> How many scenes a thread takes next: one, as long as nothing is known of them, then as many as the time allows.
+   pure integer function next_scenes(self)
+      class(pace_t), intent(in) :: self
+
+      next_scenes = 1
+      if (self%scenes == 0) return
+      next_scenes = min(largest_growth*self%scenes, most_scenes)
+      if (real(next_scenes, dp)*self%seconds > wanted_seconds*real(self%scenes, dp)) &
+         next_scenes = max(1, int(wanted_seconds*real(self%scenes, dp)/self%seconds))
+   end function next_scenes
 
    !> Order by rising cost, equal costs in their old order (merge sort). Scene order(k) is computed as the
    !> k-th; its result goes back to place order(k).

@@ -1,8 +1,10 @@
-!> What a threshold has found so far: the rows of its result, and their counts, kept as NAME.state for --resume.
+!> What a threshold has found so far: the rows of its result with their counts, and all points of the lines under way, kept as
+!> NAME.state for --resume.
 module threshold_outcome
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use byte_file, only: put_in_place
    use campaign_axis, only: grid_value
+   use clock, only: wall_seconds
    use errors, only: error_t, exit_bad_input, raise
    use file_system, only: file_state_t, state_of_path
    use key_table, only: keys
@@ -14,107 +16,148 @@ module threshold_outcome
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
-   use resume, only: open_earlier
+   use ranks, only: add_over_ranks, share_number, this_rank
+   use resume, only: begin_anew, open_earlier
    use sampling, only: scene_values
+   use scene_status, only: is_success
    use scene_types, only: scene_t
-   use threshold_search, only: bracket_t, point_t
+   use threshold_search, only: bracket_t, brackets_of, is_certified, new_point, point_t
    use varied_keys, only: varied_name
    implicit none(type, external)
    private
 
-   !> Numbers in the first row of a state
-   integer, parameter :: counted_numbers = 6
+   !> Numbers in the first row of a state, and in the row of a point
+   integer, parameter :: counted_numbers = 8, point_numbers = 6
 
    !> What became of the thresholds so far.
    type, public :: outcome_t
       !> Rows of the result, one column of this array each
       real(dp), allocatable :: rows(:, :)
-      !> Lines that are done
+      !> Lines that are done, scenes that were solved for them and those of them that failed, and their crossings; lines without
+      !> one, crossings with an end that is not certified, and crossings whose ends were certified only farther apart than asked for
       integer(int64) :: lines = 0_int64
-      integer(int64) :: solved = 0_int64, failed = 0_int64, crossings = 0_int64, uncrossed = 0_int64, uncertain = 0_int64
+      integer(int64) :: solved = 0_int64, failed = 0_int64, crossings = 0_int64, uncrossed = 0_int64, uncertain = 0_int64, &
+                        wide = 0_int64
+      !> What is known of the lines under way, by rising lines and places
+      type(point_t), allocatable :: points(:)
       !> Whether a signal asked to stop
       logical :: cut = .false.
+      !> When the state was kept last [s]
+      real(dp) :: kept_at = 0.0_dp
+   contains
+      procedure :: age
    end type outcome_t
 
-   public :: start_outcome, add_rows, write_rows_of, save_outcome, load_outcome
+   public :: start_outcome, share_points, add_lines, solved_scenes, failed_scenes, write_rows_of, save_outcome, load_outcome
 
 contains
 
    !> An outcome of nothing yet; one that was loaded stays.
-   pure subroutine start_outcome(scene, threshold, outcome)
+   subroutine start_outcome(scene, threshold, outcome)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       type(outcome_t), intent(inout) :: outcome
 
       if (.not. allocated(outcome%rows)) allocate (outcome%rows(size(column_names(scene, threshold)), 0))
+      if (.not. allocated(outcome%points)) allocate (outcome%points(0))
+      outcome%kept_at = wall_seconds()
    end subroutine start_outcome
 
-   !> Rows of some lines: one for each bracket, and one for a line that has none, from end to end of its range.
-   subroutine add_rows(threshold, first, ends, brackets, certified, outcome)
-      type(prepared_threshold_t), intent(in) :: threshold
-      !> First of the lines
-      integer(int64), intent(in) :: first
-      !> First and last point of each line
-      type(point_t), intent(in) :: ends(:, :)
-      !> By rising lines and places
-      type(bracket_t), intent(in) :: brackets(:)
-      !> Of both ends of each bracket; of no use where that is not recorded
-      real(dp), intent(in) :: certified(:, :)
-      type(outcome_t), intent(inout) :: outcome
-      real(dp), allocatable :: rows(:, :)
-      real(dp) :: unknown
-      integer(int64) :: line
-      integer :: i, k, crossing
+   !> How long ago the state was kept [s]
+   real(dp) function age(self)
+      class(outcome_t), intent(in) :: self
 
-      unknown = ieee_value(0.0_dp, ieee_quiet_nan)
-      allocate (rows(size(outcome%rows, 1), size(brackets) + size(ends, 2)))
+      age = wall_seconds() - self%kept_at
+   end function age
+
+   !> Enter some lines of which all is known: a row for each bracket, and one for a line that has none, from end to end of its
+   !> range. Their points are not needed any more.
+   subroutine add_lines(scene, threshold, first, last, outcome)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      !> First and last of the lines
+      integer(int64), intent(in) :: first
+      integer(int64), intent(in) :: last
+      type(outcome_t), intent(inout) :: outcome
+      type(point_t), allocatable :: points(:)
+      type(bracket_t), allocatable :: brackets(:)
+      real(dp), allocatable :: rows(:, :)
+      integer(int64) :: line
+      integer :: i, k, start, end, crossing
+
+      points = pack(outcome%points, outcome%points%line <= last)
+      outcome%points = pack(outcome%points, outcome%points%line > last)
+      allocate (brackets, source=brackets_of(points))
+      allocate (rows(size(outcome%rows, 1), size(brackets) + last - first + 1_int64))
       i = 0
       k = 0
-      do line = first, first + size(ends, 2, kind=int64) - 1_int64
+      end = 0
+      do line = first, last
+         start = end + 1
+         end = start + count(points(start:)%line == line) - 1
          crossing = 0
-         do while (is_of_line(i + 1))
+         do while (i < size(brackets))
+            if (brackets(i + 1)%lower%line /= line) exit
             i = i + 1
+            k = k + 1
             crossing = crossing + 1
-            call put(brackets(i)%lower, brackets(i)%upper)
+            rows(:, k) = row_of(scene, threshold, crossing, brackets(i)%lower, brackets(i)%upper)
+            if (.not. all(is_certified([brackets(i)%lower, brackets(i)%upper]))) outcome%uncertain = outcome%uncertain + 1_int64
+            if (brackets(i)%upper%place - brackets(i)%lower%place > 1) outcome%wide = outcome%wide + 1_int64
          end do
-         if (crossing == 0) call put(ends(1, line - first + 1_int64), ends(2, line - first + 1_int64))
-         if (crossing == 0) outcome%uncrossed = outcome%uncrossed + 1_int64
+         if (crossing > 0) cycle
+         k = k + 1
+         rows(:, k) = row_of(scene, threshold, crossing, points(start), points(end))
+         outcome%uncrossed = outcome%uncrossed + 1_int64
       end do
       outcome%crossings = outcome%crossings + size(brackets, kind=int64)
+      outcome%solved = outcome%solved + scenes_of(points)
+      outcome%failed = outcome%failed + count(.not. is_success(points%status), kind=int64)
+      outcome%lines = last - threshold%lines%first + 1_int64
       outcome%rows = reshape([outcome%rows, rows(:, :k)], [size(rows, 1), size(outcome%rows, 2) + k])
+   end subroutine add_lines
 
-   contains
+   !> Row of a bracket, or of a line without one.
+   function row_of(scene, threshold, crossing, lower, upper) result(row)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      !> Which one of its line; 0: the line has none
+      integer, intent(in) :: crossing
+      type(point_t), intent(in) :: lower
+      type(point_t), intent(in) :: upper
+      real(dp), allocatable :: row(:)
+      real(dp) :: axes(size(threshold%lines%plan%positions)), ends(2), width, certified(2)
 
-      pure logical function is_of_line(place)
-         integer, intent(in) :: place
+      call scene_values(threshold%lines%plan, lower%line, axes)
+      ends = [grid_value(threshold%axis, lower%place), grid_value(threshold%axis, upper%place)]
+      width = ends(2) - ends(1)
+      certified = [lower%certified, upper%certified]
+      if (crossing == 0) width = ieee_value(0.0_dp, ieee_quiet_nan)
+      if (crossing == 0) certified = ieee_value(0.0_dp, ieee_quiet_nan)
+      row = [real(lower%line, dp), axes, real(crossing, dp), ends, width, lower%quantity, upper%quantity, &
+             real(lower%status, dp), real(upper%status, dp)]
+      if (scene%spectrum%certify) row = [row, certified]
+   end function row_of
 
-         is_of_line = place <= size(brackets)
-         if (is_of_line) is_of_line = brackets(place)%line == line
-      end function is_of_line
+   !> Scenes that were solved for some points: those put to the test were solved for that once more.
+   pure integer(int64) function scenes_of(points)
+      type(point_t), intent(in) :: points(:)
 
-      subroutine put(lower, upper)
-         type(point_t), intent(in) :: lower
-         type(point_t), intent(in) :: upper
-         logical :: stands
-         integer :: axes
+      scenes_of = size(points, kind=int64) + count(points%tested, kind=int64)
+   end function scenes_of
 
-         k = k + 1
-         axes = size(threshold%lines%plan%positions)
-         rows(1, k) = real(line, dp)
-         call scene_values(threshold%lines%plan, line, rows(2:1 + axes, k))
-         rows(axes + 2:axes + 8, k) = [real(crossing, dp), grid_value(threshold%axis, lower%place), &
-                                       grid_value(threshold%axis, upper%place), lower%quantity, upper%quantity, &
-                                       real(lower%status, dp), real(upper%status, dp)]
-         if (size(rows, 1) == axes + 8) return
-         rows(axes + 9:axes + 10, k) = unknown
-         if (crossing == 0) return
-         rows(axes + 9:axes + 10, k) = certified(i, :)
-         stands = .not. any(ieee_is_nan(certified(i, :)))
-         if (stands) stands = all(certified(i, :) > 0.0_dp)
-         if (.not. stands) outcome%uncertain = outcome%uncertain + 1_int64
-      end subroutine put
+   !> Scenes that were solved so far, and those of them that failed: of the lines that are done and of those under way.
+   pure integer(int64) function solved_scenes(outcome)
+      type(outcome_t), intent(in) :: outcome
 
-   end subroutine add_rows
+      solved_scenes = outcome%solved + scenes_of(outcome%points)
+   end function solved_scenes
+
+   pure integer(int64) function failed_scenes(outcome)
+      type(outcome_t), intent(in) :: outcome
+
+      failed_scenes = outcome%failed + count(.not. is_success(outcome%points%status), kind=int64)
+   end function failed_scenes
 
    !> Names of the columns.
    pure function column_names(scene, threshold) result(names)
@@ -130,8 +173,8 @@ contains
          axes(i) = varied_name(threshold%lines%plan%positions(i))
       end do
       quantity = trim(quantity_table(scene%threshold%quantity)%name)
-      names = [character(column_name_bytes) :: 'line', axes, 'crossing', 'lower', 'upper', quantity//'_below', quantity//'_above', &
-               'status_below', 'status_above']
+      names = [character(column_name_bytes) :: 'line', axes, 'crossing', 'lower', 'upper', 'width', quantity//'_below', &
+               quantity//'_above', 'status_below', 'status_above']
       if (scene%spectrum%certify) names = [names, sides]
    end function column_names
 
@@ -143,7 +186,8 @@ contains
       integer :: i
 
       associate (key => keys(threshold%axis%position)%unit, quantity => quantity_table(scene%threshold%quantity)%unit)
-         units = [character(column_unit_bytes) :: '-', keys(threshold%lines%plan%positions)%unit, '-', key, key, quantity, quantity]
+         units = [character(column_unit_bytes) :: '-', keys(threshold%lines%plan%positions)%unit, '-', key, key, key, quantity, &
+                  quantity]
          where (units == '') units = '-'
          units = [units, [(units(1), i=1, merge(4, 2, scene%spectrum%certify))]]
       end associate
@@ -166,23 +210,73 @@ contains
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
    end subroutine write_rows_of
 
-   !> Keep the outcome as NAME.state, its counts as the first row. Trouble with it ends nothing: only a run that is killed needs it.
+   !> Keep the outcome as NAME.state: its counts as the first row, the rows of the lines that are done, then the points of those
+   !> under way. Trouble with it ends nothing: only a run that is cut or killed needs it.
    subroutine save_outcome(scene, threshold, outcome, log)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
-      type(outcome_t), intent(in) :: outcome
+      type(outcome_t), intent(inout) :: outcome
       type(log_t), intent(in) :: log
       type(error_t), allocatable :: error
-      real(dp) :: counts(size(outcome%rows, 1), 1)
+      real(dp), allocatable :: table(:, :)
+      integer :: done
 
-      counts = 0.0_dp
-      counts(:counted_numbers, 1) = real([outcome%lines, outcome%solved, outcome%failed, outcome%crossings, outcome%uncrossed, &
-                                          outcome%uncertain], dp)
-      call write_rows_of(state_path(scene), scene, threshold, reshape([counts, outcome%rows], &
-                                                              [size(counts), size(outcome%rows, 2) + 1]), error)
+      done = size(outcome%rows, 2)
+      allocate (table(size(outcome%rows, 1), 1 + done + size(outcome%points)), source=0.0_dp)
+      table(:counted_numbers, 1) = real([int(done, int64), outcome%lines, outcome%solved, outcome%failed, outcome%crossings, &
+                                         outcome%uncrossed, outcome%uncertain, outcome%wide], dp)
+      table(:, 2:1 + done) = outcome%rows
+      table(:point_numbers, 2 + done:) = table_of(outcome%points)
+      call write_rows_of(state_path(scene), scene, threshold, table, error)
       if (.not. allocated(error)) call put_in_place(state_path(scene), error)
       if (allocated(error)) call log%line('  warning: '//error%message)
+      outcome%kept_at = wall_seconds()
    end subroutine save_outcome
+
+   !> Points as numbers.
+   pure function table_of(points) result(table)
+      type(point_t), intent(in) :: points(:)
+      real(dp) :: table(point_numbers, size(points))
+      integer :: i
+
+      do i = 1, size(points)
+         table(:, i) = [real(points(i)%line, dp), real(points(i)%place, dp), real(points(i)%status, dp), points(i)%quantity, &
+                        merge(1.0_dp, 0.0_dp, points(i)%tested), points(i)%certified]
+      end do
+   end function table_of
+
+   !> Numbers as points.
+   pure function points_of(scene, threshold, table) result(points)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      real(dp), intent(in) :: table(:, :)
+      type(point_t) :: points(size(table, 2))
+      integer :: i, place
+
+      do i = 1, size(points)
+         place = nint(table(2, i))
+         points(i) = new_point(scene%threshold, point_t(line=nint(table(1, i), int64), place=place, &
+                                                        scanned=any(threshold%scan == place)), nint(table(3, i)), table(4, i))
+         points(i)%tested = table(5, i) > 0.0_dp
+         points(i)%certified = table(6, i)
+      end do
+   end function points_of
+
+   !> Give the points that the first rank has loaded to all ranks.
+   subroutine share_points(scene, threshold, outcome)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      type(outcome_t), intent(inout) :: outcome
+      real(dp), allocatable :: table(:, :)
+      integer :: count
+
+      count = size(outcome%points)
+      call share_number(count)
+      allocate (table(point_numbers, count), source=0.0_dp)
+      if (this_rank() == 0) table = table_of(outcome%points)
+      call add_over_ranks(table)
+      outcome%points = points_of(scene, threshold, table)
+   end subroutine share_points
 
    !> Read the outcome that an earlier run has kept; without one there is none.
    subroutine load_outcome(scene, threshold, outcome, error)
@@ -192,7 +286,9 @@ contains
       !> Set if the state is damaged, or belongs to another scene or version
       type(error_t), allocatable, intent(out) :: error
       character(*), parameter :: free_keys(0) = [character(1) ::]
+      character(column_name_bytes), allocatable :: names(:)
       type(result_reader_t) :: reader
+      integer :: done
       type(file_state_t) :: kept
       real(dp), allocatable :: rows(:, :)
 
@@ -201,6 +297,16 @@ contains
       call open_earlier(scene, state_path(scene), free_keys, reader, error)
       if (.not. allocated(error) .and. reader%source_checksum /= threshold%lines%layout%source_checksum) &
          call raise(error, exit_bad_input, state_path(scene)//' belongs to other lines: their CSV file has changed since')
+      if (.not. allocated(error)) then
+         names = column_names(scene, threshold)
+         if (size(names) /= reader%columns) then
+            call raise(error, exit_bad_input, state_path(scene)//' was kept by another version of rattle, with other columns'// &
+                       begin_anew)
+         else if (any(names /= reader%names)) then
+            call raise(error, exit_bad_input, state_path(scene)//' was kept by another version of rattle, with other columns'// &
+                       begin_anew)
+         end if
+      end if
       if (.not. allocated(error)) call reader%verify_rows(reader%row_count, error)
       if (.not. allocated(error)) then
          allocate (rows(reader%columns, reader%row_count))
@@ -209,14 +315,17 @@ contains
       call reader%close()
       if (allocated(error)) return
       associate (numbers => nint(rows(:counted_numbers, 1), int64))
-         outcome%lines = numbers(1)
-         outcome%solved = numbers(2)
-         outcome%failed = numbers(3)
-         outcome%crossings = numbers(4)
-         outcome%uncrossed = numbers(5)
-         outcome%uncertain = numbers(6)
+         done = int(numbers(1))
+         outcome%lines = numbers(2)
+         outcome%solved = numbers(3)
+         outcome%failed = numbers(4)
+         outcome%crossings = numbers(5)
+         outcome%uncrossed = numbers(6)
+         outcome%uncertain = numbers(7)
+         outcome%wide = numbers(8)
       end associate
-      outcome%rows = rows(:, 2:)
+      outcome%rows = rows(:, 2:1 + done)
+      outcome%points = points_of(scene, threshold, rows(:point_numbers, 2 + done:))
    end subroutine load_outcome
 
 end module threshold_outcome

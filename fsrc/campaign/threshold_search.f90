@@ -1,7 +1,9 @@
-!> Where a criterion changes along a range: brackets whose ends differ, halved until they are as narrow as asked for. Values
-!> stand at places, whole numbers from 0 on, so that every half is exact.
+!> Where a criterion changes along a range: a scan of every line, then the middles of neighbours that differ, until they stand as
+!> close together as asked for; then the ends of each change go apart again until both are certified. Values stand at places,
+!> whole numbers from 0 on, so that every half is exact. All that is known is one list of points: what is to be solved next
+!> follows from that list alone, so that a search may be cut anywhere and go on.
 module threshold_search
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use campaign_axis, only: campaign_axis_t, grid_value
    use kinds, only: dp, int64
    use quantities, only: a_code, a_flag, quantity_table
@@ -15,24 +17,29 @@ module threshold_search
 
    !> A value of the key and what was found there.
    type, public :: point_t
-      !> From 0 on
+      !> Line along which it stands, from 1, and its place there, from 0
+      integer(int64) :: line = 0_int64
       integer :: place = 0
+      !> Whether the scan has this place
+      logical :: scanned = .false.
       !> Status of scene_status, and the quantity, NaN: unknown
       integer :: status = 0
       real(dp) :: quantity = 0.0_dp
       !> What the criterion makes of both: two points of one number are alike
       integer :: side = 0
+      !> Whether its class was put to the test, and what came out: 1 it stands, 0 it does not, NaN there is no test of it
+      logical :: tested = .false.
+      real(dp) :: certified = 0.0_dp
    end type point_t
 
-   !> Two neighbouring points that differ.
+   !> Two points of a line that differ.
    type, public :: bracket_t
-      !> Line along which they stand, from 1
-      integer(int64) :: line = 0_int64
       type(point_t) :: lower
       type(point_t) :: upper
    end type bracket_t
 
-   public :: finest_axis, scan_places, new_point, brackets_of_scan, is_wide, middle, halved
+   public :: finest_axis, scan_places, new_point, merged_points, missing_scan, missing_middles, untested_ends, brackets_of, &
+             is_certified
 
 contains
 
@@ -85,14 +92,19 @@ contains
    end function scan_places
 
    !> A point, and on which side of the criterion it is.
-   pure type(point_t) function new_point(threshold, place, status, quantity) result(point)
+   pure type(point_t) function new_point(threshold, wanted, status, quantity) result(point)
       type(threshold_t), intent(in) :: threshold
-      integer, intent(in) :: place
+      !> The point that was to be solved
+      type(point_t), intent(in) :: wanted
       integer, intent(in) :: status
       real(dp), intent(in) :: quantity
 
+      point = wanted
+      point%status = status
       ! The sum leaves no zero below zero.
-      point = point_t(place, status, quantity + 0.0_dp, side_unknown)
+      point%quantity = quantity + 0.0_dp
+      point%side = side_unknown
+      point%certified = ieee_value(0.0_dp, ieee_quiet_nan)
       if (.not. is_success(status)) then
          point%side = -status
       else if (ieee_is_nan(quantity)) then
@@ -106,68 +118,200 @@ contains
       end if
    end function new_point
 
-   !> Neighbours of a line that differ.
-   pure function brackets_of_scan(line, points) result(brackets)
-      integer(int64), intent(in) :: line
-      !> By rising places
-      type(point_t), intent(in) :: points(:)
-      type(bracket_t), allocatable :: brackets(:)
-      integer :: i
-
-      allocate (brackets(0))
-      do i = 2, size(points)
-         if (points(i)%side /= points(i - 1)%side) brackets = [brackets, bracket_t(line, points(i - 1), points(i))]
-      end do
-   end function brackets_of_scan
-
-   !> Whether there are places between the ends of a bracket.
-   elemental logical function is_wide(bracket)
-      type(bracket_t), intent(in) :: bracket
-
-      is_wide = bracket%upper%place - bracket%lower%place > 1
-   end function is_wide
-
-   !> Place in the middle of a bracket.
-   elemental integer function middle(bracket)
-      type(bracket_t), intent(in) :: bracket
-
-      middle = bracket%lower%place + (bracket%upper%place - bracket%lower%place)/2
-   end function middle
-
-   !> All brackets, the wide ones halved. Of a half whose ends are alike nothing is left; where the middle is of a third kind
-   !> both halves are.
-   function halved(brackets, middles) result(narrower)
+   !> Two lists of points as one, by rising lines and places. Of two points of one place the second list has the newer one.
+   pure function merged_points(points, newer) result(both)
       !> By rising lines and places
-      type(bracket_t), intent(in) :: brackets(:)
-      !> The points in the middle of the wide ones, in their order
-      type(point_t), intent(in) :: middles(:)
-      type(bracket_t), allocatable :: narrower(:)
-      type(bracket_t) :: found(2*size(brackets))
-      integer :: i, wide, count
+      type(point_t), intent(in) :: points(:)
+      type(point_t), intent(in) :: newer(:)
+      type(point_t), allocatable :: both(:)
+      type(point_t), allocatable :: found(:)
+      integer :: i, j, count
 
-      wide = 0
+      allocate (found(size(points) + size(newer)))
+      i = 1
+      j = 1
       count = 0
-      do i = 1, size(brackets)
-         if (is_wide(brackets(i))) then
-            wide = wide + 1
-            call keep(bracket_t(brackets(i)%line, brackets(i)%lower, middles(wide)))
-            call keep(bracket_t(brackets(i)%line, middles(wide), brackets(i)%upper))
+      do while (i <= size(points) .or. j <= size(newer))
+         count = count + 1
+         if (j > size(newer)) then
+            found(count) = points(i)
+            i = i + 1
+         else if (i > size(points)) then
+            found(count) = newer(j)
+            j = j + 1
+         else if (stands_before(points(i), newer(j))) then
+            found(count) = points(i)
+            i = i + 1
          else
-            call keep(brackets(i))
+            if (.not. stands_before(newer(j), points(i))) i = i + 1
+            found(count) = newer(j)
+            j = j + 1
          end if
       end do
-      narrower = found(:count)
+      both = found(:count)
+   end function merged_points
 
-   contains
+   !> Whether a point belongs before another.
+   elemental logical function stands_before(one, other)
+      type(point_t), intent(in) :: one
+      type(point_t), intent(in) :: other
 
-      subroutine keep(bracket)
-         type(bracket_t), intent(in) :: bracket
+      stands_before = one%line < other%line .or. (one%line == other%line .and. one%place < other%place)
+   end function stands_before
 
-         if (bracket%lower%side == bracket%upper%side) return
+   !> Points of the scan of some lines that are not known yet.
+   pure function missing_scan(points, scan, first, last) result(wanted)
+      !> By rising lines and places
+      type(point_t), intent(in) :: points(:)
+      !> Places of the scan
+      integer, intent(in) :: scan(:)
+      !> First and last line
+      integer(int64), intent(in) :: first
+      integer(int64), intent(in) :: last
+      type(point_t), allocatable :: wanted(:)
+      type(point_t) :: point
+      integer(int64) :: line
+      integer :: i, k, count
+
+      allocate (wanted(size(scan)*(last - first + 1_int64)))
+      count = 0
+      k = 1
+      do line = first, last
+         do i = 1, size(scan)
+            point = point_t(line=line, place=scan(i), scanned=.true.)
+            do while (k <= size(points))
+               if (.not. stands_before(points(k), point)) exit
+               k = k + 1
+            end do
+            if (k <= size(points)) then
+               if (.not. stands_before(point, points(k))) cycle
+            end if
+            count = count + 1
+            wanted(count) = point
+         end do
+      end do
+      wanted = wanted(:count)
+   end function missing_scan
+
+   !> Points in the middle between neighbours that differ and are not next to each other.
+   pure function missing_middles(points) result(wanted)
+      !> By rising lines and places
+      type(point_t), intent(in) :: points(:)
+      type(point_t), allocatable :: wanted(:)
+      integer :: i, count
+
+      allocate (wanted(size(points)))
+      count = 0
+      do i = 2, size(points)
+         if (.not. differ(points(i - 1), points(i)) .or. points(i)%place - points(i - 1)%place < 2) cycle
          count = count + 1
-         found(count) = bracket
-      end subroutine keep
+         wanted(count) = point_t(line=points(i)%line, place=points(i - 1)%place + (points(i)%place - points(i - 1)%place)/2)
+      end do
+      wanted = wanted(:count)
+   end function missing_middles
 
-   end function halved
+   !> Whether neighbours stand on one line and on different sides.
+   elemental logical function differ(one, other)
+      type(point_t), intent(in) :: one
+      type(point_t), intent(in) :: other
+
+      differ = one%line == other%line .and. one%side /= other%side
+   end function differ
+
+   !> Whether the class of a point was put to the test and stands.
+   elemental logical function is_certified(point)
+      type(point_t), intent(in) :: point
+
+      ! No number is above zero that is none.
+      is_certified = point%tested .and. point%certified > 0.0_dp
+   end function is_certified
+
+   !> Ends of brackets whose classes are still to be put to the test.
+   pure function untested_ends(points) result(wanted)
+      !> By rising lines and places
+      type(point_t), intent(in) :: points(:)
+      type(point_t), allocatable :: wanted(:)
+      type(point_t), allocatable :: standing(:)
+      logical, allocatable :: chosen(:)
+      integer :: i
+
+      standing = standing_points(points)
+      allocate (chosen(size(standing)), source=.false.)
+      do i = 2, size(standing)
+         if (.not. differ(standing(i - 1), standing(i))) cycle
+         chosen(end_of(standing, i - 1, -1)) = .true.
+         chosen(end_of(standing, i, 1)) = .true.
+      end do
+      wanted = pack(standing, chosen .and. .not. standing%tested .and. is_success(standing%status))
+   end function untested_ends
+
+   !> Where the end of a bracket is: at the nearest point, from the change outwards, whose class stands, as long as the points
+   !> are alike; or at one that is still to be tested. Where none of them stands, and where scenes fail, it is the point beside
+   !> the change.
+   pure integer function end_of(points, beside, step)
+      type(point_t), intent(in) :: points(:)
+      !> Point beside the change
+      integer, intent(in) :: beside
+      !> -1 or 1: outwards
+      integer, intent(in) :: step
+      integer :: i
+
+      end_of = beside
+      if (.not. is_success(points(beside)%status)) return
+      i = beside
+      do
+         if (.not. points(i)%tested .or. is_certified(points(i))) then
+            end_of = i
+            return
+         end if
+         i = i + step
+         if (i < 1 .or. i > size(points)) return
+         if (points(i)%line /= points(beside)%line .or. points(i)%side /= points(beside)%side) return
+      end do
+   end function end_of
+
+   !> The points without those that only narrower brackets have led to and of which none stands: a kind of motion that no
+   !> certified point shows begins and ends nowhere. A bracket then ends where its ends were certified before.
+   pure function standing_points(points) result(standing)
+      type(point_t), intent(in) :: points(:)
+      type(point_t), allocatable :: standing(:)
+      logical, allocatable :: kept(:)
+      integer :: first, last
+
+      allocate (kept(size(points)), source=.true.)
+      last = 0
+      do while (last < size(points))
+         first = last + 1
+         last = first
+         do while (last < size(points))
+            if (points(last + 1)%line /= points(first)%line .or. points(last + 1)%side /= points(first)%side) exit
+            last = last + 1
+         end do
+         associate (alike => points(first:last))
+            kept(first:last) = any(alike%scanned .or. .not. alike%tested .or. is_certified(alike))
+         end associate
+      end do
+      standing = pack(points, kept)
+   end function standing_points
+
+   !> All brackets, by rising lines and places: neighbours that differ, each end where it stands certified.
+   pure function brackets_of(points) result(brackets)
+      !> By rising lines and places
+      type(point_t), intent(in) :: points(:)
+      type(bracket_t), allocatable :: brackets(:)
+      type(point_t), allocatable :: standing(:)
+      type(bracket_t), allocatable :: found(:)
+      integer :: i, count
+
+      standing = standing_points(points)
+      allocate (found(size(standing)))
+      count = 0
+      do i = 2, size(standing)
+         if (.not. differ(standing(i - 1), standing(i))) cycle
+         count = count + 1
+         found(count) = bracket_t(standing(end_of(standing, i - 1, -1)), standing(end_of(standing, i, 1)))
+      end do
+      brackets = found(:count)
+   end function brackets_of
 
 end module threshold_search

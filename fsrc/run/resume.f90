@@ -38,7 +38,7 @@ module resume
                                                'spectrum.certify', 'spectrum.certificate_tolerance']
 
    !> What to do with a state that cannot be carried on.
-   character(*), parameter :: begin_anew = '; --overwrite instead of --resume begins the run anew'
+   character(*), parameter, public :: begin_anew = '; --overwrite instead of --resume begins the run anew'
 
    public :: save_state, load_state, open_earlier
 

@@ -8,7 +8,7 @@ module ranks
    implicit none(type, external)
    private
 
-   public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &
+   public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_tickets, &
              renew_tickets, close_tickets, sum_over_ranks, add_over_ranks, is_foreign_job
 
    !> What --version says
@@ -82,18 +82,20 @@ contains
       call MPI_Bcast(number, 1, MPI_INTEGER, 0, MPI_COMM_WORLD)
    end subroutine share_number
 
-   !> A number that no rank and no thread gets twice, from 1.
-   integer(int64) function next_ticket()
-      integer(int64), asynchronous :: one, before
+   !> The first of some numbers, one after the other, that no rank and no thread gets twice, from 1.
+   integer(int64) function next_tickets(count)
+      !> How many
+      integer(int64), intent(in) :: count
+      integer(int64), asynchronous :: more, before
 
-      one = 1_int64
+      more = count
       before = 0_int64
       !$omp critical (rank_tickets)
-      call MPI_Fetch_and_op(one, before, MPI_INTEGER8, 0, 0_MPI_ADDRESS_KIND, MPI_SUM, window)
+      call MPI_Fetch_and_op(more, before, MPI_INTEGER8, 0, 0_MPI_ADDRESS_KIND, MPI_SUM, window)
       call MPI_Win_flush(0, window)
       !$omp end critical (rank_tickets)
-      next_ticket = before + 1_int64
-   end function next_ticket
+      next_tickets = before + 1_int64
+   end function next_tickets
 
    !> Count the tickets from 1 again, once no rank asks for one.
    subroutine renew_tickets()

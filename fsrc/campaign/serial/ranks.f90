@@ -5,7 +5,7 @@ module ranks
    implicit none(type, external)
    private
 
-   public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_ticket, &
+   public :: start_ranks, end_ranks, abort_ranks, this_rank, rank_count, wait_for_ranks, share_number, next_tickets, &
              renew_tickets, close_tickets, sum_over_ranks, add_over_ranks, is_foreign_job
 
    !> What --version says
@@ -78,13 +78,17 @@ contains
       if (number < 0) tickets = 0_int64
    end subroutine share_number
 
-   !> A number that no rank and no thread gets twice, from 1.
-   integer(int64) function next_ticket()
+   !> The first of some numbers, one after the other, that no rank and no thread gets twice, from 1.
+   integer(int64) function next_tickets(count)
+      !> How many
+      integer(int64), intent(in) :: count
+
       !$omp atomic capture
-      tickets = tickets + 1_int64
-      next_ticket = tickets
+      next_tickets = tickets
+      tickets = tickets + count
       !$omp end atomic
-   end function next_ticket
+      next_tickets = next_tickets + 1_int64
+   end function next_tickets
 
    !> Count the tickets from 1 again, once no rank asks for one.
    subroutine renew_tickets()

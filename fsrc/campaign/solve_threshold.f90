@@ -1,0 +1,208 @@
+!> Solves what the search for thresholds asks for, point by point, on the threads of all ranks, and keeps what is found.
+module solve_threshold
+   use campaign_progress, only: campaign_progress_t
+   use clock, only: wall_seconds
+   use kinds, only: dp, int64
+   use log_file, only: log_t
+   use prepared_threshold, only: points_plan, prepared_threshold_t
+   use quantities, only: quantity_certified
+   use ranks, only: add_over_ranks, next_tickets, rank_count, renew_tickets, sum_over_ranks, this_rank, wait_for_ranks
+   use sampling, only: sample_plan_t
+   use scene_status, only: is_success
+   use scene_types, only: scene_t
+   use schedule, only: pace_t
+   use signals, only: caught_signal
+   use solve_chunk, only: chunk_space_t, solve_scenes
+   use threshold_outcome, only: add_lines, outcome_t, save_outcome, solved_scenes
+   use threshold_search, only: merged_points, missing_middles, missing_scan, new_point, point_t, untested_ends
+   use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
+   implicit none(type, external)
+   private
+
+   !> How old the state may become [s]. Several ranks have to wait for each other to keep it, and do so less often; a signal
+   !> makes them keep all that they have.
+   real(dp), parameter :: state_interval = 5.0_dp, shared_interval = 30.0_dp
+   !> Scenes that are left to a thread at the end of a pass: fewer leave lanes empty, more leave the other threads nothing
+   integer(int64), parameter :: fewest_taken = 32_int64
+   !> Rows of a table of answers: whether the scene is solved, its status, its quantity, whether its class stands
+   integer, parameter :: is_solved = 1, of_status = 2, of_quantity = 3, of_certificate = 4
+
+   public :: search_lines
+
+contains
+
+   !> All thresholds of some lines; all ranks find the same. What is known of them already is not solved again.
+   subroutine search_lines(scene, threshold, first, last, progress, log, outcome)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      !> First and last line
+      integer(int64), intent(in) :: first
+      integer(int64), intent(in) :: last
+      type(campaign_progress_t), intent(inout) :: progress
+      type(log_t), intent(in) :: log
+      type(outcome_t), intent(inout) :: outcome
+      type(point_t), allocatable :: wanted(:)
+      type(pace_t) :: pace
+      logical :: testing
+
+      do
+         call next_points(scene, threshold, first, last, outcome%points, wanted, testing)
+         if (size(wanted) == 0) exit
+         call solve_points(scene, threshold, wanted, testing, pace, progress, log, outcome)
+         if (outcome%cut) return
+      end do
+      call add_lines(scene, threshold, first, last, outcome)
+   end subroutine search_lines
+
+   !> What is to be solved next: the scan, then the middles of brackets that are still wide, then the certificates of their ends.
+   subroutine next_points(scene, threshold, first, last, points, wanted, testing)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      !> First and last line
+      integer(int64), intent(in) :: first
+      integer(int64), intent(in) :: last
+      !> All points that are known
+      type(point_t), intent(in) :: points(:)
+      type(point_t), allocatable, intent(out) :: wanted(:)
+      !> Whether certificates are asked for
+      logical, intent(out) :: testing
+      type(point_t), allocatable :: known(:)
+
+      testing = .false.
+      known = pack(points, points%line >= first .and. points%line <= last)
+      wanted = missing_scan(known, threshold%scan, first, last)
+      if (size(wanted) == 0) wanted = missing_middles(known)
+      if (size(wanted) > 0 .or. .not. scene%spectrum%certify) return
+      testing = .true.
+      wanted = untested_ends(known)
+   end subroutine next_points
+
+   !> Solve points on the threads of all ranks, all of them or as many as there is time for before the state is kept. What is
+   !> found does not depend on the numbers of threads and ranks.
+   subroutine solve_points(scene, threshold, wanted, testing, known_pace, progress, log, outcome)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      type(point_t), intent(in) :: wanted(:)
+      !> Whether their certificates are asked for
+      logical, intent(in) :: testing
+      !> What the scenes before have taken
+      type(pace_t), intent(inout) :: known_pace
+      type(campaign_progress_t), intent(inout) :: progress
+      type(log_t), intent(in) :: log
+      type(outcome_t), intent(inout) :: outcome
+      type(scene_t) :: recorded
+      type(sample_plan_t) :: plan
+      type(chunk_space_t) :: space
+      type(pace_t) :: pace, next_pace
+      real(dp), allocatable :: answers(:, :), rows(:, :)
+      integer(int64) :: first, last, taken, share, left
+      integer :: status
+      real(dp) :: started, round_started
+      logical :: out_of_time
+
+      recorded = scene
+      if (testing) recorded%campaign%record = [scene%threshold%quantity, quantity_certified]
+      call points_plan(threshold, wanted%line, wanted%place, plan)
+      status = 2 + size(plan%positions)
+      allocate (answers(of_certificate, size(wanted)), source=0.0_dp)
+      progress%scenes = solved_scenes(outcome) + plan%size
+      round_started = wall_seconds()
+      call renew_tickets()
+      share = 2_int64*rank_count()*omp_get_max_threads()
+      left = plan%size
+      !$omp parallel default(shared) private(first, last, taken, rows, space, pace, started, out_of_time)
+      pace = known_pace
+      do
+         started = wall_seconds()
+         out_of_time = rank_count() > 1 .and. started - round_started > shared_interval
+         if (caught_signal() /= 0 .or. out_of_time) exit
+         !$omp atomic read
+         taken = left
+         taken = min(int(pace%next_scenes(), int64), max(fewest_taken, taken/share + 1_int64))
+         first = next_tickets(taken)
+         if (first > plan%size) exit
+         last = min(plan%size, first + taken - 1_int64)
+         !$omp atomic write
+         left = plan%size - last
+         allocate (rows(status + size(recorded%campaign%record), last - first + 1_int64))
+         call solve_scenes(recorded, plan, first, space, rows)
+         if (caught_signal() /= 0) exit
+         call pace%note(size(rows, 2), wall_seconds() - started)
+         !$omp critical (threshold_answers)
+         answers(of_status, first:last) = rows(status, :)
+         answers(of_quantity, first:last) = rows(status + 1, :)
+         if (testing) answers(of_certificate, first:last) = rows(status + 2, :)
+         answers(is_solved, first:last) = 1.0_dp
+         !$omp end critical (threshold_answers)
+         call progress%add(last - first + 1_int64, count(.not. is_success(nint(rows(status, :))), kind=int64), &
+                           0_int64, 0_int64, 0_int64, 0_int64)
+         deallocate (rows)
+         if (this_rank() == 0) then
+            if (omp_get_thread_num() == 0) call keep_up(scene, threshold, wanted, testing, answers, progress, log, outcome)
+         end if
+      end do
+      if (omp_get_thread_num() == 0) next_pace = pace
+      !$omp end parallel
+      known_pace = next_pace
+      call wait_for_ranks()
+      call add_over_ranks(answers)
+      outcome%points = merged_points(outcome%points, answered(scene, wanted, testing, answers))
+      outcome%cut = sum_over_ranks(int(merge(1, 0, caught_signal() /= 0), int64)) > 0_int64
+      if (rank_count() == 1 .or. this_rank() > 0 .or. outcome%cut) return
+      if (outcome%age() > state_interval) call save_outcome(scene, threshold, outcome, log)
+   end subroutine solve_points
+
+   !> Tell the progress, and keep the state, if it is time to.
+   subroutine keep_up(scene, threshold, wanted, testing, answers, progress, log, outcome)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      type(point_t), intent(in) :: wanted(:)
+      logical, intent(in) :: testing
+      !> Other threads write there
+      real(dp), intent(in) :: answers(:, :)
+      type(campaign_progress_t), intent(inout) :: progress
+      type(log_t), intent(in) :: log
+      type(outcome_t), intent(inout) :: outcome
+      type(outcome_t) :: so_far
+      real(dp), allocatable :: copied(:, :)
+
+      call progress%tell(log)
+      if (rank_count() > 1) return
+      if (outcome%age() < state_interval) return
+      !$omp critical (threshold_answers)
+      copied = answers
+      !$omp end critical (threshold_answers)
+      so_far = outcome
+      so_far%points = merged_points(outcome%points, answered(scene, wanted, testing, copied))
+      !$omp critical (sentences)
+      call save_outcome(scene, threshold, so_far, log)
+      !$omp end critical (sentences)
+      outcome%kept_at = so_far%kept_at
+   end subroutine keep_up
+
+   !> The points of a table that are solved.
+   pure function answered(scene, wanted, testing, answers) result(points)
+      type(scene_t), intent(in) :: scene
+      type(point_t), intent(in) :: wanted(:)
+      logical, intent(in) :: testing
+      real(dp), intent(in) :: answers(:, :)
+      type(point_t), allocatable :: points(:)
+      integer :: i, count
+
+      allocate (points(size(wanted)))
+      count = 0
+      do i = 1, size(wanted)
+         if (.not. answers(is_solved, i) > 0.0_dp) cycle
+         count = count + 1
+         if (testing) then
+            points(count) = wanted(i)
+            points(count)%tested = .true.
+            points(count)%certified = answers(of_certificate, i)
+         else
+            points(count) = new_point(scene%threshold, wanted(i), nint(answers(of_status, i)), answers(of_quantity, i))
+         end if
+      end do
+      points = points(:count)
+   end function answered
+
+end module solve_threshold
