@@ -235,7 +235,7 @@ contains
       logical, allocatable :: chosen(:)
       integer :: i
 
-      standing = standing_points(points)
+      allocate (standing, source=standing_points(points))
       allocate (chosen(size(standing)), source=.false.)
       do i = 2, size(standing)
          if (.not. differ(standing(i - 1), standing(i))) cycle
@@ -303,7 +303,7 @@ contains
       type(bracket_t), allocatable :: found(:)
       integer :: i, count
 
-      standing = standing_points(points)
+      allocate (standing, source=standing_points(points))
       allocate (found(size(standing)))
       count = 0
       do i = 2, size(standing)

@@ -7,8 +7,8 @@ module test_threshold_search
    use quantities, only: quantity_film_force_rms, quantity_rattle_class
    use scene_status, only: status_film_lost, status_steady
    use scene_types, only: threshold_t
-   use threshold_search, only: bracket_t, brackets_of_scan, finest_axis, halved, is_wide, middle, new_point, point_t, scan_places, &
-                               side_unknown
+   use threshold_search, only: bracket_t, brackets_of, finest_axis, is_certified, merged_points, missing_middles, missing_scan, &
+                               new_point, point_t, scan_places, side_unknown, untested_ends
    implicit none(type, external)
    private
 
@@ -30,6 +30,9 @@ contains
       call test_all_changes(checks)
       call test_unseen_pair(checks)
       call test_integers(checks)
+      call test_ends(checks)
+      call test_kinds_that_none_shows(checks)
+      call test_cut_anywhere(checks)
    end subroutine run_threshold_search_tests
 
    !> A threshold of the class between 0.1 and 4.1.
@@ -56,31 +59,31 @@ contains
       type(campaign_axis_t), intent(in) :: axis
       type(bracket_t), allocatable, intent(out) :: brackets(:)
       integer, intent(out) :: asked
-      type(bracket_t), allocatable :: wide(:), before(:)
+      type(point_t), allocatable :: points(:), wanted(:)
 
-      asked = size(scan_places(threshold, axis))
-      brackets = brackets_of_scan(7_int64, points_at(scan_places(threshold, axis)))
+      allocate (points(0))
       do
-         wide = pack(brackets, is_wide(brackets))
-         if (size(wide) == 0) exit
-         asked = asked + size(wide)
-         call move_alloc(brackets, before)
-         brackets = halved(before, points_at(middle(wide)))
+         wanted = missing_scan(points, scan_places(threshold, axis), 7_int64, 7_int64)
+         if (size(wanted) == 0) wanted = missing_middles(points)
+         if (size(wanted) == 0) exit
+         points = merged_points(points, solved(threshold, axis, wanted))
       end do
-
-   contains
-
-      function points_at(places) result(points)
-         integer, intent(in) :: places(:)
-         type(point_t) :: points(size(places))
-         integer :: i
-
-         do i = 1, size(places)
-            points(i) = new_point(threshold, places(i), status_steady, known(grid_value(axis, places(i))))
-         end do
-      end function points_at
-
+      asked = size(points)
+      brackets = brackets_of(points)
    end subroutine find
+
+   !> What the known function says of some points.
+   function solved(threshold, axis, wanted) result(points)
+      type(threshold_t), intent(in) :: threshold
+      type(campaign_axis_t), intent(in) :: axis
+      type(point_t), intent(in) :: wanted(:)
+      type(point_t) :: points(size(wanted))
+      integer :: i
+
+      do i = 1, size(wanted)
+         points(i) = new_point(threshold, wanted(i), status_steady, known(grid_value(axis, wanted(i)%place)))
+      end do
+   end function solved
 
    subroutine test_places(checks)
       type(check_list_t), intent(inout) :: checks
@@ -117,21 +120,21 @@ contains
       type(point_t) :: point
 
       threshold = search(33, 1.0e-4_dp, 1)
-      point = new_point(threshold, 5, status_film_lost, 2.0_dp)
+      point = new_point(threshold, point_t(place=5), status_film_lost, 2.0_dp)
       call checks%check(point%side == -status_film_lost .and. point%place == 5, 'a scene that failed is a kind of its own')
-      point = new_point(threshold, 5, status_steady, ieee_value(0.0_dp, ieee_quiet_nan))
+      point = new_point(threshold, point_t(place=5), status_steady, ieee_value(0.0_dp, ieee_quiet_nan))
       call checks%check(point%side == side_unknown, 'so is one without a class')
-      point = new_point(threshold, 5, status_steady, 3.0_dp)
+      point = new_point(threshold, point_t(place=5), status_steady, 3.0_dp)
       call checks%check(point%side == 3, 'every class is another side')
       threshold%wanted = 3
-      point = new_point(threshold, 5, status_steady, 2.0_dp)
+      point = new_point(threshold, point_t(place=5), status_steady, 2.0_dp)
       call checks%check(point%side == 0, 'all classes but the one that is looked for are alike')
-      point = new_point(threshold, 5, status_steady, 3.0_dp)
+      point = new_point(threshold, point_t(place=5), status_steady, 3.0_dp)
       call checks%check(point%side == 1, 'the one that is looked for')
       threshold = threshold_t(key='load.mass', quantity=quantity_film_force_rms, level=2.5_dp)
-      point = new_point(threshold, 5, status_steady, 2.5_dp)
+      point = new_point(threshold, point_t(place=5), status_steady, 2.5_dp)
       call checks%check(point%side == 1, 'a level is reached')
-      point = new_point(threshold, 5, status_steady, 2.4999_dp)
+      point = new_point(threshold, point_t(place=5), status_steady, 2.4999_dp)
       call checks%check(point%side == 0, 'a level is not reached')
    end subroutine test_sides
 
@@ -153,7 +156,7 @@ contains
          do i = 1, size(changes)
             lower = grid_value(axis, brackets(i)%lower%place)
             upper = grid_value(axis, brackets(i)%upper%place)
-            right = right .and. lower < changes(i) .and. changes(i) <= upper .and. brackets(i)%line == 7_int64 &
+            right = right .and. lower < changes(i) .and. changes(i) <= upper .and. brackets(i)%lower%line == 7_int64 &
                     .and. brackets(i)%upper%place == brackets(i)%lower%place + 1 &
                     .and. brackets(i)%lower%side == nint(known(lower)) .and. brackets(i)%upper%side == nint(known(upper))
          end do
@@ -201,5 +204,114 @@ contains
       call checks%check(size(brackets) == 3, 'changes between integers')
       call checks%check(all(brackets%upper%place - brackets%lower%place == 1), 'down to the next integer')
    end subroutine test_integers
+
+   !> Points of one line with these sides, places of the scan every fourth; certified as told, 2: not put to the test.
+   function line_of(sides, certified, line) result(points)
+      integer, intent(in) :: sides(:)
+      integer, intent(in) :: certified(:)
+      integer(int64), intent(in) :: line
+      type(point_t) :: points(size(sides))
+      integer :: i
+
+      do i = 1, size(sides)
+         points(i) = new_point(search(3, 1.0e-2_dp, 1), point_t(line=line, place=i - 1, scanned=mod(i - 1, 4) == 0), &
+                               status_steady, real(sides(i), dp))
+         points(i)%tested = certified(i) < 2
+         if (points(i)%tested) points(i)%certified = real(certified(i), dp)
+      end do
+   end function line_of
+
+   !> An end goes outwards to the first point that stands, over those of its own kind alone; one that has none stays.
+   subroutine test_ends(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer, parameter :: sides(9) = [1, 1, 1, 1, 3, 3, 3, 3, 3]
+      type(point_t), allocatable :: wanted(:), points(:)
+
+      call check_bracket('both ends stand', sides, [2, 2, 2, 1, 1, 2, 2, 2, 2], 3, 4, [.true., .true.])
+      call check_bracket('the lower end goes down', sides, [2, 1, 0, 0, 1, 2, 2, 2, 2], 1, 4, [.true., .true.])
+      call check_bracket('the upper end goes up', sides, [2, 2, 2, 1, 0, 0, 1, 2, 2], 3, 6, [.true., .true.])
+      call check_bracket('the lower end has no place to stand', sides, [0, 0, 0, 0, 0, 1, 2, 2, 2], 3, 5, [.false., .true.])
+      call check_bracket('nothing is put to the test', sides, [2, 2, 2, 2, 2, 2, 2, 2, 2], 3, 4, [.false., .false.])
+      allocate (points, source=line_of(sides, [2, 2, 0, 0, 1, 2, 2, 2, 2], 1_int64))
+      wanted = untested_ends(points)
+      call checks%check(size(wanted) == 1, 'one more point is put to the test')
+      call checks%check(wanted(1)%place == 1 .and. wanted(1)%side == 1, 'the next one outwards')
+      wanted = untested_ends(line_of(sides, [2, 2, 2, 0, 0, 2, 2, 2, 2], 1_int64))
+      call checks%check(size(wanted) == 2, 'and on both sides at once')
+      call checks%check(wanted(1)%place == 2 .and. wanted(2)%place == 5, 'of each the nearest')
+      wanted = untested_ends(line_of(sides, [0, 0, 0, 0, 0, 0, 0, 0, 0], 1_int64))
+      call checks%check(size(wanted) == 0, 'where none stands all have been tried')
+      ! The scene that fails has no certificate, and what is beyond it is not asked.
+      points(5:) = new_point(search(3, 1.0e-2_dp, 1), points(5), status_film_lost, 0.0_dp)
+      points(5:)%place = [4, 5, 6, 7, 8]
+      points(5:)%tested = .false.
+      wanted = untested_ends(points)
+      call checks%check(size(wanted) == 1, 'scenes that fail are not put to the test')
+      ! Two lines of the same places do not see each other.
+      wanted = untested_ends([line_of(sides, [2, 2, 2, 1, 1, 2, 2, 2, 2], 1_int64), &
+                              line_of([1, 1, 1, 1, 1, 1, 1, 1, 1], [2, 2, 2, 2, 2, 2, 2, 2, 2], 2_int64)])
+      call checks%check(size(wanted) == 0, 'the end of a line and the start of the next are no neighbours')
+
+   contains
+
+      subroutine check_bracket(what, sides, certified, lower, upper, stand)
+         character(*), intent(in) :: what
+         integer, intent(in) :: sides(:), certified(:), lower, upper
+         logical, intent(in) :: stand(2)
+         type(bracket_t), allocatable :: brackets(:)
+
+         allocate (brackets, source=brackets_of(line_of(sides, certified, 1_int64)))
+         call checks%check(size(brackets) == 1, what//': one bracket')
+         if (size(brackets) /= 1) return
+         call checks%check(brackets(1)%lower%place == lower .and. brackets(1)%upper%place == upper, what//': its ends')
+         call checks%check(is_certified(brackets(1)%lower) .eqv. stand(1), what//': below')
+         call checks%check(is_certified(brackets(1)%upper) .eqv. stand(2), what//': above')
+      end subroutine check_bracket
+
+   end subroutine test_ends
+
+   !> A kind that only narrower brackets have met and no certified point shows is none; the scan's own stays as it was found.
+   subroutine test_kinds_that_none_shows(checks)
+      type(check_list_t), intent(inout) :: checks
+      integer, parameter :: between(9) = [1, 1, 2, 2, 3, 3, 3, 3, 3], scanned(9) = [1, 1, 2, 2, 2, 3, 3, 3, 3]
+      type(bracket_t), allocatable :: brackets(:)
+
+      allocate (brackets, source=brackets_of(line_of(between, [2, 1, 0, 0, 1, 2, 2, 2, 2], 1_int64)))
+      call checks%check(size(brackets) == 1, 'one change from the first to the third')
+      call checks%check(brackets(1)%lower%place == 1 .and. brackets(1)%upper%place == 4, 'from where they stand')
+      call checks%check(brackets(1)%lower%side == 1 .and. brackets(1)%upper%side == 3, 'and what they are')
+      brackets = brackets_of(line_of(between, [2, 1, 0, 1, 1, 2, 2, 2, 2], 1_int64))
+      call checks%check(size(brackets) == 2, 'one certified point is enough for a kind')
+      call checks%check(brackets(1)%upper%place == 3 .and. brackets(2)%lower%place == 3, 'at which both brackets end')
+      brackets = brackets_of(line_of(scanned, [2, 1, 0, 0, 0, 1, 2, 2, 2], 1_int64))
+      call checks%check(size(brackets) == 2, 'what the scan has met stays')
+      call checks%check(.not. (is_certified(brackets(1)%upper) .or. is_certified(brackets(2)%lower)), 'with its doubt')
+   end subroutine test_kinds_that_none_shows
+
+   !> A search that is cut at any point, with some answers of a pass or all of them, asks for the same points in all.
+   subroutine test_cut_anywhere(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(threshold_t) :: threshold
+      type(campaign_axis_t) :: axis
+      type(point_t), allocatable :: points(:), wanted(:), whole(:)
+      integer :: every
+
+      threshold = search(33, 1.0e-4_dp, 1)
+      axis = finest_axis(threshold, 3, .false.)
+      allocate (whole(0))
+      do every = 1, 5
+         if (allocated(points)) deallocate (points)
+         allocate (points(0))
+         do
+            wanted = missing_scan(points, scan_places(threshold, axis), 7_int64, 7_int64)
+            if (size(wanted) == 0) wanted = missing_middles(points)
+            if (size(wanted) == 0) exit
+            points = merged_points(points, solved(threshold, axis, wanted(1::every)))
+         end do
+         if (every == 1) whole = points
+         call checks%check(size(points) == size(whole), 'as many points, however they came')
+         if (size(points) == size(whole)) call checks%check(all(points%place == whole%place), 'the same points')
+      end do
+   end subroutine test_cut_anywhere
 
 end module test_threshold_search

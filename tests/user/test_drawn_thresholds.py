@@ -74,9 +74,12 @@ def threshold_input(
 
 def written(path: Path, rows=ROWS, axes=("kinematics.entrainment_speed",), criterion: str = "class"):
     units = {"kinematics.entrainment_speed": "m/s", "load.mass": "kg"}
-    names = ["line", *axes, "crossing", "lower", "upper", "rattle_class_below", "rattle_class_above"]
+    names = ["line", *axes, "crossing", "lower", "upper", "width", "rattle_class_below", "rattle_class_above"]
     names += ["status_below", "status_above", *SIDES]
-    columns = [(name, units.get(name, "N" if name in ("lower", "upper") else "-")) for name in names]
+    columns = [(name, units.get(name, "N" if name in ("lower", "upper", "width") else "-")) for name in names]
+    start = 1 + len(axes)
+    widths = [row[start + 2] - row[start + 1] if row[start] else NAN for row in rows]
+    rows = [[*row[: start + 3], width, *row[start + 3 :]] for row, width in zip(rows, widths, strict=True)]
     write_result(path, columns, rows, input_text=threshold_input(criterion, axes))
     return package.read(path)
 
@@ -109,6 +112,7 @@ def test_kinds_of_change_are_curves_of_their_own(tmp_path):
         "quiet to creep (3)",
         "creep to idle (1)",
         "creep to film lost (1)",
+        "from end to end",
         "not certified (2)",
         "no change (1)",
     ]
@@ -163,7 +167,7 @@ def test_two_keys_are_curves_if_few_and_a_surface_if_many(tmp_path):
     for mass, (x, y) in enumerate(lines, 1):
         np.testing.assert_array_equal(x, np.arange(1.0, 11.0))
         np.testing.assert_array_equal(y, 10.0 * x + mass + 1.0)
-    assert drawn.legend_words(made) == ["mass 1 kg", "mass 2 kg", "mass 3 kg"]
+    assert drawn.legend_words(made) == ["mass 1 kg", "mass 2 kg", "mass 3 kg", "from end to end"]
     made = figure(written(tmp_path / "many.rattle", PLANE, axes))
     mesh = next(one for one in made.axes[0].collections if one.get_array() is not None)
     values = np.asarray(mesh.get_array()).reshape(9, 10)
@@ -207,7 +211,7 @@ def test_the_report_tells_every_threshold(tmp_path):
         "Looked for: change of class, along the force amplitude from 5 N to 100 N, on 4 lines, one for each",
         "From quiet to creep: 3 times, between 21 N and 41 N.",
         "1 of 4 lines have no threshold in this range.",
-        "At 3 of 5 thresholds the classes on both sides are certified",
+        "At 3 of 5 thresholds the classes at both ends are certified",
         "quiet throughout",
         "Two changes between neighbours that cancel each other are not seen.",
     ):

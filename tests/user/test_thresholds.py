@@ -19,6 +19,8 @@ from rattle.figures import threshold
 
 THRESHOLD = {"key": "'load.force_amplitude'", "first": "5.0", "last": "455.0", "count": "17"}
 SPEEDS = {"vary": "'kinematics.entrainment_speed'", "values(:, 1)": "0.8, 1.9, 9.5"}
+# Brackets as narrow as asked for, whatever is certified.
+NARROW = {"periods": "8", "certify": ".false."}
 LOUD = {"criterion": "'film_force_rms'", "level": "100.0"}
 
 
@@ -66,7 +68,7 @@ def test_brackets_are_where_a_fine_grid_changes(criterion: str, found, run, scen
         "tolerance": "1e-3",
         "level": "100.0" if "rms" in criterion else None,
     }
-    rows = found(threshold_text(scene_text, threshold=threshold))
+    rows = found(threshold_text(scene_text, threshold=threshold, spectrum=NARROW))
     values = np.linspace(5.0, 455.0, 1025)
     column = "film_force_rms" if "rms" in criterion else "rattle_class"
     grid, _ = grid_column(run, scene_text, tmp_path, column, values)
@@ -94,7 +96,7 @@ def test_brackets_are_where_a_fine_grid_changes(criterion: str, found, run, scen
 
 def test_several_thresholds_on_a_line(found, scene_text) -> None:
     """Quiet, creep, idle and back: every change of the class, each beginning where the one before has led."""
-    rows = found(threshold_text(scene_text))
+    rows = found(threshold_text(scene_text, spectrum=NARROW))
     for line in (1, 2, 3):
         ours = rows[rows["line"] == line]
         assert len(ours) >= 2
@@ -111,9 +113,32 @@ def test_every_bracket_says_whether_both_classes_stand(found, scene_text, tmp_pa
     assert set(np.unique(flags)) == {0.0, 1.0} and len(rows) > 3
     told = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert told["crossings_uncertain"] == int((flags == 0.0).any(axis=1).sum())
-    plain = {"periods": "8", "certify": ".false."}
-    bare = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}, spectrum=plain), name="bare")
-    assert bare.equals(rows.drop(columns=["certified_below", "certified_above"]))
+    bare = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}, spectrum=NARROW), name="bare")
+    assert list(bare) == [name for name in rows if name not in ("certified_below", "certified_above")]
+
+
+def test_ends_go_apart_until_both_are_certified(found, run, scene_text, tmp_path: Path) -> None:
+    """Each end of a bracket is the next point whose class stands; rows of a campaign say the same."""
+    fine = {"tolerance": "1e-7", "count": "9", "criterion": "'quiet'"}
+    rows = found(threshold_text(scene_text, threshold=fine))
+    bare = found(threshold_text(scene_text, threshold=fine, spectrum=NARROW), name="bare")
+    assert len(rows) == len(bare) == 3 and (rows["crossing"] == 1.0).all()
+    assert (rows["lower"] <= bare["lower"]).all() and (rows["upper"] >= bare["upper"]).all()
+    asked = 450.0 / 2**24
+    np.testing.assert_allclose(bare["width"], asked, rtol=1e-6)
+    np.testing.assert_array_equal(rows["width"], rows["upper"] - rows["lower"])
+    assert (rows[["certified_below", "certified_above"]] == 1.0).all(axis=None)
+    assert (rows["width"] > 1.5 * asked).any()
+    for place, row in rows.iterrows():
+        # Solved alone, both ends are what the row says of them.
+        halves = [row["lower"], row["upper"]]
+        certified, _ = grid_column(run, scene_text, tmp_path, "certified", halves)
+        classes, _ = grid_column(run, scene_text, tmp_path, "rattle_class", halves)
+        assert certified[int(row["line"]) - 1].tolist() == [1.0, 1.0], place
+        assert (classes[int(row["line"]) - 1] == [row["rattle_class_below"], row["rattle_class_above"]]).all()
+    told = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert told["crossings_uncertain"] == 0
+    assert told["crossings_wide"] == int((rows["width"] > 1.5 * asked).sum())
 
 
 def test_a_line_without_threshold_is_told(found, scene_text, run, tmp_path: Path) -> None:
@@ -214,7 +239,7 @@ def test_a_signal_ends_it_without_a_result(number, rattle, run, scene_text, tmp_
     process.send_signal(number)
     assert process.wait(20) == 128 + number
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "interrupted"
-    assert "cut short after 0 of 3 lines; --resume goes on, no result is written before" in log.read_text()
+    assert "cut short after 0 of 3 lines; --resume goes on with these and " in log.read_text()
     assert digest(tmp_path / "results" / "scene.rattle") == before
     assert not list((tmp_path / "results").glob("*.new"))
 
@@ -280,6 +305,37 @@ def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -
     told, expected = (summary_of(place / "scene.summary.nml") for place in (results, whole))
     assert {**told, "wall_seconds": 0} == {**expected, "wall_seconds": 0}
     assert not state_path(tmp_path).exists()
+
+
+def test_cut_in_its_first_lines_it_goes_on_where_it_was(rattle, run, scene_text, tmp_path: Path) -> None:
+    """Cut again and again before its first line is done: nothing is counted twice, no byte differs."""
+    (tmp_path / "scene.nml").write_text(threshold_text(scene_text, threshold={"count": "513"}))
+    assert run("--output", "whole", "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    seconds, cuts, values = 0.02, [], 0
+    while len(cuts) < 60:
+        options = ["--resume"] if cuts else ["--overwrite"]
+        process = subprocess.Popen([rattle, "--quiet", "--threads", "1", *options, "scene.nml"], cwd=tmp_path)
+        time.sleep(seconds)
+        process.send_signal(signal.SIGTERM)
+        if process.wait(60) == 0:
+            break
+        log = tmp_path / "results" / "scene.log"
+        told = re.search(r"with these and (\d+) values? of the next", log.read_text() if log.exists() else "")
+        if told is None:
+            # The signal came before the run had begun.
+            seconds *= 2.0
+            continue
+        cuts.append(int(told[1]))
+        assert cuts[-1] >= values
+        # On a loaded machine the time for one scene more may be longer.
+        seconds *= 1.5 if cuts[-1] == values else 1.0
+        values = cuts[-1]
+    else:
+        assert run("--resume", "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    assert sum(value > 0 for value in cuts) >= 2, cuts
+    assert digest(tmp_path / "results" / "scene.rattle") == digest(tmp_path / "whole" / "scene.rattle")
+    told, expected = (summary_of(tmp_path / at / "scene.summary.nml") for at in ("results", "whole"))
+    assert {**told, "wall_seconds": 0} == {**expected, "wall_seconds": 0}
 
 
 def test_states_of_others_are_refused(rattle, run, scene_text, tmp_path: Path) -> None:

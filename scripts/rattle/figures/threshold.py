@@ -28,12 +28,13 @@ from rattle.result import Result
 
 DESCRIPTION = (
     "Draw thresholds, over the map of a campaign if one is given, as threshold_NAME: points over one key, "
-    "curves or a map over two. Open marks: a class beside the threshold is not certified."
+    "curves or a map over two. Bars: from end to end; open marks: an end is not certified."
 )
 MOST_CURVES = 7
 MOST_KINDS = len(style.RUN_COLOURS) - 1
 NONE = "no change"
 UNCERTAIN = "not certified"
+BAR = "from end to end"
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ class Thresholds:
     @property
     def quantity(self) -> str:
         """The quantity that the criterion looks at."""
-        return quantity_of(self.result.names[self.result.names.index("upper") + 1])
+        return quantity_of(next(name for name in self.result.names if name.endswith("_below")))
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -294,6 +295,7 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         dashes = {"linewidth": 1.3, "linestyle": style.RUN_DASHES[place % len(style.RUN_DASHES)]}
         for part in curves(found, axis, chosen) if kind else ():
             axes.plot(*part, zorder=3, color=colour, path_effects=halo, **dashes)
+        draw_bars(axes, x[chosen], found.column("lower")[chosen], found.column("upper")[chosen], colour)
         marks = {"color": colour, "marker": style.RUN_MARKS[place], "markersize": 3.0, "zorder": 4}
         sure = chosen & ~found.uncertain
         axes.plot(x[sure], y[sure], linestyle="", **marks)
@@ -306,6 +308,8 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         )
         words = kind or "other changes"
         handles.append(Line2D([], [], **dashes, **marks, label=f"{words} ({int(chosen.sum())})"))
+    if crossed.any():
+        handles.append(bar_entry())
     if found.uncertain.any():
         mark = {"marker": "o", "markersize": 4, "markerfacecolor": "white", "color": style.FORCE_COLOUR}
         handles.append(
@@ -317,6 +321,17 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         axes.plot(x[~crossed], foot, transform=axes.get_xaxis_transform(), zorder=4, **mark)
         handles.append(Line2D([], [], **mark, label=f"{NONE} ({int((~crossed).sum())})"))
     return handles
+
+
+def draw_bars(axes: Axes, x: np.ndarray, lower: np.ndarray, upper: np.ndarray, colour: str) -> None:
+    """How far apart the ends of each crossing are."""
+    known = np.isfinite(lower)
+    axes.vlines(x[known], lower[known], upper[known], colors=colour, linewidth=2.5, alpha=0.4, zorder=3)
+
+
+def bar_entry() -> Line2D:
+    bar = {"marker": "|", "markersize": 9, "markeredgewidth": 2.5, "alpha": 0.4, "color": style.FORCE_COLOUR}
+    return Line2D([], [], linestyle="", **bar, label=BAR)
 
 
 def set_range(axes: Axes, found: Thresholds, values: np.ndarray) -> None:
@@ -351,30 +366,36 @@ def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.n
     return joined
 
 
-def on_plane(found: Thresholds, x: Axis, y: Axis, crossing: int) -> tuple[np.ndarray, np.ndarray]:
-    """A crossing of each line, an index for each axis, NaN where there is none; and where it is uncertain."""
+def on_plane(found: Thresholds, x: Axis, y: Axis, crossing: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A crossing of each line, an index for each axis, NaN where there is none; its ends; its doubt."""
     values = np.full((x.values.size, y.values.size), np.nan)
+    ends = np.full((2, *values.shape), np.nan)
     uncertain = np.zeros(values.shape, dtype=bool)
     rows = np.flatnonzero(found.column("crossing") == crossing)
     places = tuple(np.searchsorted(axis.values, found.column(axis.key)[rows]) for axis in (x, y))
     values[places], uncertain[places] = found.values[rows], found.uncertain[rows]
-    return values, uncertain
+    for end, name in zip(ends, ("lower", "upper"), strict=True):
+        end[places] = found.column(name)[rows]
+    return values, ends, uncertain
 
 
 def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossing: int) -> list:
     """A curve along one key for each value of another; returns legend entries."""
     look.set_axis(axes, "x", along, to_edges=False)
-    values, uncertain = on_plane(found, along, other, crossing)
+    values, ends, uncertain = on_plane(found, along, other, crossing)
     set_range(axes, found, values)
     for place, value in enumerate(other.values):
         column, unsure = values[:, place], uncertain[:, place]
         label = f"{short_name(other.key)} {found.words_of_value(other.key, value)}"
         mark = {"marker": style.RUN_MARKS[place], "markersize": 3.0}
         line = style.run_line(place)
+        draw_bars(axes, along.values, *ends[:, :, place], line["color"])
         axes.plot(along.values, column, label=label, **line, **mark)
         points = {"color": line["color"], "linestyle": "", "markerfacecolor": "white", **mark}
         axes.plot(along.values[unsure], column[unsure], **points)
     handles = list(axes.get_lines())[::2]
+    if np.isfinite(values).any():
+        handles.append(bar_entry())
     if uncertain.any():
         mark = {"marker": "o", "markersize": 4, "markerfacecolor": "white", "color": style.FORCE_COLOUR}
         handles.append(Line2D([], [], linestyle="", **mark, label=UNCERTAIN))
@@ -383,7 +404,7 @@ def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossin
 
 def draw_surface(figure: Figure, axes: Axes, found: Thresholds, x: Axis, y: Axis, crossing: int) -> list:
     """A coloured map of the threshold over two keys, with contours; returns legend entries."""
-    values, uncertain = on_plane(found, x, y, crossing)
+    values, _, uncertain = on_plane(found, x, y, crossing)
     edges = look.cell_edges(x), look.cell_edges(y)
     drawn = axes.pcolormesh(*edges, values.T, cmap=look.COLOUR_MAP, rasterized=True)
     known = values[np.isfinite(values)]

@@ -57,15 +57,16 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
     if "certified_below" in found.result:
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
-            f"At {sure} of {int(crossed.sum())} thresholds the classes on both sides are certified: solved "
-            "again, tighter, they are the same. So close to a change that cannot be had everywhere."
+            f"At {sure} of {int(crossed.sum())} thresholds the classes at both ends are certified: solved "
+            "again, tighter, they are the same. Where that cannot be had close to the change, its ends lie "
+            "farther apart, and the distance between them is how well the threshold is known."
         )
     count = found.result.value("threshold", "count")
-    width = float(np.max(found.column("upper") - found.column("lower"), where=crossed, initial=0.0))
+    width = float(np.max(found.column("width"), where=crossed, initial=0.0))
     yield (
         f"{'Each line' if lines > 1 else 'The line'} was solved in {count} places; between neighbours that "
-        f"differ the gap was halved again and again, down to {page.plain(width, unit)} at most. Two changes "
-        "between neighbours that cancel each other are not seen."
+        f"differ the gap was halved again and again; the widest that is left "
+        f"is {page.plain(width, unit)}. Two changes between neighbours that cancel each other are not seen."
     )
     if summary and "scenes" in summary:
         times = float(summary["scenes_of_a_grid"]) / float(summary["scenes"])
@@ -90,19 +91,29 @@ def tables(result: Result) -> list[str]:
     lines = []
     for row in range(min(result.row_count, MOST_ROWS)):
         axes = [found.words_of_value(key, float(found.column(key)[row])) for key in found.varied]
-        ends = [page.value(float(found.column(name)[row]), unit) for name in ("lower", "upper")]
+        ends = [page.value(float(found.column(name)[row]), unit) for name in ("lower", "upper", "width")]
         kind = found.kinds[row] if crossed[row] else f"{found.kinds[row]} throughout"
         sure = (
             "no" if found.uncertain[row] else "yes" if crossed[row] and "certified_below" in result else "-"
         )
-        lines.append([*axes, *(ends if crossed[row] else ["-", "-"]), kind, sure])
-    heads = (*(capital(short_name(key)) for key in found.varied), "Between", "And", "From, to", "Certified")
-    kinds = (*("number" for _ in found.varied), "number", "number", "", "")
+        lines.append([*axes, *(ends if crossed[row] else ["-"] * len(ends)), kind, sure])
+    heads = (
+        *(capital(short_name(key)) for key in found.varied),
+        "Between",
+        "And",
+        "Width",
+        "From, to",
+        "Certified",
+    )
+    kinds = (*("number" for _ in found.varied), "number", "number", "number", "", "")
     return [*parts, page.table(heads, lines, kinds=kinds)]
 
 
 def figures(result: Result) -> list[str]:
-    caption = "Thresholds over the varied keys. Open marks: a class beside the threshold is not certified."
+    caption = (
+        "Thresholds over the varied keys. Bars: from end to end; open marks: the class at an end is "
+        "not certified."
+    )
     try:
         found, held = picture.cut(picture.thresholds(result), {}, 2)
     except CommandError:
