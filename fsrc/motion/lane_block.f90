@@ -114,8 +114,7 @@ contains
       type(motion_state_t), intent(in) :: start
       real(dp) :: load, load_by_film, load_by_velocity
 
-      ! Without a film to start from there never was one to lose.
-      start_status = merge(status_film_lost, problem%film%status_without_load, problem%initial_film > 0.0_dp)
+      start_status = status_film_lost
       if (.not. all(ieee_is_finite(start%numbers))) return
       if (has_elastic_teeth(problem)) then
          if (start%numbers(of_film) <= 0.0_dp) return

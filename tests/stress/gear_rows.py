@@ -32,8 +32,8 @@ from rattle.codes import CODES
 SAMPLES = 512
 # Both take the same steps from one start; sums over samples may be taken in another order.
 TOLERANCE = 1e-9
-# Where these samples are too few, a single scene takes more and a row integrates over its steps: errors of the
-# motion, of 1e-6, stand against the largest harmonic.
+# Where these samples are too few, a single scene takes more and a row integrates over its steps: errors of
+# the motion, of 1e-6, stand against the largest harmonic.
 BY_INTEGRALS = 1e-3
 SPECTRAL = ("harmonic_distortion", "irregular_fraction")
 

@@ -178,26 +178,3 @@ def test_faults_name_what_was_meant(text: str, words: str, run, tmp_path: Path) 
     (tmp_path / "pair.nml").write_text(text)
     ended = run("--check", "pair.nml", cwd=tmp_path)
     assert ended.returncode == 2 and words in ended.stderr, ended.stderr
-
-
-def test_a_row_without_a_rigid_film_knows_its_regime(run, scene_text, tmp_path: Path) -> None:
-    """Such a film never was, so that it is not lost: status and regime are those of the single scene."""
-    changes = {"film": {"law": "'piezo-viscous'", "model": "'reynolds'"}, "load": {"steady_force": "4e4"}}
-    solver = {"method": None, "steps_per_period": None, "periods": "4"}
-    campaign = {
-        "vary": "'load.mass'",
-        "values(:, 1)": "3.0, 4.0",
-        "record": "'film_regime', 'law_contradicted'",
-    }
-    (tmp_path / "many.nml").write_text(
-        scene_text(scene={"task": "'campaign'"}, solver=solver, campaign=campaign, **changes)
-    )
-    (tmp_path / "one.nml").write_text(scene_text(solver=solver, **changes))
-    assert run("many.nml", cwd=tmp_path).returncode == 1
-    assert run("one.nml", cwd=tmp_path).returncode == 1
-    alone = summary_of(tmp_path / "results" / "one.summary.nml")
-    told = (alone["status"], alone["film_regime"], alone["law_contradicted"])
-    assert told == ("no_rigid_film", "elastohydrodynamic", True)
-    rows = package.read_campaign(tmp_path / "results" / "many.rattle")
-    assert list(rows["status"]) == [4.0, 4.0]
-    assert list(rows["film_regime"]) == [3.0, 3.0] and list(rows["law_contradicted"]) == [1.0, 1.0]
