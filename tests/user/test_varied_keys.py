@@ -13,6 +13,7 @@ import rattle as package
 from rattle.codes import CODES, FLAGS
 
 RECORDED = (
+    "impacts_per_period_drive",
     "film_minimum",
     "film_maximum",
     "acceleration_minimum",
@@ -77,6 +78,7 @@ KEYS = {
     "spectrum.line_threshold": ("0.001", "0.1", "line_count"),
     "spectrum.idle_lines": ("2", "30", "rattle_class"),
     "spectrum.quiet_limit": ("0.0001", "100.0", "rattle_class"),
+    "spectrum.impact_limit": ("1.01", "1000.0", "impacts_per_period_drive"),
     "spectrum.irregular_limit": ("1.0e-13", "1.0", "rattle_class"),
 }
 # What the base of a key has beside that of all others. None: the key is left out.
