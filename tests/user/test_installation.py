@@ -14,7 +14,8 @@ import pytest
 
 from rattle.keys import key_table
 
-pytestmark = pytest.mark.long
+# One installation at a time: they share a folder of the build.
+pytestmark = [pytest.mark.long, pytest.mark.xdist_group("installation")]
 
 SCRIPTS = ("campaign", "classify", "compare", "export", "plot", "report")
 
