@@ -14,7 +14,7 @@ module campaign_certificate
    use periodic_orbit, only: attracting_period
    use carried_loads, only: films_of
    use problem, only: largest_state, of_film, problem_t
-   use rattle_class, only: class_irregular, note_orbit
+   use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, note_parting
    use resolved_scene, only: resolved_scene_t
    use scene_group, only: classify_group, scene_group_t, solve_group
    use scene_status, only: is_success, status_steady
@@ -72,8 +72,10 @@ contains
       do i = 1, size(resolved)
          if (must_stop()) return
          if (.not. (is_success(group%endings(i)%status) .and. is_success(tight%endings(i)%status))) cycle
-         if (tight%verdicts(i)%class == class_irregular) &
+         if (tight%verdicts(i)%class == class_irregular_so_far) &
             call note_orbit(tight%verdicts(i), attracting_period(nearby_orbit(resolved(i)%problem, tight%endings(i))))
+         ! It is one motion; followed once, it counts for both.
+         call note_parting(tight%verdicts(i), group%verdicts(i)%parting)
          if (present(agree)) &
             agree(i) = agreement_of(resolved(i)%problem, extremes_of_record(group%records(i)), &
                                     impacts_of_record(group%records(i), resolved(i)%problem%frequency), &

@@ -19,7 +19,7 @@ module campaign_progress
       !> Scenes whose motion leaves what the model can mean, and whose lines no samples follow and no integrals could be had for
       integer(int64) :: beyond_model = 0_int64, undersampled = 0_int64
       !> Scenes whose class was put to the test, and those of them whose class does not stand
-      integer(int64) :: tested = 0_int64, uncertain = 0_int64
+      integer(int64) :: tested = 0_int64, uncertain = 0_int64, irregular_so_far = 0_int64
       logical :: quiet = .false.
       character(:), allocatable :: path
       logical, private :: on_terminal = .false.
@@ -55,7 +55,7 @@ contains
    end subroutine start
 
    !> Count solved scenes.
-   subroutine add(self, done, failed, beyond_model, undersampled, tested, uncertain)
+   subroutine add(self, done, failed, beyond_model, undersampled, tested, uncertain, irregular_so_far)
       class(campaign_progress_t), intent(inout) :: self
       !> Scenes solved, and those of them that failed
       integer(int64), intent(in) :: done
@@ -66,6 +66,8 @@ contains
       !> Scenes whose class was put to the test, and those of them whose class does not stand
       integer(int64), intent(in) :: tested
       integer(int64), intent(in) :: uncertain
+      !> and of those, or of all where none are, how many are irregular so far
+      integer(int64), intent(in) :: irregular_so_far
 
       !$omp atomic
       self%done = self%done + done
@@ -79,6 +81,7 @@ contains
       self%tested = self%tested + tested
       !$omp atomic
       self%uncertain = self%uncertain + uncertain
+      self%irregular_so_far = self%irregular_so_far + irregular_so_far
    end subroutine add
 
    !> Tell, if it is time to, and no other thread makes texts.

@@ -11,6 +11,7 @@ module run_campaign
    use output_lock, only: output_lock_t
    use output_place, only: claim_output_place, log_path, progress_path, result_path, summary_path
    use prepared_campaign, only: campaign_t, prepare_campaign
+   use rattle_class, only: class_irregular_so_far
    use ranks, only: abort_ranks, next_tickets, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
    use scene_report, only: law_sentence
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
@@ -120,6 +121,7 @@ contains
       progress%undersampled = sum_over_ranks(progress%undersampled)
       progress%tested = sum_over_ranks(progress%tested)
       progress%uncertain = sum_over_ranks(progress%uncertain)
+      progress%irregular_so_far = sum_over_ranks(progress%irregular_so_far)
       if (this_rank() == 0) then
          call close_campaign(scene, campaign, started, results, progress, log, allocated(error), exit_code, close_error)
          if (allocated(error)) exit_code = error%exit_code
@@ -166,7 +168,8 @@ contains
                               flagged(campaign%layout%names == 'model_limit', rows, 1.0_dp), &
                               flagged(campaign%layout%names == 'sampling_sufficient', -rows, 0.0_dp), &
                               flagged(campaign%layout%names == 'certified', rows, 0.0_dp), &
-                              flagged(campaign%layout%names == 'certified', -rows, 0.0_dp))
+                              flagged(campaign%layout%names == 'certified', -rows, 0.0_dp), &
+                              flagged(campaign%layout%names == 'rattle_class', rows, real(class_irregular_so_far, dp)))
          deallocate (rows)
          if (allocated(own_error)) then
             !$omp critical (campaign_error)
@@ -231,6 +234,8 @@ contains
       call summary%add('scenes_undersampled_in_this_run', progress%undersampled)
       if (any(campaign%layout%names == 'certified')) &
          call summary%add('scenes_not_certified_in_this_run', progress%uncertain)
+      if (any(campaign%layout%names == 'rattle_class')) &
+         call summary%add('scenes_irregular_so_far_in_this_run', progress%irregular_so_far)
       call summary%add('wall_seconds', wall_seconds() - started)
       call summary%write(summary_path(scene), summary_error)
       if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
@@ -240,6 +245,8 @@ contains
          ' are not resolved (column sampling_sufficient); raise campaign.samples_per_period')
       if (progress%tested > 0) call log%line('  '//integer_text(progress%uncertain)//' of '//integer_text(progress%tested)// &
          ' scenes are not certified: solved again, tighter, their class is another or close to a limit (column certified)')
+      if (progress%irregular_so_far > 0) call log%line('  '//counted(progress%irregular_so_far, 'scene')// &
+         ' irregular so far: they did not repeat, and neighbouring motions do not part for good (rattle_class)')
       call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
       call log%close()

@@ -2,10 +2,12 @@
 module scene_group
    use engine, only: ending_t, motion_state_t, request_t
    use fine_window, only: classify_window, integral_record
+   use irregular_motion, only: find_orbit, follow_irregular
    use kinds, only: dp
    use many_motions, only: solve_motions
    use node_extremes, only: seen_quantities
    use carried_loads, only: accelerations_of_samples
+   use periodic_orbit, only: periodic_orbit_t
    use problem, only: problem_t, state_size
    use rattle_class, only: classify_steps, note_orbit, rattle_verdict_t
    use scene_status, only: is_success
@@ -26,11 +28,13 @@ module scene_group
       type(window_record_t), allocatable :: records(:)
       !> Classes of the motions that have a window
       type(rattle_verdict_t), allocatable :: verdicts(:)
+      !> Periodic motions at their ends, where they were looked for
+      type(periodic_orbit_t), allocatable :: orbits(:)
       !> z'' of one scene [m/s2]
       real(dp), allocatable, private :: accelerations(:)
    end type scene_group_t
 
-   public :: solve_group, classify_group
+   public :: solve_group, classify_group, find_orbits, follow_group
 
 contains
 
@@ -55,14 +59,16 @@ contains
       numbers = maxval(state_size(problems))
       if (allocated(group%states)) then
          if (size(group%states, 1) < samples .or. size(group%states, 2) /= numbers .or. size(group%states, 3) < n) &
-            deallocate (group%states, group%endings, group%records, group%verdicts, group%accelerations)
+            deallocate (group%states, group%endings, group%records, group%verdicts, group%orbits, &
+                        group%accelerations)
       end if
       if (.not. allocated(group%states)) &
          allocate (group%states(samples, numbers, n), group%endings(n), group%records(n), group%verdicts(n), &
-                   group%accelerations(samples))
+                   group%orbits(n), group%accelerations(samples))
       blank%wants = wants
       do i = 1, n
          group%records(i) = blank
+         group%orbits(i) = periodic_orbit_t()
          if (present(impact_limits)) group%records(i)%loads%impact_limit = impact_limits(i)
       end do
       call solve_motions(problems, starts, request, group%states(:, :, :n), group%endings(:n), records=group%records(:n))
@@ -111,6 +117,32 @@ contains
          if (is_success(group%endings(i)%status)) call note_orbit(group%verdicts(i), group%endings(i)%orbit)
       end do
    end subroutine classify_group
+
+   !> Look for the periodic motions at the ends of the scenes.
+   subroutine find_orbits(problems, group)
+      !> What moves
+      type(problem_t), intent(in) :: problems(:)
+      !> The solved scenes; their orbits are added
+      type(scene_group_t), intent(inout) :: group
+      integer :: i
+
+      do i = 1, size(problems)
+         if (must_stop()) return
+         group%orbits(i) = find_orbit(problems(i), group%endings(i))
+      end do
+   end subroutine find_orbits
+
+   !> Learn more of the motions that are off their harmonics.
+   subroutine follow_group(problems, group)
+      !> What moves
+      type(problem_t), intent(in) :: problems(:)
+      !> The classified scenes
+      type(scene_group_t), intent(inout) :: group
+
+      associate (n => size(problems))
+         call follow_irregular(problems, group%endings(:n), group%verdicts(:n), group%orbits(:n))
+      end associate
+   end subroutine follow_group
 
    !> Records of some windows with Fourier integrals. The windows are solved again from where they begin, side by side; a window
    !> that cannot be has no periods in its record.

@@ -13,12 +13,12 @@ module solve_chunk
    use node_extremes, only: seen_pressure, seen_quantities
    use carried_loads, only: thinnest_film
    use periodic_orbit, only: periodic_orbit_t
-   use quantities, only: is_verified, need_count, needs_certificate, needs_impacts, needs_of, needs_regime, needs_spectrum, &
-      needs_verified_impacts
+   use quantities, only: is_verified, need_count, needs_certificate, needs_impacts, needs_of, needs_orbit, needs_regime, &
+      needs_spectrum, needs_verified_impacts
    use regime_check, only: check_regime
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use sampling, only: chunk_values, largest_value, sample_plan_t
-   use scene_group, only: classify_group, scene_group_t, solve_group
+   use scene_group, only: classify_group, find_orbits, follow_group, scene_group_t, solve_group
    use scene_status, only: is_success, status_invalid
    use scene_types, only: least_static_load, scene_t, spectrum_choice_t
    use schedule, only: cost_order
@@ -73,6 +73,8 @@ contains
       batch = scenes_together(base, plan)
       allocate (values(size(plan%positions), min(batch, size(rows, 2))))
       needed = needs_of(base%campaign%record)
+      ! A single scene looks for its orbit while it is put to the test.
+      needed(needs_orbit) = needed(needs_orbit) .and. base%spectrum%certify
       if (needed(needs_certificate)) needed(compared) = .true.
       scene = base
       scene%resolved_input = ''
@@ -197,8 +199,11 @@ contains
          else
             call solve_group(problems, start_of(problems), request, needed(:seen_quantities), space%group)
          end if
-         if (any(needed([needs_spectrum, needs_certificate]))) &
+         if (needed(needs_orbit)) call find_orbits(problems, space%group)
+         if (any(needed([needs_spectrum, needs_certificate]))) then
             call classify_group(problems, choices, resolved%noise_floor, request, space%group)
+            call follow_group(problems, space%group)
+         end if
       end associate
       if (must_stop()) return
       if (needed(needs_verified_impacts)) then
@@ -263,7 +268,6 @@ contains
       judged%judged = is_success(ending%status)
       judged%periods = ending%periods
       judged%repeats_after = ending%orbit
-      ! None is looked for.
       judged%orbit = periodic_orbit_t()
    end subroutine note_ending
 
@@ -282,6 +286,7 @@ contains
       type(judged_scene_t), intent(inout) :: judged
 
       call note_ending(resolved, group%endings(place), judged)
+      judged%orbit = group%orbits(place)
       if (.not. judged%judged) return
       if (any(needed([needs_spectrum, needs_certificate]))) judged%rattle = group%verdicts(place)
       associate (record => group%records(place), pressure => group%records(place)%highest(seen_pressure))

@@ -66,7 +66,7 @@ module periodic_orbit
       end subroutine dgesv
    end interface
 
-   public :: map_states, find_periodic_orbit, attracting_period, orbit_stability
+   public :: map_states, find_periodic_orbit, attracting_period, orbit_stability, sizes_of_state
 
 contains
 
@@ -112,11 +112,7 @@ contains
       integer :: period
       logical :: mapped
 
-      scale = 1.0_dp
-      scale(of_velocity) = 1.0_dp/(two_pi*problem%frequency)
-      ! A stiff tooth is compressed by far less than its film: by what the forces compress it.
-      if (has_elastic_teeth(problem)) scale(of_drive_compression:) = max(1.0_dp, thinnest_film(problem, state)/ &
-         (problem%compliance*(abs(static_load(problem)) + largest_oscillation(problem%force) + least_static_load)))
+      scale = scale_of(problem, state(:size(images, 1)))
       images(:, 1) = state(:size(images, 1))
       do period = 1, longest_period
          call map_states(problem, 1, map_accuracy, images, mapped)
@@ -183,6 +179,30 @@ contains
          return
       end do
    end function shortest
+
+   !> Film that one of each number of a state counts as.
+   pure function scale_of(problem, state) result(scale)
+      type(problem_t), intent(in) :: problem
+      real(dp), intent(in) :: state(:)
+      real(dp) :: scale(size(state))
+
+      scale = 1.0_dp
+      scale(of_velocity) = 1.0_dp/(two_pi*problem%frequency)
+      ! A stiff tooth is compressed by far less than its film: by what the forces compress it.
+      if (has_elastic_teeth(problem)) scale(of_drive_compression:) = max(1.0_dp, thinnest_film(problem, state)/ &
+         (problem%compliance*(abs(static_load(problem)) + largest_oscillation(problem%force) + least_static_load)))
+   end function scale_of
+
+   !> What the numbers of a state count as, each in its unit.
+   pure function sizes_of_state(problem, state) result(sizes)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> Numbers of the state
+      real(dp), intent(in) :: state(:)
+      real(dp) :: sizes(size(state))
+
+      sizes = sizes_of(problem, state, scale_of(problem, state))
+   end function sizes_of_state
 
    !> What the numbers of a state count as. The map is known to a share of each number: where a tooth strikes through a thin film, to
    !> more than that of the film.

@@ -12,7 +12,7 @@ module certify_scene
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use carried_loads, only: films_of
    use problem, only: largest_state, problem_t
-   use rattle_class, only: class_irregular, note_orbit, rattle_verdict_t
+   use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, note_parting, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
    use scene_types, only: method_newmark, method_taylor, scene_t
@@ -46,14 +46,14 @@ contains
       type(window_extremes_t), intent(in) :: extremes
       type(loudness_t), intent(in) :: loudness
       type(window_impacts_t), intent(in) :: impacts
-      !> Verdict to be tested; an irregular motion found to repeat becomes subharmonic
-      type(rattle_verdict_t), intent(inout) :: verdict
+      !> Verdict to be tested
+      type(rattle_verdict_t), intent(in) :: verdict
       !> Its certificate
       type(certificate_t), intent(out) :: certificate
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
-      !> Periodic motion at the end of the run
-      type(periodic_orbit_t), intent(out), optional :: orbit
+      !> Periodic motion at the end of the tighter run, if there is one
+      type(periodic_orbit_t), intent(inout), optional :: orbit
       type(ending_t) :: ending
       type(periodic_orbit_t) :: found
       type(motion_state_t) :: start
@@ -73,12 +73,13 @@ contains
          certificate = no_certificate('The tighter solution ended as '//status_name(ending%status)//'.')
          return
       end if
-      if (present(orbit) .or. tight_verdict%class == class_irregular) then
+      if (present(orbit) .or. tight_verdict%class == class_irregular_so_far) then
          found = nearby_orbit(resolved%problem, ending)
-         call note_orbit(verdict, attracting_period(found))
          call note_orbit(tight_verdict, attracting_period(found))
+         if (present(orbit) .and. found%period > 0) orbit = found
       end if
-      if (present(orbit)) orbit = found
+      ! It is one motion; followed once, it counts for both.
+      call note_parting(tight_verdict, verdict%parting)
       unclosed = closing_sentence(window%record, resolved%problem%frequency, resolved%problem%mass, resolved%noise_floor)
       if (len(unclosed) == 0) unclosed = &
          closing_sentence(tight%record, resolved%problem%frequency, resolved%problem%mass, &

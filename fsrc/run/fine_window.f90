@@ -192,6 +192,7 @@ contains
          if (record%periods > 0) lines%resolution_error = lines%resolution_error + error_of_ends(problem, accelerations, record)
          lines%count_is_bound = .not. lines%sampling_sufficient
          lines%distortion_is_bound = .not. lines%sampling_sufficient
+         lines%irregular_is_bound = .not. lines%sampling_sufficient
       end associate
    end subroutine classify_window
 

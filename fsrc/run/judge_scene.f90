@@ -4,12 +4,14 @@ module judge_scene
    use engine, only: ending_t
    use errors, only: error_t
    use fine_window, only: classify_window, judge_window, window_t
+   use irregular_motion, only: follow_irregular
    use judged_scene, only: judged_scene_t
    use loudness, only: loudness_of_record, loudness_of_samples
    use node_extremes, only: seen_pressure
    use carried_loads, only: thinnest_film
-   use problem, only: of_film, of_velocity
-   use rattle_class, only: note_orbit
+   use periodic_orbit, only: periodic_orbit_t
+   use problem, only: of_film, of_velocity, problem_t
+   use rattle_class, only: note_orbit, rattle_verdict_t
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
    use scene_status, only: is_success
@@ -39,13 +41,15 @@ contains
    end subroutine note_ending
 
    !> Judge the window of a motion.
-   subroutine judge(scene, recorder, record, judged, error)
+   subroutine judge(scene, recorder, record, ending, judged, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Samples of the window
       type(sample_recorder_t), intent(in) :: recorder
       !> What the steps tell of it; no periods: the samples are all that is known
       type(window_record_t), intent(in) :: record
+      !> How the motion ended
+      type(ending_t), intent(in) :: ending
       !> With what follows from the scene and how it ended; the verdict is added
       type(judged_scene_t), intent(inout) :: judged
       !> Set if there is not enough memory; nothing is judged then
@@ -72,6 +76,9 @@ contains
       judged%judged = .not. allocated(error)
       if (.not. judged%judged) return
       call note_orbit(judged%rattle, judged%repeats_after)
+      call follow(judged%resolved%problem, ending, judged)
+      judged%judged = .not. must_stop()
+      if (.not. judged%judged) return
       judged%window_periods = window%periods
       judged%samples_per_period = window%samples_per_period
       judged%lines_by_integrals = window%by_integrals
@@ -96,5 +103,19 @@ contains
                                                judged%orbit)
       judged%judged = .not. allocated(error)
    end subroutine judge
+
+   !> Learn more of an irregular motion.
+   subroutine follow(problem, ending, judged)
+      type(problem_t), intent(in) :: problem
+      type(ending_t), intent(in) :: ending
+      type(judged_scene_t), intent(inout) :: judged
+      type(rattle_verdict_t) :: verdicts(1)
+      type(periodic_orbit_t) :: orbits(1)
+
+      verdicts(1) = judged%rattle
+      call follow_irregular([problem], [ending], verdicts, orbits)
+      judged%rattle = verdicts(1)
+      judged%orbit = orbits(1)
+   end subroutine follow
 
 end module judge_scene

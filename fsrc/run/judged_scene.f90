@@ -28,6 +28,7 @@ module judged_scene
       quantity_verdict_verified, quantity_first_harmonic, quantity_floquet_modulus, &
       quantity_floquet_multipliers, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
       quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, quantity_iterations_per_step, &
+      quantity_irregular_fraction_is_bound, quantity_lyapunov_exponent, &
       quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, quantity_lines_by_integrals, &
       quantity_load_maximum, quantity_load_minimum, quantity_loudness_error, quantity_model_limit, quantity_natural_frequency, &
       quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, quantity_pressure_maximum, &
@@ -187,10 +188,14 @@ contains
             value = flag(lines%distortion_is_bound)
          case (quantity_irregular_fraction)
             if (lines%moving) value = lines%irregular_fraction
+         case (quantity_irregular_fraction_is_bound)
+            value = flag(lines%irregular_is_bound)
          case (quantity_sampling_sufficient)
             value = flag(lines%sampling_sufficient)
          case (quantity_rattle_class)
             value = real(judged%rattle%class, dp)
+         case (quantity_lyapunov_exponent)
+            if (judged%rattle%parting%periods > 0) value = judged%rattle%parting%exponent
          case (quantity_certified)
             if (certificate%exists) value = flag(certificate%certified)
          case (quantity_orbit_stability)

@@ -8,6 +8,7 @@ module run_sweep
    use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
+   use irregular_motion, only: follow_irregular
    use finished_files, only: place_files
    use judged_scene, only: judged_scene_t, quantity_value
    use key_table, only: keys
@@ -16,10 +17,10 @@ module run_sweep
    use loudness, only: loudness_of_record
    use output_place, only: log_path, result_path, summary_path
    use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity
-   use periodic_orbit, only: attracting_period, find_periodic_orbit
+   use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use progress, only: progress_t
    use quantities, only: quantities_told_in, quantity_model_limit, quantity_table
-   use rattle_class, only: note_orbit
+   use rattle_class, only: note_orbit, rattle_verdict_t
    use resolved_scene, only: resolve
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
@@ -200,6 +201,8 @@ contains
       type(motion_state_t) :: start
       type(ending_t) :: ending, window_ending
       type(window_t) :: window
+      type(rattle_verdict_t) :: verdicts(1)
+      type(periodic_orbit_t) :: orbits(1)
 
       judged%resolved = resolve(scene)
       associate (problem => judged%resolved%problem)
@@ -242,6 +245,11 @@ contains
       judged%orbit = find_periodic_orbit(judged%resolved%problem, ending%numbers, orbit_nearness)
       call lock_texts()
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
+      verdicts(1) = judged%rattle
+      orbits(1) = judged%orbit
+      call follow_irregular([judged%resolved%problem], [window_ending], verdicts, orbits)
+      judged%rattle = verdicts(1)
+      judged%orbit = orbits(1)
       judged%extremes = extremes_of_record(window%record)
       judged%loudness = loudness_of_record(window%record, scene%excitation%frequency)
       judged%impacts = impacts_of_record(window%record, scene%excitation%frequency)

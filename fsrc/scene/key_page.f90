@@ -240,8 +240,12 @@ contains
          end_of_line//'   the period of the force leaves less than 1e-6 there once it is steady; a doubled period or a chaotic'// &
          end_of_line//'   motion leaves far more than 1 %, so the limit of 0.01 is not delicate. It is subharmonic if it is'// &
          end_of_line//'   known to repeat after 2 to 8 periods (`orbit_period`): because the run went on until it was steady,'// &
-      end_of_line//'   or because the certificate found the stable motion behind it. Else it is irregular; that is certified if'// &
-         end_of_line//'   the windows behind the one that is judged are irregular, too. It may settle later still.'//end_of_line// &
+      end_of_line//'   or because a stable motion that does was found at its end. Else it is followed for 100 periods beside a'// &
+         end_of_line//'   neighbouring motion. It is irregular if the two part for good: their `lyapunov_exponent` is positive'// &
+         end_of_line//'   by two standard errors of its blocks of 5 periods, in both halves and in the last quarter; that'// &
+         end_of_line//'   is certified if the windows behind the one that is judged are off the harmonics, too. It may settle'// &
+         end_of_line//'   later still. Else it is irregular_so_far, never certified: it settles, or no more is known.'// &
+         end_of_line// &
          '2. quiet, if the harmonic distortion sqrt(a_2^2 + a_3^2 + ...)/a_1 is below `quiet_limit`. With a tenth of'// &
          end_of_line//'   the static load as amplitude the canonical scenes have 0.25 (idle) and 0.12 (creep), with nine'// &
          end_of_line//'   tenths of it 2.8 and 1.9; 0.35 lies between. Under a force of several orders all lines at orders'// &

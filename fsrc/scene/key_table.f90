@@ -425,7 +425,8 @@ module key_table
       key_t('campaign', 'csv', text_kind, '', '', any_number, '', of_campaigns, &
             'Table of scenes instead of vary: a CSV file whose header names group.key, one scene per row.'), &
       key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
-            'natural_frequency damping_ratio line_count harmonic_distortion irregular_fraction reversals_per_period '// &
+            'natural_frequency damping_ratio line_count line_count_is_bound harmonic_distortion '// &
+            'harmonic_distortion_is_bound irregular_fraction irregular_fraction_is_bound reversals_per_period '// &
             'rattle_class sampling_sufficient film_regime alpha_p_maximum model_limit harmonics', any_number, recordable, &
             'scene.task=campaign', &
             'Recorded of every scene beside number, varied keys and status; certified (1 or 0) solves each again, tighter.'), &

@@ -15,7 +15,7 @@ module quantities
                                  needs_load_range = 4, needs_regime = 5, needs_coast_load_range = 6, needs_net_load_range = 7, &
                                  needs_coast_film_range = 8, needs_position_range = 9, needs_deflection = 10, &
                                  needs_spectrum = 11, needs_certificate = 12, needs_impacts = 13, needs_verified_impacts = 14, &
-                                 need_count = 14
+                                 needs_orbit = 15, need_count = 15
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_lines = 3, part_class = 4, part_errors = 5, &
@@ -42,7 +42,8 @@ module quantities
          quantity_model_limit, quantity_reversals_per_period, &
          quantity_harmonics, quantity_first_harmonic, quantity_line_count, quantity_line_count_is_bound, &
          quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, &
-         quantity_sampling_sufficient, quantity_rattle_class, quantity_certified, &
+         quantity_irregular_fraction_is_bound, quantity_sampling_sufficient, quantity_rattle_class, &
+         quantity_lyapunov_exponent, quantity_certified, &
          quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
          quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
          quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_loudness_error, &
@@ -236,23 +237,29 @@ module quantities
       quantity_t(quantity_line_count, 'line_count', '-', a_count, part_lines, needs_spectrum, 'summary sweep campaign', &
          'Harmonics above the line threshold.'), &
       quantity_t(quantity_line_count_is_bound, 'line_count_is_bound', '-', a_flag, part_lines, needs_spectrum, &
-         'summary campaign', &
+         'summary sweep campaign', &
          'Whether there may be more lines beyond the highest that is resolved.'), &
       quantity_t(quantity_harmonic_distortion, 'harmonic_distortion', '-', a_number, part_lines, needs_spectrum, &
          'summary sweep campaign', &
          'All harmonics from the second on over the first.'), &
       quantity_t(quantity_harmonic_distortion_is_bound, 'harmonic_distortion_is_bound', '-', a_flag, part_lines, &
-         needs_spectrum, 'summary', &
-         'Whether lines beyond the highest that is resolved may add to it.'), &
+         needs_spectrum, 'summary sweep campaign', &
+         'Whether lines beyond the highest that is resolved may add to harmonic_distortion.'), &
       quantity_t(quantity_irregular_fraction, 'irregular_fraction', '-', a_number, part_lines, needs_spectrum, &
          'summary sweep campaign', &
          'Share of the power that is off the harmonics.'), &
+      quantity_t(quantity_irregular_fraction_is_bound, 'irregular_fraction_is_bound', '-', a_flag, part_lines, &
+         needs_spectrum, 'summary sweep campaign', &
+         'Whether power beyond the highest harmonic that is resolved may add to irregular_fraction.'), &
       quantity_t(quantity_sampling_sufficient, 'sampling_sufficient', '-', a_flag, part_lines, needs_spectrum, &
          'summary campaign', &
          'Whether the lines are those of the motion, not of too few samples.'), &
       quantity_t(quantity_rattle_class, 'rattle_class', '-', a_code, part_class, needs_spectrum, 'summary sweep campaign', &
          'Class of the motion by its spectrum.', &
-         'quiet|creep|idle|irregular|subharmonic', first_code=1), &
+         'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
+      quantity_t(quantity_lyapunov_exponent, 'lyapunov_exponent', '-', a_number, part_class, needs_spectrum, &
+         'summary sweep campaign', &
+         'Mean logarithm by which a neighbouring motion parts, a period of the force; where a motion does not repeat.'), &
       quantity_t(quantity_certified, 'certified', '-', a_flag, part_class, needs_certificate, 'campaign', &
          'Whether the class stands when the scene is solved again, tighter.'), &
       quantity_t(quantity_verdict_verified, 'verdict_verified', '-', a_flag, part_class, needs_verified_impacts, &
@@ -279,7 +286,7 @@ module quantities
          'Largest relative error of acceleration_rms, acceleration_kurtosis, film_force_rms and dissipated_energy.'), &
       quantity_t(quantity_harmonic_errors, 'harmonic_errors', 'm/s2', a_list, part_errors, needs_certificate, 'summary', &
          'Errors of the harmonics.'), &
-      quantity_t(quantity_orbit_period, 'orbit_period', '-', a_count, part_orbit, needs_nothing, 'summary sweep campaign', &
+      quantity_t(quantity_orbit_period, 'orbit_period', '-', a_count, part_orbit, needs_orbit, 'summary sweep campaign', &
          'Periods of the force after which the motion repeats; 0 where that is not known.'), &
       quantity_t(quantity_orbit_stability, 'orbit_stability', '-', a_code, part_orbit, needs_certificate, 'summary sweep', &
          'What the Floquet multipliers say of the periodic motion.', &
@@ -330,7 +337,7 @@ module quantities
                                                        quantity_table(i)%kind /= a_list, i=1, size(quantity_table))]
    character(*), parameter :: measurable = transfer(pack(names, is_measurable), repeat(' ', len(names)*count(is_measurable)))
    !> Words of rattle_class
-   character(*), parameter :: class_words = 'quiet creep idle irregular subharmonic '
+   character(*), parameter :: class_words = 'quiet creep idle irregular subharmonic irregular_so_far '
 
 contains
 

@@ -27,8 +27,9 @@ module spectral_lines
       !> Root of the sum of squares of all lines that are not forced, over that of the forced ones, and whether it may be larger
       real(dp) :: harmonic_distortion = 0.0_dp
       logical :: distortion_is_bound = .false.
-      !> Share of the power off the harmonics: 1 - sum a_n^2/(sum over all bins but the mean)
+      !> Share of the power off the harmonics: 1 - sum a_n^2/(sum over all bins but the mean), and whether it may be larger
       real(dp) :: irregular_fraction = 0.0_dp
+      logical :: irregular_is_bound = .false.
       !> Whether the samples a period, or the integrals over the steps, are enough for every line listed
       logical :: sampling_sufficient = .true.
       !> Error of a harmonic that lines beyond those resolved may make [m/s2]
@@ -63,15 +64,20 @@ contains
                          forced, line_threshold, noise_floor, lines)
       lines%count_is_bound = .not. lines%sampling_sufficient
       lines%distortion_is_bound = .not. lines%sampling_sufficient
+      lines%irregular_is_bound = .not. lines%sampling_sufficient
    end subroutine find_lines
 
    !> Lines of a window from harmonics found by integrals over its steps, and its power: what lies beyond the highest harmonic is
    !> power too.
-   pure subroutine find_lines_by_integrals(harmonics, irregular_fraction, power, forced, line_threshold, noise_floor, lines)
+   pure subroutine find_lines_by_integrals(harmonics, irregular_fraction, known_beyond, power, forced, line_threshold, &
+                                           noise_floor, lines)
       !> a_1, a_2, ... [m/s2]
       real(dp), intent(in) :: harmonics(:)
       !> Share of the power off the harmonics
       real(dp), intent(in) :: irregular_fraction
+      !> Whether that share is known of the power beyond the highest harmonic, too; else the harmonic distortion is a lower bound,
+      !> that of the harmonics resolved
+      logical, intent(in) :: known_beyond
       !> Twice the mean square of z'' about its mean: the sum of the squares of all lines [m2/s4]
       real(dp), intent(in) :: power
       !> Orders of the force
@@ -90,14 +96,17 @@ contains
       lines%moving = sqrt(max(0.0_dp, power)) > noise_floor
       if (.not. lines%moving) return
       lines%irregular_fraction = irregular_fraction
+      lines%distortion_is_bound = .not. known_beyond
       lines%line_count = lines_above(line_threshold, harmonics(lines%largest_forced), unforced)
       tail = maxval(harmonics((3*size(harmonics))/4 + 1:))
       lines%count_is_bound = tail > max(noise_floor, sampling_tolerance*line_threshold*harmonics(lines%largest_forced))
       lines%harmonic_distortion = huge(1.0_dp)
       associate (forced_amplitude => lines%forced_amplitude)
-         if (forced_amplitude > noise_floor) lines%harmonic_distortion = &
-            max(norm2(unforced/forced_amplitude), &
-                sqrt(max(0.0_dp, (1.0_dp - irregular_fraction)*(power/forced_amplitude)/forced_amplitude - 1.0_dp)))
+         if (forced_amplitude > noise_floor) then
+            lines%harmonic_distortion = norm2(unforced/forced_amplitude)
+            if (known_beyond) lines%harmonic_distortion = max(lines%harmonic_distortion, sqrt(max(0.0_dp, &
+               (1.0_dp - irregular_fraction)*(power/forced_amplitude)/forced_amplitude - 1.0_dp)))
+         end if
       end associate
    end subroutine find_lines_by_integrals
 

@@ -5,7 +5,8 @@ module certificate
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
    use quantities, only: quantity_rattle_class, quantity_word
    use problem, only: of_velocity
-   use rattle_class, only: class_irregular, class_subharmonic, rattle_verdict_t
+   use lyapunov, only: draws_near, parting_t
+   use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
    use scene_status, only: is_success, status_name
    use scene_types, only: spectrum_choice_t
    use text, only: counted, integer_text, short_text
@@ -118,7 +119,7 @@ contains
       if (certificate%certified) certificate%reason = 'The class stands: solved tighter, it is the same, and no limit lies '// &
                                                       'within the errors.'
       if (certificate%certified .and. verdict%class == class_irregular) certificate%reason = certificate%reason// &
-         ' The motion is irregular as long as it was followed; it may settle later.'
+         ' '//parting_sentence(verdict%parting)//' It may settle later all the same.'
 
    contains
 
@@ -162,6 +163,8 @@ contains
          reason = ''
          if (tight_verdict%class /= verdict%class) then
             reason = 'Solved tighter, the class is '//quantity_word(quantity_rattle_class, tight_verdict%class)//'.'
+         else if (verdict%class == class_irregular_so_far) then
+            reason = doubt_of_parting(verdict%parting)
          else if (len(unclosed) > 0) then
             reason = unclosed
          else if (verdict%class == class_irregular) then
@@ -260,7 +263,7 @@ contains
       integer :: flank
 
       reason = ''
-      if (periods > 1 .or. verdict%class == class_irregular .or. verdict%class == class_subharmonic) return
+      if (periods > 1 .or. is_off_harmonics(verdict%class) .or. verdict%class == class_subharmonic) return
       differences = abs(films(2, :) - films(1, :))/minval(films, dim=1)
       flank = maxloc(differences, dim=1)
       if (differences(flank) > tolerance) &
@@ -290,11 +293,35 @@ contains
       reason = ''
       if (.not. is_success(status)) then
          reason = 'Behind the window the motion ends as '//status_name(status)//'.'
-      else if (verdict%class /= class_irregular) then
+      else if (.not. is_off_harmonics(verdict%class)) then
          reason = 'The class is that of this window: '//counted(windows, 'window')//' later the motion is '// &
                   quantity_word(quantity_rattle_class, verdict%class)//'.'
       end if
    end function doubt_behind
+
+   !> Why a motion is irregular only so far.
+   pure function doubt_of_parting(parting) result(reason)
+      !> How a neighbour parts from it
+      type(parting_t), intent(in) :: parting
+      character(:), allocatable :: reason
+
+      if (parting%periods == 0) then
+         reason = 'The motion does not repeat, and it could not be followed beside a neighbouring one.'
+      else if (draws_near(parting)) then
+         reason = parting_sentence(parting)//' The motion settles; more of solver.periods would tell to what.'
+      else
+         reason = parting_sentence(parting)//' That is not positive beyond its error: more of solver.periods would tell more.'
+      end if
+   end function doubt_of_parting
+
+   !> The Lyapunov exponent of a motion that was followed.
+   pure function parting_sentence(parting) result(sentence)
+      type(parting_t), intent(in) :: parting
+      character(:), allocatable :: sentence
+
+      sentence = 'Neighbouring motions part with a Lyapunov exponent of '//short_text(parting%exponent, 2)//' +- '// &
+                 short_text(parting%standard_error, 1)//' a period, over '//counted(parting%periods, 'period')//'.'
+   end function parting_sentence
 
    !> Whether a limit of the classes lies within the errors of the lines.
    pure function doubt_of_limits(verdict, tight_verdict, errors, choice) result(reason)

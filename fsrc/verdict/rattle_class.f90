@@ -1,6 +1,7 @@
 !> Class of a motion by the spectrum of its acceleration.
 module rattle_class
    use kinds, only: dp
+   use lyapunov, only: parting_t
    use reversals, only: count_reversals, reversal_prominence
    use scene_types, only: spectrum_choice_t
    use spectral_lines, only: find_lines, find_lines_by_integrals, spectral_lines_t
@@ -8,16 +9,20 @@ module rattle_class
    implicit none(type, external)
    private
 
-   integer, parameter, public :: class_quiet = 1, class_creep = 2, class_idle = 3, class_irregular = 4, class_subharmonic = 5
+   !> A motion off its harmonics is irregular so far; it becomes subharmonic or irregular as soon as more is known of it.
+   integer, parameter, public :: class_quiet = 1, class_creep = 2, class_idle = 3, class_irregular = 4, class_subharmonic = 5, &
+                         class_irregular_so_far = 6
 
    !> Verdict on a window.
    type, public :: rattle_verdict_t
       integer :: class = class_quiet
       real(dp) :: reversals_per_period = 0.0_dp
+      !> Of a motion that does not repeat: how a neighbouring one parts from it
+      type(parting_t) :: parting = parting_t()
       type(spectral_lines_t) :: lines
    end type rattle_verdict_t
 
-   public :: classify, classify_steps, note_orbit
+   public :: classify, classify_steps, note_orbit, note_parting, is_off_harmonics
 
 contains
 
@@ -44,11 +49,32 @@ contains
       !> Periods of the force after which the motion is known to repeat, 0: not known
       integer, intent(in) :: orbit
 
-      if (verdict%class == class_irregular .and. orbit > 1) verdict%class = class_subharmonic
+      if (verdict%class == class_irregular_so_far .and. orbit > 1) verdict%class = class_subharmonic
    end subroutine note_orbit
+
+   !> A motion that does not repeat, and that its neighbours leave for good, is irregular.
+   elemental subroutine note_parting(verdict, parting)
+      !> Verdict on the lines of the motion
+      type(rattle_verdict_t), intent(inout) :: verdict
+      !> How a neighbour parts from it
+      type(parting_t), intent(in) :: parting
+
+      if (verdict%class /= class_irregular_so_far) return
+      verdict%parting = parting
+      if (parting%for_good) verdict%class = class_irregular
+   end subroutine note_parting
+
+   !> Whether a window is off its harmonics, and its motion is not known to repeat.
+   elemental logical function is_off_harmonics(class)
+      integer, intent(in) :: class
+
+      is_off_harmonics = class == class_irregular .or. class == class_irregular_so_far
+   end function is_off_harmonics
 
    !> Classify a window by the integrals over the steps of its motion: however short an impact is, they see it. Of the power
    !> beyond the highest multiple that is integrated, as much is taken to be off the harmonics as of the highest quarter of them.
+   !> It is more where impacts come earlier or later from period to period: that takes the more of a harmonic the higher it is. The
+   !> share of the power off the harmonics is a lower bound, then.
    subroutine classify_steps(record, frequency, choice, noise_floor, verdict)
       !> Record of all periods of the window, with Fourier coefficients
       type(window_record_t), intent(in) :: record
@@ -60,7 +86,11 @@ contains
       real(dp), intent(in) :: noise_floor
       type(rattle_verdict_t), intent(out) :: verdict
       real(dp), dimension(record%multiples) :: varying, repeating
-      real(dp) :: mean, periods, power, off_harmonics, beyond, irregular_beyond
+      !> Share of the power beyond the highest multiple that makes no odds, and share of the highest quarter off the harmonics below
+      !> which a motion repeats so well that its impacts come in time: it grows with the square of the order at most
+      real(dp), parameter :: negligible = 1.0e-3_dp, repeating_share = 1.0e-5_dp
+      real(dp) :: mean, periods, power, off_harmonics, beyond, share_beyond, irregular_beyond, irregular_fraction
+      logical :: is_bound
       integer :: highest_quarter
 
       periods = real(record%periods, dp)
@@ -73,10 +103,15 @@ contains
          varying(:) = max(0.0_dp, squares(1:)/periods - repeating)
          off_harmonics = sum(varying) + 0.5_dp*max(0.0_dp, squares(0)/periods - (abs(sums(0))/periods)**2)
          beyond = max(0.0_dp, power/(2.0_dp*frequency)**2 - off_harmonics - sum(repeating))
-         irregular_beyond = beyond*share(sum(varying(highest_quarter:)), sum(repeating(highest_quarter:)))
-         call find_lines_by_integrals(2.0_dp*frequency/periods*abs(sums(1:n)), &
-                                      share(off_harmonics + irregular_beyond, sum(repeating) + beyond - irregular_beyond), &
+         share_beyond = share(sum(varying(highest_quarter:)), sum(repeating(highest_quarter:)))
+         irregular_beyond = beyond*share_beyond
+         irregular_fraction = share(off_harmonics + irregular_beyond, sum(repeating) + beyond - irregular_beyond)
+         is_bound = share_beyond > repeating_share .and. &
+                    beyond - irregular_beyond > negligible*(off_harmonics + sum(repeating) + beyond)
+         call find_lines_by_integrals(2.0_dp*frequency/periods*abs(sums(1:n)), irregular_fraction, &
+                                      .not. (is_bound .and. irregular_fraction > choice%irregular_limit), &
                                       power, choice%forced, choice%line_threshold, noise_floor, verdict%lines)
+         verdict%lines%irregular_is_bound = is_bound .and. verdict%lines%moving
       end associate
       verdict%class = class_of(verdict%lines, choice)
       if (verdict%lines%moving) verdict%reversals_per_period = &
@@ -102,7 +137,7 @@ contains
       if (.not. lines%moving) then
          class = class_quiet
       else if (lines%irregular_fraction > choice%irregular_limit) then
-         class = class_irregular
+         class = class_irregular_so_far
       else if (lines%harmonic_distortion < choice%quiet_limit) then
          class = class_quiet
       else if (lines%line_count >= choice%idle_lines) then

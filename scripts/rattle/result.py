@@ -188,6 +188,13 @@ class Result(ResultFile):
         return max(self.row_count - 1, 0) // self.samples_per_period
 
     @property
+    def is_irregular(self) -> bool:
+        """Whether the summary beside it says that neighbouring motions part for good."""
+        return (
+            self.summary_path.exists() and read_summary(self.summary_path).get("rattle_class") == "irregular"
+        )
+
+    @property
     def orbit_period(self) -> int | None:
         """Periods after which the motion is known to repeat, by the summary beside it."""
         if not self.summary_path.exists():

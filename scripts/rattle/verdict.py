@@ -51,13 +51,17 @@ def judge_samples(
     samples = result.samples("acceleration", result.window(periods))
     limits = thresholds(result, overrides)
     try:
-        return kernels.classify(
+        found = kernels.classify(
             samples,
             result.samples_per_period,
             orbit_period=result.orbit_period,
             **forced(result),
             **limits,
         )
+        # Samples alone do not tell whether neighbouring motions part for good; the program has followed them.
+        if found["rattle_class"] == "irregular_so_far" and result.is_irregular:
+            found["rattle_class"] = "irregular"
+        return found
     except ValueError as fault:
         raise ResultError(f"{result.path} cannot be classified: {fault}.") from None
 

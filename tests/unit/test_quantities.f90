@@ -12,7 +12,7 @@ module test_quantities
    use key_table, only: find_key
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
-      use quantities, only: a_list, a_number, needs_impacts, quantities_told_in, quantity_impacts_coast, &
+      use quantities, only: a_list, a_number, needs_impacts, quantities_told_in, quantity_impacts_coast, quantity_lyapunov_exponent, &
                          quantity_impacts_drive, quantity_certified, quantity_gear_position_maximum, &
                          quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
                          quantity_word
@@ -82,6 +82,8 @@ contains
          else if (any(i == [quantity_gear_position_minimum, quantity_gear_position_maximum]) .and. &
                   .not. has_elastic_teeth(single%resolved%problem)) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid teeth')
+         else if (i == quantity_lyapunov_exponent) then
+            call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of a motion that repeats')
          else
             call checks%check(.not. ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' has a value')
          end if
@@ -174,7 +176,7 @@ contains
       call recorder%open(scene, judged%resolved%problem, '', 0, error)
       call solve_controlled(judged%resolved%problem, request_of(scene), recorder, watcher, start, ending, record, error)
       call note_ending(ending, judged)
-      call judge(scene, recorder, record, judged, error)
+      call judge(scene, recorder, record, ending, judged, error)
    end subroutine solve_single
 
    !> Solve and judge it as the first value of a sweep.

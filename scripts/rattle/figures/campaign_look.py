@@ -19,7 +19,7 @@ from rattle.campaign_section import short_name
 from rattle.codes import STATUSES, SUCCESSES, words_of
 
 # From the palette of Okabe and Ito, ordered so that they also differ in lightness.
-CLASS_COLOURS = {1: "#DCE6EC", 2: "#56B4E9", 3: "#D55E00", 4: "#4B2E63", 5: "#E8C547"}
+CLASS_COLOURS = {1: "#DCE6EC", 2: "#56B4E9", 3: "#D55E00", 4: "#4B2E63", 5: "#E8C547", 6: "#A78BB8"}
 OTHER_COLOURS = (
     "#DCE6EC",
     "#56B4E9",
@@ -36,6 +36,8 @@ FLAG_COLOURS = {
     "sampling_sufficient": {0: "#D55E00", 1: "#DCE6EC"},
     "law_contradicted": {0: "#DCE6EC", 1: "#D55E00"},
     "line_count_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
+    "harmonic_distortion_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
+    "irregular_fraction_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
 }
 COLOUR_MAP = "cividis"
 GAP_COLOUR = "#F6F6F6"
@@ -45,6 +47,9 @@ NOT_DONE_HATCH = "...."
 UNKNOWN_HATCH = "**"
 UNCERTAIN_HATCH = "//////"
 UNCERTAIN_WORDS = "not certified"
+IRREGULAR_SO_FAR = 6
+SO_FAR_HATCH = "\\\\\\\\\\\\"
+SO_FAR_WORDS = "irregular so far"
 MICROMETRES = "\N{MICRO SIGN}m"
 
 
@@ -86,15 +91,22 @@ def gaps(campaign: Campaign, column: str) -> list[Gap]:
 
 
 def uncertain(campaign: Campaign, column: str) -> np.ndarray:
-    """Scenes whose class is not certified, for a map of what their motion is."""
+    """Scenes whose class is not certified, for a map of what their motion is; not those irregular so far."""
     if column in ("certified", "status") or "certified" not in campaign:
         return np.zeros(campaign.row_count, dtype=bool)
-    return campaign.done & (campaign["certified"] == 0.0)
+    return campaign.done & (campaign["certified"] == 0.0) & ~irregular_so_far(campaign)
 
 
-def uncertain_patch(words: str) -> Patch:
+def irregular_so_far(campaign: Campaign) -> np.ndarray:
+    """Scenes that neither repeat nor are irregular for good."""
+    if "rattle_class" not in campaign:
+        return np.zeros(campaign.row_count, dtype=bool)
+    return campaign.done & (campaign["rattle_class"] == IRREGULAR_SO_FAR)
+
+
+def uncertain_patch(words: str, hatch: str = UNCERTAIN_HATCH) -> Patch:
     """What a scene that is not certified looks like in a legend: hatched, whatever its colour."""
-    return Patch(facecolor="none", edgecolor="black", hatch=UNCERTAIN_HATCH, linewidth=0.6, label=words)
+    return Patch(facecolor="none", edgecolor="black", hatch=hatch, linewidth=0.6, label=words)
 
 
 def gap_patch(words: str, hatch: str) -> Patch:

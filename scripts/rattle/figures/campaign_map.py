@@ -129,6 +129,9 @@ def draw_cells(
         handles += _hatch(axes, edges, section.mask(gap.scenes), gap.words, gap.hatch)
     handles += _hatch(axes, edges, ~done, "not done", look.NOT_DONE_HATCH)
     handles += _hatch_uncertain(axes, edges, section.mask(look.uncertain(campaign, column)))
+    if column not in ("certified", "status"):
+        so_far = section.mask(look.irregular_so_far(campaign))
+        handles += _hatch_uncertain(axes, edges, so_far, look.SO_FAR_HATCH, look.SO_FAR_WORDS)
     look.set_axis(axes, "x", x, to_edges=True)
     look.set_axis(axes, "y", y, to_edges=True)
     return handles, drawn
@@ -325,17 +328,23 @@ def _hatch(axes: Axes, edges: Sequence[np.ndarray], where: np.ndarray, words: st
     return [look.gap_patch(f"{words} ({look.share(int(where.sum()), where.size)})", hatch)]
 
 
-def _hatch_uncertain(axes: Axes, edges: Sequence[np.ndarray], where: np.ndarray) -> list[Patch]:
+def _hatch_uncertain(
+    axes: Axes,
+    edges: Sequence[np.ndarray],
+    where: np.ndarray,
+    hatch: str = look.UNCERTAIN_HATCH,
+    words: str = look.UNCERTAIN_WORDS,
+) -> list[Patch]:
     """Hatch and frame cells over their colours, black on white, which every colour leaves legible."""
     if not where.any():
         return []
     squares = _squares(edges, where)
     for colour, width in (("white", 1.4), ("black", 0.5)):
-        area = axes.contourf(*squares, levels=(0.5, 1.5), colors=["none"], hatches=[look.UNCERTAIN_HATCH])
+        area = axes.contourf(*squares, levels=(0.5, 1.5), colors=["none"], hatches=[hatch])
         area.set(edgecolor=colour, linewidth=0.0, hatch_linewidth=width)
         axes.contour(*squares, levels=(0.5,), colors=[colour], linewidths=[width])
-    words = f"{look.UNCERTAIN_WORDS} ({look.share(int(where.sum()), where.size)})"
-    return [look.uncertain_patch(words)]
+    words = f"{words} ({look.share(int(where.sum()), where.size)})"
+    return [look.uncertain_patch(words, hatch)]
 
 
 def _squares(edges: Sequence[np.ndarray], where: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -48,6 +48,8 @@ CLASSES = {
     "irregular": "Irregular rattle: no period of the motion is like the one before. A share of "
     "{irregular_fraction} of the "
     "power of the acceleration lies off the harmonics of the force; {irregular_limit} is the limit.",
+    "irregular_so_far": "Irregular so far: no period of the motion is like the one before, but it may settle. "
+    "A share of {irregular_fraction} of the power of the acceleration lies off the harmonics of the force.",
     "subharmonic": "Subharmonic rattle: the motion repeats, but only after {orbit_period} periods of the "
     "force.",
 }
@@ -56,7 +58,8 @@ CLASS_MEANINGS = {
     "quiet": "The tooth follows the force smoothly.",
     "creep": "The tooth rolls through the oil film; few harmonics of the acceleration stand out.",
     "idle": "The tooth beats: short impacts, many harmonics, a sound that reaches far up in frequency.",
-    "irregular": "No period of the motion is like the one before.",
+    "irregular": "No period of the motion is like the one before, and neighbouring motions part for good.",
+    "irregular_so_far": "The motion did not repeat as long as it was followed, and it may settle.",
     "subharmonic": "The motion repeats only after several periods of the force.",
 }
 REGIMES = {

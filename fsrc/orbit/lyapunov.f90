@@ -1,0 +1,156 @@
+!> Whether neighbouring motions part from each other for good: the largest Lyapunov exponent, from motions and a neighbour of each
+!> that are solved side by side. After every period of the force the neighbour is brought back to a small distance along the
+!> direction in which it left; the exponent is the mean logarithm by which the distance grew (Benettin and others 1980).
+!>
+!> A motion that repeats, or one that settles to it, has an exponent of 0 or less; that of a motion which never repeats though its
+!> force does is 0 where two frequencies without a common measure make it, and positive where it is irregular for good.
+module lyapunov
+   use engine, only: ending_t, motion_state_t, request_t
+   use kinds, only: dp
+   use many_motions, only: solve_motions
+   use periodic_orbit, only: sizes_of_state
+   use problem, only: largest_state, problem_t, state_size
+   use scene_status, only: status_complete
+   use signals, only: must_stop
+   implicit none(type, external)
+   private
+
+   !> Periods that a motion and its neighbour are followed, in stretches. After each of these it is seen whether they part at all.
+   integer, parameter :: stretch_periods = 25, stretches = 4
+   !> Periods of a block, whose means tell the statistical error of the exponent.
+   integer, parameter :: block_periods = 5
+   !> Periods in which the neighbour turns into the direction that grows most: they do not count.
+   integer, parameter :: turning_periods = 5
+   !> Accuracy of the motions, and distance of the neighbours, relative to the film: a hundred times farther apart than the
+   !> errors of a period, and near enough for the distance to grow as an infinitely small one does.
+   real(dp), parameter :: map_accuracy = 1.0e-10_dp, distance = 1.0e-6_dp
+   !> Standard errors by which an exponent has to differ from 0.
+   real(dp), parameter :: least_errors = 2.0_dp
+
+   !> Periods that a motion has to be followed to be told irregular.
+   integer, parameter, public :: followed_periods = stretches*stretch_periods
+
+   !> How a motion and its neighbour part.
+   type, public :: parting_t
+      !> Periods they were followed; 0: not at all
+      integer :: periods = 0
+      !> Lyapunov exponent a period of the force, and its standard error [-]
+      real(dp) :: exponent = 0.0_dp
+      real(dp) :: standard_error = 0.0_dp
+      !> Whether they part for good: the exponent is positive beyond its error, over all periods asked for
+      logical :: for_good = .false.
+   end type parting_t
+
+   public :: follow_neighbours, parting_of, draws_near
+
+contains
+
+   !> Follow motions and their neighbours. After a signal to stop the answer is of no use.
+   subroutine follow_neighbours(problems, states, partings)
+      !> What moves
+      type(problem_t), intent(in) :: problems(:)
+      !> Where each motion stands, at the start of a period
+      type(motion_state_t), intent(in) :: states(:)
+      type(parting_t), intent(out) :: partings(:)
+      type(request_t) :: one_period
+      type(motion_state_t) :: pairs(2, size(problems))
+      type(ending_t) :: endings(2*size(problems))
+      real(dp) :: growths(-turning_periods + 1:followed_periods, size(problems)), none(0, largest_state, 2*size(problems))
+      logical :: apart(size(problems))
+      integer, allocatable :: left(:)
+      integer :: period, i, n
+
+      one_period = request_t(accuracy=map_accuracy, periods=1)
+      do i = 1, size(problems)
+         pairs(1, i) = motion_state_t(numbers=states(i)%numbers)
+         pairs(2, i) = displaced(problems(i), states(i)%numbers, spread(1.0_dp, 1, largest_state))
+      end do
+      left = [(i, i=1, size(problems))]
+      do period = -turning_periods + 1, followed_periods
+         n = size(left)
+         if (n == 0 .or. must_stop()) return
+         call solve_motions([(problems(left(i)), problems(left(i)), i=1, n)], [(pairs(:, left(i)), i=1, n)], one_period, &
+                            none(:, :, :2*n), endings(:2*n))
+         apart = .false.
+         do i = 1, n
+            associate (place => left(i), motion => endings(2*i - 1), neighbour => endings(2*i))
+               if (motion%status /= status_complete .or. neighbour%status /= status_complete) cycle
+               call part(problems(place), motion%numbers, neighbour%numbers, pairs(:, place), growths(period, place))
+               apart(place) = .true.
+               if (period < stretch_periods .or. mod(period, stretch_periods) /= 0) cycle
+               partings(place) = parting_of(growths(1:period, place))
+               apart(place) = .not. draws_near(partings(place))
+            end associate
+         end do
+         left = pack(left, apart(left))
+      end do
+   end subroutine follow_neighbours
+
+   !> What the growth of the distance over the periods says. An exponent counts as positive if it is so by two standard errors, in
+   !> each half of the periods, and in the last stretch: a motion that settles meanwhile parts from its neighbour only before.
+   pure type(parting_t) function parting_of(growths) result(parting)
+      !> Logarithm of the growth in each period, whole stretches [-]
+      real(dp), intent(in) :: growths(:)
+      real(dp) :: blocks(size(growths)/block_periods)
+      integer :: n
+
+      n = size(growths)
+      blocks = sum(reshape(growths, [block_periods, size(blocks)]), dim=1)/real(block_periods, dp)
+      parting%periods = n
+      parting%exponent = sum(blocks)/real(size(blocks), dp)
+      parting%standard_error = sqrt(sum((blocks - parting%exponent)**2)/real(size(blocks)*(size(blocks) - 1), dp))
+      parting%for_good = n >= followed_periods .and. parting%exponent > least_errors*parting%standard_error .and. &
+                         sum(growths(:n/2)) > 0.0_dp .and. sum(growths(n/2 + 1:)) > 0.0_dp .and. &
+                         sum(growths(max(1, n - stretch_periods + 1):)) > 0.0_dp
+   end function parting_of
+
+   !> Whether the exponent is negative beyond its error: then the motion settles, and need not be followed any longer.
+   elemental logical function draws_near(parting)
+      type(parting_t), intent(in) :: parting
+
+      draws_near = parting%exponent < -least_errors*parting%standard_error
+   end function draws_near
+
+   !> How far a neighbour has left its motion after a period, and both for the next one: the neighbour brought back.
+   pure subroutine part(problem, motion, neighbour, pair, growth)
+      type(problem_t), intent(in) :: problem
+      !> Numbers of both states
+      real(dp), intent(in) :: motion(:)
+      real(dp), intent(in) :: neighbour(:)
+      !> Where both go on
+      type(motion_state_t), intent(out) :: pair(2)
+      !> Logarithm by which their distance grew [-]
+      real(dp), intent(out) :: growth
+      real(dp) :: direction(largest_state), farthest
+      integer :: n
+
+      n = state_size(problem)
+      direction = 0.0_dp
+      direction(:n) = (neighbour(:n) - motion(:n))/sizes_of_state(problem, motion(:n))
+      farthest = maxval(abs(direction))
+      ! Neighbours that have met tell no direction: what is left of their distance is less than the errors.
+      if (.not. farthest > map_accuracy*distance) then
+         farthest = map_accuracy*distance
+         direction = farthest
+      end if
+      growth = log(farthest/distance)
+      pair = [motion_state_t(numbers=motion), displaced(problem, motion, direction/farthest)]
+   end subroutine part
+
+   !> A state a small distance from another.
+   pure type(motion_state_t) function displaced(problem, numbers, direction)
+      type(problem_t), intent(in) :: problem
+      !> Numbers of the state
+      real(dp), intent(in) :: numbers(:)
+      !> Of the displacement, the largest of its numbers 1
+      real(dp), intent(in) :: direction(:)
+      real(dp) :: moved(largest_state)
+      integer :: n
+
+      n = state_size(problem)
+      moved = numbers
+      moved(:n) = numbers(:n) + distance*direction(:n)*sizes_of_state(problem, numbers(:n))
+      displaced = motion_state_t(numbers=moved)
+   end function displaced
+
+end module lyapunov

@@ -1,0 +1,64 @@
+!> What becomes of motions that are off their harmonics: they repeat after several periods, they are irregular for good, or
+!> nothing more is known of them than that they are irregular so far. One procedure for single scenes, sweeps and campaigns.
+module irregular_motion
+   use certify_scene, only: nearby_orbit
+   use engine, only: ending_t
+   use lyapunov, only: follow_neighbours, parting_t
+   use periodic_orbit, only: attracting_period, periodic_orbit_t
+   use problem, only: problem_t
+   use rattle_class, only: class_irregular_so_far, note_orbit, note_parting, rattle_verdict_t
+   use scene_status, only: is_success
+   use signals, only: must_stop
+   use text_output, only: lock_texts, unlock_texts
+   implicit none(type, external)
+   private
+
+   public :: follow_irregular, find_orbit
+
+contains
+
+   !> Look for a periodic motion at the ends of motions of which more has to be known, and follow those that are irregular still.
+   !> After a signal to stop the answers are of no use.
+   subroutine follow_irregular(problems, endings, verdicts, orbits)
+      !> What moves
+      type(problem_t), intent(in) :: problems(:)
+      !> How the motions ended
+      type(ending_t), intent(in) :: endings(:)
+      !> Verdicts on their windows
+      type(rattle_verdict_t), intent(inout) :: verdicts(:)
+      !> Periodic motions at their ends, where they were looked for; one is looked for where none is known
+      type(periodic_orbit_t), intent(inout) :: orbits(:)
+      type(parting_t), allocatable :: partings(:)
+      integer, allocatable :: left(:)
+      integer :: i
+
+      left = pack([(i, i=1, size(problems))], is_success(endings%status) .and. verdicts%class == class_irregular_so_far)
+      do i = 1, size(left)
+         if (must_stop()) return
+         associate (place => left(i))
+            if (orbits(place)%period == 0) orbits(place) = find_orbit(problems(place), endings(place))
+            call note_orbit(verdicts(place), attracting_period(orbits(place)))
+         end associate
+      end do
+      left = pack(left, verdicts(left)%class == class_irregular_so_far)
+      if (size(left) == 0) return
+      allocate (partings(size(left)))
+      call unlock_texts()
+      call follow_neighbours(problems(left), endings(left)%motion_state_t, partings)
+      call lock_texts()
+      do i = 1, size(left)
+         call note_parting(verdicts(left(i)), partings(i))
+      end do
+   end subroutine follow_irregular
+
+   !> The periodic motion at the end of a motion. One that was seen to repeat after every period needs no search.
+   type(periodic_orbit_t) function find_orbit(problem, ending) result(orbit)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> How its motion ended
+      type(ending_t), intent(in) :: ending
+
+      if (is_success(ending%status) .and. ending%orbit /= 1) orbit = nearby_orbit(problem, ending)
+   end function find_orbit
+
+end module irregular_motion
