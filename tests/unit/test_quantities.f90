@@ -12,7 +12,7 @@ module test_quantities
    use key_table, only: find_key
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
-      use quantities, only: a_list, a_number, needs_impacts, quantities_told_in, quantity_impacts_coast, quantity_lyapunov_exponent, &
+   use quantities, only: a_list, a_number, needs_impacts, quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
                          quantity_impacts_drive, quantity_certified, quantity_gear_position_maximum, &
                          quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
                          quantity_word

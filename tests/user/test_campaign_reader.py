@@ -106,7 +106,7 @@ def test_frame_holds_numbers_and_words(campaign, made):
     assert list(frame.columns[:3]) == ["scene", FORCE, SPEED]
     assert frame["scene"].dtype == "int64"
     np.testing.assert_array_equal(frame["acceleration_maximum"], made.column("acceleration_maximum"))
-    words = np.array(["", "quiet", "creep", "idle", "irregular", "subharmonic"])[
+    words = np.array(["", "quiet", "creep", "idle", "irregular", "subharmonic", "irregular_so_far"])[
         made.column("rattle_class").astype(int)
     ]
     assert frame["rattle_class_word"].tolist() == words.tolist()
@@ -128,7 +128,9 @@ def test_dataset_of_a_grid(campaign):
     assert data["rattle_class"].dims == (FORCE, SPEED)
     assert data["film_minimum"].attrs["units"] == "m"
     assert data["acceleration_maximum"].attrs["units"] == "m s-2"
-    assert data["rattle_class"].attrs["flag_meanings"] == "quiet creep idle irregular subharmonic"
+    assert data["rattle_class"].attrs["flag_meanings"] == (
+        "quiet creep idle irregular subharmonic irregular_so_far"
+    )
     for name, known in (("rattle_class", CLASSES), ("status", STATUSES), ("certified", NO_OR_YES)):
         attributes = data[name].attrs
         meanings = dict(zip(attributes["flag_values"], attributes["flag_meanings"].split(), strict=True))

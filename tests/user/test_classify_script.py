@@ -15,7 +15,7 @@ MOTIONS = {
     "idle": IDLE,
     "creep": {1.0: 10.0, 2.0: 8.0, 3.0: 3.0},
     "quiet": {1.0: 10.0, 2.0: 1.0},
-    "irregular": {1.0: 10.0, 2.5: 5.0},
+    "irregular_so_far": {1.0: 10.0, 2.5: 5.0},
 }
 
 
@@ -51,7 +51,7 @@ def test_each_class_is_recognised_and_saved(results, tmp_path):
         ("idle", ("--idle-lines", "31"), "creep"),
         ("creep", ("--quiet-limit", "2.0"), "quiet"),
         ("quiet", ("--quiet-limit", "0.05"), "creep"),
-        ("irregular", ("--irregular-limit", "0.5"), "quiet"),
+        ("irregular_so_far", ("--irregular-limit", "0.5"), "quiet"),
         ("creep", ("--line-threshold", "0.5"), "creep"),
     ],
 )

@@ -19,7 +19,7 @@ SIGNALS = {
     "quiet": {1.0: 10.0, 2.0: 1.0, 3.0: 0.05},
     "creep": {1.0: 6.0, 2.0: 8.0, 3.0: 6.0, 4.0: 4.0, 5.0: 0.03},
     "idle": {float(n): 20.0 * 0.85 ** (n - 1) for n in range(1, 36)},
-    "irregular": {1.0: 6.0, 2.0: 8.0, 2.5: 3.0},
+    "irregular_so_far": {1.0: 6.0, 2.0: 8.0, 2.5: 3.0},
 }
 
 
@@ -40,7 +40,7 @@ def test_classify_agrees_with_numpy(name):
     irregular = 1.0 - (harmonics**2).sum() / (amplitude[1:] ** 2).sum()
     assert found["irregular_fraction"] == pytest.approx(irregular, abs=1e-12)
     expected = (
-        "irregular"
+        "irregular_so_far"
         if irregular > 0.01
         else "quiet"
         if distortion < 0.35
@@ -51,9 +51,9 @@ def test_classify_agrees_with_numpy(name):
     assert found["rattle_class"] == expected == name
 
 
-@pytest.mark.parametrize(("orbit", "expected"), [(None, "irregular"), (1, "irregular"), (2, "subharmonic")])
+@pytest.mark.parametrize(("orbit", "expected"), [(None, "irregular_so_far"), (1, "irregular_so_far"), (2, "subharmonic")])
 def test_known_orbit_of_a_motion_off_its_harmonics(orbit, expected):
-    samples = synthetic(SIGNALS["irregular"])
+    samples = synthetic(SIGNALS["irregular_so_far"])
     assert kernels.classify(samples, PERIOD, orbit_period=orbit)["rattle_class"] == expected
     regular = synthetic(SIGNALS["creep"])
     assert kernels.classify(regular, PERIOD, orbit_period=orbit)["rattle_class"] == "creep"
@@ -67,7 +67,7 @@ def test_reversals_of_a_plain_wave_and_rest():
 
 
 def test_a_motion_at_rest_is_quiet_and_has_no_ratios():
-    for samples, floor in ((np.zeros(PERIOD), 0.0), (1e-9 * synthetic(SIGNALS["irregular"]), 1e-6)):
+    for samples, floor in ((np.zeros(PERIOD), 0.0), (1e-9 * synthetic(SIGNALS["irregular_so_far"]), 1e-6)):
         found = kernels.classify(samples, PERIOD, noise_floor=floor)
         assert found["rattle_class"] == "quiet"
         assert np.isnan(found["harmonic_distortion"]) and np.isnan(found["irregular_fraction"])

@@ -114,6 +114,7 @@ def test_the_class_is_the_one_of_the_summary(motion, word):
     assert verdict.strip().startswith(word)
     named = {"quiet": "Quiet:", "creep": "Creep rattle:", "idle": "Idle rattle:"}
     named |= {"irregular": "Irregular rattle:", "subharmonic": "Subharmonic rattle:"}
+    named |= {"irregular_so_far": "Irregular so far:"}
     assert [known for known, words in named.items() if words in verdict] == [word]
     assert ("17 harmonics" in verdict) == (word in ("creep", "idle"))
     assert ("after 3 periods" in verdict) == (word == "subharmonic")
