@@ -1,8 +1,9 @@
 !> Scenes that are solved side by side: the samples of their windows, what the steps tell of them, and their classes.
 module scene_group
+   use certify_scene, only: nearby_orbit
    use engine, only: ending_t, motion_state_t, request_t
    use fine_window, only: classify_window, integral_record
-   use irregular_motion, only: find_orbit, follow_irregular
+   use irregular_motion, only: follow_irregular
    use kinds, only: dp
    use many_motions, only: solve_motions
    use node_extremes, only: seen_quantities
@@ -28,8 +29,8 @@ module scene_group
       type(window_record_t), allocatable :: records(:)
       !> Classes of the motions that have a window
       type(rattle_verdict_t), allocatable :: verdicts(:)
-      !> Periodic motions at their ends, where they were looked for
-      type(periodic_orbit_t), allocatable :: orbits(:)
+      !> Periods after which they repeat, by the engine or by a search at their ends; 0 where none is known
+      integer, allocatable :: repeat_after(:)
       !> z'' of one scene [m/s2]
       real(dp), allocatable, private :: accelerations(:)
    end type scene_group_t
@@ -59,19 +60,19 @@ contains
       numbers = maxval(state_size(problems))
       if (allocated(group%states)) then
          if (size(group%states, 1) < samples .or. size(group%states, 2) /= numbers .or. size(group%states, 3) < n) &
-            deallocate (group%states, group%endings, group%records, group%verdicts, group%orbits, &
+            deallocate (group%states, group%endings, group%records, group%verdicts, group%repeat_after, &
                         group%accelerations)
       end if
       if (.not. allocated(group%states)) &
          allocate (group%states(samples, numbers, n), group%endings(n), group%records(n), group%verdicts(n), &
-                   group%orbits(n), group%accelerations(samples))
+                   group%repeat_after(n), group%accelerations(samples))
       blank%wants = wants
       do i = 1, n
          group%records(i) = blank
-         group%orbits(i) = periodic_orbit_t()
          if (present(impact_limits)) group%records(i)%loads%impact_limit = impact_limits(i)
       end do
       call solve_motions(problems, starts, request, group%states(:, :, :n), group%endings(:n), records=group%records(:n))
+      group%repeat_after(:n) = group%endings(:n)%orbit
    end subroutine solve_group
 
    !> Classes of the windows, by their samples, and where these are too few by integrals over the steps. After a signal to stop
@@ -122,13 +123,17 @@ contains
    subroutine find_orbits(problems, group)
       !> What moves
       type(problem_t), intent(in) :: problems(:)
-      !> The solved scenes; their orbits are added
+      !> The solved scenes
       type(scene_group_t), intent(inout) :: group
+      type(periodic_orbit_t) :: orbit
       integer :: i
 
       do i = 1, size(problems)
          if (must_stop()) return
-         group%orbits(i) = find_orbit(problems(i), group%endings(i))
+         ! One that was seen to repeat after every period needs no search.
+         if (.not. is_success(group%endings(i)%status) .or. group%endings(i)%orbit == 1) cycle
+         orbit = nearby_orbit(problems(i), group%endings(i))
+         if (orbit%period > 0) group%repeat_after(i) = orbit%period
       end do
    end subroutine find_orbits
 
@@ -140,7 +145,7 @@ contains
       type(scene_group_t), intent(inout) :: group
 
       associate (n => size(problems))
-         call follow_irregular(problems, group%endings(:n), group%verdicts(:n), group%orbits(:n))
+         call follow_irregular(problems, group%endings(:n), group%verdicts(:n), group%repeat_after(:n))
       end associate
    end subroutine follow_group
 

@@ -286,7 +286,7 @@ contains
       type(judged_scene_t), intent(inout) :: judged
 
       call note_ending(resolved, group%endings(place), judged)
-      judged%orbit = group%orbits(place)
+      judged%repeats_after = group%repeat_after(place)
       if (.not. judged%judged) return
       if (any(needed([needs_spectrum, needs_certificate]))) judged%rattle = group%verdicts(place)
       associate (record => group%records(place), pressure => group%records(place)%highest(seen_pressure))

@@ -13,21 +13,22 @@ module irregular_motion
    implicit none(type, external)
    private
 
-   public :: follow_irregular, find_orbit
+   public :: follow_irregular
 
 contains
 
    !> Look for a periodic motion at the ends of motions of which more has to be known, and follow those that are irregular still.
    !> After a signal to stop the answers are of no use.
-   subroutine follow_irregular(problems, endings, verdicts, orbits)
+   subroutine follow_irregular(problems, endings, verdicts, repeat_after)
       !> What moves
       type(problem_t), intent(in) :: problems(:)
       !> How the motions ended
       type(ending_t), intent(in) :: endings(:)
       !> Verdicts on their windows
       type(rattle_verdict_t), intent(inout) :: verdicts(:)
-      !> Periodic motions at their ends, where they were looked for; one is looked for where none is known
-      type(periodic_orbit_t), intent(inout) :: orbits(:)
+      !> Periods after which motions near their ends repeat, 0 where none is known
+      integer, intent(inout) :: repeat_after(:)
+      type(periodic_orbit_t) :: orbit
       type(parting_t), allocatable :: partings(:)
       integer, allocatable :: left(:)
       integer :: i
@@ -36,8 +37,9 @@ contains
       do i = 1, size(left)
          if (must_stop()) return
          associate (place => left(i))
-            if (orbits(place)%period == 0) orbits(place) = find_orbit(problems(place), endings(place))
-            call note_orbit(verdicts(place), attracting_period(orbits(place)))
+            orbit = nearby_orbit(problems(place), endings(place))
+            call note_orbit(verdicts(place), attracting_period(orbit))
+            if (orbit%period > 0) repeat_after(place) = orbit%period
          end associate
       end do
       left = pack(left, verdicts(left)%class == class_irregular_so_far)
@@ -50,15 +52,5 @@ contains
          call note_parting(verdicts(left(i)), partings(i))
       end do
    end subroutine follow_irregular
-
-   !> The periodic motion at the end of a motion. One that was seen to repeat after every period needs no search.
-   type(periodic_orbit_t) function find_orbit(problem, ending) result(orbit)
-      !> What moves
-      type(problem_t), intent(in) :: problem
-      !> How its motion ended
-      type(ending_t), intent(in) :: ending
-
-      if (is_success(ending%status) .and. ending%orbit /= 1) orbit = nearby_orbit(problem, ending)
-   end function find_orbit
 
 end module irregular_motion

@@ -9,7 +9,6 @@ module judge_scene
    use loudness, only: loudness_of_record, loudness_of_samples
    use node_extremes, only: seen_pressure
    use carried_loads, only: thinnest_film
-   use periodic_orbit, only: periodic_orbit_t
    use problem, only: of_film, of_velocity, problem_t
    use rattle_class, only: note_orbit, rattle_verdict_t
    use regime_check, only: check_regime
@@ -109,13 +108,14 @@ contains
       type(problem_t), intent(in) :: problem
       type(ending_t), intent(in) :: ending
       type(judged_scene_t), intent(inout) :: judged
-      type(rattle_verdict_t) :: verdicts(1)
-      type(periodic_orbit_t) :: orbits(1)
+      type(rattle_verdict_t), allocatable :: verdicts(:)
+      integer :: repeat_after(1)
 
-      verdicts(1) = judged%rattle
-      call follow_irregular([problem], [ending], verdicts, orbits)
+      allocate (verdicts(1), source=judged%rattle)
+      repeat_after = judged%repeats_after
+      call follow_irregular([problem], [ending], verdicts, repeat_after)
       judged%rattle = verdicts(1)
-      judged%orbit = orbits(1)
+      judged%repeats_after = repeat_after(1)
    end subroutine follow
 
 end module judge_scene

@@ -17,7 +17,7 @@ module run_sweep
    use loudness, only: loudness_of_record
    use output_place, only: log_path, result_path, summary_path
    use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity
-   use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
+   use periodic_orbit, only: attracting_period, find_periodic_orbit
    use progress, only: progress_t
    use quantities, only: quantities_told_in, quantity_model_limit, quantity_table
    use rattle_class, only: note_orbit, rattle_verdict_t
@@ -201,8 +201,8 @@ contains
       type(motion_state_t) :: start
       type(ending_t) :: ending, window_ending
       type(window_t) :: window
-      type(rattle_verdict_t) :: verdicts(1)
-      type(periodic_orbit_t) :: orbits(1)
+      type(rattle_verdict_t), allocatable :: verdicts(:)
+      integer :: repeat_after(1)
 
       judged%resolved = resolve(scene)
       associate (problem => judged%resolved%problem)
@@ -245,11 +245,11 @@ contains
       judged%orbit = find_periodic_orbit(judged%resolved%problem, ending%numbers, orbit_nearness)
       call lock_texts()
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
-      verdicts(1) = judged%rattle
-      orbits(1) = judged%orbit
-      call follow_irregular([judged%resolved%problem], [window_ending], verdicts, orbits)
+      allocate (verdicts(1), source=judged%rattle)
+      repeat_after = judged%repeats_after
+      call follow_irregular([judged%resolved%problem], [window_ending], verdicts, repeat_after)
       judged%rattle = verdicts(1)
-      judged%orbit = orbits(1)
+      judged%repeats_after = repeat_after(1)
       judged%extremes = extremes_of_record(window%record)
       judged%loudness = loudness_of_record(window%record, scene%excitation%frequency)
       judged%impacts = impacts_of_record(window%record, scene%excitation%frequency)

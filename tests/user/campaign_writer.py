@@ -207,8 +207,8 @@ def _quantities(force: np.ndarray, speed: np.ndarray, viscosity: np.ndarray) -> 
     severity = force / 205.7 * (1.905 / speed) ** 0.4 * (0.3 / viscosity) ** 0.2
     film = 0.9e-6 * (speed / 1.905) * (viscosity / 0.3)
     distortion = 1.3 * severity**1.5
-    borders = [distortion < 0.35, severity < 0.8, severity < 1.6, severity < 2.0]
-    codes = np.select(borders, [1.0, 2.0, 3.0, 5.0], 4.0)
+    borders = [distortion < 0.35, severity < 0.8, severity < 1.6, severity < 1.8, severity < 2.0]
+    codes = np.select(borders, [1.0, 2.0, 3.0, 6.0, 5.0], 4.0)
     data = {
         "film_minimum": film / (1.0 + 1.5 * severity),
         "film_maximum": film * (1.0 + 3.0 * severity),

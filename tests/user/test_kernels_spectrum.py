@@ -51,7 +51,9 @@ def test_classify_agrees_with_numpy(name):
     assert found["rattle_class"] == expected == name
 
 
-@pytest.mark.parametrize(("orbit", "expected"), [(None, "irregular_so_far"), (1, "irregular_so_far"), (2, "subharmonic")])
+@pytest.mark.parametrize(
+    ("orbit", "expected"), [(None, "irregular_so_far"), (1, "irregular_so_far"), (2, "subharmonic")]
+)
 def test_known_orbit_of_a_motion_off_its_harmonics(orbit, expected):
     samples = synthetic(SIGNALS["irregular_so_far"])
     assert kernels.classify(samples, PERIOD, orbit_period=orbit)["rattle_class"] == expected

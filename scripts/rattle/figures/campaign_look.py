@@ -19,7 +19,7 @@ from rattle.campaign_section import short_name
 from rattle.codes import STATUSES, SUCCESSES, words_of
 
 # From the palette of Okabe and Ito, ordered so that they also differ in lightness.
-CLASS_COLOURS = {1: "#DCE6EC", 2: "#56B4E9", 3: "#D55E00", 4: "#4B2E63", 5: "#E8C547", 6: "#A78BB8"}
+CLASS_COLOURS = {1: "#DCE6EC", 2: "#56B4E9", 3: "#D55E00", 4: "#4B2E63", 5: "#E8C547", 6: "#EACCFC"}
 OTHER_COLOURS = (
     "#DCE6EC",
     "#56B4E9",
