@@ -49,7 +49,8 @@ CLASSES = {
     "{irregular_fraction} of the "
     "power of the acceleration lies off the harmonics of the force; {irregular_limit} is the limit.",
     "irregular_so_far": "Irregular so far: no period of the motion is like the one before, but it may "
-    "settle. A share of {irregular_fraction} of the power of the acceleration lies off the harmonics of the force.",
+    "settle. A share of {irregular_fraction} of the power of the acceleration lies off the harmonics of "
+    "the force.",
     "subharmonic": "Subharmonic rattle: the motion repeats, but only after {orbit_period} periods of the "
     "force.",
 }
