@@ -44,7 +44,7 @@ contains
       call checks%check(.not. (parting%for_good .or. draws_near(parting)), 'too few periods')
       parting = parting_of(-growths)
       call checks%check(draws_near(parting) .and. .not. parting%for_good, 'drawing near')
-      growths = [(merge(4.0_dp, -3.5_dp, mod(i - 1, 10) < 5), i=1, followed_periods)]
+      growths = [(merge(-3.5_dp, 4.0_dp, mod(i - 1, 10) < 5), i=1, followed_periods)]
       parting = parting_of(growths)
       call checks%check(parting%exponent > 0.0_dp .and. .not. (parting%for_good .or. draws_near(parting)), &
                         'positive within two standard errors')
