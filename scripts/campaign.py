@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import math
 import re
+import shlex
 from collections import Counter
 from pathlib import Path
 
@@ -70,7 +71,7 @@ def slurm(options: argparse.Namespace) -> None:
     script.parent.mkdir(parents=True, exist_ok=True)
     script.write_text(job_script.text(job), encoding="utf-8")
     print(script)
-    command.note(f"submit it with: sbatch {script}")
+    command.note(f"submit it with: sbatch {shlex.quote(str(script))}")
     if options.array:
         first, last = (job_script.part_name(name, part, options.array) for part in (1, options.array))
         command.note(f"then join {first} to {last} with: campaign.py merge PART... --output {name}.rattle")

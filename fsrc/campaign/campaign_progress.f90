@@ -1,4 +1,4 @@
-!> Progress of a campaign: one line on a terminal, a line a minute elsewhere, and NAME.progress.nml for watchers.
+!> Progress of a campaign: one line on a terminal, a line every ten seconds elsewhere, and NAME.progress.nml for watchers.
 module campaign_progress
    use, intrinsic :: iso_fortran_env, only: output_unit
    use clock, only: wall_seconds
@@ -11,7 +11,7 @@ module campaign_progress
    implicit none(type, external)
    private
 
-   real(dp), parameter :: terminal_interval = 0.5_dp, line_interval = 60.0_dp, file_interval = 5.0_dp
+   real(dp), parameter :: terminal_interval = 0.5_dp, line_interval = 10.0_dp, file_interval = 5.0_dp
 
    !> Progress so far. Threads add to the counts; the first of them tells.
    type, public :: campaign_progress_t

@@ -1,4 +1,4 @@
-!> Progress of a motion: on a terminal one line that is written over, elsewhere a timed line now and then.
+!> Progress of a motion, or of a sweep of motions: on a terminal one line that is written over, elsewhere a timed line now and then.
 module progress
    use, intrinsic :: iso_fortran_env, only: output_unit
    use clock, only: wall_seconds
@@ -17,6 +17,8 @@ module progress
    type, extends(motion_watcher_t), public :: progress_t
       private
       type(log_t), pointer :: log => null()
+      !> What is counted
+      character(:), allocatable :: unit
       logical :: quiet = .false., on_terminal = .false., shown = .false.
       real(dp) :: started = 0.0_dp, last = 0.0_dp
    contains
@@ -28,13 +30,16 @@ module progress
 contains
 
    !> Begin to watch.
-   subroutine start_progress(self, log, quiet)
+   subroutine start_progress(self, log, unit, quiet)
       class(progress_t), intent(inout) :: self
       type(log_t), target, intent(in) :: log
+      !> What is counted, one and many: 'periods'
+      character(*), intent(in) :: unit
       !> Nothing to the terminal
       logical, intent(in) :: quiet
 
       self%log => log
+      self%unit = unit
       self%quiet = quiet
       self%on_terminal = is_terminal()
       self%started = wall_seconds()
@@ -56,7 +61,7 @@ contains
       if (now - self%last < merge(terminal_interval, line_interval, self%on_terminal)) return
       self%last = now
       call lock_texts()
-      line = '  '//integer_text(done)//' of '//integer_text(all)//' periods after '// &
+      line = '  '//integer_text(done)//' of '//integer_text(all)//' '//self%unit//' after '// &
              short_text(now - self%started, 3)//' s, '// &
              short_text((now - self%started)*real(all - done, dp)/real(done, dp), 2)//' s left'
       if (.not. self%on_terminal) then

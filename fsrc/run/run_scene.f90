@@ -76,7 +76,7 @@ contains
       end if
       call recorder%open(scene, judged%resolved%problem, result_path(scene), state%periods, error)
       if (.not. allocated(error)) then
-         call watcher%start(log, quiet)
+         call watcher%start(log, 'periods', quiet)
          call unlock_texts()
          if (scene%solver%method /= method_taylor) then
             call solve_newmark(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)

@@ -86,7 +86,7 @@ contains
       if (carry_on) call report_cut(log, scene)
       call sweep_columns(scene, names, units)
       call writer%open(result_path(scene), scene%resolved_input, names, units, size(scene%sweep%values, kind=int64), .true., error)
-      call watcher%start(log, quiet)
+      call watcher%start(log, 'motions', quiet)
       failed = 0
       beyond_model = 0
       do i = 1, size(scene%sweep%values)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
 # Slurm checks time limits about once a minute, so its warning may come up to a minute early, never late.
 CLOCK_GRAIN = 60
+# What Slurm takes as it stands in an #SBATCH line.
+PLAIN = re.compile(r"[A-Za-z0-9_./%=:@,+-]*")
 
 
 @dataclass(frozen=True)
@@ -71,11 +74,11 @@ def _directives(job: Job) -> list[str]:
     if job.time:
         lines.append(f"#SBATCH --time={job.time}")
     if job.partition:
-        lines.append(f"#SBATCH --partition={job.partition}")
+        lines.append(f"#SBATCH --partition={_quoted(job.partition)}")
     if job.account:
-        lines.append(f"#SBATCH --account={job.account}")
+        lines.append(f"#SBATCH --account={_quoted(job.account)}")
     if job.memory:
-        lines.append(f"#SBATCH --mem-per-cpu={job.memory}")
+        lines.append(f"#SBATCH --mem-per-cpu={_quoted(job.memory)}")
     return lines
 
 
@@ -86,7 +89,9 @@ def _body(job: Job) -> list[str]:
     if job.parts:
         arguments += ["--set", 'campaign.part="$SLURM_ARRAY_TASK_ID"']
         arguments += ["--set", f"campaign.parts={job.parts}"]
-    arguments.append(shlex.quote(str(job.input_file)))
+    # A name that begins with a dash would be an option.
+    dash = str(job.input_file).startswith("-")
+    arguments.append(shlex.quote(f"./{job.input_file}" if dash else str(job.input_file)))
     program = shlex.quote(job.program)
     launch = f"{job.launcher} {program}" if job.ranks else program
     this_job = '"${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"' if job.parts else '"$SLURM_JOB_ID"'
@@ -123,5 +128,5 @@ def _body(job: Job) -> list[str]:
 
 
 def _quoted(value: str) -> str:
-    """A value of an #SBATCH line, which Slurm splits at blanks outside quotes."""
-    return f'"{value}"' if " " in value else value
+    """A value of an #SBATCH line, which Slurm splits at blanks, # and quotes outside quotes."""
+    return value if PLAIN.fullmatch(value) else f'"{value}"'

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import re
+import secrets
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
@@ -194,10 +195,13 @@ def _last(part: Part) -> int:
 
 
 def _write(parts: Sequence[Part], output: Path) -> None:
-    """Write beside the output first, so that a full disk or a kill leaves no half file under its name."""
-    unfinished = output.with_name(output.name + ".unfinished")
-    try:
-        with unfinished.open("wb") as target:
+    """Write beside the output first, so that a full disk or a kill leaves no half file under its name.
+
+    The name beside it is one that no file has: whatever stands there is not ours.
+    """
+    unfinished = output.with_name(f"{output.name}.{secrets.token_hex(8)}.unfinished")
+    with unfinished.open("xb") as target:
+        try:
             target.write(_head(parts))
             for part in parts:
                 with part.path.open("rb") as source:
@@ -205,9 +209,10 @@ def _write(parts: Sequence[Part], output: Path) -> None:
                     shutil.copyfileobj(source, target, COPY_BYTES)
             target.flush()
             os.fsync(target.fileno())
-        os.replace(unfinished, output)
-    finally:
-        unfinished.unlink(missing_ok=True)
+            os.replace(unfinished, output)
+        except BaseException:
+            unfinished.unlink(missing_ok=True)
+            raise
 
 
 def _head(parts: Sequence[Part]) -> bytes:

@@ -6,7 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from campaign_writer import FORCES, SPEEDS, grid, sample
+from campaign_writer import FORCES, SPEEDS, csv_table, grid, sample
 from result_writer import resealed
 from script_calls import call_script
 
@@ -70,6 +70,34 @@ def test_a_missing_end_is_named(made, tmp_path):
     first, second, _ = made.write_parts(tmp_path, 3)
     lines = refused(tmp_path, first, second)
     assert f"  scenes 193 to 300 are missing after {second}." in lines
+
+
+def test_the_last_part_of_a_table_is_missed(tmp_path):
+    """No part tells how many scenes the CSV file has: only the number of parts shows a missing end."""
+    made = csv_table()
+    paths = made.write_parts(tmp_path, 2)
+    assert merge(tmp_path, *paths, "--output", "all.rattle").returncode == 0
+    assert (tmp_path / "all.rattle").read_bytes() == made.content()
+    assert refused(tmp_path, paths[0])[1:] == ["  of 2 parts these are not given: 2."]
+
+
+def test_what_stands_beside_the_output_is_left_alone(made, tmp_path):
+    """Files that another program keeps there, also where the joining ends well, or cannot be written."""
+    paths = made.write_parts(tmp_path, 2)
+    foreign = tmp_path / "map.rattle.unfinished"
+    foreign.write_text("mine")
+    assert merge(tmp_path, *paths, "--output", "map.rattle").returncode == 0
+    assert (tmp_path / "map.rattle").read_bytes() == made.content() and foreign.read_text() == "mine"
+    target = tmp_path / "elsewhere"
+    target.write_text("untouched")
+    foreign.unlink()
+    foreign.symlink_to(target)
+    assert merge(tmp_path, *paths, "--output", "map.rattle", "--overwrite").returncode == 0
+    assert target.read_text() == "untouched" and foreign.is_symlink()
+    (tmp_path / "taken.rattle").mkdir()
+    before = sorted(tmp_path.iterdir())
+    assert merge(tmp_path, *paths, "--output", "taken.rattle", "--overwrite").returncode != 0
+    assert sorted(tmp_path.iterdir()) == before
 
 
 def test_a_part_given_twice_overlaps(made, tmp_path):

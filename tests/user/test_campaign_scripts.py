@@ -80,6 +80,55 @@ def test_array_job(campaign_input, tmp_path):
     assert 'exec scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"' in text
 
 
+# Each would be split, ended, expanded or run if it stood unquoted in a shell.
+ODD_NAMES = ("two words", "it's $HOME", "a;b&c|d", "$(touch ran)", "`touch ran`", "*", "#1", "-dash")
+
+
+@pytest.mark.parametrize("name", ODD_NAMES)
+@pytest.mark.parametrize("ranks", [False, True], ids=["array", "ranks"])
+def test_a_job_script_hands_every_path_on_as_it_is(name, ranks, made, tmp_path):
+    """The script is run, with stand-ins for rattle and srun that write down what they are called with."""
+    place = tmp_path / f"at {name}"
+    program = place / name / "rattle"
+    program.parent.mkdir(parents=True)
+    program.write_text('#!/bin/bash\nprintf "%s\\n" "$0" "$@" > "$TOLD"\n')
+    launcher = tmp_path / "bin" / "srun"
+    launcher.parent.mkdir()
+    launcher.write_text('#!/bin/bash\nshift\nexec "$@"\n')
+    for stand_in in (program, launcher):
+        stand_in.chmod(0o755)
+    (place / f"{name}.nml").write_text(made.input_text().replace("&scene\n", "&scene\n name = 'map'\n"))
+    division = ["--ranks", 2, "--launcher", "srun --mpi=pmix"] if ranks else ["--array", 2]
+    # After -- an input may begin with a dash.
+    done = call(place, "slurm", *division, "--program", program, f"--output=out {name}", "--", f"{name}.nml")
+    assert done.returncode == 0, done.stderr
+    script = place / done.stdout.removesuffix("\n")
+    told = tmp_path / "told"
+    environment = {
+        **os.environ,
+        "PATH": f"{launcher.parent}:{os.environ['PATH']}",
+        "TOLD": str(told),
+        "SLURM_ARRAY_TASK_ID": "2",
+    }
+    ended = subprocess.run(
+        ["bash", str(script.resolve())],
+        cwd=place,
+        env=environment,
+        capture_output=True,
+        check=False,
+        timeout=60,
+    )
+    assert ended.returncode == 0, ended.stderr
+    called = told.read_text().splitlines()
+    assert called[0] == str(program)
+    assert called[called.index("--output") + 1] == f"out {name}"
+    assert called[-1] in (f"{name}.nml", f"./{name}.nml") and not called[-1].startswith("-")
+    assert ("campaign.part=2" in called) is not ranks
+    assert not list(tmp_path.rglob("ran"))
+    directives = [line for line in script.read_text().splitlines() if line.startswith("#SBATCH")]
+    assert f'#SBATCH --chdir="{place}"' in directives
+
+
 def test_account_memory_and_modules(campaign_input, tmp_path):
     lines = script_text(
         tmp_path, "--account", "nvh-7", "--memory", "500M", "--module", "gcc/12", "--module", "openmpi"

@@ -222,6 +222,92 @@ def test_the_report_tells_every_threshold(tmp_path):
             assert row[3] in shown and row[4] in shown
 
 
+def level_result(path: Path):
+    """A threshold of a level of 100 N: below it below the change, above it above, and once the other way."""
+    rows = [
+        [1.0, 1.0, 1.0, 40.0, 42.0, 2.0, 99.0, 101.0, 1.0, 1.0, 1.0, 1.0],
+        [2.0, 2.0, 1.0, 30.0, 31.0, 1.0, 100.0, 99.5, 1.0, 1.0, 1.0, 0.0],
+    ]
+    names = ["line", "kinematics.entrainment_speed", "crossing", "lower", "upper", "width"]
+    names += ["film_force_rms_below", "film_force_rms_above", "status_below", "status_above", *SIDES]
+    newtons = ("lower", "upper", "width", "film_force_rms_below", "film_force_rms_above")
+    units = dict.fromkeys(newtons, "N") | {"kinematics.entrainment_speed": "m/s"}
+    text = threshold_input("film_force_rms").replace(" tolerance", " level = 100.0\n tolerance")
+    write_result(path, [(name, units.get(name, "-")) for name in names], rows, input_text=text)
+    return package.read(path)
+
+
+def test_sides_of_a_level_are_named_for_what_they_are(tmp_path):
+    found = threshold.thresholds(level_result(tmp_path / "edge.rattle"))
+    assert found.kinds.tolist() == ["below 100 N to at least 100 N", "at least 100 N to below 100 N"]
+    assert found.uncertain.tolist() == [False, True]
+    made = figure(found.result)
+    assert drawn.legend_words(made) == [
+        "below 100 N to at least 100 N (1)",
+        "at least 100 N to below 100 N (1)",
+        "from end to end",
+        "not certified (1)",
+    ]
+
+
+def bars(axes) -> list[tuple[float, float, float]]:
+    """Place, lower and upper end of every vertical bar."""
+    segments = [
+        part for one in axes.collections if hasattr(one, "get_segments") for part in one.get_segments()
+    ]
+    return sorted((float(part[0][0]), float(part[0][1]), float(part[1][1])) for part in segments)
+
+
+def test_a_bar_goes_from_end_to_end_of_every_threshold(tmp_path):
+    rows = [*ROWS, [5.0, 16.0, 1.0, 50.0, 80.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0]]
+    made = figure(written(tmp_path / "edge.rattle", rows))
+    assert bars(made.axes[0]) == sorted((row[1], row[3], row[4]) for row in rows if row[2])
+    axes = ("kinematics.entrainment_speed", "load.mass")
+    few = [row for row in PLANE if row[2] <= 3.0]
+    made = figure(written(tmp_path / "few.rattle", few, axes))
+    assert bars(made.axes[0]) == sorted((row[1], row[4], row[5]) for row in few)
+
+
+def test_every_cell_of_the_report_is_that_of_the_result(tmp_path):
+    """Both tables, cell by cell, and each sentence with its numbers."""
+    path = written(tmp_path / "edge.rattle").path
+    summary = "&summary\n name = 'edge'\n status = 'complete'\n scenes = 50\n scenes_of_a_grid = 1000.0\n/\n"
+    path.with_suffix(".summary.nml").write_text(summary)
+    done = call_script("report.py", path, "--output", tmp_path / "edge.html")
+    assert done.returncode == 0, done.stderr
+    read = read_page(tmp_path / "edge.html")
+    expected = [
+        ["quiet to creep", "3", "21 N", "41 N", "1"],
+        ["creep to idle", "1", "91 N", "91 N", "0"],
+        ["creep to film lost", "1", "71 N", "71 N", "1"],
+        ["1 m/s", "40 N", "42 N", "2 N", "quiet to creep", "yes"],
+        ["1 m/s", "90 N", "92 N", "2 N", "creep to idle", "yes"],
+        ["2 m/s", "30 N", "32 N", "2 N", "quiet to creep", "no"],
+        ["2 m/s", "70 N", "72 N", "2 N", "creep to film lost", "no"],
+        ["4 m/s", "-", "-", "-", "quiet throughout", "-"],
+        ["8 m/s", "20 N", "22 N", "2 N", "quiet to creep", "yes"],
+    ]
+    rows = [[" ".join(cell.split()) for cell in row] for row in read.rows]
+    # The heads of both tables stand before their rows.
+    kinds = [
+        row
+        for row in rows
+        if len(row) == 5 and row[0] in ("quiet to creep", "creep to idle", "creep to film lost")
+    ]
+    every = [row for row in rows if len(row) == 6 and row[0].endswith(" m/s")]
+    assert kinds + every == expected
+    for sentence in (
+        "From quiet to creep: 3 times, between 21 N and 41 N.",
+        "From creep to idle: at 91 N.",
+        "From creep to film lost: at 71 N.",
+        "1 of 4 lines have no threshold in this range.",
+        "was solved in 33 places",
+        "the widest that is left is 2 N.",
+        "It took 50 scenes; a grid as fine has 20 times as many.",
+    ):
+        assert sentence in read.words, sentence
+
+
 def test_thresholds_from_python_and_as_a_table(groups, tmp_path):
     found = package.threshold(
         groups,

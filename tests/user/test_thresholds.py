@@ -109,6 +109,14 @@ def test_several_thresholds_on_a_line(found, scene_text) -> None:
         np.testing.assert_allclose(ours["upper"] - ours["lower"], 450.0 / 16384)
 
 
+def test_rows_of_a_campaign_know_which_side_is_certified(found, run, scene_text, tmp_path: Path) -> None:
+    rows = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}))
+    for _, row in rows.iterrows():
+        stands, _ = grid_column(run, scene_text, tmp_path, "certified", [row["lower"], row["upper"]])
+        told = [row["certified_below"], row["certified_above"]]
+        assert stands[int(row["line"]) - 1].tolist() == told, row
+
+
 @pytest.mark.parametrize(("tolerance", "seen"), [("0.01", 1.0), ("1e-12", 0.0)])
 def test_every_bracket_says_whether_both_classes_stand(tolerance, seen, found, scene_text, tmp_path: Path):
     """Regular motions are certified up to a film error; hardly one is up to an error of rounding."""
@@ -292,7 +300,9 @@ def cut_between(rattle: Path, folder: Path) -> int:
 
 def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -> None:
     """After a signal, and a kill that leaves the state as it was; with other threads."""
-    (tmp_path / "scene.nml").write_text(threshold_text(scene_text, campaign=MANY_LINES, threshold=LONG))
+    # Of the class: no crossing is certified as close to its change as asked for.
+    classes = {**LONG, "criterion": "'class'", "level": None}
+    (tmp_path / "scene.nml").write_text(threshold_text(scene_text, campaign=MANY_LINES, threshold=classes))
     assert run("--output", "whole", "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
     whole, results = tmp_path / "whole", tmp_path / "results"
     assert not (whole / "scene.state").exists()
