@@ -172,7 +172,7 @@ $(BUILD)/kernels/built: $(wildcard fsrc/bindings/*.f90) scripts/build_kernels.sh
 
 run: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(BUILD)/rattle --overwrite input/idle.nml input/creep.nml
-	@$(PYTHON) scripts/plot.py motion results/idle.rattle results/creep.rattle --output results
+	@$(PYTHON) scripts/plot.py motion --overwrite results/idle.rattle results/creep.rattle --output results
 	@$(PYTHON) scripts/compare.py results/idle.summary.nml results/creep.summary.nml
 
 # --- tests: the unit tests in both builds, then what a user does -------------------------------------
@@ -279,9 +279,9 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	  --set scene.name=idle_loose input/idle.nml
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) $(LOOSE_IDLE) --set solver.tolerance=1e-12 \
 	  --set scene.name=idle_tight input/idle.nml
-	@$(PYTHON) scripts/plot.py motion --overlay --figures 8,9 --output $(PICTURE_RUNS) \
+	@$(PYTHON) scripts/plot.py motion --overwrite --overlay --figures 8,9 --output $(PICTURE_RUNS) \
 	  $(PICTURE_RUNS)/idle.rattle $(PICTURE_RUNS)/creep.rattle
-	@$(PYTHON) scripts/plot.py tolerance --output $(PICTURE_RUNS) \
+	@$(PYTHON) scripts/plot.py tolerance --overwrite --output $(PICTURE_RUNS) \
 	  --forged-line $(PICTURE_RUNS)/creep_forged_line.rattle $(PICTURE_RUNS)/no_line.rattle \
 	  --false-reversals $(PICTURE_RUNS)/idle_loose.rattle $(PICTURE_RUNS)/idle_tight.rattle
 	@cp $(PICTURE_RUNS)/figure_08_09_overlay.png $(PICTURES)/idle_and_creep.png
@@ -290,33 +290,33 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=map_creep --set film.law=piezo-viscous \
 	  input/map.nml
 	@for map in map_idle map_creep; do \
-	  $(PYTHON) scripts/plot.py campaign $(PICTURE_RUNS)/$$map.rattle --output $(PICTURE_RUNS) && \
+	  $(PYTHON) scripts/plot.py campaign --overwrite $(PICTURE_RUNS)/$$map.rattle --output $(PICTURE_RUNS) && \
 	  cp $(PICTURE_RUNS)/$${map}_map_rattle_class.png $(PICTURES)/$$map.png; done
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set campaign.count=41,43 input/gearbox_map.nml
-	@$(PYTHON) scripts/plot.py campaign --together --columns rattle_class,acceleration_rms --output $(PICTURE_RUNS) \
+	@$(PYTHON) scripts/plot.py campaign --overwrite --together --columns rattle_class,acceleration_rms --output $(PICTURE_RUNS) \
 	  $(PICTURE_RUNS)/gearbox_map.rattle
 	@cp $(PICTURE_RUNS)/gearbox_map_pairs.png $(PICTURES)/gearbox.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/gearbox_threshold.nml
-	@$(PYTHON) scripts/plot.py threshold --no-title --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_threshold.rattle
+	@$(PYTHON) scripts/plot.py threshold --overwrite --no-title --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_threshold.rattle
 	@cp $(PICTURE_RUNS)/threshold_gearbox_threshold.png $(PICTURES)/gearbox_threshold.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/sweep.nml
-	@$(PYTHON) scripts/plot.py sweep $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
+	@$(PYTHON) scripts/plot.py sweep --overwrite $(PICTURE_RUNS)/sweep.rattle --output $(PICTURE_RUNS)
 	@cp $(PICTURE_RUNS)/sweep_sweep.png $(PICTURES)/sweep.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=idle_teeth input/stiff_or_not.nml
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=creep_teeth --set film.law=piezo-viscous \
 	  input/stiff_or_not.nml
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=idle_teeth_exact --set film.model=reynolds \
 	  input/stiff_or_not.nml
-	@$(PYTHON) scripts/plot.py sweep --panels acceleration,lines --mark '1.4e8=steel tooth' --no-title --output $(PICTURE_RUNS) \
+	@$(PYTHON) scripts/plot.py sweep --overwrite --panels acceleration,lines --mark '1.4e8=steel tooth' --no-title --output $(PICTURE_RUNS) \
 	  $(addprefix $(PICTURE_RUNS)/,idle_teeth.rattle creep_teeth.rattle idle_teeth_exact.rattle)
 	@cp $(PICTURE_RUNS)/sweep_overlay.png $(PICTURES)/stiff_or_not.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/loose_gear.nml
-	@$(PYTHON) scripts/plot.py motion --figures flanks --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle
+	@$(PYTHON) scripts/plot.py motion --overwrite --figures flanks --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle
 	@cp $(PICTURE_RUNS)/flanks_loose_gear.png $(PICTURES)/loose_gear.png
 	@$(MAKE) --no-print-directory $(BUILD)/newmark_outcomes
 	@$(BUILD)/newmark_outcomes input/idle.nml input/creep.nml input/creep_forged_line.nml > $(PICTURE_RUNS)/newmark_outcomes.csv
 	@$(PYTHON) tests/stress/newmark_outcome_map.py $(PICTURE_RUNS)/newmark_outcomes.csv $(PICTURES)/newmark_outcomes.png
-	@$(PYTHON) scripts/plot.py film-fit --output $(PICTURE_RUNS) > $(PICTURE_RUNS)/film_fit.txt
+	@$(PYTHON) scripts/plot.py film-fit --overwrite --output $(PICTURE_RUNS) > $(PICTURE_RUNS)/film_fit.txt
 	@cp $(PICTURE_RUNS)/film_fit.png $(PICTURES)/film_fit.png
 
 pages: $(BUILD)/rattle

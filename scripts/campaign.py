@@ -8,12 +8,13 @@ import math
 import re
 import shlex
 from collections import Counter
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 import rattle
-from rattle import codes, command, job_script, rerun, table
+from rattle import codes, command, job_script, outputs, rerun, table
 from rattle.campaign_result import Campaign
 from rattle.namelist import NamelistError, parse
 from rattle.solve import find_program
@@ -65,11 +66,10 @@ def slurm(options: argparse.Namespace) -> None:
                 f'Slurm cannot take the directory {place}: it has one of " % \\ in it.'
             )
     script = options.script or (options.output or Path()) / f"{name}.slurm"
-    keep_existing(script, options)
+    files = [(script, outputs.text_writer(job_script.text(job)))]
+    outputs.write(files, overwrite=options.overwrite, inputs=[options.input])
     # Slurm drops a job, without a word, whose directory of logs is absent.
     job.log_directory.mkdir(parents=True, exist_ok=True)
-    script.parent.mkdir(parents=True, exist_ok=True)
-    script.write_text(job_script.text(job), encoding="utf-8")
     print(script)
     command.note(f"submit it with: sbatch {shlex.quote(str(script))}")
     if options.array:
@@ -94,7 +94,7 @@ def merge_parts(options: argparse.Namespace) -> None:
     """Join parts."""
     from rattle.merge import merge
 
-    keep_existing(options.output, options)
+    outputs.check([options.output], overwrite=options.overwrite)
     count = merge(options.parts, options.output)
     print(options.output)
     command.note(f"{len(options.parts)} parts joined, {count}.")
@@ -107,17 +107,9 @@ def export(options: argparse.Namespace) -> None:
     campaign = opened(options.file)
     ending, write = CAMPAIGN_WRITERS[options.to]
     output = options.output or campaign.path.with_suffix(ending)
-    if output.exists() and output.samefile(campaign.path):
-        raise command.CommandError(f"{output} is the campaign itself; give another --output.")
-    keep_existing(output, options)
-    write(campaign, output)
+    files = [(output, partial(write, campaign))]
+    outputs.write(files, overwrite=options.overwrite, inputs=[campaign.path], make_folders=False)
     print(output)
-
-
-def keep_existing(path: Path, options: argparse.Namespace) -> None:
-    """Refuse to replace a file without --overwrite."""
-    if path.exists() and not options.overwrite:
-        raise command.CommandError(f"{path} exists; --overwrite replaces it.")
 
 
 def run_again(options: argparse.Namespace) -> None:
@@ -135,8 +127,8 @@ def run_again(options: argparse.Namespace) -> None:
     if not options.scenes and len(rows) < wanted:
         command.note(f"there are only {len(rows)} such scenes.")
     directory = options.output or campaign.path.with_name(f"{campaign.name}_scenes")
-    for path in rerun.write_inputs(campaign, list(rows), directory, options.results):
-        print(path)
+    files = rerun.inputs(campaign, list(rows), directory, options.results)
+    print(*outputs.write(files, overwrite=options.overwrite), sep="\n")
 
 
 def rows_of(campaign: Campaign, scenes: list[int]) -> np.ndarray:
@@ -279,7 +271,7 @@ def parse_options() -> argparse.Namespace:
     other.add_argument("file", type=Path, metavar="FILE", help="campaign result")
     other.add_argument("--to", required=True, choices=("csv", "parquet", "netcdf", "mat"), help="the format")
     other.add_argument("--output", type=Path, metavar="PATH", help="by default beside the campaign")
-    other.add_argument("--overwrite", action="store_true", help="replace a file of that name")
+    outputs.add_option(other)
     other.set_defaults(act=export)
 
     add_rerun(commands)
@@ -321,7 +313,7 @@ def add_slurm(commands: argparse._SubParsersAction) -> None:
     job.add_argument(
         "--launcher", default="srun", metavar="COMMAND", help="what starts the ranks, e.g. 'srun --mpi=pmix'"
     )
-    job.add_argument("--overwrite", action="store_true", help="replace an older script")
+    outputs.add_option(job)
     job.set_defaults(act=slurm)
 
 
@@ -334,7 +326,7 @@ def add_merge(commands: argparse._SubParsersAction) -> None:
     )
     parts.add_argument("parts", nargs="+", type=Path, metavar="PART", help="NAME.part-K-of-N.rattle")
     parts.add_argument("--output", required=True, type=Path, metavar="FILE", help="the whole, NAME.rattle")
-    parts.add_argument("--overwrite", action="store_true", help="replace a file of that name")
+    outputs.add_option(parts)
     parts.set_defaults(act=merge_parts)
 
 
@@ -360,6 +352,7 @@ def add_rerun(commands: argparse._SubParsersAction) -> None:
     again.add_argument(
         "--results", default="results", metavar="DIR", help="output.directory of them (results)"
     )
+    outputs.add_option(again)
     again.set_defaults(act=run_again)
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import argparse
 import csv
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import rattle
-from rattle import command, table
+from rattle import command, outputs, table
 from rattle.verdict import THRESHOLDS, classify
 
 MEASURES = (
@@ -23,6 +24,8 @@ MEASURES = (
 
 def main() -> int:
     options = parse_options()
+    if options.output:
+        outputs.check([options.output], overwrite=options.overwrite, inputs=options.results)
     overrides = {name: getattr(options, name) for name in THRESHOLDS}
     rows: list[dict[str, Any]] = []
     code = command.COMPLETE
@@ -39,7 +42,8 @@ def main() -> int:
     if rows:
         print(table.plain([heads(), *map(cells, rows)]))
         if options.output:
-            save(options.output, rows)
+            files = [(options.output, partial(save, rows=rows))]
+            outputs.write(files, overwrite=options.overwrite, inputs=options.results)
     return code
 
 
@@ -53,7 +57,7 @@ def cells(row: dict[str, Any]) -> list[str]:
 
 def save(path: Path, rows: list[dict[str, Any]]) -> None:
     """All measures in full precision, a row for each file."""
-    with path.open("w", newline="", encoding="utf-8") as stream:
+    with path.open("w", newline="", encoding="utf-8", errors="surrogateescape") as stream:
         writer = csv.DictWriter(stream, fieldnames=list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
@@ -66,6 +70,7 @@ def parse_options() -> argparse.Namespace:
     )
     parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="result file, NAME.rattle")
     parser.add_argument("--output", type=Path, metavar="FILE.csv", help="also save the table as CSV")
+    outputs.add_option(parser)
     parser.add_argument(
         "--periods", type=command.positive, metavar="N", help="whole periods at the end that are judged"
     )

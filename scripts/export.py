@@ -12,7 +12,7 @@ from typing import TextIO
 import numpy as np
 
 import rattle
-from rattle import codes, command
+from rattle import codes, command, outputs
 
 ROWS_AT_ONCE = 10000
 STANDARD_OUTPUT = Path("-")
@@ -30,6 +30,10 @@ def main() -> None:
     ending = (options.output or Path()).suffix.lower()
     form = options.to or next((name for name, own in FORMATS.items() if own == ending), "csv")
     output = options.output or result.path.with_suffix(FORMATS[form])
+    if options.output is None and output.exists() and output.name in read_names(result):
+        raise command.CommandError(
+            f"{output} is called like a file that {result.path} was computed from; give another --output."
+        )
     if ending in OTHER_FORMATS:
         raise command.CommandError(
             f"{output}: this script writes {', '.join(FORMATS)}; "
@@ -40,30 +44,39 @@ def main() -> None:
             raise command.CommandError(f"{form} needs a file; standard output takes CSV.")
         write(sys.stdout, result, names, options.stride)
         return
-    if output.exists() and output.samefile(result.path):
-        raise command.CommandError(f"{output} is the result file itself; give another --output.")
-    if form != "csv":
-        write_other(result, form, output, options)
-        print(output)
-        return
-    with output.open("w", newline="", encoding="utf-8") as stream:
-        write(stream, result, names, options.stride)
-    print(output)
-
-
-def write_other(result: rattle.Result, form: str, output: Path, options: argparse.Namespace) -> None:
-    """NetCDF or MAT."""
-    from rattle import exports
-
-    if result.task != "campaign":
-        names = options.columns or list(result.columns)
-        exports.SERIES_WRITERS[form](result, output, names, options.stride)
-        return
-    if options.columns or options.stride > 1:
+    if form != "csv" and (options.columns or options.stride > 1) and result.task == "campaign":
         raise command.CommandError(
             "--columns and --stride choose from a series; a campaign is written whole."
         )
-    exports.CAMPAIGN_WRITERS[form][1](rattle.read_campaign(options.result), output)
+    writer = write_csv if form == "csv" else write_other
+    files = [(output, lambda path: writer(path, result, names, options.stride, form))]
+    outputs.write(files, overwrite=options.overwrite, inputs=[result.path], make_folders=False)
+    print(output)
+
+
+def read_names(result: rattle.Result) -> set[str]:
+    """Names of the files that the input of a result reads, without their folders."""
+    return {
+        Path(value.strip()).name
+        for keys in result.input.values()
+        for value in keys.values()
+        if isinstance(value, str) and "." in value
+    }
+
+
+def write_csv(path: Path, result: rattle.Result, names: list[str], stride: int, form: str) -> None:
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        write(stream, result, names, stride)
+
+
+def write_other(path: Path, result: rattle.Result, names: list[str], stride: int, form: str) -> None:
+    """NetCDF or MAT."""
+    from rattle import exports
+
+    if result.task == "campaign":
+        exports.CAMPAIGN_WRITERS[form][1](rattle.read_campaign(result.path), path)
+    else:
+        exports.SERIES_WRITERS[form](result, path, names, stride)
 
 
 def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) -> None:
@@ -111,6 +124,7 @@ def parse_options() -> argparse.Namespace:
         metavar="FILE",
         help="FILE.csv, .nc or .mat, by default NAME.csv beside the result; '-' is standard output",
     )
+    outputs.add_option(parser)
     parser.add_argument(
         "--stride", type=command.positive, default=1, metavar="N", help="write every N-th row only (1)"
     )

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import rattle
-from rattle import command
+from rattle import command, outputs
 
 COMMANDS = {
     "motion": "figures 6 to 10 of the paper from results of motions",
@@ -54,6 +54,7 @@ def common_options() -> argparse.ArgumentParser:
     """What every command takes: where the figures go, and how they are written."""
     common = argparse.ArgumentParser(add_help=False)
     group = common.add_argument_group("figures")
+    outputs.add_option(group)
     group.add_argument("--output", type=Path, default=Path(), metavar="DIR", help="where the figures go (.)")
     group.add_argument(
         "--format",

@@ -8,9 +8,11 @@ import os
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
-from rattle import command
+from rattle import command, outputs
 from rattle.report import report
 
 # Browsers that print a page without a window.
@@ -20,19 +22,24 @@ LONGEST_PRINT = 120  # seconds
 
 def main() -> int | None:
     options = parse_options()
-    for path in (options.output, options.pdf):
-        if path and any(
-            path.exists() and path.samefile(given) for given in options.results if given.exists()
-        ):
-            raise command.CommandError(f"{path} is a result itself; give another name.")
-    text = report(options.results)
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    options.output.write_text(text, encoding="utf-8")
-    print(options.output)
-    return print_page(options.output, options.pdf) if options.pdf else None
+    page = file_in(options.output, (".html", ".htm"))
+    printed = file_in(options.pdf, (".pdf",)) if options.pdf else None
+    places = [page, printed] if printed else [page]
+    outputs.check(places, overwrite=options.overwrite, inputs=options.results)
+    text = command.readable(report(options.results))
+    outputs.write([(page, outputs.text_writer(text))], overwrite=options.overwrite, inputs=options.results)
+    print(page)
+    return print_page(page, printed, options) if printed else None
 
 
-def print_page(source: Path, target: Path) -> int:
+def file_in(given: str, endings: Sequence[str]) -> Path:
+    """The file that an option names; of a folder, which needs not be there yet, the file report in it."""
+    path = Path(given)
+    is_file = path.suffix.lower() in endings and not given.endswith(os.sep) and not path.is_dir()
+    return path if is_file or path.is_file() else path / f"report{endings[0]}"
+
+
+def print_page(source: Path, target: Path, options: argparse.Namespace) -> int:
     """The page as PDF, where a browser is found."""
     browser = next(filter(None, map(shutil.which, BROWSERS)), None)
     if browser is None:
@@ -40,14 +47,14 @@ def print_page(source: Path, target: Path) -> int:
             f"{target} was not written: no browser that prints without a window is on the search path "
             f"({', '.join(BROWSERS)}). {source} prints from any browser."
         )
-    target.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as profile:
+        made = Path(profile) / "page.pdf"
         arguments = ["--headless", "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer"]
         if os.geteuid() == 0:  # the browser refuses root inside its sandbox
             arguments.append("--no-sandbox")
         try:
             ended = subprocess.run(
-                [browser, *arguments, f"--print-to-pdf={target.resolve()}", source.resolve().as_uri()],
+                [browser, *arguments, f"--print-to-pdf={made}", source.resolve().as_uri()],
                 capture_output=True,
                 text=True,
                 timeout=LONGEST_PRINT,
@@ -55,9 +62,11 @@ def print_page(source: Path, target: Path) -> int:
             )
         except subprocess.TimeoutExpired:
             return command.complain(f"{target} was not written: {browser} took more than {LONGEST_PRINT} s.")
-    if ended.returncode != 0 or not target.exists():
-        last = ended.stderr.strip().splitlines()[-1:] or ["it gave no reason"]
-        return command.complain(f"{target} was not written: {browser} failed ({last[0]}).")
+        if ended.returncode != 0 or not made.exists():
+            last = ended.stderr.strip().splitlines()[-1:] or ["it gave no reason"]
+            return command.complain(f"{target} was not written: {browser} failed ({last[0]}).")
+        files = [(target, partial(shutil.copyfile, made))]
+        outputs.write(files, overwrite=options.overwrite, inputs=options.results)
     print(target)
     return command.COMPLETE
 
@@ -70,11 +79,17 @@ def parse_options() -> argparse.Namespace:
     )
     parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="result file, NAME.rattle")
     parser.add_argument(
-        "--output", type=Path, default=Path("report.html"), metavar="FILE.html", help="the page (report.html)"
+        "--output",
+        default="report.html",
+        metavar="PLACE",
+        help="the page, FILE.html, or the folder for report.html (.)",
     )
     parser.add_argument(
-        "--pdf", type=Path, metavar="FILE.pdf", help="also print the page, by a browser found here"
+        "--pdf",
+        metavar="PLACE",
+        help="also print the page, by a browser found here, as FILE.pdf or into a folder",
     )
+    outputs.add_option(parser)
     return command.parse(parser)
 
 

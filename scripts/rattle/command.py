@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import codecs
+import io
 import math
 import os
+import signal
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -23,6 +26,11 @@ class CommandError(Exception):
 
 def run(main: Callable[[], int | None]) -> None:
     """Run `main` and leave the process with its exit code."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors=AS_FILE_NAME)
+    # What a script must tidy up is tidied up also when a batch system or another program ends it.
+    signal.signal(signal.SIGTERM, _leave)
     try:
         code = main() or COMPLETE
         sys.stdout.flush()
@@ -34,11 +42,38 @@ def run(main: Callable[[], int | None]) -> None:
     except OSError as fault:
         place = f"{fault.filename}: " if fault.filename else ""
         code = complain(f"{place}{fault.strerror or fault}.")
+    except UnicodeError as fault:
+        words = fault.object if isinstance(fault.object, str) else repr(fault.object)
+        code = complain(f"'{readable(words)[:200]}' cannot be read or written as text ({fault.reason}).")
     except ImportError as fault:
         code = complain(f"A Python module cannot be loaded ({fault}); 'make python' builds and installs all.")
     except KeyboardInterrupt:
         code = INTERRUPTED
     sys.exit(code)
+
+
+def _leave(number: int, _: object) -> None:
+    sys.exit(128 + number)
+
+
+def _as_file_name(fault: UnicodeError) -> tuple[bytes, int]:
+    """What an encoding does not have, as the bytes that it has in names of files."""
+    if not isinstance(fault, UnicodeEncodeError):
+        raise fault
+    words = fault.object[fault.start : fault.end]
+    try:
+        return os.fsencode(words), fault.end
+    except UnicodeError:
+        return words.encode("ascii", "backslashreplace"), fault.end
+
+
+def readable(words: str) -> str:
+    """Words for pages and figures, where bytes of a file name that are no text have no place."""
+    return words.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+
+
+AS_FILE_NAME = "rattle_file_name"
+codecs.register_error(AS_FILE_NAME, _as_file_name)
 
 
 def complain(sentence: str) -> int:

@@ -12,6 +12,7 @@ from rattle.campaign_plan import GEAR
 from rattle.campaign_result import SCENE, Campaign
 from rattle.command import CommandError
 from rattle.namelist import parse_groups
+from rattle.outputs import Writer, text_writer
 
 
 def extreme_rows(campaign: Campaign, column: str, count: int, *, smallest: bool = False) -> np.ndarray:
@@ -42,15 +43,14 @@ def scene_label(campaign: Campaign, row: int) -> str:
     return f"{campaign.name}_{int(campaign[SCENE][row]):0{digits}d}"
 
 
-def write_inputs(campaign: Campaign, rows: Sequence[int], directory: Path, results: str) -> list[Path]:
-    """An input for each row: the base scene with the values of this one, and series = .true."""
-    directory.mkdir(parents=True, exist_ok=True)
-    paths = []
-    for row in rows:
-        path = directory / f"{scene_label(campaign, row)}.nml"
-        path.write_text(input_text(campaign, row, results), encoding="ascii")
-        paths.append(path)
-    return paths
+def inputs(
+    campaign: Campaign, rows: Sequence[int], directory: Path, results: str
+) -> list[tuple[Path, Writer]]:
+    """A file for each row that takes its input: the base scene with the values of this one, and a series."""
+    return [
+        (directory / f"{scene_label(campaign, row)}.nml", text_writer(input_text(campaign, row, results)))
+        for row in rows
+    ]
 
 
 def input_text(campaign: Campaign, row: int, results: str) -> str:

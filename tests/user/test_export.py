@@ -109,7 +109,7 @@ def test_unclosed_result_is_exported_with_a_word(tmp_path):
     [
         (["run.rattle", "--columns", "film"], "has no column 'film'"),
         (["none.rattle"], "cannot be read"),
-        (["run.rattle", "--output", "run.rattle"], "is the result file itself"),
+        (["run.rattle", "--output", "run.rattle"], "is a result itself"),
         (["run.rattle", "--output", "absent/run.csv"], "No such file or directory"),
         (["run.rattle", "--stride", "0"], "not a positive whole number"),
         (["run.rattle", "--output", "run.xlsx"], "this script writes csv"),

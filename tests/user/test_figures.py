@@ -140,7 +140,7 @@ def test_an_output_place_that_cannot_be_written_is_named(iso, tmp_path):
     (tmp_path / "taken").write_text("a file, not a directory")
     done = call_script("plot.py", "motion", iso, "--figures", "8", "--output", tmp_path / "taken")
     assert done.returncode == 2
-    assert "taken cannot take the figures" in done.stderr
+    assert "taken is no folder" in done.stderr
 
 
 def test_a_motion_at_rest_is_drawn(tmp_path):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -15,6 +15,7 @@ from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
 from rattle.figures import campaign_map, campaign_slice, campaign_summary, style
 from rattle.figures.fit import is_narrow
+from rattle.outputs import Writer
 
 DESCRIPTION = (
     "Draw a campaign: a map of the class or of any column over two varied keys (default), columns along one "
@@ -83,23 +84,31 @@ def run(options: Namespace) -> None:
     if not campaign.done.any():
         raise command.CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
     slices = one_each(options.slice)
+    inputs: list[tuple[Path, Writer]] = []
     with style.house_style():
         if options.together:
-            draw_together(campaign, options, slices)
-            return
-        for alone in (campaign.pair(options.gear),) if options.gear else campaign.pairs:
-            if not alone.done.any():
-                command.note(f"no scene of {alone.name} is done; it is left out.")
-            elif options.summary:
-                draw_summary(alone, options)
-            elif options.along or (len(alone.varied) == 1 and alone.kind == GRID):
-                draw_slices(alone, options, slices)
-            else:
-                draw_maps(alone, options, slices)
+            drawn = [draw_together(campaign, options, slices)]
+        else:
+            drawn = []
+            for alone in (campaign.pair(options.gear),) if options.gear else campaign.pairs:
+                if not alone.done.any():
+                    command.note(f"no scene of {alone.name} is done; it is left out.")
+                elif options.summary:
+                    page, scenes = draw_summary(alone, options)
+                    drawn.append(page)
+                    inputs += scenes
+                elif options.along or (len(alone.varied) == 1 and alone.kind == GRID):
+                    drawn.append(draw_slices(alone, options, slices))
+                else:
+                    drawn += draw_maps(alone, options, slices)
+        if drawn:
+            print(*style.save(drawn, options, inputs), sep="\n")
 
 
-def draw_maps(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> None:
-    """A map of each column asked for."""
+def draw_maps(
+    campaign: Campaign, options: Namespace, slices: dict[str, float]
+) -> Iterator[tuple[str, Figure]]:
+    """A map of each column asked for, with its stem."""
     if slices and campaign.kind != GRID:
         raise command.CommandError(
             f"{campaign.path} is no grid but a {campaign.kind} campaign: nothing to slice."
@@ -119,10 +128,10 @@ def draw_maps(campaign: Campaign, options: Namespace, slices: dict[str, float]) 
             figure = campaign_map.draw(section, column, overlay)
         else:
             figure = campaign_map.draw_points(campaign, x, y, column, overlay)
-        save(figure, options, f"{campaign.name}_map_{column}")
+        yield f"{campaign.name}_map_{column}", figure
 
 
-def draw_together(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> None:
+def draw_together(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> tuple[str, Figure]:
     """Maps of all gear pairs in one figure."""
     if not campaign.gears or campaign.kind != GRID or options.summary or options.along or options.gear:
         raise command.CommandError("--together draws the maps of a grid campaign of several gear pairs.")
@@ -132,10 +141,10 @@ def draw_together(campaign: Campaign, options: Namespace, slices: dict[str, floa
     for gear, alone in zip(campaign.gears, campaign.pairs, strict=True):
         sections[gear] = new_section(alone, plane(alone, options.x, options.y, slices), slices)
     figure = campaign_map.draw_pairs(sections, columns, options.colours, is_narrow(options.width))
-    save(figure, options, f"{campaign.name}_pairs")
+    return f"{campaign.name}_pairs", figure
 
 
-def draw_slices(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> None:
+def draw_slices(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> tuple[str, Figure]:
     """Columns along one key."""
     if campaign.kind != GRID:
         raise command.CommandError(
@@ -148,17 +157,17 @@ def draw_slices(campaign: Campaign, options: Namespace, slices: dict[str, float]
     columns = options.columns or [name for name in SLICE_COLUMNS if name in campaign]
     check_columns(campaign, columns)
     figure = campaign_slice.draw(section, columns)
-    save(figure, options, f"{campaign.name}_slice_{along.rpartition('.')[2]}")
+    return f"{campaign.name}_slice_{along.rpartition('.')[2]}", figure
 
 
-def draw_summary(campaign: Campaign, options: Namespace) -> None:
+def draw_summary(
+    campaign: Campaign, options: Namespace
+) -> tuple[tuple[str, Figure], list[tuple[Path, Writer]]]:
     """The page, and the inputs of the worst scenes that it lists."""
     rows = rerun.extreme_rows(campaign, options.by, options.worst, smallest=options.smallest)
     worst = campaign_summary.Worst(list(rows), options.by, options.smallest)
-    save(campaign_summary.draw(campaign, worst), options, f"{campaign.name}_summary")
-    directory = options.output / f"{campaign.name}_scenes"
-    for path in rerun.write_inputs(campaign, list(rows), directory, "results"):
-        print(path)
+    page = (f"{campaign.name}_summary", campaign_summary.draw(campaign, worst))
+    return page, rerun.inputs(campaign, list(rows), options.output / f"{campaign.name}_scenes", "results")
 
 
 def plane(campaign: Campaign, x: str | None, y: str | None, slices: Collection[str]) -> tuple[str, str]:
@@ -177,11 +186,6 @@ def plane(campaign: Campaign, x: str | None, y: str | None, slices: Collection[s
 def check_columns(campaign: Campaign, columns: Sequence[str]) -> None:
     for name in columns:
         campaign.check_column(name)  # an unknown name ends the work before a picture is drawn
-
-
-def save(figure: Figure, options: Namespace, stem: str) -> None:
-    for path in style.save(figure, options, stem):
-        print(path)
 
 
 def one_each(pairs: Sequence[tuple[str, float]]) -> dict[str, float]:

@@ -51,7 +51,8 @@ def run(options: Namespace) -> int:
     numbers = options.figures or NUMBERS
     makers = [(stem, maker) for number, stem, maker in FIGURES if number in numbers]
     scene = options.result.name.removesuffix(".rattle").removesuffix(".profiles")
-    drawn, missed = 0, 0
+    drawn: list[tuple[str, Figure]] = []
+    missed = 0
     with style.house_style():
         for stem, maker in makers:
             try:
@@ -60,9 +61,9 @@ def run(options: Namespace) -> int:
                 missed += 1
                 command.complain(f"{stem} cannot be drawn: {fault}")
                 continue
-            drawn += 1
-            for path in style.save(figure, options, f"{stem}_{scene}"):
-                print(path)
+            drawn.append((f"{stem}_{scene}", figure))
+        if drawn:
+            print(*style.save(drawn, options), sep="\n")
     # Without a wish for certain figures, what the result holds is enough.
     return command.BAD_INPUT if missed and (options.figures or not drawn) else command.COMPLETE
 

@@ -117,7 +117,7 @@ def run(options: Namespace) -> None:
         raise command.CommandError(f"The ranges cannot be used: {fault}.") from None
     with style.house_style():
         made = draw(curves, ranges, upper, is_narrow(options.width))
-        for path in style.save(made, options, "film_fit"):
+        for path in style.save([("film_fit", made)], options):
             command.note(str(path))
     rows = table_rows(fits)
     print(table.markdown(rows) if options.markdown else table.plain(rows))

@@ -87,16 +87,13 @@ def run(options: Namespace) -> None:
     view = spectra.View(options.frequency, options.shaft_speed, options.level == "db")
     extent = Extent(options.periods, options.window, view)
     make = overlay_figures if options.overlay else single_figures
-    drawn = 0
     with style.house_style():
-        for stem, figure in make(results, options.figures, extent):
-            drawn += 1
-            for path in style.save(figure, options, stem):
-                print(path)
-    if drawn == 0:
-        laws = " and ".join(sorted({result.law for result in results}))
-        numbers = ", ".join(map(str, options.figures))
-        raise command.CommandError(f"Nothing to draw: {laws} results give no figure {numbers}.")
+        drawn = list(make(results, options.figures, extent))
+        if not drawn:
+            laws = " and ".join(sorted({result.law for result in results}))
+            numbers = ", ".join(map(str, options.figures))
+            raise command.CommandError(f"Nothing to draw: {laws} results give no figure {numbers}.")
+        print(*style.save(drawn, options), sep="\n")
 
 
 def single_figures(

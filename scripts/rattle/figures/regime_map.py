@@ -101,7 +101,7 @@ def add_options(parser: ArgumentParser) -> None:
 def run(options: Namespace) -> None:
     scenes = [read_scene(path) for path in options.scenes]
     with style.house_style():
-        for path in style.save(draw(scenes), options, "regime_map"):
+        for path in style.save([("regime_map", draw(scenes))], options):
             command.note(str(path))
     if scenes:
         rows = table_rows(scenes)

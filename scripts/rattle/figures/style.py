@@ -14,8 +14,10 @@ from matplotlib import patheffects
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rattle import outputs
 from rattle.command import CommandError, positive
 from rattle.figures.fit import fit
+from rattle.outputs import Writer
 from rattle.result import Result
 
 # The palette of Okabe and Ito, which colour-blind readers can tell apart.
@@ -130,17 +132,28 @@ def add_extent(parser: ArgumentParser, periods: int) -> None:
     )
 
 
-def save(figure: Figure, options: Namespace, stem: str) -> list[Path]:
-    """Write a figure as the common options of plot.py say, without dates: equal data give equal bytes."""
-    fit(figure, options)
-    paths = [options.output / f"{stem}.{name}" for name in options.format]
+def save(
+    figures: Sequence[tuple[str, Figure]], options: Namespace, beside: Sequence[tuple[Path, Writer]] = ()
+) -> list[Path]:
+    """Write figures, each under its stem, as the common options of plot.py say, and what goes with them."""
+    files: list[tuple[Path, Writer]] = []
+    for stem, figure in figures:
+        fit(figure, options)
+        for name in options.format:
+            files.append((options.output / f"{stem}.{name}", figure_writer(figure, options, name)))
     try:
-        options.output.mkdir(parents=True, exist_ok=True)
-        for name, path in zip(options.format, paths, strict=True):
-            figure.savefig(path, dpi=options.dpi, metadata={DATES[name]: None})
+        return outputs.write([*files, *beside], overwrite=options.overwrite)
     except OSError as fault:
         raise CommandError(f"{options.output} cannot take the figures: {fault.strerror or fault}.") from None
-    return paths
+
+
+def figure_writer(figure: Figure, options: Namespace, form: str) -> Writer:
+    """Writes a figure without dates: equal data give equal bytes."""
+
+    def write(path: Path) -> None:
+        figure.savefig(path, format=form, dpi=options.dpi, metadata={DATES[form]: None})
+
+    return write
 
 
 def power_words(value: float, symbol: str = "") -> str:

@@ -129,8 +129,7 @@ def run(options: Namespace) -> None:
     stem = f"sweep_{results[0].scene_name}" if len(results) == 1 else "sweep_overlay"
     with style.house_style():
         made = draw(*results, panels=options.panels, marks=options.mark)
-        for path in style.save(made, options, stem):
-            print(path)
+        print(*style.save([(stem, made)], options), sep="\n")
 
 
 def draw(

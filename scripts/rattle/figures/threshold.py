@@ -185,8 +185,7 @@ def run(options: Namespace) -> None:
     section = behind(found, options.map, words) if options.map else None
     with style.house_style():
         figure = draw(found, words, section, options.crossing)
-        for path in style.save(figure, options, f"threshold_{result.scene_name}"):
-            print(path)
+        print(*style.save([(f"threshold_{result.scene_name}", figure)], options), sep="\n")
 
 
 def cut(found: Thresholds, slices: Mapping[str, float], most: int) -> tuple[Thresholds, dict[str, float]]:

@@ -79,8 +79,7 @@ def run(options: Namespace) -> None:
         raise command.CommandError("Nothing to draw: give --forged-line, --false-reversals or both.")
     with style.house_style():
         made = draw(pairs, options.periods, options.window, is_narrow(options.width))
-        for path in style.save(made, options, "tolerance"):
-            print(path)
+        print(*style.save([("tolerance", made)], options), sep="\n")
 
 
 def draw(pairs: Sequence[Pair], periods: int, window: int | None, narrow: bool = False) -> Figure:
