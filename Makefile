@@ -17,7 +17,7 @@ PYTHON := $(PYTHON_ENV)/bin/python
 
 # --- set-up: only looks, unless something is missing. It comes before everything that asks for a library.
 
-ifeq ($(filter clean help,$(MAKECMDGOALS))$(SYSTEM_LOOKED_AT),)
+ifeq ($(filter clean help uninstall,$(MAKECMDGOALS))$(SYSTEM_LOOKED_AT),)
   ifneq ($(shell scripts/setup_system.sh >&2 && echo ready),ready)
     $(error the system lacks what is named above)
   endif
@@ -72,7 +72,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test test-long unit user user-long lint debug python bench bench-build bench-changed stress stress-sample faults faults-sample mutants test-cluster compilers clean install help format pages pictures FORCE
+.PHONY: all run test test-long unit user user-long lint debug python bench bench-build bench-changed stress stress-sample faults faults-sample mutants test-cluster compilers clean install uninstall help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -94,6 +94,7 @@ help:
 	@echo 'make pictures     draw the pictures of the README anew'
 	@echo 'make format       bring Fortran and Python into the one format'
 	@echo 'make install      install program, Python package, man page and completion below PREFIX=$(PREFIX)'
+	@echo 'make uninstall    remove what make install put below PREFIX=$(PREFIX)'
 	@echo 'make clean        remove everything that was built'
 
 # --- Python packages --------------------------------------------------------------------------------
@@ -118,7 +119,7 @@ $(BUILD)/depends.mk: $(SOURCES) $(UNIT_SOURCES) $(STRESS_SOURCES) fsrc/main.f90 
 	    for (i = 1; i <= count; i++) if ((list[i] in known) && list[i] != name) print build "/" name ".o: " build "/" list[i] ".o" } }' \
 	  $(SOURCES) $(UNIT_SOURCES) $(STRESS_SOURCES) fsrc/main.f90 > $@
 
-ifeq ($(filter clean help lint format,$(MAKECMDGOALS)),)
+ifeq ($(filter clean help lint format uninstall,$(MAKECMDGOALS)),)
 -include $(BUILD)/depends.mk
 endif
 
@@ -346,9 +347,14 @@ debug:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/debug DEBUG=1 all
 
 # With PYTHON=... the package is for that Python, which must have numpy; else for the one of this folder.
+# A name may have blanks: it reaches the script as one word.
+ONE_WORD = '$(subst ','\'',$(1))'
 install: all $(if $(filter command line,$(origin PYTHON)),,$(PYTHON_ENV)/installed)
-	@scripts/install.sh $(abspath $(PYTHON)) $(BUILD) '$(OBJECTS)' '$(LIBRARIES)' '$(FC)' \
-	  $(DESTDIR)$(PREFIX) $(SCRIPTS_PLACE) $(PACKAGES_PLACE)
+	@scripts/install.sh $(call ONE_WORD,$(PYTHON)) $(BUILD) '$(OBJECTS)' '$(LIBRARIES)' '$(FC)' \
+	  $(call ONE_WORD,$(DESTDIR)$(PREFIX)) $(SCRIPTS_PLACE) $(PACKAGES_PLACE)
+
+uninstall:
+	@scripts/uninstall.sh $(call ONE_WORD,$(DESTDIR)$(PREFIX)) $(PACKAGES_PLACE)
 
 clean:
 	rm -rf $(BUILD) scripts/rattle/*.so

@@ -29,7 +29,7 @@ def call_script(
 
 
 def called_here(script: str, *arguments: object, cwd: Path) -> tuple[int, str, str]:
-    """The same within this Python, as another takes seconds to start: exit code, what was said, complaints."""
+    """The same within this Python, as another takes seconds to start: exit code, words, complaints."""
     said, complained = io.StringIO(), io.StringIO()
     before, handler, own = Path.cwd(), signal.getsignal(signal.SIGTERM), sys.argv
     sys.argv = [script, *map(str, arguments)]
