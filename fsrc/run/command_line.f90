@@ -1,6 +1,7 @@
 !> Arguments of the program.
 module command_line
    use errors, only: fault_list_t
+   use file_system, only: read_whole_file
    use input_key, only: list_kind, text_kind
    use key_table, only: find_key, keys
    use scene_reader, only: override_t
@@ -22,6 +23,9 @@ module command_line
       !> Group of --template, empty for all
       character(:), allocatable :: template_group
    end type command_t
+
+   !> Largest file of settings
+   integer, parameter :: most_bytes = 67108864
 
    public :: read_arguments, usage_text, most_threads
 
@@ -79,7 +83,13 @@ contains
                   command%template_group = lower(argument_text(i))
                end if
             case ('--set')
-               if (value_follows()) call add_override(argument_text(i), argument//' '//argument_text(i))
+               if (value_follows()) then
+                  if (index(argument_text(i), '@') == 1) then
+                     call add_settings(argument_text(i))
+                  else
+                     call add_override(argument_text(i), argument//' '//argument_text(i))
+                  end if
+               end if
             case ('--output')
                if (value_follows()) call add_override('output.directory='//quoted(argument_text(i)), &
                                                       argument//' '//argument_text(i))
@@ -117,6 +127,29 @@ contains
          end if
       end subroutine read_threads
 
+      !> Settings of a file, one in each line: lists may be longer than an argument.
+      subroutine add_settings(given)
+         !> The path behind a '@'
+         character(*), intent(in) :: given
+         character(:), allocatable :: content, line
+         integer :: stat, first, length
+
+         call read_whole_file(given(2:), most_bytes, content, stat)
+         if (stat /= 0) then
+            call faults%add('--set '//given, 0, '', '', trim(merge('it cannot be read                ', &
+                                                                   'it is longer than settings can be', stat < 3)))
+            return
+         end if
+         first = 1
+         do while (first <= len(content))
+            length = index(content(first:), new_line('a')) - 1
+            if (length < 0) length = len(content) - first + 1
+            line = content(first:first + length - 1)
+            if (len_trim(line) > 0) call add_override(line, '--set '//shortened(line))
+            first = first + length + 1
+         end do
+      end subroutine add_settings
+
       !> Turn group.key=value into namelist text.
       subroutine add_override(setting, source)
          character(*), intent(in) :: setting
@@ -135,6 +168,16 @@ contains
       end subroutine add_override
 
    end subroutine read_arguments
+
+   !> A setting as it is told in faults: nobody reads thousands of numbers.
+   pure function shortened(setting) result(told)
+      character(*), intent(in) :: setting
+      character(:), allocatable :: told
+      integer, parameter :: longest = 200
+
+      told = setting
+      if (len(setting) > longest) told = setting(:longest)//' ...'
+   end function shortened
 
    !> Most threads of a campaign: beyond a few for every core more of them only cost memory, up to a crash.
    integer function most_threads()
@@ -181,7 +224,7 @@ contains
              '  --template [group]     print a commented input'//end_of_line// &
              '  --keys                 print the page of all keys'//end_of_line// &
              '  --quantities           print the table of quantities as CSV'//end_of_line// &
-             '  --set group.key=value  override a key in every file; may be repeated'//end_of_line// &
+             '  --set group.key=value  override a key in every file; may be repeated; @FILE has one in each line'//end_of_line// &
              '  --output DIR           folder of the output files'//end_of_line// &
              '  --resume               carry on an earlier run from its state, or begin it'//end_of_line// &
              '  --threads N            threads of a campaign; scenes that run side by side'//end_of_line// &

@@ -20,7 +20,7 @@ module scene_reader
    private
 
    !> Inputs are small; a larger file is not one.
-   integer, parameter :: size_limit = 262144
+   integer, parameter :: size_limit = 16777216
 
    !> One key set on the command line.
    type, public :: override_t

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from rattle import solver_process
 from rattle.campaign_result import Campaign, read_campaign
 from rattle.faults import InputError, RunError, read_faults
 from rattle.result import Result, read
@@ -28,6 +29,8 @@ PROGRAMS = (
     _HERE.parents[2] / "bin" / "rattle",
     Path(sys.executable).parent / "rattle",
 )
+
+NO_LISTS = (bytes, bytearray, memoryview, Mapping, set, frozenset)
 
 Input = str | Path | Mapping[str, Mapping[str, Any]]
 
@@ -78,6 +81,7 @@ def run(
     set: Mapping[str, Any] | None = None,
     folder: str | Path | None = None,
     overwrite: bool = False,
+    resume: bool = False,
     threads: int | None = None,
     program: str | Path | None = None,
 ) -> Solved | Gearbox:
@@ -89,6 +93,7 @@ def run(
     set : keys as 'group.key' with the values that they get instead of those of the input
     folder : where the files go; None: a temporary one that lives as long as the result
     overwrite : whether files of an earlier run in `folder` may be replaced
+    resume : whether an earlier run in `folder` is carried on
     threads : threads of a campaign, by default all cores
     program : the program, by default the one of this installation
 
@@ -101,22 +106,22 @@ def run(
         `Gearbox` in its summaries.
     RunError
         Everything else, such as a full disk.
+
+    An interruption from the keyboard is handed to the program, which saves the state that `resume` needs.
     """
     command = [str(program or find_program())]
-    place = Path(folder) if folder is not None else Path(tempfile.mkdtemp(prefix="rattle-"))
-    command += ["--output", str(place), *(["--overwrite"] if overwrite else [])]
+    text = text_of(input)
+    settings = [f"{key}={literal(value)}" for key, value in (set or {}).items()]
+    command += ["--overwrite"] if overwrite else []
+    command += ["--resume"] if resume else []
     if threads is not None:
         command += ["--threads", str(threads)]
-    for key, value in (set or {}).items():
-        command += ["--set", f"{key}={literal(value)}"]
-    text = text_of(input)
+    # From here on what fails must not leave the temporary folder behind.
+    place = Path(folder) if folder is not None else Path(tempfile.mkdtemp(prefix="rattle-"))
+    command += ["--output", os.fspath(place), "--"]
     try:
-        ended = subprocess.run(
-            [*command, "-" if text is not None else str(input)],
-            input=text or "",
-            capture_output=True,
-            text=True,
-            check=False,
+        ended = solver_process.solve(
+            command + ["-" if text is not None else _file(input)], settings, text or ""
         )
         solved = _outcome(ended)
     except BaseException:
@@ -242,18 +247,27 @@ def text_of(given: Input) -> str | None:
     return None
 
 
+def _file(given: Any) -> str:
+    """The path of an input file; a file whose name is a dash is none of the standard input."""
+    path = os.fsdecode(os.fspath(given))
+    return "./-" if path == "-" else path
+
+
 def literal(value: Any) -> str:
     """A Python value as a namelist has it."""
-    if isinstance(value, np.generic):
+    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
         value = value.item()
     if isinstance(value, bool):
         return ".true." if value else ".false."
     if isinstance(value, str):
+        if "\n" in value or "\r" in value:
+            raise ValueError(f"{value!r} has more than one line; a text in an input has one")
         quoted = value.replace("'", "''")
         return f"'{quoted}'"
     if isinstance(value, int | float):
         return repr(value)
-    if isinstance(value, Iterable):
+    # Bytes would come as their numbers, a mapping as its keys, a set in no order.
+    if isinstance(value, Iterable) and not isinstance(value, NO_LISTS):
         return ", ".join(map(literal, value))
     raise TypeError(f"{value!r} is nothing that an input can hold")
 
@@ -263,7 +277,7 @@ def _outcome(ended: subprocess.CompletedProcess[str]) -> Solved | Gearbox:
     if ended.returncode not in (COMPLETE, SCENE_FAILED):
         kind = InputError if ended.returncode == BAD_INPUT else RunError
         raise kind(read_faults(ended.stderr), ended.returncode)
-    told = [Path(line.strip()) for line in ended.stdout.splitlines()]
+    told = [Path(line.removeprefix("  ")) for line in ended.stdout.split("\n")]
     summaries = [path for path in told if path.name.endswith(".summary.nml")]
     if not summaries:
         raise RunError(read_faults(ended.stderr), ended.returncode, "The program left no summary.")

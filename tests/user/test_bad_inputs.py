@@ -251,8 +251,8 @@ def test_program_as_input(refused, rattle: Path, tmp_path: Path) -> None:
 
 
 def test_huge_file(refused, scene_text, tmp_path: Path) -> None:
-    (tmp_path / "huge.nml").write_text(scene_text() + "! padding\n" * 100000)
-    assert_faults(refused("huge.nml"), "huge.nml", ["it is larger than 262144 bytes"])
+    (tmp_path / "huge.nml").write_text(scene_text() + "! padding\n" * 1700000)
+    assert_faults(refused("huge.nml"), "huge.nml", ["it is larger than 16777216 bytes"])
 
 
 def test_endless_standard_input(rattle: Path, tmp_path: Path) -> None:
