@@ -33,7 +33,9 @@ def slurm(options: argparse.Namespace) -> None:
     """Write a job script."""
     try:
         groups = parse(options.input.read_text(encoding="utf-8"))
-    except (NamelistError, UnicodeDecodeError) as fault:
+    except UnicodeDecodeError:
+        raise command.CommandError(f"{options.input} is no input: it is not plain text.") from None
+    except NamelistError as fault:
         raise command.CommandError(f"{options.input} cannot be read: {fault}") from None
     if "campaign" not in groups:
         raise command.CommandError(f"{options.input} has no group &campaign.")

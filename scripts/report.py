@@ -13,7 +13,6 @@ from functools import partial
 from pathlib import Path
 
 from rattle import command, outputs
-from rattle.report import report
 
 # Browsers that print a page without a window.
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "microsoft-edge")
@@ -26,6 +25,8 @@ def main() -> int | None:
     printed = file_in(options.pdf, (".pdf",)) if options.pdf else None
     places = [page, printed] if printed else [page]
     outputs.check(places, overwrite=options.overwrite, inputs=options.results)
+    from rattle.report import report  # needs the kernels, and what is missing of them has a sentence here
+
     text = command.readable(report(options.results))
     outputs.write([(page, outputs.text_writer(text))], overwrite=options.overwrite, inputs=options.results)
     print(page)

@@ -133,6 +133,12 @@ class Result(ResultFile):
         state = "closed" if self.closed else "not closed"
         return f"<Result {self.path}: {self.row_count} rows of {', '.join(self.columns)}; {state}>"
 
+    def require_rows(self, task: str) -> None:
+        """Raise ResultError if this is the result of another task, or holds nothing to draw."""
+        self.require_task(task)
+        if self.row_count == 0:
+            raise ResultError(f"{self.path} holds no row: there is nothing to draw.")
+
     def number(self, group: str, key: str) -> float:
         """One number of the resolved input."""
         number = self.value(group, key)
@@ -213,7 +219,13 @@ class Result(ResultFile):
                     f"{self.path} ran until steady; its window stands in {self.summary_path}, "
                     "which is not there."
                 )
-            return int(read_summary(self.summary_path)["window_periods"])
+            summary = read_summary(self.summary_path)
+            if "window_periods" not in summary:
+                raise ResultError(
+                    f"{self.path} has no window: its run ended before one was whole "
+                    f"({summary.get('status', 'unknown')})."
+                )
+            return int(summary["window_periods"])
         return self.positive_integer("spectrum", "periods")
 
     def window(self, periods: int | None = None, *, with_start: bool = False) -> slice:

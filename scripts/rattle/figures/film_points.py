@@ -135,7 +135,7 @@ def angle_axis(axes: Axes) -> None:
 
 
 def _check_task(result: Result) -> None:
-    result.require_task("film")
+    result.require_rows("film")
     command.note_open(result)
 
 

@@ -77,7 +77,7 @@ def add_options(parser: ArgumentParser) -> None:
 def run(options: Namespace) -> None:
     results = [rattle.read(path) for path in options.results]
     for result in results:
-        result.require_task("motion")
+        result.require_rows("motion")
         command.note_open(result)
     if options.shaft_speed is not None and options.frequency != "order":
         raise command.CommandError("--shaft-speed belongs to --frequency order.")

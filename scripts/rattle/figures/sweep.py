@@ -116,7 +116,7 @@ def mark(text: str) -> tuple[float, str]:
 def run(options: Namespace) -> None:
     results = [rattle.read(path) for path in options.results]
     for result in results:
-        result.require_task("sweep")
+        result.require_rows("sweep")
         command.note_open(result)
     keys = {key_of(result) for result in results}
     if len(keys) > 1:

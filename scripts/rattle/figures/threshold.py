@@ -179,7 +179,7 @@ def add_options(parser: ArgumentParser) -> None:
 
 def run(options: Namespace) -> None:
     result = rattle.read(options.result)
-    result.require_task("threshold")
+    result.require_rows("threshold")
     command.note_open(result)
     found, words = cut(thresholds(result), one_each(options.slice), 1 if options.map else 2)
     section = behind(found, options.map, words) if options.map else None

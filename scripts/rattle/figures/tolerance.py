@@ -72,7 +72,7 @@ def run(options: Namespace) -> None:
         if paths is not None:
             loose, tight = map(rattle.read, paths)
             for result in (loose, tight):
-                result.require_task("motion")
+                result.require_rows("motion")
                 command.note_open(result)
             pairs.append(Pair(name, loose, tight, last_ratio))
     if not pairs:

@@ -67,6 +67,8 @@ def part(result: ResultFile, name: str) -> list[str]:
     """All that is said of one result."""
     if isinstance(result, Campaign):
         parts = campaign_part(result)
+    elif isinstance(result, Result) and result.row_count == 0:
+        parts = [page.paragraph("This result holds no row, so there is nothing to tell of it.", "note")]
     elif isinstance(result, Result):
         makers = {"motion": motion_part, "sweep": sweep_part, "threshold": threshold_part, "film": film_part}
         parts = makers.get(result.task, table_part)(result)

@@ -1,0 +1,194 @@
+"""Every script on every kind of result: its work, or a plain sentence; never a traceback."""
+
+from __future__ import annotations
+
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import campaign_runs
+import campaign_writer
+import pytest
+from result_writer import result_bytes
+from script_calls import SCRIPTS, called_here
+from test_thresholds import threshold_text
+
+import rattle as package
+
+SMALL = ("--format", "png", "--dpi", "20")
+FAILING = {"load": {"force_amplitude": "1e9"}, "solver": {"iteration_limit": "2"}}
+STEADY = {"solver": {"method": None, "steps_per_period": None, "until": "'steady'", "periods": "60"}}
+# Scripts with what stands before and behind the result.
+CALLS = {
+    "export": ("export.py", (), ("--output", "o/of.csv")),
+    "export as MAT": ("export.py", (), ("--output", "o/of.mat")),
+    "export as NetCDF": ("export.py", (), ("--output", "o/of.nc")),
+    "export a column": ("export.py", (), ("--columns", "acceleration", "--stride", "3", "--output", "-")),
+    "classify": ("classify.py", (), ("--output", "o/classes.csv")),
+    "compare": ("compare.py", (), ()),
+    "compare in Markdown": ("compare.py", ("--markdown",), ()),
+    "report": ("report.py", (), ("--output", "o")),
+    **{
+        f"plot {name}": ("plot.py", (name,), ("--output", "o", *SMALL))
+        for name in ("motion", "film", "sweep", "campaign", "threshold", "regime-map")
+    },
+    "plot without a command": ("plot.py", (), ()),
+    "plot a motion over others": ("plot.py", ("motion", "--overlay"), ("--output", "o", *SMALL)),
+    "plot a summary": ("plot.py", ("campaign", "--summary"), ("--output", "o", *SMALL)),
+    "plot all pairs": ("plot.py", ("campaign", "--together"), ("--output", "o", *SMALL)),
+    "campaign status": ("campaign.py", ("status",), ()),
+    "campaign export": ("campaign.py", ("export", "--to", "csv"), ("--output", "o/map.csv")),
+    "campaign as Parquet": ("campaign.py", ("export", "--to", "parquet"), ("--output", "o/map.parquet")),
+    "campaign rerun": ("campaign.py", ("rerun", "--worst", "2"), ("--output", "o")),
+    "campaign rerun of failures": ("campaign.py", ("rerun", "--failed", "2"), ("--output", "o")),
+    "campaign merge": ("campaign.py", ("merge",), ("--output", "o/joined.rattle")),
+    "campaign slurm": ("campaign.py", ("slurm", "--program", "x"), ("--script", "o/job")),
+}
+# What each kind of result must give: the scripts that do their work on it. Others refuse, with a sentence.
+ALWAYS = {"export", "export as MAT", "export as NetCDF", "report"}
+COMPARED = {"compare", "compare in Markdown"}
+SERIES = ALWAYS | {"export a column"}
+MOTION = SERIES | COMPARED | {"plot regime-map", "plot motion", "plot a motion over others"}
+CAMPAIGN = ALWAYS | {"plot campaign", "plot a summary", "campaign status", "campaign export"}
+CAMPAIGN |= {"campaign as Parquet", "campaign rerun"}
+WORKING = {
+    "motion": MOTION | {"classify"},
+    "failed": SERIES | COMPARED | {"plot regime-map"},
+    "steady_failed": SERIES | COMPARED | {"plot regime-map"},
+    "interrupted": MOTION | {"classify"},
+    "unclosed": (MOTION - COMPARED) | {"classify"},
+    "film": ALWAYS | COMPARED | {"plot film"},
+    "sweep": ALWAYS | COMPARED | {"plot sweep"},
+    "map": CAMPAIGN | COMPARED | {"campaign merge"},
+    "unfinished_map": CAMPAIGN,
+    "empty_map": ALWAYS | {"campaign status", "campaign export", "campaign as Parquet"},
+    "crossings": ALWAYS | COMPARED | {"plot threshold", "campaign merge"},
+    "empty_crossings": ALWAYS,
+    "unfinished_crossings": ALWAYS | {"plot threshold"},
+    "no_motion": SERIES | {"plot regime-map"},
+    "no_sweep": ALWAYS,
+    "no_film": ALWAYS,
+    "box.one": MOTION,
+    "box.summary.nml": COMPARED,
+    "alone.summary.nml": COMPARED,
+    "motion.state": SERIES,
+    "motion.log": set(),
+    "foreign": set(),
+    "empty": set(),
+    "absent": set(),
+    "folder": set(),
+}
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory, rattle, run, repository, scene_text) -> Path:
+    """A folder with a result of each kind."""
+    folder = tmp_path_factory.mktemp("kinds")
+
+    def solve(name: str, text: str, *options: str, codes: tuple[int, ...] = (0,)) -> None:
+        (folder / f"{name}.nml").write_text(text)
+        ended = run("--output", ".", *options, f"{name}.nml", cwd=folder, timeout=120.0)
+        assert ended.returncode in codes, ended.stderr
+
+    solve("motion", scene_text(load={"force_amplitude": "20.0"}, solver={"periods": "20"}))
+    solve("failed", scene_text(**FAILING), codes=(1,))
+    late = {**STEADY, "load": {"force_amplitude": "2000.0"}}
+    late["film"] = {"law": "'piezo-viscous'", "model": "'reynolds'"}
+    solve("steady_failed", scene_text(**late), codes=(1,))
+    film = (repository / "input" / "film.nml").read_text()
+    solve("film", film, "--set", "scene.name=film")
+    sweep = (repository / "input" / "sweep.nml").read_text()
+    solve("sweep", sweep, "--set", "scene.name=sweep", "--set", "sweep.count=3")
+    solve("map", campaign_runs.grid(scene_text, 4, 3))
+    solve("crossings", threshold_text(scene_text, threshold={"tolerance": "1e-2"}))
+    parts = ("--set", "campaign.part=1", "--set", "campaign.parts=9")
+    solve("empty_map", campaign_runs.grid(scene_text, 2, 2), *parts)
+    solve("empty_crossings", threshold_text(scene_text, threshold={"tolerance": "1e-2"}), *parts)
+    for name in ("empty_map", "empty_crossings"):
+        (folder / f"{name}.part-1-of-9.rattle").rename(folder / f"{name}.rattle")
+    one = campaign_writer.grid(campaign_writer.FORCES, campaign_writer.SPEEDS, name="unfinished_map")
+    one.write(folder / "unfinished_map.rattle", undone=[2], closed=False)
+    gears = (repository / "input" / "gearbox.nml").read_text()
+    solve("box", gears, "--set", "scene.name=box", "--set", "solver.periods=20", codes=(0, 1))
+    first = next(path for path in sorted(folder.glob("box.*.rattle")))
+    shutil.copy(first, folder / "box.one.rattle")
+    shutil.copy(first.with_suffix(".summary.nml"), folder / "box.one.summary.nml")
+    shutil.copy(folder / "motion.summary.nml", folder / "alone.summary.nml")
+    whole = package.read(folder / "motion.rattle")
+    for name, source in (
+        ("unclosed", whole),
+        ("unfinished_crossings", package.read(folder / "crossings.rattle")),
+    ):
+        columns = [(column, source.units[column]) for column in source.names]
+        rows = [list(row) for row in zip(*(source[column] for column in source.names), strict=True)][:-1]
+        content = result_bytes(columns, rows, input_text=source.input_text, closed=False)
+        (folder / f"{name}.rattle").write_bytes(content)
+    for name in ("motion", "sweep", "film"):
+        source = package.read(folder / f"{name}.rattle")
+        columns = [(column, source.units[column]) for column in source.names]
+        content = result_bytes(columns, [], input_text=source.input_text, closed=False)
+        (folder / f"no_{name}.rattle").write_bytes(content)
+    interrupt(rattle, folder, scene_text)
+    (folder / "foreign.rattle").write_bytes(b"PK\x03\x04" + bytes(range(256)) * 4)
+    (folder / "empty.rattle").write_bytes(b"")
+    (folder / "folder.rattle").mkdir()
+    return folder
+
+
+def interrupt(rattle: Path, folder: Path, scene_text) -> None:
+    """A motion that a signal ended after some periods."""
+    text = scene_text(load={"force_amplitude": "20.0"}, solver={"periods": "100000000"})
+    (folder / "interrupted.nml").write_text(text)
+    process = subprocess.Popen([rattle, "--quiet", "--output", ".", "interrupted.nml"], cwd=folder)
+    path = folder / "interrupted.rattle"
+    while process.poll() is None and not (path.exists() and path.stat().st_size > 20_000):
+        time.sleep(0.005)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(60) == 128 + signal.SIGTERM
+
+
+@pytest.mark.parametrize("kind", WORKING)
+def test_scripts_do_their_work_or_say_why_not(kind, results, tmp_path):
+    place = results / (kind if kind.endswith((".nml", ".state", ".log")) else f"{kind}.rattle")
+    worked = set()
+    for name, (script, before, behind) in CALLS.items():
+        folder = tmp_path / name.replace(" ", "_")
+        (folder / "o").mkdir(parents=True)
+        code, said, complaint = called_here(script, *before, place, *behind, cwd=folder)
+        told = f"{name} of {kind}: {code}, {said[-200:]}, {complaint}"
+        assert code in (0, 2), told
+        assert "Traceback" not in complaint and "Warning" not in complaint, told
+        if code == 0:
+            worked.add(name)
+            assert said or any((folder / "o").iterdir()), told
+        else:
+            lines = complaint.rstrip().splitlines()
+            assert lines[-1].endswith((".", "'-h'")) or "error:" in complaint, told
+            assert not any((folder / "o").iterdir()), told
+    assert sorted(worked) == sorted(WORKING[kind])
+
+
+def test_without_kernels_scripts_work_or_name_what_is_missing(results, tmp_path):
+    """In a copy of the scripts that nobody built the kernels for."""
+    copy = tmp_path / "scripts"
+    shutil.copytree(SCRIPTS, copy, ignore=shutil.ignore_patterns("*.so", "__pycache__", "generate"))
+    (tmp_path / "o").mkdir()
+    for name, code in (
+        ("export", 0),
+        ("compare", 0),
+        ("report", 2),
+        ("classify", 2),
+        ("plot motion", 2),
+        ("plot regime-map", 2),
+        ("plot film", 2),
+    ):
+        script, before, behind = CALLS[name]
+        place = results / ("film.rattle" if name == "plot film" else "motion.rattle")
+        command = [sys.executable, copy / script, *before, place, *behind]
+        ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert ended.returncode == code, (name, ended.stderr)
+        assert "Traceback" not in ended.stderr
+        assert ("'make python' builds" in ended.stderr) == (code == 2), (name, ended.stderr)
