@@ -19,7 +19,7 @@ from rattle.figures import campaign_summary
 
 def draw(path: Path, *arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
     return call_script(
-        "plot.py", "campaign", path, "--output", path.parent / "out", *arguments, **environment
+        "plot.py", "campaign", "--overwrite", path, "--output", path.parent / "out", *arguments, **environment
     )
 
 
