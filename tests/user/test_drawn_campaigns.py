@@ -21,6 +21,8 @@ from rattle.codes import CLASSES
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, campaign_slice, campaign_summary, style
 
+WORDS = {code: word.replace("_", " ") for code, word in CLASSES.items()}
+
 # A chunk of 20 scenes is the row of one speed, as the force varies fastest.
 LINEAR_FORCE = np.linspace(10.0, 410.0, 21)  # borders of the cells about 20, 40, ... 400 N
 LOGARITHMIC_SPEED = 0.5 * 10.0 ** ((np.arange(16) - 0.5) / 14.0)
@@ -108,14 +110,15 @@ def test_every_class_has_its_colour_and_its_share(made, tmp_path):
     for code in CLASSES:
         assert to_hex(mesh.cmap(mesh.norm(code))).upper() == look.CLASS_COLOURS[code]
         count = int((classes == code).sum())
-        assert f"{CLASSES[code]} ({look.share(count, 300)})" in drawn.legend_words(figure)
+        assert f"{WORDS[code]} ({look.share(count, 300)})" in drawn.legend_words(figure)
     np.testing.assert_array_equal(np.ma.filled(mesh.get_array(), np.nan), classes)
     colours = {
         handle.get_label().split(" (")[0]: to_hex(handle.get_facecolor()).upper()
         for handle in figure.legends[0].legend_handles
     }
-    assert {word: colours[word] for word in CLASSES.values()} == {
-        CLASSES[code]: look.CLASS_COLOURS[code] for code in CLASSES
+    # Those irregular so far have a second entry, their hatch.
+    assert {word: colours[word] for word in WORDS.values() if word != look.SO_FAR_WORDS} == {
+        WORDS[code]: look.CLASS_COLOURS[code] for code in CLASSES if code != look.IRREGULAR_SO_FAR
     }
 
 
@@ -148,12 +151,16 @@ def test_gaps_cover_the_scenes_that_failed_or_are_not_done(made, tmp_path):
     np.testing.assert_array_equal(found[look.HATCHES[0]], lost)
     np.testing.assert_array_equal(found[look.HATCHES[1]], rigid)
     np.testing.assert_array_equal(found[look.NOT_DONE_HATCH], ~done)
+    so_far = done & (shown_grid(made, "rattle_class") == look.IRREGULAR_SO_FAR)
+    lacking = done & (shown_grid(made, "certified") == 0.0) & ~so_far
     gaps = [word for word in drawn.legend_words(figure) if word.split(" (")[0] not in CLASSES.values()]
+    # Once for the colour, once for the hatch.
+    assert gaps.pop() == gaps.pop(0) == f"irregular so far ({look.share(int(so_far.sum()), 300)})"
     assert gaps == [
         f"film lost ({look.share(int(lost.sum()), 300)})",
         f"no rigid film ({look.share(int(rigid.sum()), 300)})",
         f"not done ({look.share(20, 300)})",
-        f"not certified ({look.share(int((done & (shown_grid(made, 'certified') == 0.0)).sum()), 300)})",
+        f"not certified ({look.share(int(lacking.sum()), 300)})",
     ]
     assert axes.get_title(loc="left") == "Rattle class, campaign map, 280 of 300 scenes"
 
@@ -161,7 +168,10 @@ def test_gaps_cover_the_scenes_that_failed_or_are_not_done(made, tmp_path):
 @pytest.mark.parametrize("column", ["rattle_class", "film_minimum"])
 def test_what_is_not_certified_is_hatched_over_its_colour(made, tmp_path, column):
     figure = draw_map(read(made, tmp_path), column, contours=())
-    axes, lacking = figure.axes[0], shown_grid(made, "certified") == 0.0
+    so_far = shown_grid(made, "rattle_class") == look.IRREGULAR_SO_FAR
+    axes, lacking = figure.axes[0], (shown_grid(made, "certified") == 0.0) & ~so_far
+    assert so_far.any()
+    np.testing.assert_array_equal(hatched(axes)[look.SO_FAR_HATCH], so_far)
     np.testing.assert_array_equal(hatched(axes)[look.UNCERTAIN_HATCH], lacking)
     for area in axes.collections:
         if isinstance(area, QuadContourSet) and area.filled and area.hatches[0] == look.UNCERTAIN_HATCH:
@@ -189,6 +199,7 @@ def bilinear(x: np.ndarray, y: np.ndarray, values: np.ndarray, point: np.ndarray
 
 def test_contours_lie_where_their_labels_say(made, tmp_path):
     made.column("certified")[:] = 1.0
+    made.column("rattle_class")[made.column("rattle_class") == look.IRREGULAR_SO_FAR] = 5.0
     figure = draw_map(read(made, tmp_path), "rattle_class")
     (axes,) = figure.axes
     sets = [one for one in axes.collections if isinstance(one, QuadContourSet) and not one.filled]
@@ -246,7 +257,7 @@ def test_dots_stand_at_their_scenes(tmp_path):
             read(made, tmp_path), FORCE, SPEED, "film_minimum", campaign_map.Options(contours=())
         )
     axes, bar = figure.axes
-    dots, *crosses, rings = (one for one in axes.collections if isinstance(one, PathCollection))
+    dots, *crosses, rings, diamonds = (one for one in axes.collections if isinstance(one, PathCollection))
     status, film = made.column("status"), made.column("film_minimum")
     places = np.column_stack([made.column(FORCE), made.column(SPEED)])
     known = status == 1.0
@@ -254,13 +265,19 @@ def test_dots_stand_at_their_scenes(tmp_path):
     np.testing.assert_allclose(dots.get_array(), 1e6 * film[known])
     for marks, code in zip(crosses, (3.0, 4.0), strict=True):
         np.testing.assert_allclose(marks.get_offsets(), places[status == code])
-    lacking = made.column("certified") == 0.0
+    so_far = made.column("rattle_class") == look.IRREGULAR_SO_FAR
+    lacking = (made.column("certified") == 0.0) & ~so_far
+    np.testing.assert_allclose(diamonds.get_offsets(), places[so_far])
     np.testing.assert_allclose(rings.get_offsets(), places[lacking])
     assert rings.get_facecolor().size == 0
     assert bar.get_ylabel() == "Film minimum [\N{MICRO SIGN}m]"
     lost, rigid = (int((status == code).sum()) for code in (3.0, 4.0))
     gaps = [f"film lost ({lost})", f"no rigid film ({rigid})"]
-    assert drawn.legend_words(figure) == [*gaps, f"not certified ({int(lacking.sum())})"]
+    assert drawn.legend_words(figure) == [
+        *gaps,
+        f"not certified ({int(lacking.sum())})",
+        f"irregular so far ({int(so_far.sum())})",
+    ]
     assert (axes.get_xscale(), axes.get_yscale()) == ("linear", "log")
     forces, speeds = made.column(FORCE), np.log(made.column(SPEED))
     room = 0.03 * np.ptp(forces)
@@ -297,7 +314,7 @@ def test_a_slice_shows_its_columns_over_bands_of_the_classes(made, tmp_path):
     ticks = dict(
         zip(classes.get_yticks(), (text.get_text() for text in classes.get_yticklabels()), strict=True)
     )
-    assert ticks == dict(CLASSES)
+    assert ticks == WORDS
     assert film.get_title(loc="left").endswith("force amplitude = 400 N")
     bands = {}
     for patch in film.patches:
@@ -311,7 +328,8 @@ def test_a_slice_shows_its_columns_over_bands_of_the_classes(made, tmp_path):
         assert bands.get((colour, None), []) == list(expected)
     assert bands[(look.GAP_COLOUR, look.HATCHES[0])] == list(np.flatnonzero(status == 3.0))
     assert bands[(look.GAP_COLOUR, look.NOT_DONE_HATCH)] == [14]
-    lacking = np.flatnonzero(shown_grid(made, "certified")[:14, 19] == 0.0)
+    so_far = shown_grid(made, "rattle_class")[:14, 19] == look.IRREGULAR_SO_FAR
+    lacking = np.flatnonzero((shown_grid(made, "certified")[:14, 19] == 0.0) & ~so_far)
     assert lacking.size and bands[("#000000", look.UNCERTAIN_HATCH)] == list(lacking)
 
 

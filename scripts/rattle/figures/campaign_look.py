@@ -90,21 +90,34 @@ def gaps(campaign: Campaign, column: str) -> list[Gap]:
     return found
 
 
-def uncertain(campaign: Campaign, column: str) -> np.ndarray:
-    """Scenes whose class is not certified, for a map of what their motion is; not those irregular so far."""
-    if column in ("certified", "status") or "certified" not in campaign:
-        return np.zeros(campaign.row_count, dtype=bool)
-    return campaign.done & (campaign["certified"] == 0.0) & ~irregular_so_far(campaign)
+@dataclass(frozen=True)
+class Doubt:
+    """Scenes whose class does not stand, and how maps mark them."""
+
+    scenes: np.ndarray
+    words: str
+    hatch: str
+    marker: str
 
 
-def irregular_so_far(campaign: Campaign) -> np.ndarray:
-    """Scenes that neither repeat nor are irregular for good."""
-    if "rattle_class" not in campaign:
-        return np.zeros(campaign.row_count, dtype=bool)
-    return campaign.done & (campaign["rattle_class"] == IRREGULAR_SO_FAR)
+def doubts(campaign: Campaign, column: str) -> list[Doubt]:
+    """What maps of a column mark: scenes irregular so far, apart from others that are not certified."""
+    if column in ("certified", "status"):
+        return []
+    nowhere = np.zeros(campaign.row_count, dtype=bool)
+    so_far, lacking = nowhere, nowhere
+    if "rattle_class" in campaign:
+        so_far = campaign.done & (campaign["rattle_class"] == IRREGULAR_SO_FAR)
+    if "certified" in campaign:
+        lacking = campaign.done & (campaign["certified"] == 0.0) & ~so_far
+    found = [
+        Doubt(lacking, UNCERTAIN_WORDS, UNCERTAIN_HATCH, "o"),
+        Doubt(so_far, SO_FAR_WORDS, SO_FAR_HATCH, "D"),
+    ]
+    return [doubt for doubt in found if doubt.scenes.any()]
 
 
-def uncertain_patch(words: str, hatch: str = UNCERTAIN_HATCH) -> Patch:
+def doubt_patch(words: str, hatch: str) -> Patch:
     """What a scene that is not certified looks like in a legend: hatched, whatever its colour."""
     return Patch(facecolor="none", edgecolor="black", hatch=hatch, linewidth=0.6, label=words)
 

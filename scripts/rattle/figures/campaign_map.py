@@ -128,10 +128,8 @@ def draw_cells(
     for gap in look.gaps(campaign, column):
         handles += _hatch(axes, edges, section.mask(gap.scenes), gap.words, gap.hatch)
     handles += _hatch(axes, edges, ~done, "not done", look.NOT_DONE_HATCH)
-    handles += _hatch_uncertain(axes, edges, section.mask(look.uncertain(campaign, column)))
-    if column not in ("certified", "status"):
-        so_far = section.mask(look.irregular_so_far(campaign))
-        handles += _hatch_uncertain(axes, edges, so_far, look.SO_FAR_HATCH, look.SO_FAR_WORDS)
+    for doubt in look.doubts(campaign, column):
+        handles += _hatch_doubt(axes, edges, section.mask(doubt.scenes), doubt)
     look.set_axis(axes, "x", x, to_edges=True)
     look.set_axis(axes, "y", y, to_edges=True)
     return handles, drawn
@@ -170,14 +168,13 @@ def scatter(
         )
         words = f"{gap.words} ({int(gap.scenes.sum())})"
         handles.append(Line2D([], [], marker=marker, linestyle="", color="black", markersize=5, label=words))
-    uncertain = look.uncertain(campaign, column)
-    if uncertain.any():
-        ring = {"marker": "o", "facecolors": "none", "edgecolors": "black"}
-        axes.scatter(
-            campaign[x][uncertain], campaign[y][uncertain], s=3 * size, linewidths=0.7, zorder=3, **ring
-        )
-        words = f"{look.UNCERTAIN_WORDS} ({int(uncertain.sum())})"
-        handles.append(Line2D([], [], marker="o", linestyle="", color="black", fillstyle="none", label=words))
+    for doubt in look.doubts(campaign, column):
+        scenes, marker = doubt.scenes, doubt.marker
+        ring = {"marker": marker, "facecolors": "none", "edgecolors": "black"}
+        axes.scatter(campaign[x][scenes], campaign[y][scenes], s=3 * size, linewidths=0.7, zorder=3, **ring)
+        words = f"{doubt.words} ({int(scenes.sum())})"
+        outline = {"linestyle": "", "color": "black", "fillstyle": "none"}
+        handles.append(Line2D([], [], marker=marker, label=words, **outline))
     for which, key in (("x", x), ("y", y)):
         look.set_axis(axes, which, campaign.axis(key), to_edges=False)
     return handles, drawn
@@ -328,23 +325,19 @@ def _hatch(axes: Axes, edges: Sequence[np.ndarray], where: np.ndarray, words: st
     return [look.gap_patch(f"{words} ({look.share(int(where.sum()), where.size)})", hatch)]
 
 
-def _hatch_uncertain(
-    axes: Axes,
-    edges: Sequence[np.ndarray],
-    where: np.ndarray,
-    hatch: str = look.UNCERTAIN_HATCH,
-    words: str = look.UNCERTAIN_WORDS,
+def _hatch_doubt(
+    axes: Axes, edges: Sequence[np.ndarray], where: np.ndarray, doubt: look.Doubt
 ) -> list[Patch]:
     """Hatch and frame cells over their colours, black on white, which every colour leaves legible."""
     if not where.any():
         return []
     squares = _squares(edges, where)
     for colour, width in (("white", 1.4), ("black", 0.5)):
-        area = axes.contourf(*squares, levels=(0.5, 1.5), colors=["none"], hatches=[hatch])
+        area = axes.contourf(*squares, levels=(0.5, 1.5), colors=["none"], hatches=[doubt.hatch])
         area.set(edgecolor=colour, linewidth=0.0, hatch_linewidth=width)
         axes.contour(*squares, levels=(0.5,), colors=[colour], linewidths=[width])
-    words = f"{words} ({look.share(int(where.sum()), where.size)})"
-    return [look.uncertain_patch(words, hatch)]
+    words = f"{doubt.words} ({look.share(int(where.sum()), where.size)})"
+    return [look.doubt_patch(words, doubt.hatch)]
 
 
 def _squares(edges: Sequence[np.ndarray], where: np.ndarray) -> tuple[np.ndarray, ...]:

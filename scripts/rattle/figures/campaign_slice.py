@@ -85,10 +85,11 @@ def _draw_bands(panel: Axes, section: Section, handles: dict[str, Patch]) -> Non
                 zorder=0,
             )
             handles.setdefault(words, look.gap_patch(words, hatch))
-    for first, last in _runs(section.mask(look.uncertain(campaign, "rattle_class"))):
-        area = {"facecolor": "none", "edgecolor": "black", "alpha": LIGHTENED, "linewidth": 0.0}
-        panel.axvspan(edges[first], edges[last], hatch=look.UNCERTAIN_HATCH, zorder=0, **area)
-        handles.setdefault(look.UNCERTAIN_WORDS, look.uncertain_patch(look.UNCERTAIN_WORDS))
+    for doubt in look.doubts(campaign, "rattle_class"):
+        for first, last in _runs(section.mask(doubt.scenes)):
+            area = {"facecolor": "none", "edgecolor": "black", "alpha": LIGHTENED, "linewidth": 0.0}
+            panel.axvspan(edges[first], edges[last], hatch=doubt.hatch, zorder=0, **area)
+            handles.setdefault(doubt.words, look.doubt_patch(doubt.words, doubt.hatch))
 
 
 def _runs(where: np.ndarray) -> list[tuple[int, int]]:
