@@ -189,7 +189,7 @@ unit: $(BUILD)/unit_tests
 	@echo 'unit tests, debug build with every run-time check'
 	@$(BUILD)/debug/unit_tests
 
-USER_TESTS = RATTLE_PROGRAM=$(abspath $(BUILD)/rattle) $(PYTHON) -m pytest -n $(shell nproc) --dist loadgroup
+USER_TESTS = RATTLE_PROGRAM=$(abspath $(BUILD)/rattle) $(PYTHON) -m pytest -n $(shell nproc) --dist loadfile
 user: $(BUILD)/rattle $(BUILD)/unit_tests $(BUILD)/kernels/built
 	@echo 'user tests'
 	@$(USER_TESTS) -m 'not long'

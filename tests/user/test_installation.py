@@ -16,8 +16,8 @@ import pytest
 
 from rattle.keys import key_table
 
-# One installation at a time: they share a folder of the build.
-pytestmark = [pytest.mark.long, pytest.mark.xdist_group("installation")]
+# They share a folder of the build: the tests of a file run one after another.
+pytestmark = pytest.mark.long
 
 SCRIPTS = ("campaign", "classify", "compare", "export", "plot", "report")
 
