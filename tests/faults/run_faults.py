@@ -400,9 +400,7 @@ def timeless(content: bytes, task: Task) -> bytes:
     """A file without what differs from run to run: times, and counts of a single run of a campaign."""
     if not content.startswith(b"&summary"):
         return content
-    words = (
-        rb"wall_seconds|checksum|scenes_failed_in_this_run" if task.is_campaign else rb"wall_seconds|checksum"
-    )
+    words = rb"wall_seconds|checksum|_in_this_run" if task.is_campaign else rb"wall_seconds|checksum"
     return re.sub(rb"(?m)^.*(" + words + rb").*$", b"", content)
 
 

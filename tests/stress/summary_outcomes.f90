@@ -193,7 +193,7 @@ contains
       outcome%code = told_unjudged
       call row_reference(drawn, rule, told, usual, 0.0_dp, reference)
       if (.not. reference%solved) return
-      outcome%code = merge(told_irregular, told_right, told%class == 'irregular' .and. class_is_possible(told, reference))
+      outcome%code = merge(told_irregular, told_right, index(told%class, 'irregular') == 1 .and. class_is_possible(told, reference))
       if (outcome%code == told_irregular) return
       row = told
       allowed = noise(drawn) + drawn%resolved%noise_floor
@@ -204,7 +204,8 @@ contains
       row%extreme_errors = allowed(:6)
       row%harmonic_errors = allowed(7:)
       ! The lines of a window that holds a part of a longer orbit depend on which part.
-      if (told%class == 'subharmonic' .and. told%orbit == 0) row%harmonic_errors = huge(1.0_dp)
+      if (told%class == 'subharmonic' .and. (told%orbit == 0 .or. modulo(told%window, max(1, told%orbit)) /= 0)) &
+         row%harmonic_errors = huge(1.0_dp)
       fault = fault_of(row, reference, 0.0_dp*allowed, .true.)
       if (len(fault) == 0) return
       outcome%fault = fault
@@ -316,7 +317,7 @@ contains
 
       word = told%class
       ! What is off its harmonics and repeats has a name of its own.
-      if (word == 'subharmonic') word = 'irregular'
+      if (word == 'subharmonic' .or. word == 'irregular_so_far') word = 'irregular'
       class_is_possible = any(possible_classes == word .and. reference%possible)
    end function class_is_possible
 

@@ -21,7 +21,7 @@ module told_summary
    use run_sweep, only: carried_state_t, solve_value
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t
-   use scene_status, only: is_success, status_name
+   use scene_status, only: is_success, status_steady, status_name
    use scene_types, only: method_taylor, scene_t, task_campaign, until_steady
    use solve_chunk, only: chunk_space_t, solve_scenes
    use varied_keys, only: find_varied_key
@@ -105,7 +105,7 @@ contains
       end if
       result%resolved = drawn%resolved
       call note_ending(ending, result)
-      if (.not. allocated(error)) call judge(drawn%scene, recorder, record, result, error)
+      if (.not. allocated(error)) call judge(drawn%scene, recorder, record, ending, result, error)
       told%status = status_name(result%status)
       if (allocated(error)) told%status = 'not_written'
       told%judged = is_success(result%status) .and. result%judged .and. .not. allocated(error)
@@ -199,7 +199,8 @@ contains
             told(i)%periods = nint(row(11))
             told(i)%window = scene%spectrum%periods
             if (scene%solver%until == until_steady) told(i)%window = reserved_periods(scene%spectrum%periods)
-            if (told(i)%orbit > 0) told(i)%window = told(i)%orbit
+            ! A motion that was found to repeat while it was followed is judged by one orbit, others by the whole window.
+            if (told(i)%orbit > 0 .and. nint(row(1)) == status_steady) told(i)%window = told(i)%orbit
             told(i)%certificate_asked = certified
             if (certified) told(i)%certified = row(12) > 0.5_dp
             associate (before => size(record))
