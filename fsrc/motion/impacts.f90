@@ -2,8 +2,8 @@
 !>
 !> An impact is a maximum of W above a limit, which lies above F_max, the largest force. Two maxima are one impact unless W falls
 !> below half of the smaller one in between. The interval of an impact is the stretch about its largest maximum in which
-!> W > F_max; two impacts in one stretch part where W is lowest between them. Where its interval begins the gear approaches the
-!> flank at some velocity, and the integral of W over the interval is the impulse.
+!> W > F_max; two impacts in one stretch part where W is lowest between them. Where W > F_max all along there is no impact. Where
+!> its interval begins the gear approaches the flank at some velocity, and the integral of W over the interval is the impulse.
 !>
 !> A window is taken as cyclic, since a motion that repeats goes on where it began: what is told before W is low for the first time
 !> is kept, and told again behind the end.
@@ -106,6 +106,8 @@ contains
       ! Without a low point the window is told from its lowest point on.
       first = 1
       if (.not. watch%settled) then
+         ! A load that never falls to F_max has no interval that begins: a gear held between both flanks strikes none.
+         if (all(watch%head(:watch%head_size)%load > watch%level)) return
          first = minloc(watch%head(:watch%head_size)%load, dim=1)
          closed%begin = watch%head(first)
          do i = first, watch%head_size

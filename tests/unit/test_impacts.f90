@@ -32,6 +32,7 @@ contains
       call compare([4.0_dp, 0.0_dp, 3.0_dp], [4.0_dp, 3.0_dp], [1.5_dp*2.5_dp, 4.0_dp/3.0_dp*2.0_dp], 'two impacts')
       ! The dip to 0.95 N is above half of 1.7 N: the interval is the stretch about 1.8 N.
       call compare([1.8_dp, 0.95_dp, 1.7_dp], [1.8_dp], [(0.8_dp/1.8_dp + 0.8_dp/0.85_dp)*1.4_dp], 'a dip below the force')
+      call test_held(checks)
       call test_unloaded(checks)
       call test_largest_force(checks)
 
@@ -85,6 +86,20 @@ contains
       states(:, of_velocity) = 0.0_dp
       states(:, of_drive_compression) = loads
    end function states_of
+
+   !> A load that stays above the largest force strikes nothing, in one period and in two.
+   subroutine test_held(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(window_impacts_t) :: impacts
+      real(dp) :: loads(2*samples)
+      integer :: i
+
+      loads = [(3.0_dp + cos(two_pi*real(i, dp)/real(samples, dp)), i=1, 2*samples)]
+      do i = 1, 2
+         impacts = impacts_of_samples(pressed(0.0_dp), 1.5_dp, samples, states_of(loads(:i*samples)))
+         call checks%check(impacts%exists .and. impacts%flanks(1)%count == 0, 'held: no impact')
+      end do
+   end subroutine test_held
 
    !> The film is unloaded below a hundredth of the static load, or of the largest force where there is none.
    subroutine test_unloaded(checks)

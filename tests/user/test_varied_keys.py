@@ -13,6 +13,7 @@ import rattle as package
 from rattle.codes import CODES, FLAGS
 
 RECORDED = (
+    "impacts_per_period_drive",
     "film_minimum",
     "film_maximum",
     "acceleration_minimum",
@@ -126,9 +127,7 @@ def campaign_of(key: str, values: tuple[str, ...], film: str, scene_text) -> str
         "vary": f"'{key}'",
         "values(:, 1)": ", ".join(values),
         "samples_per_period": "128",
-        "record": ", ".join(
-            f"'{name}'" for name in dict.fromkeys((*RECORDED, *KEYS.get(key, ())[2:], "harmonics"))
-        ),
+        "record": ", ".join(f"'{name}'" for name in dict.fromkeys((*RECORDED, "harmonics"))),
     }
     return scene_text(scene={"task": "'campaign'"}, **changes)
 
