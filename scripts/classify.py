@@ -78,7 +78,7 @@ def parse_options() -> argparse.Namespace:
         "--line-threshold",
         type=command.finite,
         metavar="X",
-        help="a line counts above X times the first harmonic",
+        help="a line counts above X times the first harmonic, or of several forced ones the largest",
     )
     parser.add_argument(
         "--idle-lines", type=command.positive, metavar="N", help="idle from this many lines on"

@@ -44,17 +44,17 @@ contains
       orders = input%numbers('load', 'force_orders')
       call check_lengths(input, 'load', lists, faults)
       if (any(abs(orders - anint(orders)) > 0.0_dp)) then
-         call input%add_fault('load', 'force_orders', 'orders are whole numbers; for halves take half the frequency', faults)
+         call input%add_fault('load', 'force_orders', 'harmonics are whole numbers; for halves take half the frequency', faults)
          return
       end if
       do i = 2, size(orders)
          if (any(nint(orders(:i - 1)) == nint(orders(i)))) then
-            call input%add_fault('load', 'force_orders', 'order '//integer_text(nint(orders(i)))//' stands there twice', faults)
+            call input%add_fault('load', 'force_orders', 'harmonic '//integer_text(nint(orders(i)))//' stands there twice', faults)
             return
          end if
       end do
       if (input%word('scene', 'task') == 'sweep' .and. input%word('sweep', 'key') == 'force_amplitude') &
-         call input%add_fault('sweep', 'key', 'a force of several orders has no force_amplitude; sweep force_scale', faults)
+         call input%add_fault('sweep', 'key', 'a force of several harmonics has no force_amplitude; sweep force_scale', faults)
       samples = 'samples_per_period'
       if (input%word('solver', 'method') == 'newmark') samples = 'steps_per_period'
       if (input%is_faulty('solver', samples)) return
@@ -62,8 +62,8 @@ contains
       if (input%count('solver', samples) >= 4*highest) return
       remedy = ''
       if (len(input%word('load', 'signal')) > 0) remedy = '; signal_orders keeps fewer'
-      call input%add_fault('solver', samples, 'the highest order of the force needs at least '//integer_text(4*highest)//remedy, &
-                           faults)
+      call input%add_fault('solver', samples, &
+                           'the highest harmonic of the force needs at least '//integer_text(4*highest)//remedy, faults)
    end subroutine check_force
 
    !> Speed and force need the shaft.
@@ -101,7 +101,7 @@ contains
       call check_lengths(input, 'shaft', lists, faults)
       do i = 2, size(orders)
          if (any(.not. abs(orders(:i - 1) - orders(i)) > 0.0_dp)) then
-            call input%add_fault('shaft', 'orders', 'order '//real_text(orders(i))//' stands there twice', faults)
+            call input%add_fault('shaft', 'orders', 'engine order '//real_text(orders(i))//' stands there twice', faults)
             return
          end if
       end do

@@ -187,8 +187,8 @@ contains
          '| `load.steady_force` Q | T_d/(r_b2 cos beta_b) | 2.2404 |'//end_of_line// &
          '| `load.force_amplitudes` | m cos(beta_b) r_b1 times each angular acceleration | 6.6734, 1.1122, 0.55611 '// &
          '|'//end_of_line// &
-         '| `load.frequency` | greatest common divisor of the orders times n/60; the orders over it are '// &
-         '`load.force_orders` | 26.667; 1, 2, 3 |'//end_of_line// &
+         '| `load.frequency` | greatest common divisor of the engine orders times n/60; the engine orders over that divisor '// &
+         'are the harmonics `load.force_orders` | 26.667; 1, 2, 3 |'//end_of_line// &
          '| viscosity at T | log10 log10(nu + 0.7) is linear in log10(T + 273.15) through both data; rho = rho_15 '// &
          '- 0.7 (T - 15) | 0.049445 |'//end_of_line// &
          '| alpha at T | ISO/TR 15144-1 by the kind of oil; `oil.pressure_viscosity` overrides it | 1.7734e-8 |'//end_of_line// &
@@ -202,7 +202,7 @@ contains
          'the normal of the flanks: circumferential backlash at the reference circle times cos(alpha_t) '// &
          'cos(beta_b). A cycle that was '// &
          'measured takes the place'//end_of_line// &
-         'of the orders: `signal` names its CSV file. With `load.force_scale` campaigns vary all accelerations at '// &
+         'of the engine orders: `signal` names its CSV file. With `load.force_scale` campaigns vary all accelerations at '// &
          'once. Without'//end_of_line// &
          '`tooth_stiffness` teeth are rigid: the hot gearbox of `gearbox_map.nml` then has up to ten times '// &
          'the acceleration, and few irregular motions.'//end_of_line// &
@@ -248,7 +248,7 @@ contains
          end_of_line// &
          '2. quiet, if the harmonic distortion sqrt(a_2^2 + a_3^2 + ...)/a_1 is below `quiet_limit`. With a tenth of'// &
          end_of_line//'   the static load as amplitude the canonical scenes have 0.25 (idle) and 0.12 (creep), with nine'// &
-         end_of_line//'   tenths of it 2.8 and 1.9; 0.35 lies between. Under a force of several orders all lines at orders'// &
+         end_of_line//'   tenths of it 2.8 and 1.9; 0.35 lies between. Under a force of several harmonics all lines at those'// &
          end_of_line//'   of at least a hundredth of its largest are forced, the others held against them.'//end_of_line// &
          '3. idle, if at least `idle_lines` lines exceed `line_threshold` times the first (of several forced ones the'// &
          end_of_line//'   largest, which alone of them is counted). The canonical idle scene'// &

@@ -133,13 +133,13 @@ module key_table
             sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
             computable=an_amplitude, given_by='shaft'), &
       key_t('load', 'force_orders', reals_kind, '-', '', an_order, '', of_motions, &
-            'Orders of a force of any shape, whole multiples of the frequency, instead of force_amplitude.', given_by='shaft'), &
+            'Harmonics of a force of any shape, whole multiples of the frequency, instead of force_amplitude.', given_by='shaft'), &
       key_t('load', 'force_amplitudes', reals_kind, 'N', '', not_negative, '', of_motions, &
-            'Amplitude of each order.', &
+            'Amplitude of each harmonic.', &
             sensible=range_t(lower=0.0_dp, upper=1.0e6_dp), &
             computable=an_amplitude, given_by='shaft'), &
       key_t('load', 'force_phases', reals_kind, 'rad', '', any_number, '', of_motions, &
-            'Phase of each order: a cos(2 pi n f t + phase); absent: all 0.', &
+            'Phase of each harmonic: a cos(2 pi n f t + phase); absent: all 0.', &
             sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
             computable=a_phase, given_by='shaft'), &
       key_t('load', 'force_mean', real_kind, 'N', '', any_number, '', of_motions, &
@@ -153,7 +153,7 @@ module key_table
       key_t('load', 'signal_column', text_kind, '', '', any_number, '', of_motions, &
             'Name of the signal in the header of the file; absent: the only column that is no time or angle.', given_by='shaft'), &
       key_t('load', 'signal_orders', integer_kind, '-', '', an_order, '', of_motions, &
-            'Orders that are kept of a signal, from the first on; absent: those that hold all but 1e-6 of its power.', &
+            'Harmonics that are kept of a signal, from the first on; absent: those that hold all but 1e-6 of its power.', &
             given_by='shaft'), &
       key_t('load', 'signal_cycles', integer_kind, '-', '', range_t(1.0_dp, .false., 1.0e6_dp, .false.), '', of_motions, &
             'Cycles in the file, which are averaged; absent: as many as its axis of time or angle spans, one without it.', &
@@ -254,22 +254,22 @@ module key_table
             sensible=range_t(lower=1.0_dp, upper=1.0e5_dp), &
             computable=range_t(1.0e-6_dp, .false., 1.0e9_dp, .false.)), &
       key_t('shaft', 'orders', reals_kind, '-', 'required', positive, '', of_motions, &
-            'Orders of its angular acceleration, multiples of the speed; an engine of four strokes has halves among them.', &
+            'Engine orders of its angular acceleration, multiples of the speed; an engine of four strokes has halves among them.', &
             example='2.0', &
             sensible=range_t(lower=0.1_dp, upper=1000.0_dp), &
             computable=range_t(1.0e-3_dp, .false., 1.0e6_dp, .false.)), &
       key_t('shaft', 'accelerations', reals_kind, 'rad/s2', '', not_negative, '', of_motions, &
-            'Amplitude of the angular acceleration of each order; load.force_scale multiplies all of them.', &
+            'Amplitude of the angular acceleration of each engine order; load.force_scale multiplies all of them.', &
             example='600.0', &
             sensible=range_t(lower=0.0_dp, upper=1.0e5_dp), &
             computable=an_amplitude), &
       key_t('shaft', 'speed_amplitudes', reals_kind, 'rad/s', '', not_negative, '', of_motions, &
-            'Amplitude of the angular speed of each order instead of accelerations: differentiated at speed_rpm, whatever that '// &
-            'is varied to. A signal of a speed becomes this.', &
+            'Amplitude of the angular speed of each engine order instead of accelerations: differentiated at speed_rpm, '// &
+            'whatever that is varied to. A signal of a speed becomes this.', &
             sensible=range_t(lower=0.0_dp, upper=1.0e3_dp), &
             computable=an_amplitude), &
       key_t('shaft', 'phases', reals_kind, 'rad', '', any_number, '', of_motions, &
-            'Phase of each order of accelerations or speed_amplitudes: A cos(2 pi order t speed_rpm/60 + phase); absent: all 0.', &
+            'Phase of each engine order: A cos(2 pi order t speed_rpm/60 + phase) is its acceleration or speed; absent: all 0.', &
             sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
             computable=a_phase), &
       key_t('shaft', 'signal', text_kind, '', '', any_number, '', of_motions, &
@@ -342,7 +342,7 @@ module key_table
       key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', of_motions, &
             'Whole periods at the end of the run that spectrum, extremes and regime are taken from.'), &
       key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', of_motions, &
-            'A harmonic counts as a line if it exceeds this share of the first (of several orders: of the largest forced one).'), &
+            'A harmonic counts as a line if it exceeds this share of the first (of several forced ones: of the largest).'), &
       key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', of_motions, &
             'From this many lines on the motion is idle rattle.'), &
       key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', of_motions, &

@@ -305,7 +305,7 @@ module quantities
          'Share of the film by which the tooth gives way under the largest load; a rigid one as a steel tooth, 14 N/(um mm).'), &
       quantity_t(quantity_stiffness_matters, 'stiffness_matters', '-', a_flag, part_regime, needs_deflection, &
          'summary campaign', &
-         'Whether deflection_share is above a tenth: a rigid tooth is no fair assumption.'), &
+         'Whether deflection_share is above a tenth: rigid teeth are, or of elastic ones would be, no fair assumption.'), &
       quantity_t(quantity_film_regime, 'film_regime', '-', a_code, part_regime, needs_regime, 'summary campaign', &
          'Regime of the film by its largest pressure.', &
          'unknown|iso-viscous|piezo-viscous|elastohydrodynamic'), &

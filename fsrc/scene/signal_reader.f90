@@ -204,11 +204,19 @@ contains
                                  ', whose rms deviation from their mean is '//short_text(100.0_dp*scatter, 3)// &
                                  ' % of the rms of what oscillates of it; '
          note%text = 'signal '//printable(path, .false.)//", column '"//recording%column//"': "// &
-                     integer_text(size(recording%samples))//' samples; '//words//'orders '//order_text(1)//' to '// &
+                     integer_text(size(recording%samples))//' samples; '//words//what_is_kept()//order_text(1)//' to '// &
                      order_text(last)//' are kept, '// &
                      short_text(100.0_dp*dropped, 2)//' % of its power is dropped; its mean of '//short_text(mean, 5)// &
                      unit//' '//fate//'; '//counted(cycles, 'cycle')//': '//told
       end function note
+
+      !> Whole numbers over a force are harmonics of its frequency; over a motion of the shaft they are engine orders.
+      pure function what_is_kept() result(words)
+         character(:), allocatable :: words
+
+         words = 'harmonics '
+         if (group == 'shaft') words = 'engine orders '
+      end function what_is_kept
 
       pure function order_text(i) result(words)
          integer, intent(in) :: i

@@ -339,7 +339,7 @@ contains
       associate (lines => verdict%lines, a => verdict%lines%harmonics)
          first = lines%largest_forced
          if (.not. a(first) > errors(first)) then
-            reason = 'The largest line at an order of the force is as small as its error.'
+            reason = 'The largest line at a harmonic of the force is as small as its error.'
             if (first == 1) reason = 'The first harmonic is as small as its error.'
             return
          end if

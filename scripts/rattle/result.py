@@ -176,6 +176,13 @@ class Result(ResultFile):
         return float(self.number("load", "frequency"))
 
     @property
+    def shaft_speed(self) -> float | None:
+        """The mean speed [1/min] of the shaft that the input describes, if it describes one."""
+        if "speed_rpm" not in self.input.get("shaft", {}):
+            return None
+        return float(self.number("shaft", "speed_rpm"))
+
+    @property
     def samples_per_period(self) -> int:
         """Rows in one period of the excitation."""
         newmark = str(self.input.get("solver", {}).get("method", "newmark")).strip() == "newmark"

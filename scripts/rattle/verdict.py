@@ -67,7 +67,7 @@ def judge_samples(
 
 
 def forced(result: Result) -> dict[str, Any]:
-    """Orders and amplitudes of the force, where it has several."""
+    """Harmonics of the force and their amplitudes, where it has several."""
     load = result.input.get("load", {})
     if not load.get("force_orders"):
         return {}

@@ -189,14 +189,14 @@ def test_an_overlay_of_spectra_stands_side_by_side(idle, creep):
     assert axes.get_xlabel() == f"{RATIO}; runs side by side"
 
 
-def test_spectra_under_several_orders_count_in_orders(tmp_path):
+def test_spectra_under_several_harmonics_count_harmonics_where_there_is_no_shaft(tmp_path):
     lines = {1.0: 0.2, 2.0: 5.0, 3.0: 9.0, 12.0: 4.0, 50.0: 0.3}
     path = write_motion(
         tmp_path / "engine.rattle", lines=lines, force={2: 150.0, 12: 20.0, 50: 3.0, 51: 1e-9}
     )
     (force,) = figure(7, path).axes
     assert_lines(force, 0, {0.0: 200.0, 2.0: 150.0, 12.0: 20.0, 50.0: 3.0})
-    assert force.get_xlabel() == "Order, multiple of 500 Hz"
+    assert force.get_xlabel() == "Harmonic, multiple of 500 Hz"
     assert force.get_xlim() == (-0.25, 50.5)
     places = {note.get_text(): note.xy for note in force.texts}
     assert places["150 N\nat 1000 Hz"] == pytest.approx((2.0, 150.0))
@@ -206,12 +206,12 @@ def test_spectra_under_several_orders_count_in_orders(tmp_path):
         assert_lines(axes, 1, {ratio: lines[ratio] for ratio in (1.0, 3.0)})
         assert_lines(axes, 2, {ratio: lines[ratio] for ratio in (2.0, 12.0, 50.0)})
     assert linear.get_xlim() == (0.0, 50.5)
-    assert logarithmic.get_xlabel() == "Order, multiple of 500 Hz"
-    # The largest line at an order of the force is what the others are held against.
+    assert logarithmic.get_xlabel() == "Harmonic, multiple of 500 Hz"
+    # The largest line at a harmonic of the force is what the others are held against.
     assert drawn.rules(logarithmic, "y") == pytest.approx([0.05])
-    assert drawn.legend_words(made)[1:] == ["at orders of the force", "1 % of the line of order 2"]
+    assert drawn.legend_words(made)[1:] == ["at harmonics of the force", "1 % of harmonic 2"]
     both = figure(10, path, write_motion(tmp_path / "paper.rattle", lines={1.0: 5.0})).axes
-    assert both[1].get_xlabel() == "Order, multiple of 500 Hz; runs side by side"
+    assert both[1].get_xlabel() == "Harmonic, multiple of 500 Hz; runs side by side"
 
 
 # --- loose tolerances ----------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.legend import Legend
 from matplotlib.text import Text
-from result_writer import write_motion
+from result_writer import write_motion, write_result
 from script_calls import call_script
 
 import rattle
@@ -218,9 +218,53 @@ def test_spectra_stand_over_what_was_asked_for(idle, frequency, factor):
     np.testing.assert_allclose(heights[strong], list(LINES.values()), rtol=1e-9)
     places, heights = drawn.bars(force.axes[0])[0]
     np.testing.assert_allclose(places[heights > 1.0], [0.0, factor])
-    words = {"ratio": "Frequency ratio", "hz": "Frequency [Hz]", "order": "Order of the shaft"}
+    words = {"ratio": "Frequency ratio", "hz": "Frequency [Hz]", "order": "Engine order [-]"}
     for made_figure in (spectrum, force):
         assert made_figure.axes[-1].get_xlabel().startswith(words[frequency])
+
+
+HALVES = {0.0: 3.0, 4.0: 9.0, 5.0: 0.5, 12.0: 2.0}
+
+
+def shafted(folder: Path, name: str, speed: float = 15000.0) -> rattle.Result:
+    """A motion of 500 Hz on a shaft that turns half as often in a second: engine order 2 is harmonic 1."""
+    path = write_motion(folder / f"{name}.rattle", lines=HALVES, force={4: 150.0, 12: 20.0})
+    source = rattle.read(path)
+    columns = [(column, source.units[column]) for column in source.names]
+    rows = list(zip(*(source[column].tolist() for column in source.names), strict=True))
+    text = source.input_text + f"&shaft\n speed_rpm = {speed}\n/\n"
+    return rattle.read(write_result(path, columns, rows, input_text=text))
+
+
+def test_where_there_is_a_shaft_lines_stand_at_engine_orders(tmp_path):
+    """Also those of an overlay, each at its own shaft; beside a run without a shaft all are harmonics."""
+    whole, half = shafted(tmp_path, "whole"), shafted(tmp_path, "half", 60000.0)
+    plain = rattle.read(write_motion(tmp_path / "plain.rattle", lines=HALVES, force={4: 150.0}))
+    with style.house_style(own=False):
+        alone = spectra.draw_acceleration([whole], ["whole"], None)
+        force = spectra.draw_force([whole], ["whole"], None)
+        asked = spectra.draw_acceleration([whole], ["whole"], None, spectra.View("ratio"))
+        both = spectra.draw_force([whole, half], ["whole", "half"], None)
+        mixed = spectra.draw_force([whole, plain], ["whole", "plain"], None)
+    assert [made.axes[-1].get_xlabel() for made in (alone, force, asked, both, mixed)] == [
+        "Engine order [-]",
+        "Engine order [-]",
+        "Harmonic, multiple of 500 Hz",
+        "Engine order [-]; runs side by side",
+        "Harmonic, multiple of 500 Hz; runs side by side",
+    ]
+    driven = drawn.bars(alone.axes[0])[2]
+    np.testing.assert_allclose(driven, [[8.0, 24.0], [9.0, 2.0]], rtol=1e-9)
+    assert drawn.legend_words(alone) == [
+        "harmonics of 500 Hz",
+        "at harmonics of the force",
+        "1 % of the line of engine order 8",
+    ]
+    assert drawn.legend_words(asked)[-1] == "1 % of harmonic 4"
+    for made, factors in ((force, (2.0,)), (both, (2.0, 0.5)), (mixed, (1.0, 1.0))):
+        shifts = (0.0,) if len(factors) == 1 else (-0.03, 0.03)
+        for (places, heights), factor, shift in zip(drawn.bars(made.axes[0]), factors, shifts, strict=True):
+            np.testing.assert_allclose(places[heights > 100.0], [factor * shift, factor * (4.0 + shift)])
 
 
 def test_orders_count_the_shaft_of_the_scene(repository, run, tmp_path):

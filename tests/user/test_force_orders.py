@@ -203,10 +203,10 @@ def test_rows_and_sweeps_over_the_scale_are_the_single_scenes(run, scene_text, t
             ["&load force_orders: give either force_amplitude, or force_orders with force_amplitudes"],
         ),
         (ORDERS | {"force_orders": "1, 2"}, ["as many values as force_orders has (2)", "as many values as"]),
-        (ORDERS | {"force_orders": "1, 2.5, 3"}, ["orders are whole numbers"]),
-        (ORDERS | {"force_orders": "1, 2, 2"}, ["order 2 stands there twice"]),
+        (ORDERS | {"force_orders": "1, 2.5, 3"}, ["harmonics are whole numbers"]),
+        (ORDERS | {"force_orders": "1, 2, 2"}, ["harmonic 2 stands there twice"]),
         (ORDERS | {"force_orders": "0, 1, 2"}, ["allowed: numbers >= 1.0 and <= 128.0"]),
-        (ORDERS | {"force_orders": "1, 2, 30"}, ["the highest order of the force needs at least 120"]),
+        (ORDERS | {"force_orders": "1, 2, 30"}, ["the highest harmonic of the force needs at least 120"]),
     ],
 )
 def test_a_force_that_is_none_is_refused(
@@ -238,7 +238,7 @@ def test_a_sweep_of_the_amplitude_needs_one(refused, scene_text, tmp_path: Path)
     assert_faults(
         found,
         "scene.nml",
-        [f"{line}: &sweep key: a force of several orders has no force_amplitude; sweep force_scale"],
+        [f"{line}: &sweep key: a force of several harmonics has no force_amplitude; sweep force_scale"],
     )
 
 

@@ -96,7 +96,7 @@ def test_what_is_dropped_is_told(run, folder: Path) -> None:
         (line,) = (
             line for line in (folder / "results" / "scene.log").read_text().splitlines() if "signal " in line
         )
-        assert f"'force': 90 samples; orders 1 to {last} are kept" in line
+        assert f"'force': 90 samples; harmonics 1 to {last} are kept" in line
         assert "its mean of 9.2" in line
         told = float(line.split(" are kept, ")[1].split(" % of its power is dropped")[0])
         assert told / 100.0 == pytest.approx(dropped, rel=0.1, abs=1e-25)
@@ -210,4 +210,4 @@ def test_samples_have_to_see_every_order(refused, scene_text, folder: Path) -> N
     solver = SOLVER | {"samples_per_period": "64"}
     (folder / "scene.nml").write_text(scene_text(load=LOAD, solver=solver))
     (fault,) = refused("scene.nml")
-    assert "the highest order of the force needs at least 512; signal_orders keeps fewer" in fault
+    assert "the highest harmonic of the force needs at least 512; signal_orders keeps fewer" in fault

@@ -287,7 +287,7 @@ def test_what_follows_is_not_given(more: str, check) -> None:
             "",
             "&shaft: this group is required",
         ),
-        ("orders = 2.0", "orders = 2, 2", "6: &shaft orders: order 2.0 stands there twice"),
+        ("orders = 2.0", "orders = 2, 2", "6: &shaft orders: engine order 2.0 stands there twice"),
         (
             "viscosity_100_cst = 9.6",
             "viscosity_100_cst = 60",

@@ -139,8 +139,8 @@ def test_regime_and_law_are_told_as_the_summary_has_them(motion, regime, contrad
         ("orbit_stability", "'unstable'", "unstable"),
         ("status", "'film_lost'", "did not reach its end"),
         ("line_count_is_bound", ".true.", "At least"),
-        ("stiffness_matters", ".true.", "no fair assumption"),
-        ("stiffness_matters", ".false.", "is a fair assumption"),
+        ("stiffness_matters", ".true.", "rigid, which is no fair assumption: steel ones would give way by"),
+        ("stiffness_matters", ".false.", "rigid, which is a fair assumption: steel ones would give way by"),
         ("verdict", "'double-sided impacts'", "strikes both flanks"),
         ("verdict", "'single-sided impacts'", "strikes one flank"),
         ("verdict", "'separation'", "leaves its drive flank, without an impact"),
@@ -350,3 +350,54 @@ def test_a_browser_that_fails_is_named(motion, tmp_path):
     )
     assert done.returncode == 2
     assert "chromium failed (no display today)" in done.stderr
+
+
+def test_lines_are_engine_orders_where_there_is_a_shaft(repository, run, tmp_path):
+    """The base frequency of an engine with half orders is half a revolution."""
+    scene = repository / "input" / "engine_cycle.nml"
+    assert run(scene, "--output", tmp_path, cwd=tmp_path).returncode == 0
+    path = tmp_path / "engine_cycle.rattle"
+    page, summary = read_page(report(path)), rattle.read_summary(path.with_suffix(".summary.nml"))
+    start = page.rows.index(["Harmonic", "Engine order", "Amplitude", "Error at most"]) + 1
+    for place, row in enumerate(page.rows[start : start + 12]):
+        number_of_line = place + 1
+        assert row[0] == str(number_of_line)
+        assert float(row[1]) == pytest.approx(number_of_line * summary["frequency"] / (800.0 / 60.0))
+        assert float(row[1]) == number_of_line / 2
+        assert number(row[2]) == pytest.approx(summary["harmonics"][place], rel=1e-5)
+    assert "over engine orders, multiples of the speed of the shaft" in page.words
+
+
+def test_lines_are_harmonics_where_there_is_no_shaft(motion):
+    page = read_page(report(motion))
+    assert ["Harmonic", "Amplitude", "Error at most"] in page.rows
+    assert "engine order" not in page.words
+
+
+@pytest.mark.parametrize(
+    ("share", "matters", "rigid", "elastic"),
+    (
+        (
+            9.1997,
+            True,
+            "rigid, which is no fair assumption: steel ones would give way by 9.2 times the thickness of the "
+            "film.",
+            "The teeth give way by 9.2 times the thickness of the film, as this scene reckons with; rigid "
+            "ones would be no fair assumption.",
+        ),
+        (
+            0.0123,
+            False,
+            "rigid, which is a fair assumption: steel ones would give way by 1.2 % of the film.",
+            "The teeth give way by 1.2 % of the film; rigid ones would be a fair assumption as well.",
+        ),
+    ),
+)
+def test_of_rigid_and_of_elastic_teeth_is_told_what_is_so(solved, share, matters, rigid, elastic):
+    told = {"deflection_share": share, "stiffness_matters": f".{matters}.".lower()}
+    hard = next(solved("hard", solver=CALM).glob("*.rattle"))
+    soft = next(solved("soft", solver=CALM, contact={"stiffness": "1e9"}).glob("*.rattle"))
+    for path, words, others in ((hard, rigid, elastic), (soft, elastic, rigid)):
+        with_summary(path, **told)
+        said = " ".join(read_page(report(path)).verdicts[0].split())
+        assert words in said and others not in said

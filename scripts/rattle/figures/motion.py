@@ -56,8 +56,8 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--frequency",
         choices=tuple(spectra.FREQUENCY_LABELS),
-        default="ratio",
-        help="what spectra are drawn over: multiples of the force's frequency (ratio), Hz, orders of a shaft",
+        help="what spectra are drawn over: multiples of the force's frequency (ratio), Hz, engine orders; by "
+        "default engine orders where there is a &shaft, else multiples",
     )
     parser.add_argument(
         "--shaft-speed",
@@ -83,7 +83,7 @@ def run(options: Namespace) -> None:
         raise command.CommandError("--shaft-speed belongs to --frequency order.")
     if options.frequency == "order" and options.shaft_speed is None:
         for result in results:
-            spectra.shaft_speed(result)
+            spectra.engine_order(result, 1.0)
     view = spectra.View(options.frequency, options.shaft_speed, options.level == "db")
     extent = Extent(options.periods, options.window, view)
     make = overlay_figures if options.overlay else single_figures

@@ -1,10 +1,13 @@
-"""Figures 7, 10a and 10b: spectra of force and acceleration over f/f_exc, computed by the Fortran kernel."""
+"""Figures 7, 10a and 10b: spectra of force and acceleration, computed by the Fortran kernel.
+
+They stand over f/f_exc, over the engine orders of a shaft, or over Hz.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -24,22 +27,26 @@ GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-intege
 ROOM_FOR_LINES = 100.0  # points that harmonics may cover, also in a column
 SMALLEST_LAST_RATIO = 10.0
 LARGEST_FAINT_RATIO = 40.0  # up to which lines below the threshold have room
-FREQUENCY_LABELS = {
-    "ratio": style.RATIO_LABEL,
-    "hz": r"Frequency [Hz]",
-    "order": "Order of the shaft [-]",
-}
+FREQUENCY_LABELS = {"ratio": style.RATIO_LABEL, "hz": "Frequency [Hz]", "order": "Engine order [-]"}
 REFERENCE = 1e-6  # m/s2, of levels
 LEVEL_LABEL = r"Level of the amplitude of $\ddot{z}$" "\n" r"[dB re 10$^{-6}$ m/s$^2$]"
 
 
 @dataclass(frozen=True)
 class View:
-    """Over what spectra are shown ('order': of a shaft at this speed [1/min] or its own); if as levels."""
+    """Over what spectra are shown ('order': of a shaft at this speed [1/min] or its own); if as levels.
 
-    frequency: str = "ratio"
+    By default over engine orders where all results have a shaft, else over multiples of the frequency.
+    """
+
+    frequency: str | None = None
     shaft_speed: float | None = None
     decibels: bool = False
+
+    def settled(self, results: Sequence[Result]) -> View:
+        """The same with the frequency that these results are shown over."""
+        shafts = all(result.shaft_speed for result in results)
+        return self if self.frequency else replace(self, frequency="order" if shafts else "ratio")
 
     def factor(self, result: Result) -> float:
         """What multiples of the frequency of the force are multiplied by."""
@@ -47,19 +54,20 @@ class View:
             return 1.0
         if self.frequency == "hz":
             return result.frequency
-        return result.frequency / ((self.shaft_speed or shaft_speed(result)) / 60.0)
+        return engine_order(result, 1.0, self.shaft_speed)
 
 
 PLAIN = View()
 
 
-def shaft_speed(result: Result) -> float:
-    """The mean speed of the shaft that the input describes [1/min]."""
-    if "speed_rpm" not in result.input.get("shaft", {}):
+def engine_order(result: Result, multiple: float, speed: float | None = None) -> float:
+    """The order, of the shaft or of one of this speed [1/min], that a multiple of the frequency is."""
+    speed = speed or result.shaft_speed
+    if not speed:
         raise ResultError(
             f"{result.path} has no &shaft speed_rpm that orders could count; give --shaft-speed."
         )
-    return float(result.number("shaft", "speed_rpm"))
+    return multiple * result.frequency / (speed / 60.0)
 
 
 def draw_force(
@@ -69,8 +77,9 @@ def draw_force(
     figure = Figure(figsize=(style.WIDTH, 2.6))
     axes = figure.subplots()
     single = len(results) == 1
+    view = view.settled(results)
     scale = _frequency_label(results, view)
-    last = max(LAST_FORCE_RATIO, 0.5 + max(map(_last_order, results)))
+    last = max(LAST_FORCE_RATIO, 0.5 + max(map(_last_harmonic, results)))
     largest = 0.0
     lines = style.run_lines([result.law for result in results])
     for position, (result, label, line) in enumerate(zip(results, labels, lines, strict=True)):
@@ -97,7 +106,7 @@ def _name_lines(
 ) -> None:
     """Say what the mean and the largest line of the excitation are."""
     at_excitation = int(np.argmin(np.abs(ratio - 1.0)))
-    if _orders(result).size:
+    if _harmonics_of_force(result).size:
         at_excitation = 1 + int(np.argmax(amplitude[1:]))
     frequency = ratio[at_excitation] * result.frequency
     names = (
@@ -125,6 +134,7 @@ def draw_acceleration(
     figure = Figure(figsize=(style.WIDTH, 3.0 if view.decibels else 4.6))
     panels = list(figure.subplots(1 if view.decibels else 2, 1, sharex=True, squeeze=False)[:, 0])
     first, last = panels[0], panels[-1]
+    view = view.settled(results)
     scale = _frequency_label(results, view)
     summaries = [better_summary(result, window) for result in results]
     spectra = [
@@ -137,7 +147,7 @@ def draw_acceleration(
     if len(results) == 1:
         unknown = results[0].coarse and not summaries[0]
         verdict = None if unknown else summaries[0] or classify(results[0], window)
-        _draw_single(figure, panels, results[0], spectra[0], verdict, factors[0], end)
+        _draw_single(figure, panels, results[0], spectra[0], verdict, view, end)
         words = _verdict_words(verdict, summaries[0])
         first.set_title(f"{style.title(SUBJECT, results[0], labels[0])}; {words}")
         last.set_xlabel(scale)
@@ -179,12 +189,12 @@ def _draw_single(
     result: Result,
     spectrum: tuple[np.ndarray, np.ndarray],
     verdict: Mapping[str, Any] | None,
-    factor: float,
+    view: View,
     end: float,
 ) -> None:
     ratio, amplitude = spectrum
     thick = {"linewidth": min(1.8, max(ROOM_FOR_LINES / end, 0.3))}
-    place = factor * ratio
+    place = view.factor(result) * ratio
     periods = round(1.0 / ratio[1])
     harmonic = np.arange(amplitude.size) % periods == 0
     harmonic[0] = False
@@ -193,8 +203,8 @@ def _draw_single(
     threshold = thresholds(result)["line_threshold"]
     colour = style.law_colour(result.law)
     handles = {}
-    orders = _orders(result)
-    driven = harmonic & np.isin(ratio, orders)
+    of_force = _harmonics_of_force(result)
+    driven = harmonic & np.isin(ratio, of_force)
     for axes in panels:
         axes.vlines(place[between], 0.0, amplitude[between], color=style.FAINT_COLOUR, linewidth=0.9)
         handles[f"harmonics of {result.frequency:.4g} Hz"] = axes.vlines(
@@ -202,7 +212,7 @@ def _draw_single(
         )
         if driven.any():
             axes.vlines(place[driven], 0.0, amplitude[driven], color=style.FORCE_COLOUR, **thick)
-            (handles["at orders of the force"],) = axes.plot(
+            (handles["at harmonics of the force"],) = axes.plot(
                 place[driven],
                 amplitude[driven],
                 color=style.FORCE_COLOUR,
@@ -212,12 +222,14 @@ def _draw_single(
             )
     if between.any():
         handles["between the harmonics"] = panels[0].collections[0]
-    # Under several orders lines are held against the largest forced one, which a summary does not name.
-    order = (verdict or {}).get("reference_line") if orders.size else 1
-    if order and amplitude[order * periods] > 0.0:
-        name = "first harmonic" if order == 1 else f"line of order {order}"
-        handles[f"{100 * threshold:.3g} % of the {name}"] = panels[-1].axhline(
-            threshold * amplitude[order * periods],
+    # Under several harmonics lines are held against the largest forced one, which a summary does not name.
+    reference = (verdict or {}).get("reference_line") if of_force.size else 1
+    if reference and amplitude[reference * periods] > 0.0:
+        name = "the first harmonic" if reference == 1 else f"harmonic {reference}"
+        if view.frequency == "order":
+            name = f"the line of engine order {engine_order(result, reference, view.shaft_speed):.4g}"
+        handles[f"{100 * threshold:.3g} % of {name}"] = panels[-1].axhline(
+            threshold * amplitude[reference * periods],
             color=style.FORCE_COLOUR,
             linewidth=0.9,
             linestyle=(0, (4, 2)),
@@ -237,8 +249,8 @@ def _verdict_words(verdict: Mapping[str, Any] | None, summary: Summary | None) -
     return f"{words}\nSeries of {style.FEW_SAMPLES}; lines of the summary, {source}"
 
 
-def _orders(result: Result) -> np.ndarray:
-    """Orders of the force that a picture shows; none for the cosine of the paper."""
+def _harmonics_of_force(result: Result) -> np.ndarray:
+    """Harmonics of the force that a picture shows; none for the cosine of the paper."""
     force = forced(result)
     if not force:
         return np.zeros(0)
@@ -246,22 +258,22 @@ def _orders(result: Result) -> np.ndarray:
     return np.asarray(force["force_orders"])[amplitudes > FLOOR * amplitudes.max()]
 
 
-def _last_order(result: Result) -> float:
-    """The last order of a force; 0 of a cosine, which needs no room of its own."""
-    return float(_orders(result).max(initial=0))
+def _last_harmonic(result: Result) -> float:
+    """The last harmonic of a force; 0 of a cosine, which needs no room of its own."""
+    return float(_harmonics_of_force(result).max(initial=0))
 
 
 def _frequency_label(results: Sequence[Result], view: View) -> str:
-    """The axis counts in orders where a force is given by them, if nothing else was asked for."""
+    """What the axis counts: harmonics where a force is given by several of them, if ratios are shown."""
     if view.frequency != "ratio":
         return FREQUENCY_LABELS[view.frequency]
-    if not any(_orders(result).size for result in results):
+    if not any(_harmonics_of_force(result).size for result in results):
         return style.RATIO_LABEL
     bases = {result.frequency for result in results}
     return (
-        f"Order, multiple of {max(bases):.4g} Hz"
+        f"Harmonic, multiple of {max(bases):.4g} Hz"
         if len(bases) == 1
-        else "Order, multiple of each base frequency"
+        else "Harmonic, multiple of each base frequency"
     )
 
 
@@ -293,12 +305,12 @@ def _draw_overlay(
 def _last_ratio(result: Result, spectrum: tuple[np.ndarray, np.ndarray]) -> float:
     """Where the axis ends: behind the last line that counts, and within limits behind fainter ones."""
     ratio, amplitude = spectrum[0][1:], spectrum[1][1:]
-    orders = _orders(result) if _orders(result).size else [1.0]
-    forced_line = amplitude[np.isin(ratio, orders)].max(initial=0.0)
+    of_force = _harmonics_of_force(result) if _harmonics_of_force(result).size else [1.0]
+    forced_line = amplitude[np.isin(ratio, of_force)].max(initial=0.0)
     least = thresholds(result)["line_threshold"] * forced_line
     counted = ratio[(amplitude > least) & (ratio % 1.0 == 0.0) & (forced_line > 0.0)]
     faint = ratio[amplitude > FLOOR * amplitude.max()]
-    ends = (SMALLEST_LAST_RATIO, max(orders), counted.max(initial=0.0))
+    ends = (SMALLEST_LAST_RATIO, max(of_force), counted.max(initial=0.0))
     return math.ceil(max(*ends, min(faint.max(initial=0.0), LARGEST_FAINT_RATIO))) + 0.5
 
 

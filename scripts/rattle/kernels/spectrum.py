@@ -45,7 +45,7 @@ def classify(
     noise_floor [m/s2]: a motion whose rms times sqrt(2) does not exceed it is at rest. A motion at rest is
     quiet and has no ratios: these are nan then. orbit_period: periods of the force after which the motion is
     known to repeat, if that is known; with several, a motion that were irregular is subharmonic.
-    force_orders, force_amplitudes: of a force of several orders; lines there are no sign of rattle, and the
+    force_orders, force_amplitudes: harmonics of a force of several; lines there are no sign of rattle, the
     others are held against the largest of them, the reference line.
     """
     samples = finite_samples(acceleration, "acceleration")
@@ -85,7 +85,7 @@ def classify(
 
 
 def _orders_of(orders: Any, amplitudes: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Orders of a force and their amplitudes, as the kernel takes them."""
+    """Harmonics of a force and their amplitudes, as the kernel takes them."""
     whole = np.array(
         [positive_count(order, "force_orders") for order in np.atleast_1d(orders)], dtype=np.int32
     )

@@ -95,7 +95,7 @@ def motion_part(result: Result) -> list[str]:
             parts += [page.heading(2, "Stiffness of the teeth and backlash"), *remarks]
     parts += [page.heading(2, "The motion in pictures"), *motion.figures(result)]
     if summary:
-        parts += [page.heading(2, "All quantities"), *motion.quantities(summary)]
+        parts += [page.heading(2, "All quantities"), *motion.quantities(result, summary)]
     return [*parts, page.heading(2, "How it was computed"), *motion.computed(result, summary)]
 
 

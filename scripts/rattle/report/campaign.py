@@ -72,7 +72,8 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
         ),
         (
             "stiffness_matters",
-            "In {count} scenes the stiffness of the teeth matters: a rigid tooth is no fair assumption.",
+            "In {count} scenes the teeth give way, or if they are rigid those of steel would, by more than a "
+            "tenth of the film: rigid teeth are no fair assumption there.",
         ),
         ("double_sided", "In {count} scenes the tooth strikes both flanks of its gap."),
     ):

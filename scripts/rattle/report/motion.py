@@ -27,6 +27,7 @@ COMPUTED = {
     "status_time": ("Time at which the run ended", "s"),
     "film_at_status_time": ("Film at that time", "m"),
     "wall_seconds": ("Time that the computation took", "s"),
+    "force_orders": ("Harmonics of the force", ""),
 }
 ERRORS = {
     "film_minimum": "film_minimum_error",
@@ -65,11 +66,11 @@ CLASS_MEANINGS = {
 }
 REGIMES = {
     "iso-viscous": "The pressure in the film hardly thickens the oil (iso-viscous regime).",
-    "piezo-viscous": "The pressure in the film thickens the oil, and the flanks stay rigid (piezo-viscous "
-    "regime).",
-    "elastohydrodynamic": "The pressure in the film is too high for rigid flanks: either no piezo-viscous "
-    "film exists "
-    "between them, or they give way by more than a tenth of the film (elastohydrodynamic regime).",
+    "piezo-viscous": "The pressure in the film thickens the oil, and the flanks keep their shape "
+    "(piezo-viscous regime).",
+    "elastohydrodynamic": "The pressure in the film is too high for flanks that keep their shape: either no "
+    "piezo-viscous film exists between them, or they flatten by more than a tenth of the film "
+    "(elastohydrodynamic regime).",
 }
 CONTRADICTED = (
     "The film law of this scene ({law}) is not the one of that regime. What is said here is true within "
@@ -85,12 +86,27 @@ LIMITS = {
 STABILITIES = {
     "unstable": "A periodic motion was found, but it is unstable: small disturbances lead away from it."
 }
-# Quantities that tell of teeth that give way and of the other flank, where a summary has them.
-REMARKS = {
-    "stiffness_matters": (
-        "The stiffness of the teeth matters: a rigid tooth is no fair assumption for this motion.",
-        "The stiffness of the teeth hardly matters: a rigid tooth is a fair assumption for this motion.",
-    ),
+# By how much teeth give way under the largest load, by whether they are elastic and whether that matters.
+STIFFNESS = {
+    (
+        False,
+        True,
+    ): "The teeth of this scene are rigid, which is no fair assumption: steel ones would give way by "
+    "{share} of the film.",
+    (
+        False,
+        False,
+    ): "The teeth of this scene are rigid, which is a fair assumption: steel ones would give way by "
+    "{share} of the film.",
+    (
+        True,
+        True,
+    ): "The teeth give way by {share} of the film, as this scene reckons with; rigid ones would be no "
+    "fair assumption.",
+    (
+        True,
+        False,
+    ): "The teeth give way by {share} of the film; rigid ones would be a fair assumption as well.",
 }
 # What the verdict on separation and impacts says.
 VERDICTS = {
@@ -158,9 +174,11 @@ def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
     elif summary.get("double_sided"):
         # Of a version that knew no impacts.
         yield "The coast film carries more than the drive film at times: the tooth crosses its gap."
-    for name, (if_true, if_false) in REMARKS.items():
-        if name in summary:
-            yield if_true if summary[name] else if_false
+    if "stiffness_matters" in summary and "deflection_share" in summary:
+        elastic = result.input.get("contact", {}).get("stiffness", 0.0) > 0.0
+        share = float(summary["deflection_share"])
+        words = f"{share:.3g} times the thickness" if share > 1.0 else f"{100.0 * share:.2g} %"
+        yield STIFFNESS[elastic, bool(summary["stiffness_matters"])].format(share=words)
 
 
 def class_meanings(words: Iterable[str]) -> str:
@@ -188,6 +206,11 @@ def figures(result: Result) -> list[str]:
     periods = min(SHOWN_PERIODS, result.whole_periods)
     runs, labels = [result], style.run_labels([result])
     salt = result.scene_name
+    over = (
+        "over engine orders, multiples of the speed of the shaft"
+        if result.shaft_speed
+        else "at multiples of the frequency of the force"
+    )
     return [
         page.drawing(
             lambda: histories.draw_acceleration(runs, labels, periods),
@@ -204,9 +227,8 @@ def figures(result: Result) -> list[str]:
         ),
         page.drawing(
             lambda: spectra.draw_acceleration(runs, labels, None),
-            "Lines of the acceleration at multiples of the frequency of the force, linear above and "
-            "logarithmic "
-            "below. The class is judged by how many of them stand out.",
+            f"Lines of the acceleration {over}, linear above and logarithmic below. The class is judged by "
+            "how many of them stand out.",
             f"{salt} spectrum",
         ),
     ]
@@ -229,10 +251,10 @@ def key_figures(summary: Summary) -> str:
     return extremes + (page.paragraph(window, "note") if window else "")
 
 
-def quantities(summary: Summary) -> list[str]:
+def quantities(result: Result, summary: Summary) -> list[str]:
     """Everything that the summary tells, with its meaning."""
     plain = [name for name in summary if name in QUANTITIES and not isinstance(summary[name], list)]
-    return [explained(summary, plain), *harmonics(summary)]
+    return [explained(summary, plain), *harmonics(result, summary)]
 
 
 def explained(summary: Summary, names: list[str]) -> str:
@@ -245,8 +267,8 @@ def explained(summary: Summary, names: list[str]) -> str:
     )
 
 
-def harmonics(summary: Summary) -> list[str]:
-    """The first lines of the acceleration."""
+def harmonics(result: Result, summary: Summary) -> list[str]:
+    """The first lines of the acceleration, with the engine orders that they are where there is a shaft."""
     lines = np.atleast_1d(summary.get("harmonics", []))
     errors = np.atleast_1d(summary.get("harmonic_errors", []))
     if not lines.size:
@@ -255,13 +277,14 @@ def harmonics(summary: Summary) -> list[str]:
     rows = []
     for place, line in enumerate(lines[:HARMONICS_SHOWN].tolist()):
         error = page.value(errors.tolist()[place], unit) if place < errors.size else "not known"
-        rows.append([str(place + 1), page.value(line, unit), error])
+        number = place + 1
+        order = [page.value(spectra.engine_order(result, number))] if result.shaft_speed else []
+        rows.append([str(number), *order, page.value(line, unit), error])
     more = f"The summary lists {lines.size} of them." if lines.size > len(rows) else ""
+    heads = ("Harmonic", *(["Engine order"] if result.shaft_speed else []), "Amplitude", "Error at most")
     return [
         page.heading(3, "Lines of the acceleration"),
-        page.table(
-            ("Multiple of the frequency", "Amplitude", "Error at most"), rows, kinds=("", "number", "number")
-        ),
+        page.table(heads, rows, kinds=("", *("number" for _ in heads[1:]))),
         *([page.paragraph(more, "note")] if more else []),
     ]
 
@@ -322,6 +345,6 @@ def _words(result: Result, summary: Summary) -> dict[str, str]:
     for name in ("harmonic_distortion", "irregular_fraction", "orbit_period"):
         words[name] = f"{summary[name]:.4g}" if name in summary else "unknown"
     lines = f"{bound}{count} {noun}"
-    largest = "the largest one of the force's own orders" if forced(result) else "the first"
+    largest = "the largest one of the force's own harmonics" if forced(result) else "the first"
     words["threshold"] = f"{100.0 * limits.get('line_threshold', 0.0):g} % of {largest}"
     return words | {"lines": lines[0].upper() + lines[1:]}
