@@ -1,0 +1,451 @@
+"""Every line of a log is what the summary, or the row, tells: each number with its scale and rounding."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import campaign_runs
+import numpy as np
+import pytest
+from test_thresholds import threshold_text
+from told import ANY, assert_told, counted, short
+
+import rattle
+
+SUCCESSES = ("complete", "steady")
+LAWS = {
+    ("reynolds", "iso-viscous"): "exact iso-viscous film of the Reynolds equation",
+    ("reynolds", "piezo-viscous"): "exact piezo-viscous film of the Reynolds equation",
+    ("published", "iso-viscous"): "published iso-viscous film (35), rupture angle pi/2",
+    ("published", "piezo-viscous"): "published piezo-viscous film (37)",
+}
+ENDS = {
+    "too_wide": "the film grows beyond a tenth of the radius, where the parabolic gap of a line contact ends",
+    "too_narrow": "the film falls below 1 nm, where no oil film is left",
+}
+STEEL = 14e9  # stiffness of a steel tooth for each length of contact [N/m2]
+
+
+def log_of(path: Path) -> list[str]:
+    """The log without warnings of odd inputs, which tell of no result."""
+    lines = path.with_suffix(".log").read_text().splitlines()
+    return [line for line in lines if "is not what machines have" not in line]
+
+
+def files(path: Path) -> list[str]:
+    return [f"  {path}", f"  {path.with_suffix('.summary.nml')}"]
+
+
+def um(length: float, digits: int) -> str:
+    return f"{short(1e6 * length, digits)} um"
+
+
+def start_of_motion(told: Mapping[str, Any]) -> str:
+    """What is known before it is solved."""
+    if "steady_film" not in told:
+        return "  no rigid piezo-viscous film carries the static load"
+    words = f"  steady film {um(told['steady_film'], 5)}"
+    if "natural_frequency" in told:
+        words += f", natural frequency {short(told['natural_frequency'], 5)} Hz"
+        words += f", damping ratio {short(told['damping_ratio'], 4)}"
+    return words
+
+
+def lines_of_motion(path: Path) -> list[str | None]:
+    """The log of a motion, from its summary and its resolved input."""
+    told, given = rattle.read_summary(path.with_suffix(".summary.nml")), rattle.read(path).input
+    failed = told["status"] not in SUCCESSES
+    return [
+        f"rattle {told['program_version']}, scene {told['name']}: {LAWS[told['model'], told['law']]}",
+        start_of_motion(told),
+        "  no natural frequency: small motions about the steady film are overdamped"
+        if "steady_film" in told and "natural_frequency" not in told
+        else None,
+        f"  {told['steps']} steps in {ANY} s, {short(told.get('iterations_per_step', 0.0), 3)} passes a "
+        f"step, {told['steps_cut']} steps cut where the film law had no value",
+        f"  {told['status']} at t = {short(told['status_time'], 6)} s, film "
+        f"{um(told['film_at_status_time'], 5)}: {told['status_text']}"
+        if failed
+        else None,
+        *(lines_of_window(told, given) if "rattle_class" in told else []),
+        ending_of_motion(told),
+        *files(path),
+    ]
+
+
+def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[str | None]:
+    certificate = f" ({told['certificate']})" if "certificate" in told else ""
+    limits = [ENDS[name] for name in ENDS if name in told["model_limit"]]
+    contradicted = "  warning: the film law of the scene does not fit this regime (law_contradicted)"
+    return [
+        f"  film {um(told['film_minimum'], 5).removesuffix(' um')} to {um(told['film_maximum'], 5)}, "
+        f"acceleration {short(told['acceleration_minimum'], 5)} to "
+        f"{short(told['acceleration_maximum'], 5)} m/s2",
+        spectrum_words(told, certificate),
+        f"  warning: {coarse_words(told, given)}" if told["series_coarse"] else None,
+        f"  warning: {', and '.join(limits)} (model_limit)" if limits else None,
+        *(lines_of_certificate(told) if certificate else []),
+        f"  {regime_words(told)}",
+        contradicted if told["law_contradicted"] else None,
+        stiffness_words(told, given),
+    ]
+
+
+def spectrum_words(told: Mapping[str, Any], certificate: str) -> str:
+    if "harmonic_distortion" not in told:
+        return f"  no motion but rounding: {told['rattle_class']}"
+    bound = "at least " if told["line_count_is_bound"] else ""
+    share = "at least " if told["harmonic_distortion_is_bound"] else ""
+    return (
+        f"  {bound}{told['line_count']} lines, harmonic distortion {share}"
+        f"{short(told['harmonic_distortion'], 3)}, {short(told['reversals_per_period'], 3)} reversals a "
+        f"period: {told['rattle_class']}{certificate}"
+    )
+
+
+def coarse_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str:
+    newmark = given["solver"]["method"] == "newmark"
+    key = "solver.steps_per_period" if newmark else "solver.samples_per_period"
+    if not told["sampling_sufficient"]:
+        what = f"the lines are those of the samples: raise {key}"
+    elif told["lines_by_integrals"]:
+        what = f"{key} up to 16384 would not do. The lines here are integrals over the steps"
+    else:
+        what = f"{key} = {told['samples_per_period']} would do, as many as gave the lines here"
+    return (
+        f"the samples of the series are too few for its motion; {what} "
+        "(series_coarse; the rows of the extremes stand in the series)"
+    )
+
+
+def lines_of_certificate(told: Mapping[str, Any]) -> list[str | None]:
+    errors = [
+        short(told[name], 2)
+        for name in ("film_error", "acceleration_minimum_error", "acceleration_maximum_error")
+        if name in told
+    ]
+    multiplier = np.atleast_1d(told.get("floquet_multipliers", [0.0]))
+    return [
+        f"  {told['certificate_text']}",
+        f"  error of the film {errors[0]}, of the extremes of the acceleration {errors[1]} and {errors[2]} "
+        "m/s2"
+        if len(errors) == 3
+        else None,
+        f"  the motion repeats after {counted(told['orbit_period'], 'period')}: {told['orbit_stability']}, "
+        f"largest Floquet multiplier {short(float(np.hypot(*multiplier[:2])), 3)}"
+        if "orbit_period" in told and "orbit_stability" in told
+        else None,
+    ]
+
+
+def regime_words(told: Mapping[str, Any]) -> str:
+    reached = told["alpha_p_maximum"]
+    words = f"{told['film_regime']}: the exact film reaches alpha p = {short(reached, 3)}; "
+    if reached >= 1.0:
+        return words + "from 1 on there is no piezo-viscous film of rigid flanks"
+    if told["film_regime"] == "elastohydrodynamic":
+        return words + f"the flanks give way by {ANY} % of the film, limit 10 %"
+    return words + (
+        "below 0.1 pressure hardly thickens the oil"
+        if reached < 0.1
+        else "from 0.1 on pressure thickens the oil"
+    )
+
+
+def stiffness_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str | None:
+    """A warning where teeth are rigid and steel ones would give way by more than a tenth of the film."""
+    if "stiffness" in given["contact"] or not told["stiffness_matters"]:
+        return None
+    share = told["deflection_share"]
+    words = f"{short(share, 2)} times" if share > 1.0 else f"{short(100.0 * share, 2)} % of"
+    steel = "gear.tooth_stiffness = 1.4E10 N/m2"
+    if "gear" not in given:
+        steel = f"contact.stiffness = {short(STEEL * given['contact']['length'], 2)} N/m"
+    return (
+        f"  warning: under its largest load a steel tooth gives way by {words} the film, while these teeth "
+        "are rigid (stiffness_matters). Teeth that give may move otherwise, and fall into another class: "
+        f"steel ones have {steel}"
+    )
+
+
+def ending_of_motion(told: Mapping[str, Any]) -> str | None:
+    """Loudness and impacts, as far as they are known."""
+    parts = [
+        f"{name.replace('_', ' ')} {short(told[name], 4)} {unit}"
+        for name, unit in (("acceleration_rms", "m/s2"), ("film_force_rms", "N"), ("dissipated_power", "W"))
+        if name in told
+    ]
+    if "double_sided" in told:
+        parts.append(f"double sided {'yes' if told['double_sided'] else 'no'}")
+    if "verdict" in told:
+        parts.append(f"verdict {told['verdict']}")
+    return f"  {', '.join(parts)}" if parts else None
+
+
+@pytest.fixture(scope="module")
+def solve(run, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("logs")
+
+    def call(name: str, text: str, *options: object, code: int = 0) -> Path:
+        (folder / f"{name}.nml").write_text(text)
+        ended = run(f"{name}.nml", "--output", folder / name, *options, cwd=folder, timeout=120.0)
+        assert ended.returncode == code, ended.stderr
+        path = folder / name / f"{name}.rattle"
+        assert ended.stdout == path.with_suffix(".log").read_text()
+        return path
+
+    return call
+
+
+def named(text: str, name: str) -> str:
+    return f"&scene\n name = '{name}'\n/\n" + text
+
+
+TAYLOR = {"steps_per_period": None, "method": None, "periods": "60", "accuracy": "1e-6", "until": "'steady'"}
+EXACT = {"law": "'iso-viscous'", "model": "'reynolds'"}
+GAP = {"backlash": "1e-5", "stiffness": "1e9"}
+# What each scene makes a log tell beside the rest: another regime, limit, way of sampling, or end.
+MOTIONS = {
+    "plain": {},
+    "calm": {"solver": TAYLOR},
+    "weak": {"load": {"force_amplitude": "1.0"}, "solver": TAYLOR, "film": EXACT},
+    "thin": {"lubricant": {"viscosity": "0.005"}, "solver": TAYLOR, "film": EXACT},
+    "wide": {"load": {"steady_force": "0.001", "force_amplitude": "0.0001"}, "solver": TAYLOR, "film": EXACT},
+    "loose": {"contact": GAP, "solver": TAYLOR, "film": EXACT, "load": {"force_amplitude": "400.0"}},
+    "hard": {"solver": {**TAYLOR, "samples_per_period": "64"}, "load": {"force_amplitude": "800.0"}},
+    "few": {"load": {"force_amplitude": "800.0"}, "spectrum": {"certify": ".false."}},
+    "bare": {"solver": TAYLOR, "spectrum": {"certify": ".false."}},
+}
+FAILED = {
+    "lost": {"load": {"force_amplitude": "1e9"}, "solver": {"iteration_limit": "2"}},
+    "no_film": {"film": {"law": "'piezo-viscous'", "model": "'reynolds'"}, "solver": TAYLOR},
+}
+
+
+@pytest.mark.parametrize("name", (*MOTIONS, *FAILED))
+def test_the_log_of_a_motion_is_its_summary(solve, scene_text, name):
+    changes = (MOTIONS | FAILED)[name]
+    path = solve(name, named(scene_text(**changes), name), code=1 if name in FAILED else 0)
+    assert_told(log_of(path), lines_of_motion(path))
+
+
+@pytest.mark.parametrize("name", ("engine_cycle", "loose_pair", "loose_gear", "idle", "creep_period_two"))
+def test_the_log_of_a_ready_scene_is_its_summary(run, repository, tmp_path, name):
+    assert run(repository / "input" / f"{name}.nml", "--output", tmp_path, cwd=tmp_path).returncode == 0
+    path = next(tmp_path.glob("*.rattle"))
+    found = log_of(path)
+    if name == "engine_cycle":
+        assert "; engine orders 0.5 to 12 are kept, " in found.pop(1)
+    assert_told(found, lines_of_motion(path))
+
+
+HEADS = ("gear", "class", "both flanks", "least film", "peak", "rms", "film force", "power")
+UNITS = ("[um]", "[m/s2]", "[m/s2]", "rms [N]", "[W]")
+
+
+def told_by_the_table(gear: str, told: Mapping[str, Any]) -> list[str]:
+    """The cells of a pair, as many as there are heads."""
+    word = told.get("rattle_class", told["status"])
+    flanks = {True: "yes", False: "no", None: "-"}[told.get("double_sided")]
+    known = "acceleration_minimum" in told
+    peak = max(-told["acceleration_minimum"], told["acceleration_maximum"]) if known else None
+    least = 1e6 * told["film_minimum"] if "film_minimum" in told else None
+    loud = [told.get(name) for name in ("acceleration_rms", "film_force_rms", "dissipated_power")]
+    numbers = ["-" if number is None else short(number, 4) for number in (least, peak, *loud)]
+    return [gear, word + (", certified" if told.get("certified") else ""), flanks, *numbers]
+
+
+@pytest.mark.parametrize(
+    ("change", "code"),
+    (
+        (("name = '2nd'", "name = '2nd'"), 0),
+        # The 4th, which alone has a larger gap, leaves the film of the exact piezo-viscous law.
+        (("law = 'iso-viscous'", "law = 'piezo-viscous'"), 1),
+        (("periods = ", "certify = .false., periods = "), 0),
+    ),
+    ids=("ready", "failing", "not certified"),
+)
+def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, code):
+    text = (repository / "input" / "gearbox.nml").read_text()
+    before, spectrum, behind = text.partition("&spectrum") if change[0] == "periods = " else ("", "", text)
+    (tmp_path / "box.nml").write_text(before + spectrum + behind.replace(*change))
+    ended = run("box.nml", "--set", "scene.name=box", "--output", tmp_path, cwd=tmp_path)
+    assert ended.returncode == code, ended.stderr
+    table = rattle.read_summary(tmp_path / "box.summary.nml")
+    head, heads, units, *rows, together, file = (tmp_path / "box.log").read_text().splitlines()
+    assert head == f"rattle {table['program_version']}, gearbox box: {len(table['gears'])} pairs"
+    cells = [[cell for cell in re.split("  +", row.strip()) if cell] for row in rows]
+    assert cells == [told_by_the_table(gear, told) for gear, told in table["gears"].items()]
+    assert tuple(re.split("  +", heads.strip())) == HEADS and tuple(re.split("  +", units.strip())) == UNITS
+    # Every unit, and the words of "together", stand under their head.
+    starts = [heads.index(name, heads.index("film force") if name == "power" else 0) for name in HEADS]
+    starts[HEADS.index("rms")] = heads.index(" rms ") + 1
+    for row in rows:
+        assert [bool(re.match(r"\S", row[start:])) and row[start - 1] == " " for start in starts] == [
+            True
+        ] * 8
+    forces = [told.get("film_force_rms", np.nan) for told in table["gears"].values()]
+    powers = [told.get("dissipated_power", np.nan) for told in table["gears"].values()]
+    failed = sum(told["status"] not in SUCCESSES for told in table["gears"].values())
+    assert table["pairs"] == len(forces) and table["pairs_failed"] == failed and (failed > 0) == (code == 1)
+    assert file == f"  {tmp_path}/box.summary.nml"
+    if failed:
+        assert "film_force_rms" not in table and together.split() == ["together", "-", "-"]
+        return
+    assert table["film_force_rms"] == pytest.approx(np.sqrt(np.sum(np.square(forces))), rel=1e-12)
+    assert table["dissipated_power"] == pytest.approx(np.sum(powers), rel=1e-12)
+    assert together.split()[0] == "together"
+    assert together[starts[-2] :].split()[0] == short(table["film_force_rms"], 4)
+    assert together[starts[-1] :] == short(table["dissipated_power"], 4)
+
+
+def test_the_log_of_a_film_task_is_its_summary(solve, repository):
+    text = (repository / "input" / "film.nml").read_text()
+    path = solve("film", text, "--set", "scene.name=film")
+    told, rows = rattle.read_summary(path.with_suffix(".summary.nml")), rattle.read(path).row_count
+    assert told["points"] == rows
+    assert_told(
+        log_of(path),
+        [
+            "rattle 0.1.0, scene film: film task",
+            f"  {rows} points in {ANY} s: {told['status_text']}",
+            f"  {path}",
+            f"  {path.with_suffix('.profiles.rattle')}",
+            f"  {path.with_suffix('.summary.nml')}",
+        ],
+    )
+
+
+@pytest.mark.parametrize(("last", "code"), (("900.0", 0), ("1e9", 0)))
+def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, last, code):
+    """Of a force that grows without end motions leave what the model can mean."""
+    sweep = {
+        "key": "'force_amplitude'",
+        "first": "100.0",
+        "last": last,
+        "count": "4",
+        "spacing": "'logarithmic'",
+    }
+    text = scene_text(scene={"task": "'sweep'"}, solver={**TAYLOR, "until": None}, sweep=sweep)
+    name = f"sweep_{last[0]}"
+    path = solve(name, text, "--set", f"scene.name={name}", code=code)
+    result, told = rattle.read(path), rattle.read_summary(path.with_suffix(".summary.nml"))
+    failed = int((~np.isin(result["status"], (0, 1))).sum())
+    beyond = int((result["model_limit"] > 0).sum()) if "model_limit" in result else None
+    assert (told["motions"], told["motions_failed"]) == (result.row_count, failed)
+    warning = (
+        f"  warning: {ANY if beyond is None else beyond} motions beyond what the model can mean: films "
+        "beyond a tenth of the radius or below 1 nm (column model_limit)"
+    )
+    found = log_of(path)
+    assert_told(
+        found,
+        [
+            f"rattle 0.1.0, scene {name}: sweep of {result.row_count} motions, "
+            "published iso-viscous film (35), rupture angle pi/2",
+            warning if "beyond what" in found[1] else None,
+            f"  {counted(failed, 'motion')} failed; {ANY} s: {told['status_text']}",
+            *files(path),
+        ],
+    )
+
+
+RECORD = "'rattle_class', 'acceleration_maximum', 'certified', 'model_limit', 'sampling_sufficient'"
+
+
+@pytest.mark.parametrize(
+    ("name", "last", "changes"),
+    (
+        ("doubtful", "400.0, 20.0", {}),
+        ("hard", "1e7, 20.0", {}),
+        ("failing", "400.0, 20.0", {"film": {"law": "'piezo-viscous'", "model": "'reynolds'"}}),
+    ),
+)
+def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, changes):
+    campaign = {"record": RECORD, "last": last, "samples_per_period": "32"}
+    text = campaign_runs.grid(scene_text, 6, 5, campaign=campaign, **changes)
+    text = text.replace("&scene\n", f"&scene\n name = '{name}'\n")
+    path = solve(name, text, "--threads", 2, code=int(name == "failing"))
+    rows, told = rattle.read_campaign(path), rattle.read_summary(path.with_suffix(".summary.nml"))
+    failed, count = int(rows.failed.sum()), rows.row_count
+    certified = rows["certified"]
+    doubts, tested = int((certified == 0.0).sum()), int(np.isfinite(certified).sum())
+    beyond = int((rows["model_limit"] > 0.0).sum())
+    coarse = int((rows["sampling_sufficient"] == 0.0).sum())
+    open_ended = int((rows["rattle_class"] == 6.0).sum())
+    assert told["scenes"] == told["scenes_done"] == count
+    assert told["scenes_failed_in_this_run"] == failed
+    assert told["scenes_beyond_model_in_this_run"] == beyond
+    assert told["scenes_undersampled_in_this_run"] == coarse
+    assert told["scenes_not_certified_in_this_run"] == doubts
+    assert told["scenes_irregular_so_far_in_this_run"] == open_ended
+    law = LAWS[("reynolds", "piezo-viscous") if changes else ("published", "iso-viscous")]
+    found = log_of(path)
+    assert_told(
+        [line for line in found if " s left, " not in line],
+        [
+            f"rattle 0.1.0, campaign {name}: {count} scenes, {law}; 1 rank of 2 threads",
+            f"  {count} of {count} scenes, {ANY} a second, {failed} failed, {doubts} not certified",
+            f"  warning: {counted(beyond, 'scene')} beyond what the model can mean: films beyond a tenth of "
+            "the radius or below 1 nm (column model_limit)"
+            if beyond
+            else None,
+            f"  warning: the lines of {counted(coarse, 'scene')} are not resolved (column "
+            "sampling_sufficient); raise campaign.samples_per_period"
+            if coarse
+            else None,
+            f"  {doubts} of {tested} scenes are not certified: solved again, tighter, their class is another "
+            "or close to a limit (column certified)",
+            f"  {counted(open_ended, 'scene')} irregular so far: they did not repeat, and neighbouring "
+            "motions do not part for good (rattle_class)"
+            if open_ended
+            else None,
+            *files(path),
+        ],
+    )
+
+
+def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
+    text = threshold_text(scene_text, threshold={"tolerance": "1e-3"})
+    path = solve("edge", text, "--threads", 2)
+    rows, told = rattle.read(path), rattle.read_summary(path.with_suffix(".summary.nml"))
+    crossed = rows["crossing"] > 0
+    lines, without = int(np.unique(rows["line"]).size), int((~crossed).sum())
+    both = (rows["certified_below"] == 1.0) & (rows["certified_above"] == 1.0)
+    doubts = int((crossed & ~both).sum())
+    assert (told["lines"], told["crossings"], told["lines_without_crossing"]) == (
+        lines,
+        crossed.sum(),
+        without,
+    )
+    assert told["crossings_uncertain"] == doubts
+    given = rows.input["threshold"]
+    grid = told["scenes_of_a_grid"]
+    wide = told["crossings_wide"]
+    places = given["count"]
+    while places < grid / lines:
+        places = 2 * places - 1
+    assert_told(
+        [line for line in log_of(path) if " s left, " not in line],
+        [
+            f"rattle 0.1.0, threshold {rows.scene_name}: {counted(lines, 'line')} of {given['key']}, "
+            f"{LAWS['published', 'iso-viscous']}; 1 rank of 2 threads",
+            f"  {given['count']} values a line, then halves down to {places} places; two changes "
+            "between neighbours of the scan that cancel each other stay unseen: more &threshold count sees "
+            "them",
+            "  the ends of a crossing go apart again until both are certified",
+            f"  {told['scenes']} of {told['scenes']} scenes, {ANY} a second, {told['scenes_failed']} failed",
+            f"  {told['crossings']} crossings; {without} of {lines} lines have none; at {doubts} crossings a "
+            "class beside it is not certified",
+            f"  the ends of {wide} crossings are certified only farther apart than asked for: their width is "
+            "how sure they are (column width)"
+            if wide
+            else None,
+            f"  {told['scenes']} scenes; a grid as fine has {int(grid)}, {short(grid / told['scenes'], 3)} "
+            "times as many",
+            *files(path),
+        ],
+    )

@@ -1,0 +1,33 @@
+"""Numbers and sentences as program and scripts tell them, made anew from what they tell of."""
+
+from __future__ import annotations
+
+import math
+import re
+
+SMALLEST_PLAIN, LARGEST_PLAIN = 1e-3, 1e6  # between which a log writes no exponent
+ANY = "*"  # in an expected text: what no file tells, as the time that something took
+
+
+def short(number: float, digits: int) -> str:
+    """A number as logs write it, with so many significant digits."""
+    if number == 0.0:
+        return "0"
+    if SMALLEST_PLAIN <= abs(number) < LARGEST_PLAIN:
+        decimals = max(0, digits - 1 - math.floor(math.log10(abs(number))))
+        return f"{number:.{decimals}f}"
+    mantissa, exponent = f"{number:.{digits - 1}E}".split("E")
+    return f"{mantissa}{'' if '.' in mantissa else '.0'}E{int(exponent)}"
+
+
+def counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def assert_told(found: list[str], expected: list[str | None]) -> None:
+    """Text by text the same; None stands for what is not told this time, `ANY` for a number of any value."""
+    wanted = [text for text in expected if text is not None]
+    for place, (one, other) in enumerate(zip(found, wanted, strict=False)):
+        form = re.escape(other).replace(re.escape(ANY), r"[-+\d.E]+")
+        assert re.fullmatch(form, one), f"line {place + 1}\nfound    {one}\nexpected {other}"
+    assert len(found) == len(wanted), (found[len(wanted) :], wanted[len(found) :])
