@@ -8,7 +8,7 @@ module word_list
       character(:), allocatable :: text
    end type word_t
 
-   public :: word_count, split_words, word_position
+   public :: word_count, split_words, word_position, joined_words
 
 contains
 
@@ -53,5 +53,25 @@ contains
       place = index(' '//list//' ', ' '//word//' ')
       if (place > 0) word_position = word_count(list(:place))
    end function word_position
+
+   !> Words as a sentence lists them: 'a', 'a and b', 'a, b and c'.
+   pure function joined_words(words, mask) result(sentence)
+      !> Any words
+      type(word_t), intent(in) :: words(:)
+      !> Which of them are listed; none give an empty text
+      logical, intent(in) :: mask(:)
+      character(:), allocatable :: sentence
+      integer :: i
+
+      sentence = ''
+      do i = 1, size(words)
+         if (.not. mask(i)) cycle
+         if (any(mask(:i - 1))) then
+            if (any(mask(i + 1:))) sentence = sentence//', '
+            if (.not. any(mask(i + 1:))) sentence = sentence//' and '
+         end if
+         sentence = sentence//words(i)%text
+      end do
+   end function joined_words
 
 end module word_list

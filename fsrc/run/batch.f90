@@ -152,7 +152,8 @@ contains
          if (size(rows) > 0 .and. (is_last_pair(scenes, place) .or. is_last_begun) .and. .not. has_trouble(outcome)) then
             call lock%take(stem(whole_gearbox(scenes(place))), outcome%error)
             if (.not. allocated(outcome%error)) &
-               call write_table(whole_gearbox(scenes(place)), rows, command%quiet, outcome%error)
+               call write_table(whole_gearbox(scenes(place)), count(scenes%gearbox == scenes(place)%gearbox), rows, command%quiet, &
+                                outcome%error)
             call lock%release()
             rows = rows(:0)
          end if

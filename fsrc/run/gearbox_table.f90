@@ -1,7 +1,8 @@
 !> The table of all gear pairs of an input: what became of each, and what they do together.
 module gearbox_table
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use errors, only: error_t
+   use force_signal, only: force_signal_t, sum_in_phase
    use input_key, only: name_limit
    use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp
@@ -13,8 +14,9 @@ module gearbox_table
    use scene_status, only: is_success, status_complete, status_interrupted, status_name
    use scene_types, only: scene_t
    use summary_file, only: summary_t
-   use text, only: counted, short_text
+   use text, only: counted, integer_text, short_text
    use version, only: program_version
+   use word_list, only: joined_words, word_t
    implicit none(type, external)
    private
 
@@ -30,9 +32,17 @@ module gearbox_table
       character(name_limit) :: name = ''
       integer :: status = status_complete
       real(dp) :: numbers(size(told)) = 0.0_dp
+      type(force_signal_t) :: film_force
    end type pair_row_t
 
-   public :: row_of_pair, write_table, whole_gearbox
+   !> What all pairs do together: power that heats the oil [W]; rms of the film force that the bearings feel, as if the forces knew
+   !> nothing of each other and as they are [N]; what these are, or why one is unknown, NaN.
+   type, public :: together_t
+      real(dp) :: power = 0.0_dp, force_uncorrelated = 0.0_dp, force_in_phase = 0.0_dp
+      character(:), allocatable :: words
+   end type together_t
+
+   public :: row_of_pair, write_table, whole_gearbox, together
 
 contains
 
@@ -48,6 +58,7 @@ contains
       do i = 1, size(told)
          row%numbers(i) = quantity_value(told(i), judged)
       end do
+      row%film_force = judged%film_force
    end function row_of_pair
 
    !> The scene that stands for all pairs, as far as files go.
@@ -62,30 +73,37 @@ contains
    end function whole_gearbox
 
    !> Write the table as NAME.summary.nml, print it, and keep it in NAME.log.
-   subroutine write_table(gearbox, rows, quiet, error)
+   subroutine write_table(gearbox, pairs, rows, quiet, error)
       !> Scene that stands for all pairs
       type(scene_t), intent(in) :: gearbox
+      !> How many pairs there are
+      integer, intent(in) :: pairs
       !> Those that were solved
       type(pair_row_t), intent(in) :: rows(:)
       !> Nothing to the terminal
       logical, intent(in) :: quiet
       !> Set if a file could not be written
       type(error_t), allocatable, intent(out) :: error
+      type(together_t) :: sums
       type(summary_t) :: summary
       type(log_t) :: log
       integer :: i, j
 
       call log%open(log_path(gearbox), quiet, error)
       if (allocated(error)) return
-      call log%line(log_magic//program_version//', gearbox '//trim(gearbox%name)//': '//counted(size(rows), 'pair'))
-      call report_rows(log, rows)
+      call log%line(log_magic//program_version//', gearbox '//trim(gearbox%name)//': '//counted(pairs, 'pair'))
+      sums = together(pairs, rows)
+      call report_rows(log, rows, sums)
       call summary%add('name', trim(gearbox%name))
       call summary%add('program_version', program_version)
-      call summary%add('status', status_name(merge(status_interrupted, status_complete, any(rows%status == status_interrupted))))
-      call summary%add('pairs', size(rows))
+      call summary%add('status', status_name(merge(status_interrupted, status_complete, size(rows) < pairs .or. &
+                                                   any(rows%status == status_interrupted))))
+      call summary%add('pairs', pairs)
       call summary%add('pairs_failed', count(.not. is_success(rows%status)))
-      call summary%add('film_force_rms', together(rows, place_force))
-      call summary%add('dissipated_power', together(rows, place_power))
+      call summary%add('film_force_rms_uncorrelated', sums%force_uncorrelated)
+      call summary%add('film_force_rms_in_phase', sums%force_in_phase)
+      call summary%add('film_force_text', sums%words)
+      call summary%add('dissipated_power', sums%power)
       do i = 1, size(rows)
          call summary%next_group('pair')
          call summary%add('gear', trim(rows(i)%name))
@@ -109,23 +127,44 @@ contains
       call log%close()
    end subroutine write_table
 
-   !> What the bearings feel of all pairs [N], and the power that they turn into heat [W]; NaN where one is unknown.
-   pure real(dp) function together(rows, place)
+   !> What all pairs do together; unknown where one is.
+   pure type(together_t) function together(pairs, rows)
+      !> How many pairs there are
+      integer, intent(in) :: pairs
+      !> Those that were solved
       type(pair_row_t), intent(in) :: rows(:)
-      !> Which of the numbers
-      integer, intent(in) :: place
+      type(word_t) :: names(size(rows))
+      logical :: unknown(size(rows))
+      character(:), allocatable :: in_phase
+      integer :: i
 
-      if (place == place_force) then
-         together = sqrt(sum(rows%numbers(place)**2))
+      unknown = ieee_is_nan(rows%numbers(place_force))
+      do i = 1, size(rows)
+         names(i)%text = trim(rows(i)%name)
+         if (unknown(i)) names(i)%text = names(i)%text//' ('//status_name(rows(i)%status)//')'
+      end do
+      together%power = ieee_value(together%power, ieee_quiet_nan)
+      together%force_uncorrelated = together%power
+      together%force_in_phase = together%power
+      if (any(unknown)) then
+         together%words = 'together unknown, as there is no window to judge of '//joined_words(names, unknown)
+      else if (size(rows) < pairs) then
+         together%words = 'together unknown, as only '//counted(size(rows), 'pair')//' of '//integer_text(pairs)//' began'
       else
-         together = sum(rows%numbers(place))
+         together%power = sum(rows%numbers(place_power))
+         together%force_uncorrelated = sqrt(sum(rows%numbers(place_force)**2))
+         call sum_in_phase(rows%film_force, names, together%force_in_phase, in_phase)
+         together%words = 'uncorrelated: root of the sum of the squares, of forces that know nothing of each other; '// &
+                          'in phase: rms of the sum of the forces, as all pairs follow one shaft, '//in_phase//'; '// &
+                          'of the powers the sum'
       end if
    end function together
 
-   !> A line for each pair, and one for all together.
-   subroutine report_rows(log, rows)
+   !> A line for each pair, and what all do together.
+   subroutine report_rows(log, rows, sums)
       type(log_t), intent(in) :: log
       type(pair_row_t), intent(in) :: rows(:)
+      type(together_t), intent(in) :: sums
       character(:), allocatable :: class
       real(dp) :: peak
       integer :: i, width
@@ -147,8 +186,10 @@ contains
                           number_cell(numbers(place_power)))
          end associate
       end do
-      call log%line('  '//cell('together', width + 73)//cell(number_cell(together(rows, place_force)), 12)// &
-                    number_cell(together(rows, place_power)))
+      call log%line('  '//cell('together, uncorrelated', width + 73)//cell(number_cell(sums%force_uncorrelated), 12)// &
+                    number_cell(sums%power))
+      call log%line('  '//cell('together, in phase', width + 73)//number_cell(sums%force_in_phase))
+      call log%line('  '//sums%words)
    end subroutine report_rows
 
    !> Words with blanks behind them up to a width; one at least.

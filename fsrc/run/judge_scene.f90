@@ -3,6 +3,7 @@ module judge_scene
    use certify_scene, only: certify
    use engine, only: ending_t
    use errors, only: error_t
+   use force_signal, only: signal_of_window
    use fine_window, only: classify_window, judge_window, window_t
    use irregular_motion, only: follow_irregular
    use judged_scene, only: judged_scene_t
@@ -13,7 +14,7 @@ module judge_scene
    use rattle_class, only: note_orbit, rattle_verdict_t
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
-   use scene_status, only: is_success
+   use scene_status, only: is_success, status_steady
    use scene_types, only: scene_t
    use signals, only: must_stop
    use window_extremes, only: extremes_of_record, extremes_of_samples
@@ -93,6 +94,9 @@ contains
          judged%impacts = impacts_of_samples(judged%resolved%problem, scene%spectrum%impact_limit, window%samples_per_period, &
                                              window%states)
       end if
+      if (scene%gearbox /= '') judged%film_force = &
+         signal_of_window(judged%resolved%problem, window%accelerations, window%periods, judged%periods, &
+                          judged%status == status_steady, judged%loudness%film_force_rms)
       associate (pressure => judged%extremes%highest(seen_pressure))
          judged%regime = check_regime(judged%resolved%problem%film, pressure%value, &
                                       thinnest_film(judged%resolved%problem, pressure%state))

@@ -3,6 +3,7 @@ module judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use certificate, only: certificate_t
    use engine, only: motion_count_t
+   use force_signal, only: force_signal_t
    use impacts, only: impact_count_t
    use kinds, only: dp
    use load_points, only: coast_flank, drive_flank
@@ -65,6 +66,8 @@ module judged_scene
       !> Extremes of the window
       type(window_extremes_t) :: extremes
       type(loudness_t) :: loudness
+      !> Of a pair of a gearbox, whose pairs are summed
+      type(force_signal_t) :: film_force
       type(window_impacts_t) :: impacts
       type(rattle_verdict_t) :: rattle
       type(regime_verdict_t) :: regime

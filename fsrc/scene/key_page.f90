@@ -209,8 +209,12 @@ contains
          end_of_line// &
          'Several `&gear` are a gearbox: each pair is a scene NAME.GEAR, and one table tells class, film, acceleration, '// &
          'film force and'//end_of_line// &
-         'power of all, with the root of the sum of the squares of their forces and the sum of their powers '// &
-         '(`gearbox.nml`). In campaigns and'//end_of_line// &
+         'power of all, and what they do together (`gearbox.nml`): the sum of their powers, and two sums of their forces, '// &
+         'each along its own'//end_of_line// &
+         'line of action. Uncorrelated is the root of the sum of their squares; in phase is the rms of the sum of the '// &
+         'force signals, as all pairs'//end_of_line// &
+         'follow one shaft: over the periods after which all repeat, or the window of those that were not seen to. In '// &
+         'campaigns and'//end_of_line// &
          'thresholds the pair is the first axis (`gearbox_map.nml`). `task = ''threshold''` finds at which speed, oil or '// &
          'drag the motion changes.'//end_of_line// &
          end_of_line// &

@@ -92,9 +92,76 @@ def test_each_pair_is_the_scene_of_its_own_input(solve, tmp_path: Path) -> None:
             if name != "certified":
                 assert summary[name] == value, name
         force, power = force + told["film_force_rms"] ** 2, power + told["dissipated_power"]
-    assert table["film_force_rms"] == pytest.approx(force**0.5, rel=1e-14)
+    assert table["film_force_rms_uncorrelated"] == pytest.approx(force**0.5, rel=1e-14)
+    # Of a run that looks for no repetition the window is the last two of its periods, for all pairs.
+    in_phase = np.std(sum(force_of(tmp_path / "results", gear, 2) for gear in ("box.1st", "box.4th")))
+    # Samples of 1024 a period are some thousandths off the steps, which tell the rms of each pair.
+    assert table["film_force_rms_in_phase"] == pytest.approx(in_phase, rel=3e-3)
+    assert table["film_force_rms_in_phase"] > 1.02 * table["film_force_rms_uncorrelated"]
+    assert "over the last 2 periods of 8, the window of all pairs" in table["film_force_text"]
+    assert "film_force_rms" not in table
     assert table["dissipated_power"] == pytest.approx(power, rel=1e-14)
-    assert re.search(r"^  together +[\d.]+ +[\d.]+$", ended.stdout, re.M)
+    power = f"{table['dissipated_power']:.4g}"
+    assert re.search(
+        rf"^  together, uncorrelated +{table['film_force_rms_uncorrelated']:.4g} +{power}$",
+        ended.stdout,
+        re.M,
+    )
+    assert re.search(rf"^  together, in phase +{table['film_force_rms_in_phase']:.4g}$", ended.stdout, re.M)
+    assert f"  {table['film_force_text']}\n" in ended.stdout
+
+
+def force_of(folder: Path, name: str, periods: int) -> np.ndarray:
+    """Film force of the last periods of a series, m z'' + F, which equation (1) leaves to the films."""
+    result = package.read(folder / f"{name}.rattle")
+    mass = summary_of(folder / f"{name}.summary.nml")["mass"]
+    samples = periods * round(1.0 / (result["time"][1] - result["time"][0]) / result.frequency)
+    return (mass * np.array(result["acceleration"]) + np.array(result["applied_force"]))[-samples:]
+
+
+def test_pairs_that_repeat_and_one_that_does_not_are_summed_on_one_axis(
+    run, repository: Path, tmp_path: Path
+) -> None:
+    """The ready gearbox: three pairs repeat every period, soon; the 1st runs on, and has a window of four."""
+    ended = run(repository / "input" / "gearbox.nml", "--output", tmp_path, cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    table = package.read_summary(tmp_path / "gearbox.summary.nml")
+    status = {gear: told["status"] for gear, told in table["gears"].items()}
+    assert status == {"1st": "complete", "2nd": "steady", "3rd": "steady", "4th": "steady"}
+    total = force_of(tmp_path, "gearbox.1st", 4)
+    for gear in ("2nd", "3rd", "4th"):
+        total = total + np.tile(force_of(tmp_path, f"gearbox.{gear}", 1), 4)
+    assert table["film_force_rms_in_phase"] == pytest.approx(np.std(total), rel=1e-4)
+    assert table["film_force_rms_in_phase"] == pytest.approx(35.84, abs=0.005)
+    assert table["film_force_rms_uncorrelated"] == pytest.approx(31.42, abs=0.005)
+    assert "over the last 4 periods of 200, the window of 1st" in table["film_force_text"]
+    page = tmp_path / "page.html"
+    results = [tmp_path / f"gearbox.{gear}.rattle" for gear in status]
+    assert call_script("report.py", *results, "--output", page).returncode == 0
+    read = read_page(page)
+    cells = {row[0]: row for row in read.rows if row[0].startswith("together")}
+    assert cells["together, uncorrelated"][-2].split() == ["31.42", "N"]
+    assert cells["together, in phase"][-2].split() == ["35.84", "N"]
+    assert f"the bearings of the shaft feel, {table['film_force_text']}." in read.words
+
+
+def test_a_pair_that_fails_leaves_no_sum(solve, tmp_path: Path) -> None:
+    """No rigid piezo-viscous film carries a drag of 40 N m: no sum is told, and the table says why."""
+    text = BOTH.replace("'iso-viscous'", "'piezo-viscous'").replace(
+        "drag_torque = 0.05", "drag_torque = 40.0"
+    )
+    ended = solve("box", text, ends=1)
+    table = package.read_summary(tmp_path / "results" / "box.summary.nml")
+    assert table["gears"]["4th"] == {"status": "no_rigid_film"} and table["pairs_failed"] == 1
+    assert not {"film_force_rms_uncorrelated", "film_force_rms_in_phase", "dissipated_power"} & set(table)
+    words = "together unknown, as there is no window to judge of 4th (no_rigid_film)"
+    assert table["film_force_text"] == words and words in ended.stdout
+    results = [tmp_path / "results" / f"box.{gear}.rattle" for gear in ("1st", "4th")]
+    page = tmp_path / "page.html"
+    assert call_script("report.py", *results, "--output", page).returncode == 0
+    read = read_page(page)
+    assert [row[-2:] for row in read.rows if row[0].startswith("together")] == [["-", "-"]] * 2
+    assert words in read.words
 
 
 def test_side_by_side_tells_and_writes_the_same(solve, scene_text, run, tmp_path: Path) -> None:

@@ -203,7 +203,15 @@ def together(box: Summary) -> list[str]:
     """What the gear pairs of an input do, each and together."""
     heads = ("Gear", "Class", "Both flanks", *(look.capital(look.short_name(name)) for name in TOGETHER))
     rows = []
-    for gear, told in (*box["gears"].items(), ("together", box)):
+    sums = {
+        f"together, {word}": f"film_force_rms_{word.replace(' ', '_')}"
+        for word in ("uncorrelated", "in phase")
+    }
+    told_together = [
+        (words, {"film_force_rms": box[name]} if name in box else {}) for words, name in sums.items()
+    ]
+    told_together[0][1].update({name: box[name] for name in ("dissipated_power",) if name in box})
+    for gear, told in (*box["gears"].items(), *told_together):
         flanks = {True: "yes", False: "no"}.get(told.get("double_sided"), "-")
         numbers = [
             page.value(float(told[name]), QUANTITIES[name].unit, 4) if name in told else "-"
@@ -213,10 +221,7 @@ def together(box: Summary) -> list[str]:
     known = {
         gear: float(told["film_force_rms"]) for gear, told in box["gears"].items() if "film_force_rms" in told
     }
-    words = (
-        "Together: of the film forces, which the bearings of the shaft feel, the root of the sum of their "
-        "squares; of the powers, which heat the oil, the sum."
-    )
+    words = f"Of the film forces, which the bearings of the shaft feel, {box['film_force_text']}."
     if known:
         loudest = max(known, key=known.get)
         words = f"{loudest} is the loudest: it shakes its bearings with {known[loudest]:.3g} N rms. {words}"
