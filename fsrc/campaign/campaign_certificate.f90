@@ -13,7 +13,7 @@ module campaign_certificate
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film, seen_load, seen_net_load, seen_quantities
    use periodic_orbit, only: attracting_period
    use carried_loads, only: films_of
-   use problem, only: largest_state, of_film, problem_t
+   use problem, only: of_film, problem_t
    use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, note_parting
    use resolved_scene, only: resolved_scene_t
    use scene_group, only: classify_group, scene_group_t, solve_group
@@ -117,7 +117,8 @@ contains
          if (len(unclosed) == 0) unclosed = &
             doubt_of_return(verdict, samples/tighter%samples_per_period, &
                             films_of(problem, reshape([tight_record%start%numbers, tight%endings(place)%numbers], &
-                                                      [2, largest_state], order=[2, 1])), choice%certificate_tolerance)
+                                                      [2, size(tight_record%start%numbers)], order=[2, 1])), &
+                            choice%certificate_tolerance)
          !$omp end critical (sentences)
          class_stands = len(unclosed) == 0 .and. verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient
          if (.not. class_stands) return

@@ -12,7 +12,7 @@ module controlled_engine
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
    use carried_loads, only: acceleration_at, accelerations_of_samples
-   use problem, only: largest_state, of_film, problem_t, state_size
+   use problem, only: of_film, problem_t, state_size
    use repetition, only: longest_orbit, orbit_watch_t
    use scene_status, only: is_success, status_complete, status_interrupted, status_steady
    use window_record, only: window_record_t
@@ -59,7 +59,7 @@ contains
          here = checkpoint%motion_state_t
       else
          here = start_of(problem)
-         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], reshape(here%numbers, [1, largest_state]), &
+         call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], reshape(here%numbers, [1, size(here%numbers)]), &
                         [acceleration_at(problem, here%numbers, 0.0_dp)], error)
          if (allocated(error)) return
       end if

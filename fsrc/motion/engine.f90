@@ -5,7 +5,7 @@ module engine
    use errors, only: error_t
    use kinds, only: dp, int64
    use carried_loads, only: initial_state
-   use problem, only: largest_state, problem_t
+   use problem, only: problem_t
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_interrupted, status_time_limit
    use signals, only: caught_signal
@@ -47,8 +47,8 @@ module engine
    type, public :: motion_state_t
       !> Whole periods done
       integer :: periods = 0
-      !> Its numbers, named by module problem
-      real(dp) :: numbers(largest_state) = 0.0_dp
+      !> Its numbers, named by module problem; none where nothing is known of it
+      real(dp), allocatable :: numbers(:)
       !> Of the controlled engine: scaled Lienard variable [-], whether it stands for the velocity, so that the motion goes on as if
       !> it had never stopped, and whether the motion goes on by the implicit method
       real(dp) :: lienard_variable = 0.0_dp

@@ -16,8 +16,8 @@ module lane_block
    use load_expansion, only: load_expansion_t, squeeze_expansion_t
    use memory, only: allocate_lines
    use carried_loads, only: net_load
-   use problem, only: has_elastic_teeth, has_two_flanks, largest_state, of_coast_compression, of_drive_compression, of_film, &
-      of_velocity, problem_t, reference_film, reference_films, settling_of, settling_t, static_load, thinner_film
+   use problem, only: has_elastic_teeth, has_two_flanks, of_drive_compression, of_film, of_velocity, problem_t, reference_film, &
+      reference_films, settling_of, settling_t, static_load, thinner_film
    use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
@@ -84,8 +84,7 @@ module lane_block
    !> Scaled film that counts as lost [-]
    real(dp), parameter, public :: lost_film = 1.0e-9_dp
 
-   public :: place_block, load_problem, rest_lane, start_period, state_of_lane, scaled_state, place_state, thinner_scaled_film, &
-             slip_velocity, start_status, lane_accuracy
+   public :: place_block, load_problem, rest_lane, start_period, slip_velocity, start_status, lane_accuracy
 
 contains
 
@@ -119,8 +118,7 @@ contains
       if (has_elastic_teeth(problem)) then
          if (start%numbers(of_film) <= 0.0_dp) return
          start_status = merge(status_complete, status_overflow, &
-                              maxval(abs(start%numbers(of_drive_compression:of_coast_compression))) &
-                              < overflow_load*problem%compliance)
+                              maxval(abs(start%numbers(of_drive_compression:))) < overflow_load*problem%compliance)
          return
       end if
       if (thinner_film(problem, start%numbers(of_film)) <= 0.0_dp) return
@@ -173,7 +171,8 @@ contains
       block%momentum(lane, 0) = start%numbers(of_velocity)/block%velocity_scale(lane)
       if (start%carried_on) block%momentum(lane, 0) = start%lienard_variable
       block%compliance(lane) = problem%compliance*(force_scale/film_scale)
-      block%compression(lane, :, 0) = start%numbers(of_drive_compression:of_coast_compression)/film_scale
+      block%compression(lane, :, 0) = 0.0_dp
+      block%compression(lane, :size(start%numbers) - of_velocity, 0) = start%numbers(of_drive_compression:)/film_scale
       block%next_compression(lane, :) = 0.0_dp
       call start_period(lane, block)
    end subroutine load_problem
@@ -232,54 +231,6 @@ contains
       block%piezo_expansion(1)%momentum(lane) = block%momentum(lane, 0)
       block%piezo_expansion(2)%momentum(lane) = -block%momentum(lane, 0)
    end subroutine start_period
-
-   !> State of a lane in units; the caller knows its period and method.
-   pure type(motion_state_t) function state_of_lane(lane, block) result(state)
-      integer, intent(in) :: lane
-      type(lane_block_t), intent(in) :: block
-
-      state%numbers(of_film) = block%film(lane, 0)*block%film_scale(lane)
-      state%lienard_variable = block%momentum(lane, 0)
-      state%numbers(of_drive_compression:of_coast_compression) = block%compression(lane, :, 0)*block%film_scale(lane)
-      state%numbers(of_velocity) = (state%lienard_variable + slip_velocity(block%film(lane, 0), lane, block)) &
-                                   *block%velocity_scale(lane)
-      state%carried_on = .true.
-   end function state_of_lane
-
-   !> Scaled state of a lane: all that a period follows from, the Lienard variable in place of the velocity [-].
-   pure function scaled_state(lane, block) result(state)
-      integer, intent(in) :: lane
-      type(lane_block_t), intent(in) :: block
-      real(dp) :: state(largest_state)
-
-      state = 0.0_dp
-      state(of_film) = block%film(lane, 0)
-      state(of_velocity) = block%momentum(lane, 0)
-      state(of_drive_compression:of_coast_compression) = block%compression(lane, :, 0)
-   end function scaled_state
-
-   !> Put a scaled state into a lane.
-   pure subroutine place_state(state, lane, block)
-      !> As of scaled_state
-      real(dp), intent(in) :: state(largest_state)
-      integer, intent(in) :: lane
-      type(lane_block_t), intent(inout) :: block
-
-      block%film(lane, 0) = state(of_film)
-      block%momentum(lane, 0) = state(of_velocity)
-      block%compression(lane, :, 0) = state(of_drive_compression:of_coast_compression)
-   end subroutine place_state
-
-   !> The thinner one of the scaled films of both flanks [-].
-   pure real(dp) function thinner_scaled_film(state, lane, block) result(thinner)
-      !> As of scaled_state
-      real(dp), intent(in) :: state(largest_state)
-      integer, intent(in) :: lane
-      type(lane_block_t), intent(in) :: block
-
-      thinner = min(state(of_film), &
-                    block%backlash(lane) - state(of_film) + sum(state(of_drive_compression:of_coast_compression)))
-   end function thinner_scaled_film
 
    !> H' less V at some film.
    pure real(dp) function slip_velocity(film, lane, block)

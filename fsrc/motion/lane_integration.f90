@@ -14,13 +14,13 @@ module lane_integration
    use film_series, only: series_of, set_coefficients
    use kinds, only: dp, int64
    use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step, take_springs_step
-   use lane_block, only: load_problem, lost_film, place_block, place_state, rest_lane, scaled_state, start_period, start_status, &
-      state_of_lane, thinner_scaled_film
+   use lane_block, only: load_problem, lost_film, place_block, rest_lane, start_period, start_status
    use lane_functions, only: lanes
    use lane_repetition, only: find_repetition, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
+   use lane_state, only: place_state, scaled_state, state_of_lane, thinner_scaled_film
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
-   use problem, only: has_elastic_teeth, of_velocity, problem_t, state_size
+   use problem, only: has_elastic_teeth, of_velocity, problem_t
    use repetition, only: orbit_watch_t, watch_from
    use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
@@ -141,8 +141,7 @@ contains
             watch%last_period = request%periods
             watch%sample_from = max(0, request%periods - request%sampled_periods)
             watch%state = scaled_state(lane, run%block)
-            watch%states = watch_from(watch%state(:state_size(problems(scene))), &
-                                      thinner_scaled_film(watch%state, lane, run%block))
+            watch%states = watch_from(watch%state, thinner_scaled_film(watch%state, lane, run%block))
             watch%departure%period = 0
             watch%excursions = 0
             if (present(watches) .and. starts(scene)%carried_on) watch%states = watches(scene)

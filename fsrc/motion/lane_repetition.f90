@@ -14,11 +14,11 @@
 module lane_repetition
    use engine, only: request_t
    use kinds, only: dp, int64
-   use lane_block, only: place_state, thinner_scaled_film
    use lane_run, only: departure_t, lane_run_t
    use lane_sampling, only: repeat_samples
-   use problem, only: films_at_rest, has_elastic_teeth, largest_state, of_coast_compression, of_drive_compression, of_film, &
-      of_velocity, problem_t, settling_of, settling_t, state_size, static_load
+   use lane_state, only: films_of_lane, place_state, thinner_scaled_film
+   use problem, only: films_at_rest, has_elastic_teeth, of_film, of_velocity, problem_t, settling_of, settling_t, state_size, &
+      static_load
    use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, state_of_age, &
       watch_from, weight_of_film
    use scene_status, only: status_steady
@@ -67,7 +67,7 @@ contains
             weight = momentum_weight(thinner_scaled_film(watch%state, lane, block), block%damping_rate(lane), block%force(lane))
             weights = 1.0_dp
             weights(of_velocity) = weight
-            call note_state(watch%states, watch%state(:size(weights)), thinner_scaled_film(watch%state, lane, block), weights, &
+            call note_state(watch%states, watch%state, thinner_scaled_film(watch%state, lane, block), weights, &
                             settling_of_lane(lane, problem, run), repetition_share*request%accuracy, orbit, distance)
             if (orbit > 0) then
                watch%ending%orbit = orbit
@@ -84,19 +84,6 @@ contains
       end associate
    end subroutine find_repetition
 
-   !> Scaled films of drive and coast flank at the end of the period [-].
-   pure function films_of_lane(lane, run) result(films)
-      !> Lane
-      integer, intent(in) :: lane
-      type(lane_run_t), intent(in) :: run
-      real(dp) :: films(2)
-
-      associate (watch => run%watches(lane))
-         films = [watch%state(of_film), run%block%backlash(lane) - watch%state(of_film) &
-                  + sum(watch%state(of_drive_compression:of_coast_compression))]
-      end associate
-   end function films_of_lane
-
    !> How the film of a lane settles from where it is.
    pure type(settling_t) function settling_of_lane(lane, problem, run)
       !> Lane
@@ -109,7 +96,7 @@ contains
       associate (block => run%block)
          rest = [block%film_scale(lane), problem%backlash - block%film_scale(lane)]
          if (has_elastic_teeth(problem)) rest = films_at_rest(problem, static_load(problem))
-         settling_of_lane = settling_of(problem, films_of_lane(lane, run)*block%film_scale(lane), rest)
+         settling_of_lane = settling_of(problem, films_of_lane(run%watches(lane)%state, lane, block)*block%film_scale(lane), rest)
          ! The momentum of Lienard's form holds the damping.
          if (block%slip(lane) > 0.0_dp) settling_of_lane%damping = 0.0_dp
       end associate
@@ -151,7 +138,8 @@ contains
       !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
-      real(dp) :: rest(2), state(largest_state)
+      real(dp) :: rest(2)
+      real(dp), allocatable :: state(:)
       integer :: orbit, back_at
 
       associate (watch => run%watches(lane))
@@ -172,7 +160,7 @@ contains
             state = watch%state
             state(of_film) = rest(1)
             state(of_velocity) = rest(2)
-            watch%states = watch_from(state(:size(watch%states%states, 1)), thinner_scaled_film(state, lane, run%block))
+            watch%states = watch_from(state, thinner_scaled_film(state, lane, run%block))
             call place(state, lane, run)
          else if (watch%departure%period > 0 .and. watch%period >= watch%back_at) then
             call restore_departure(lane, run)
@@ -197,7 +185,7 @@ contains
    !> Let a period start from a state.
    pure subroutine place(state, lane, run)
       !> Scaled [-]
-      real(dp), intent(in) :: state(largest_state)
+      real(dp), intent(in) :: state(:)
       !> Lane
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run

@@ -7,7 +7,6 @@ module lane_run
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
    use lane_sampling, only: lane_samples_t
-   use problem, only: largest_state
    use repetition, only: orbit_watch_t, recurrence_t
    use step_nodes, only: step_nodes_t
    implicit none(type, external)
@@ -18,7 +17,7 @@ module lane_run
       !> Period 0: it is on its own way
       integer :: period = 0
       !> Scaled [-]
-      real(dp) :: state(largest_state) = 0.0_dp
+      real(dp), allocatable :: state(:)
       type(orbit_watch_t) :: states = orbit_watch_t()
    end type departure_t
 
@@ -29,7 +28,7 @@ module lane_run
       !> Periods done, to be done, and from which on to sample
       integer :: period = 0, last_period = 0, sample_from = 0
       !> Scaled state at the start of the present period [-]
-      real(dp) :: state(largest_state) = 0.0_dp
+      real(dp), allocatable :: state(:)
       !> Looks for repetition, and for return to the last bit
       type(orbit_watch_t) :: states = orbit_watch_t()
       type(recurrence_t) :: past = recurrence_t()

@@ -4,7 +4,7 @@ module load_points
    use carried_loads, only: coast_loads, drive_loads
    use kinds, only: dp
    use node_extremes, only: narrow, top_of_parabola
-   use problem, only: largest_state, of_velocity, problem_t
+   use problem, only: of_velocity, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    implicit none(type, external)
    private
@@ -34,9 +34,8 @@ contains
       real(dp), intent(in) :: place
       real(dp), intent(out) :: load
       real(dp), intent(out) :: velocity
-      real(dp) :: here(1, largest_state), loads(1)
+      real(dp) :: here(1, size(states, 2)), loads(1)
 
-      here = 0.0_dp
       call interpolate(states, piece, place, here(1, :))
       if (flank == drive_flank) then
          call drive_loads(problem, here, loads)

@@ -57,6 +57,7 @@ contains
       record%periods = 0
       kernel => kernel_of(problem%film)
       steps = request%samples_per_period
+      allocate (ending%numbers(state_size(problem)), source=0.0_dp)
       allocate (force(steps), states_of_steps(steps, state_size(problem)), accelerations(steps))
       call force_of_period(problem%force, force)
 

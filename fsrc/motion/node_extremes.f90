@@ -9,7 +9,7 @@ module node_extremes
    use kinds, only: dp
    use carried_loads, only: acceleration_at, coast_films, coast_loads, drive_loads, gear_positions, largest_pressures, &
       net_loads
-   use problem, only: has_elastic_teeth, has_two_flanks, largest_state, of_film, of_velocity, problem_t
+   use problem, only: has_elastic_teeth, has_two_flanks, of_film, of_velocity, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    use value_range, only: range_of
    implicit none(type, external)
@@ -40,8 +40,8 @@ module node_extremes
    !> An extreme and the state there.
    type, public :: extreme_t
       real(dp) :: value = 0.0_dp
-      !> Its numbers
-      real(dp) :: state(largest_state) = 0.0_dp
+      !> Its numbers, none where there is no extreme
+      real(dp), allocatable :: state(:)
       !> When: periods since the window began, and phase
       integer :: period = 0
       real(dp) :: phase = 0.0_dp
@@ -154,24 +154,24 @@ contains
          integer, intent(in) :: i
          real(dp), intent(in) :: range
          type(extreme_t), intent(inout) :: found
-         type(extreme_t) :: here, best
-         real(dp) :: x(3), y(3), place, estimate
+         real(dp) :: x(3), y(3), place, estimate, here, best, best_place, state(size(states, 2)), best_state(size(states, 2))
          integer :: piece, node, j
 
          piece = (i - 1)/nodes_per_piece + 1
          node = modulo(i - 1, nodes_per_piece) + 1
          x = [0.0_dp, node_place(node), 1.0_dp]
          y(2) = sign_of*values(i)
-         best = extreme_t(value=values(i), period=period, phase=start(piece) + x(2)*length(piece), exists=.true.)
-         best%state(:size(states, 2)) = states(i, :)
+         best = values(i)
+         best_place = x(2)
+         best_state = states(i, :)
          do j = 1, 3, 2
             if (node + j - 2 >= 1 .and. node + j - 2 <= nodes_per_piece) then
                x(j) = node_place(node + j - 2)
                y(j) = sign_of*values(i + j - 2)
             else
-               here = at_place(piece, x(j))
-               y(j) = sign_of*here%value
-               if (y(j) > sign_of*best%value) best = here
+               call evaluate(piece, x(j), state, here)
+               y(j) = sign_of*here
+               if (y(j) > sign_of*best) call keep(x(j), here, state, best_place, best, best_state)
             end if
          end do
          do j = 1, most_renewals
@@ -181,43 +181,56 @@ contains
             if (abs(place - x(1)) < same_place) place = x(1) + 0.25_dp*(x(2) - x(1))
             if (abs(place - x(3)) < same_place) place = x(3) + 0.25_dp*(x(2) - x(3))
             if (minval(abs(place - x)) < same_place) exit
-            here = at_place(piece, place)
-            if (sign_of*here%value > sign_of*best%value) best = here
-            if (abs(sign_of*here%value - maxval(y)) <= settled*range .and. j > 2) exit
-            call narrow(x, y, place, sign_of*here%value)
+            call evaluate(piece, place, state, here)
+            if (sign_of*here > sign_of*best) call keep(place, here, state, best_place, best, best_state)
+            if (abs(sign_of*here - maxval(y)) <= settled*range .and. j > 2) exit
+            call narrow(x, y, place, sign_of*here)
          end do
-         if (.not. found%exists) then
-            found = best
-         else if (sign_of*best%value > sign_of*found%value) then
-            found = best
+         if (found%exists) then
+            if (.not. sign_of*best > sign_of*found%value) return
          end if
+         found = extreme_t(value=best, state=best_state, period=period, phase=start(piece) + best_place*length(piece), &
+                           exists=.true.)
       end subroutine renew
 
+      !> Keep a place as the best one so far.
+      pure subroutine keep(place, value, state, best_place, best, best_state)
+         real(dp), intent(in) :: place
+         real(dp), intent(in) :: value
+         real(dp), intent(in) :: state(:)
+         real(dp), intent(out) :: best_place
+         real(dp), intent(out) :: best
+         real(dp), intent(out) :: best_state(:)
+
+         best_place = place
+         best = value
+         best_state = state
+      end subroutine keep
+
       !> State and quantity at a place in a piece.
-      pure type(extreme_t) function at_place(piece, x)
+      pure subroutine evaluate(piece, x, state, quantity_there)
          integer, intent(in) :: piece
          real(dp), intent(in) :: x
-         real(dp) :: value(1), here(1, largest_state), by_film, by_velocity
+         real(dp), intent(out) :: state(:)
+         real(dp), intent(out) :: quantity_there
+         real(dp) :: value(1), here(1, size(state)), by_film, by_velocity
          logical :: alone
 
-         at_place%exists = .true.
-         at_place%period = period
-         at_place%phase = start(piece) + x*length(piece)
-         call interpolate(states, piece, x, at_place%state)
-         here(1, :) = at_place%state
+         call interpolate(states, piece, x, state)
+         here(1, :) = state
          ! One film is not worth the registers of many.
          alone = .not. (has_two_flanks(problem) .or. has_elastic_teeth(problem))
          select case (quantity)
          case (seen_film)
-            value = at_place%state(of_film)
+            value = state(of_film)
          case (seen_velocity)
-            value = at_place%state(of_velocity)
+            value = state(of_velocity)
          case (seen_acceleration)
-            value = acceleration_at(problem, at_place%state, min(1.0_dp, at_place%phase))
+            value = acceleration_at(problem, state, min(1.0_dp, start(piece) + x*length(piece)))
          case (seen_pressure)
             if (alone) then
-               value = exact_pressure(problem%film%radius, problem%film%speed, problem%film%viscosity, &
-                                      at_place%state(of_film), at_place%state(of_velocity))
+               value = exact_pressure(problem%film%radius, problem%film%speed, problem%film%viscosity, state(of_film), &
+                                      state(of_velocity))
             else
                call largest_pressures(problem, here, value)
             end if
@@ -231,13 +244,13 @@ contains
             value = gear_positions(problem, here)
          case default
             if (alone) then
-               call film_load(problem%film, at_place%state(of_film), at_place%state(of_velocity), value(1), by_film, by_velocity)
+               call film_load(problem%film, state(of_film), state(of_velocity), value(1), by_film, by_velocity)
             else
                call drive_loads(problem, here, value)
             end if
          end select
-         at_place%value = value(1)
-      end function at_place
+         quantity_there = value(1)
+      end subroutine evaluate
 
    end subroutine find_extremes
 

@@ -37,7 +37,7 @@
 !> its rest by d_h over the root of k.
 module repetition
    use kinds, only: dp, int64
-   use problem, only: largest_state, of_film, of_velocity, settling_t
+   use problem, only: of_film, of_velocity, settling_t
    use taylor_step_control, only: film_weight
    implicit none(type, external)
    private
@@ -72,19 +72,14 @@ module repetition
    !> Periods after which the marks are set anew; the last one stays as long as all that came before it.
    integer, parameter :: mark_periods(4) = [1, 4, 16, 64]
 
-   !> A state at the start of a period.
-   type :: mark_t
-      integer :: period = -1
-      !> Bits of the scaled state
-      integer(int64) :: state(largest_state) = 0_int64
-      !> Steps up to there
-      integer(int64) :: steps = 0_int64
-   end type mark_t
-
-   !> What a motion looks back on.
+   !> What a motion looks back on: states at the starts of some periods.
    type, public :: recurrence_t
       private
-      type(mark_t) :: marks(size(mark_periods)) = mark_t()
+      !> Period of each mark, -1: it is not set; and the steps up to there
+      integer :: periods(size(mark_periods)) = -1
+      integer(int64) :: steps(size(mark_periods)) = 0_int64
+      !> Bits of the scaled states: number, mark
+      integer(int64), allocatable :: states(:, :)
    end type recurrence_t
 
    public :: watch_from, note_state, weight_of_film, state_of_age, look_back
@@ -319,38 +314,32 @@ contains
       !> Periods done
       integer, intent(in) :: period
       !> Scaled [-]
-      real(dp), intent(in) :: state(largest_state)
+      real(dp), intent(in) :: state(:)
       !> Steps up to here
       integer(int64), intent(in) :: steps
       !> Periods since the motion was in this very state, 0: it is new
       integer, intent(out) :: cycle_periods
       !> Steps since then
       integer(int64), intent(out) :: cycle_steps
-      type(mark_t) :: here
+      integer(int64) :: here(size(state))
       integer :: i, stays
 
-      here = mark_t(period, transfer(state, here%state), steps)
+      here = transfer(state, here)
+      if (.not. allocated(past%states)) allocate (past%states(size(state), size(mark_periods)), source=0_int64)
       cycle_periods = 0
       cycle_steps = 0_int64
       do i = size(mark_periods), 1, -1
-         associate (mark => past%marks(i))
-            if (same_state(here, mark)) then
-               cycle_periods = period - mark%period
-               cycle_steps = steps - mark%steps
-            end if
-            stays = mark_periods(i)
-            if (i == size(mark_periods)) stays = max(stays, mark%period)
-            if (mark%period < 0 .or. period - mark%period >= stays) mark = here
-         end associate
+         if (past%periods(i) >= 0 .and. all(here == past%states(:, i))) then
+            cycle_periods = period - past%periods(i)
+            cycle_steps = steps - past%steps(i)
+         end if
+         stays = mark_periods(i)
+         if (i == size(mark_periods)) stays = max(stays, past%periods(i))
+         if (past%periods(i) >= 0 .and. period - past%periods(i) < stays) cycle
+         past%periods(i) = period
+         past%steps(i) = steps
+         past%states(:, i) = here
       end do
    end subroutine look_back
-
-   !> Whether a state is that of a mark that has been set.
-   pure logical function same_state(here, mark)
-      type(mark_t), intent(in) :: here
-      type(mark_t), intent(in) :: mark
-
-      same_state = mark%period >= 0 .and. all(here%state == mark%state)
-   end function same_state
 
 end module repetition

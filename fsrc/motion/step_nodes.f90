@@ -157,8 +157,8 @@ contains
       !> The piece, and a place in it, from 0 to 1
       integer, intent(in) :: piece
       real(dp), intent(in) :: x
-      !> The numbers there; those that the states lack stay
-      real(dp), intent(inout) :: state(:)
+      !> The numbers there
+      real(dp), intent(out) :: state(:)
       real(dp), dimension(nodes_per_piece) :: distance, factor, products
       integer :: nearest, number, before
 
@@ -166,7 +166,7 @@ contains
       distance = x - node_place
       if (any(abs(distance) < epsilon(1.0_dp))) then
          nearest = minloc(abs(distance), dim=1)
-         state(:size(states, 2)) = states(before + nearest, :)
+         state = states(before + nearest, :)
       else
          factor = barycentric/distance
          factor = factor/sum(factor)

@@ -9,7 +9,7 @@ module lyapunov
    use kinds, only: dp
    use many_motions, only: solve_motions
    use periodic_orbit, only: sizes_of_state
-   use problem, only: largest_state, problem_t, state_size
+   use problem, only: problem_t
    use scene_status, only: status_complete
    use signals, only: must_stop
    implicit none(type, external)
@@ -55,7 +55,7 @@ contains
       type(request_t) :: one_period
       type(motion_state_t) :: pairs(2, size(problems))
       type(ending_t) :: endings(2*size(problems))
-      real(dp) :: growths(-turning_periods + 1:followed_periods, size(problems)), none(0, largest_state, 2*size(problems))
+      real(dp) :: growths(-turning_periods + 1:followed_periods, size(problems)), none(0, 2, 2*size(problems))
       logical :: apart(size(problems))
       integer, allocatable :: left(:)
       integer :: period, i, n
@@ -63,7 +63,7 @@ contains
       one_period = request_t(accuracy=map_accuracy, periods=1)
       do i = 1, size(problems)
          pairs(1, i) = motion_state_t(numbers=states(i)%numbers)
-         pairs(2, i) = displaced(problems(i), states(i)%numbers, spread(1.0_dp, 1, largest_state))
+         pairs(2, i) = displaced(problems(i), states(i)%numbers, spread(1.0_dp, 1, size(states(i)%numbers)))
       end do
       left = [(i, i=1, size(problems))]
       do period = -turning_periods + 1, followed_periods
@@ -121,12 +121,9 @@ contains
       type(motion_state_t), intent(out) :: pair(2)
       !> Logarithm by which their distance grew [-]
       real(dp), intent(out) :: growth
-      real(dp) :: direction(largest_state), farthest
-      integer :: n
+      real(dp) :: direction(size(motion)), farthest
 
-      n = state_size(problem)
-      direction = 0.0_dp
-      direction(:n) = (neighbour(:n) - motion(:n))/sizes_of_state(problem, motion(:n))
+      direction = (neighbour - motion)/sizes_of_state(problem, motion)
       farthest = maxval(abs(direction))
       ! Neighbours that have met tell no direction: what is left of their distance is less than the errors.
       if (.not. farthest > map_accuracy*distance) then
@@ -144,13 +141,8 @@ contains
       real(dp), intent(in) :: numbers(:)
       !> Of the displacement, the largest of its numbers 1
       real(dp), intent(in) :: direction(:)
-      real(dp) :: moved(largest_state)
-      integer :: n
 
-      n = state_size(problem)
-      moved = numbers
-      moved(:n) = numbers(:n) + distance*direction(:n)*sizes_of_state(problem, numbers(:n))
-      displaced = motion_state_t(numbers=moved)
+      displaced = motion_state_t(numbers=numbers + distance*direction*sizes_of_state(problem, numbers))
    end function displaced
 
 end module lyapunov

@@ -12,8 +12,7 @@ module periodic_orbit
    use matrix_values, only: eigenvalues
    use force, only: largest_oscillation
    use carried_loads, only: thinnest_film
-   use problem, only: has_elastic_teeth, largest_state, of_drive_compression, of_film, of_velocity, problem_t, state_size, &
-      static_load
+   use problem, only: has_elastic_teeth, of_drive_compression, of_film, of_velocity, problem_t, static_load
    use scene_status, only: status_complete
    use scene_types, only: least_static_load
    implicit none(type, external)
@@ -44,7 +43,7 @@ module periodic_orbit
       !> Period in periods of the force, 0: none was found
       integer :: period = 0
       !> Numbers of its state at the start of a period of the force
-      real(dp) :: state(largest_state) = 0.0_dp
+      real(dp), allocatable :: state(:)
       !> Distance of the state that the search began with, relative to the film [-]
       real(dp) :: distance = 0.0_dp
       !> Floquet multipliers of one period of the motion, as many as a state has numbers [-]
@@ -90,12 +89,12 @@ contains
 
       problems = problem
       do i = 1, size(starts)
-         starts(i)%numbers(:size(states, 1)) = states(:, i)
+         starts(i)%numbers = states(:, i)
       end do
       call solve_motions(problems, starts, request_t(accuracy=accuracy, periods=periods), none, endings)
       mapped = all(endings%status == status_complete)
       do i = 1, size(endings)
-         states(:, i) = endings(i)%numbers(:size(states, 1))
+         states(:, i) = endings(i)%numbers
       end do
    end subroutine map_states
 
@@ -108,17 +107,17 @@ contains
       !> Distance at which a periodic motion is another one, relative to the film [-]
       real(dp), intent(in) :: nearness
       type(periodic_orbit_t) :: orbit
-      real(dp) :: images(state_size(problem), 1), scale(state_size(problem))
+      real(dp) :: images(size(state), 1), scale(size(state))
       integer :: period
       logical :: mapped
 
-      scale = scale_of(problem, state(:size(images, 1)))
-      images(:, 1) = state(:size(images, 1))
+      scale = scale_of(problem, state)
+      images(:, 1) = state
       do period = 1, longest_period
          call map_states(problem, 1, map_accuracy, images, mapped)
          if (.not. mapped) return
-         if (maxval(abs(images(:, 1) - state(:size(images, 1)))*scale) > nearness*thinnest_film(problem, state)) cycle
-         orbit = newton(problem, period, state(:size(images, 1)), scale)
+         if (maxval(abs(images(:, 1) - state)*scale) > nearness*thinnest_film(problem, state)) cycle
+         orbit = newton(problem, period, state, scale)
          if (orbit%period > 0) orbit = shortest(problem, orbit, scale)
          if (orbit%period > 0 .and. orbit%distance <= nearness) return
       end do
@@ -167,11 +166,11 @@ contains
       logical :: mapped
 
       shortest = orbit
-      images(:, 1) = orbit%state(:size(scale))
+      images(:, 1) = orbit%state
       do period = 1, orbit%period/2
          call map_states(problem, 1, map_accuracy, images, mapped)
          if (.not. mapped) return
-         associate (state => orbit%state(:size(scale)))
+         associate (state => orbit%state)
             if (any(abs(images(:, 1) - state) > largest_disturbance*sizes_of(problem, state, scale))) cycle
             shortest = newton(problem, period, state, scale)
          end associate
@@ -271,7 +270,7 @@ contains
          ! A motion of whose stability nothing is known counts as none.
          if (size(orbit%multipliers) == 0) return
          orbit%period = period
-         orbit%state(:n) = state
+         orbit%state = state
          orbit%distance = maxval(abs(state - start)*scale)/thickness
          return
       end do

@@ -5,14 +5,14 @@ module carried_loads
    use film_pressure, only: exact_pressures
    use force, only: force_at, force_of_period
    use kinds, only: dp
-   use problem, only: has_elastic_teeth, has_two_flanks, largest_state, of_coast_compression, of_drive_compression, of_film, &
-      of_velocity, problem_t
+   use problem, only: has_elastic_teeth, has_two_flanks, of_coast_compression, of_drive_compression, of_film, of_velocity, &
+      problem_t, state_size
    use squeeze_of_load, only: load_carried
    implicit none(type, external)
    private
 
    public :: thinnest_film, net_load, net_loads, drive_loads, coast_loads, coast_films, films_of, gear_positions, &
-             initial_state, largest_pressures, acceleration_at, accelerations_of_samples
+             initial_state, spring_loads, load_springs, largest_pressures, acceleration_at, accelerations_of_samples
 
 contains
 
@@ -153,14 +153,40 @@ contains
    !> State in which the motion of a problem starts.
    pure function initial_state(problem) result(state)
       type(problem_t), intent(in) :: problem
-      real(dp) :: state(largest_state)
+      real(dp) :: state(state_size(problem))
+      real(dp) :: compression(2)
 
       state = 0.0_dp
       state(of_film) = problem%initial_film
       state(of_velocity) = problem%initial_velocity
-      if (has_elastic_teeth(problem) .and. problem%initial_film > 0.0_dp) &
-         call start_springs(problem, state(of_drive_compression:of_coast_compression))
+      if (.not. (has_elastic_teeth(problem) .and. problem%initial_film > 0.0_dp)) return
+      call start_springs(problem, compression)
+      state(of_drive_compression:) = compression(:size(state) - of_velocity)
    end function initial_state
+
+   !> Loads of the springs in a state [N]: none where teeth are rigid.
+   pure function spring_loads(problem, state) result(loads)
+      type(problem_t), intent(in) :: problem
+      !> Its numbers
+      real(dp), intent(in) :: state(:)
+      real(dp), allocatable :: loads(:)
+
+      loads = state(of_drive_compression:)/problem%compliance
+   end function spring_loads
+
+   !> Compress the springs of a state by loads; a spring without one is not compressed.
+   pure subroutine load_springs(problem, loads, state)
+      type(problem_t), intent(in) :: problem
+      !> As of spring_loads [N]
+      real(dp), intent(in) :: loads(:)
+      !> Its numbers
+      real(dp), intent(inout) :: state(:)
+      integer :: n
+
+      n = min(size(loads), size(state) - of_velocity)
+      state(of_drive_compression:) = 0.0_dp
+      state(of_drive_compression:of_velocity + n) = problem%compliance*loads(:n)
+   end subroutine load_springs
 
    !> Compressions of the springs at the start: the drive film carries the first one at the velocity of the gear, the coast film,
    !> whose gap grows by both, the other.

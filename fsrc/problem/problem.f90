@@ -38,12 +38,14 @@ module problem
       real(dp) :: initial_velocity = 0.0_dp
    end type problem_t
 
-   !> Numbers of a state and their most: film of the drive flank h_1 [m], velocity z' [m/s], compressions d_1 and d_2 [m].
-   integer, parameter, public :: of_film = 1, of_velocity = 2, of_drive_compression = 3, of_coast_compression = 4, largest_state = 4
-   !> What files call them, and their units
-   character(*), parameter, public :: state_names(largest_state) = [character(17) :: 'film', 'velocity', 'drive_compression', &
-                                                                    'coast_compression']
-   character(*), parameter, public :: state_units(largest_state) = [character(3) :: 'm', 'm/s', 'm', 'm']
+   !> Places of the numbers of a state: film of the drive flank h_1 [m], velocity z' [m/s], compressions d_1 and d_2 [m].
+   integer, parameter, public :: of_film = 1, of_velocity = 2, of_drive_compression = 3, of_coast_compression = 4
+
+   !> What files call a number of a state, and its unit.
+   type, public :: state_number_t
+      character(:), allocatable :: name
+      character(:), allocatable :: unit
+   end type state_number_t
 
    !> The film in the neighbourhood of rest, h'' + d h' + k h = 0 with the period of the force as the unit of time.
    type, public :: settling_t
@@ -55,7 +57,7 @@ module problem
       real(dp) :: rate = huge(1.0_dp)
    end type settling_t
 
-   public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, static_load, largest_applied_force, &
+   public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, state_numbers, static_load, largest_applied_force, &
              film_at_rest, films_at_rest, loads_at_rest, reference_films, reference_film, thinner_film, linearise, settling_of
 
 contains
@@ -112,6 +114,18 @@ contains
       state_size = 2
       if (has_elastic_teeth(problem)) state_size = merge(4, 3, has_two_flanks(problem))
    end function state_size
+
+   !> The numbers of a state, in their order.
+   pure function state_numbers(problem) result(numbers)
+      type(problem_t), intent(in) :: problem
+      type(state_number_t) :: numbers(state_size(problem))
+
+      numbers(of_film) = state_number_t('film', 'm')
+      numbers(of_velocity) = state_number_t('velocity', 'm/s')
+      if (.not. has_elastic_teeth(problem)) return
+      numbers(of_drive_compression) = state_number_t('drive_compression', 'm')
+      if (has_two_flanks(problem)) numbers(of_coast_compression) = state_number_t('coast_compression', 'm')
+   end function state_numbers
 
    !> The thinner one of the films of both flanks, of rigid teeth [m].
    elemental real(dp) function thinner_film(problem, film)

@@ -11,7 +11,7 @@ module certify_scene
    use loudness, only: loudness_of_record, loudness_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use carried_loads, only: films_of
-   use problem, only: largest_state, problem_t
+   use problem, only: problem_t
    use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, note_parting, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
@@ -90,7 +90,7 @@ contains
       if (len(unclosed) == 0) unclosed = &
          doubt_of_return(verdict, window%periods, &
                          films_of(resolved%problem, reshape([tight%record%start%numbers, ending%numbers], &
-                                                            [2, largest_state], order=[2, 1])), &
+                                                            [2, size(ending%numbers)], order=[2, 1])), &
                          scene%spectrum%certificate_tolerance)
       if (len(unclosed) == 0 .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
          call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)

@@ -34,7 +34,7 @@ contains
 
       judged%status = ending%status
       judged%time = ending%time
-      judged%film = ending%numbers(of_film)
+      if (allocated(ending%numbers)) judged%film = ending%numbers(of_film)
       judged%periods = ending%periods
       judged%repeats_after = ending%orbit
       judged%count = ending%count

@@ -37,7 +37,7 @@ module judged_scene
       quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, quantity_steps_cut, &
       quantity_stiffness_matters, quantity_velocity_maximum, quantity_velocity_minimum, quantity_window_periods
    use carried_loads, only: coast_films
-   use problem, only: has_elastic_teeth, has_two_flanks, largest_state, of_film
+   use problem, only: has_elastic_teeth, has_two_flanks, of_film
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit, film_elastohydrodynamic
    use regime_check, only: model_limit, regime_verdict_t
@@ -299,7 +299,9 @@ contains
       associate (highest => judged%extremes%highest, resolved => judged%resolved)
          share = highest(seen_load)%value/highest(seen_load)%state(of_film)
          if (has_two_flanks(resolved%problem)) then
-            coast = coast_films(resolved%problem, reshape(highest(seen_coast_load)%state, [1, largest_state]))
+            associate (state => highest(seen_coast_load)%state)
+               coast = coast_films(resolved%problem, reshape(state, [1, size(state)]))
+            end associate
             share = max(share, highest(seen_coast_load)%value/coast(1))
          end if
          share = resolved%tooth_compliance*share

@@ -12,7 +12,7 @@ module resume
    use input_difference, only: first_difference
    use kinds, only: dp, int64
    use output_place, only: result_path, state_path
-   use problem, only: problem_of, state_names, state_size, state_units
+   use problem, only: problem_of, state_number_t, state_numbers
    use repetition, only: kept_states, orbit_watch_t
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
@@ -53,13 +53,15 @@ contains
       !> Set if the file cannot be written
       type(error_t), allocatable, intent(out) :: error
       type(result_writer_t) :: writer
+      type(state_number_t), allocatable :: numbers(:)
       character(column_name_bytes), allocatable :: names(:)
       character(column_unit_bytes), allocatable :: units(:)
       real(dp), allocatable :: row(:, :)
 
-      call columns_of(state_size(problem_of(scene)), names, units)
+      numbers = state_numbers(problem_of(scene))
+      call columns_of(numbers, names, units)
       allocate (row(size(names), 1))
-      row(:, 1) = row_of(state, state_size(problem_of(scene)))
+      row(:, 1) = row_of(state, size(numbers))
       call writer%open(state_path(scene), scene%resolved_input, names, units, 1_int64, .false., error)
       if (.not. allocated(error)) call writer%write_rows(row, error)
       if (.not. allocated(error)) call writer%close(error)
@@ -75,13 +77,15 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(file_state_t) :: kept
       type(result_reader_t) :: reader
+      type(state_number_t), allocatable :: numbers(:)
       character(column_name_bytes), allocatable :: names(:)
       character(column_unit_bytes), allocatable :: units(:)
       real(dp), allocatable :: row(:, :)
 
       kept = state_of_path(state_path(scene))
       if (kept%bytes == 0_int64) return
-      call columns_of(state_size(problem_of(scene)), names, units)
+      numbers = state_numbers(problem_of(scene))
+      call columns_of(numbers, names, units)
       allocate (row(size(names), 1))
       call open_earlier(scene, state_path(scene), free_keys, reader, error)
       if (.not. allocated(error) .and. .not. equal_names(reader%names, names)) &
@@ -90,7 +94,7 @@ contains
       if (.not. allocated(error)) call reader%read_rows(1_int64, row, error)
       call reader%close()
       if (allocated(error)) return
-      state = state_of(row(:, 1), state_size(problem_of(scene)))
+      state = state_of(row(:, 1), size(numbers))
       if (state%periods == 0) return
       if (scene%solver%until /= until_steady) then
          ! The search ends here: what it has seen does not follow the motion any more.
@@ -156,26 +160,29 @@ contains
 
    !> Columns of a file of state.
    pure subroutine columns_of(numbers, names, units)
-      !> How many a state has
-      integer, intent(in) :: numbers
+      !> Of a state
+      type(state_number_t), intent(in) :: numbers(:)
       character(column_name_bytes), allocatable, intent(out) :: names(:)
       character(column_unit_bytes), allocatable, intent(out) :: units(:)
-      integer :: place, age, i
+      integer :: place, age, i, n
 
       place = size(head_names)
-      allocate (names(place + numbers + (numbers + 1)*kept_states), units(place + numbers + (numbers + 1)*kept_states))
+      n = size(numbers)
+      allocate (names(place + n + (n + 1)*kept_states), units(place + n + (n + 1)*kept_states))
       names(:place) = head_names
       units(:) = '-'
       units(:place) = head_units
-      names(place + 1:place + numbers) = state_names(:numbers)
-      units(place + 1:place + numbers) = state_units(:numbers)
-      place = place + numbers
+      do i = 1, n
+         names(place + i) = numbers(i)%name
+         units(place + i) = numbers(i)%unit
+      end do
+      place = place + n
       do age = 1, kept_states
-         do i = 1, numbers
-            names(place + i) = 'watch_'//trim(state_names(i))//'_'//integer_text(age)
+         do i = 1, n
+            names(place + i) = 'watch_'//numbers(i)%name//'_'//integer_text(age)
          end do
-         names(place + numbers + 1) = 'watch_thinnest_'//integer_text(age)
-         place = place + numbers + 1
+         names(place + n + 1) = 'watch_thinnest_'//integer_text(age)
+         place = place + n + 1
       end do
    end subroutine columns_of
 
@@ -190,20 +197,23 @@ contains
 
    !> A state as a row; see `state_of`.
    pure function row_of(state, numbers) result(row)
+      !> One of 0 periods has no numbers yet
       type(checkpoint_t), intent(in) :: state
       !> How many it has
       integer, intent(in) :: numbers
       real(dp), allocatable :: row(:)
-      real(dp) :: watched(numbers + 1, kept_states)
+      real(dp) :: values(numbers), watched(numbers + 1, kept_states)
 
       associate (watch => state%watch)
+         values = 0.0_dp
+         if (allocated(state%numbers)) values = state%numbers
          watched = 0.0_dp
          if (allocated(watch%states)) watched(:numbers, :) = watch%states
          watched(numbers + 1, :) = watch%thinnest
          row = [real(state%periods, dp), state%acceleration, state%lienard_variable, merge(1.0_dp, 0.0_dp, state%implicit), &
                 real(state%count%steps, dp), real(state%count%evaluations, dp), real(state%count%cuts, dp), &
                 real(state%orbit, dp), real(watch%count, dp), real(watch%newest, dp), &
-                merge(1.0_dp, 0.0_dp, allocated(watch%states)), state%numbers(:numbers), watched]
+                merge(1.0_dp, 0.0_dp, allocated(watch%states)), values, watched]
       end associate
    end function row_of
 
@@ -226,7 +236,7 @@ contains
       state%count%cuts = nint(row(7), int64)
       state%orbit = nint(row(8))
       place = size(head_names)
-      state%numbers(:numbers) = row(place + 1:place + numbers)
+      state%numbers = row(place + 1:place + numbers)
       watched(:, :) = reshape(row(place + numbers + 1:), shape(watched))
       state%watch%count = nint(row(9))
       state%watch%newest = nint(row(10))

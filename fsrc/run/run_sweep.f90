@@ -16,7 +16,8 @@ module run_sweep
    use log_file, only: log_t
    use loudness, only: loudness_of_record
    use output_place, only: log_path, result_path, summary_path
-   use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity
+   use carried_loads, only: load_springs, spring_loads
+   use problem, only: of_film, of_velocity
    use periodic_orbit, only: attracting_period, find_periodic_orbit
    use progress, only: progress_t
    use quantities, only: quantities_told_in, quantity_model_limit, quantity_table
@@ -48,7 +49,7 @@ module run_sweep
       real(dp) :: film = 0.0_dp
       real(dp) :: velocity = 0.0_dp
       !> Where teeth give, by films that stay as they are while the stiffness changes: drive and coast flank [N]
-      real(dp) :: spring_loads(2) = 0.0_dp
+      real(dp), allocatable :: spring_loads(:)
    end type carried_state_t
 
    public :: run_sweep_task, solve_value
@@ -213,7 +214,7 @@ contains
          end if
          if (.not. problem%initial_film > 0.0_dp) return
          start = start_of(problem)
-         if (state%film > 0.0_dp) start%numbers(of_drive_compression:of_coast_compression) = problem%compliance*state%spring_loads
+         if (state%film > 0.0_dp) call load_springs(problem, state%spring_loads, start%numbers)
          call unlock_texts()
          call find_steady_motion(problem, start, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
          call lock_texts()
@@ -223,8 +224,7 @@ contains
          if (.not. is_success(ending%status)) return
          state%film = ending%numbers(of_film)
          state%velocity = ending%numbers(of_velocity)
-         if (problem%compliance > 0.0_dp) state%spring_loads = &
-            ending%numbers(of_drive_compression:of_coast_compression)/problem%compliance
+         state%spring_loads = spring_loads(problem, ending%numbers)
          problem%initial_film = state%film
          problem%initial_velocity = state%velocity
          start = motion_state_t(numbers=ending%numbers)

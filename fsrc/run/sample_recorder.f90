@@ -7,7 +7,7 @@ module sample_recorder
    use kinds, only: dp, int64
    use node_extremes, only: extreme_t, seen_acceleration, seen_film, seen_velocity
    use carried_loads, only: acceleration_at, coast_films, coast_loads, gear_positions
-   use problem, only: has_two_flanks, largest_state, of_film, of_velocity, problem_t, state_size
+   use problem, only: has_two_flanks, of_film, of_velocity, problem_t, state_size
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use scene_types, only: column_acceleration, column_applied_force, column_coast_load, column_coast_film, &
@@ -216,7 +216,7 @@ contains
       !> Whether the samples are too few for the motion
       logical, intent(in) :: coarse
       type(extreme_t) :: found(6), kept(6)
-      real(dp) :: rows(size(self%columns), 6), phases(6), states(6, largest_state), accelerations(6)
+      real(dp) :: rows(size(self%columns), 6), phases(6), states(6, state_size(self%problem)), accelerations(6)
       integer :: n, next
 
       if (.not. self%series) return

@@ -89,8 +89,7 @@ contains
          real(dp), intent(in) :: value
          type(extreme_t), intent(inout) :: extreme
 
-         extreme = extreme_t(value=value, exists=.true.)
-         extreme%state(:size(states, 2)) = states(first + sample - 1, :)
+         extreme = extreme_t(value=value, state=states(first + sample - 1, :), exists=.true.)
       end subroutine place
 
    end function extremes_of_samples

@@ -100,17 +100,27 @@ contains
       off = off(:, solved)
       unused = middle
       rest = starts
-      rest%numbers(1) = starts%numbers(1)*(1.0_dp + offset)
+      call move_films(rest)
       off_problems = problems
       off_problems%force%steady = problems%force%steady + offset*(static_load(problems) + problems%force%cosine)
       call last_periods(off_problems, rest, off, group%periods, accuracy, unused, endings)
       call note_growth()
       rest = middle%motion_state_t
-      rest%numbers(1) = middle%numbers(1)*(1.0_dp + offset)
+      call move_films(rest)
       call last_periods(problems, rest, off, group%periods, accuracy, unused, endings)
       call note_growth()
 
    contains
+
+      !> Move the films at the start by the offset.
+      subroutine move_films(states)
+         type(motion_state_t), intent(inout) :: states(:)
+         integer :: place
+
+         do place = 1, size(states)
+            states(place)%numbers(of_film) = states(place)%numbers(of_film)*(1.0_dp + offset)
+         end do
+      end subroutine move_films
 
       !> Take the growth from solutions that are off.
       subroutine note_growth()

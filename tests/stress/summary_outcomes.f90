@@ -14,6 +14,7 @@
 !> failure. Where a row was asked for a certificate, a wrong class is one only if it is certified. A value of a sweep is held
 !> against the truth as a row is.
 module summary_outcomes
+   use carried_loads, only: load_springs
    use engine, only: motion_state_t, start_of
    use force, only: largest_oscillation
    use impact_reference, only: compared_harmonics, distance, find_orbit, impact_reference_t, possible_classes, solve_reference
@@ -21,6 +22,7 @@ module summary_outcomes
    use impact_window, only: solve_periods
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t
+   use problem, only: problem_t
    use random_scenes, only: drawn_scene_t
    use text, only: integer_text, short_text
    use told_summary, only: told_t
@@ -264,6 +266,7 @@ contains
       !> How well the limits of the classes are known
       real(dp), intent(in) :: margin
       type(impact_reference_t), intent(out) :: reference
+      type(problem_t) :: problem
       type(tooth_t) :: tooth
       type(tooth_state_t) :: state
       type(motion_state_t) :: start
@@ -272,9 +275,12 @@ contains
       tooth = tooth_of_lane(drawn%resolved%problem)
       call disturb(offset, tooth)
       start = start_of(drawn%resolved%problem)
-      if (drawn%before%film > 0.0_dp) &
-         start = motion_state_t(numbers=[drawn%before%film, drawn%before%velocity, &
-                                         tooth%compliance*drawn%before%spring_loads])
+      if (drawn%before%film > 0.0_dp) then
+         problem = drawn%resolved%problem
+         problem%compliance = tooth%compliance
+         start%numbers(:2) = [drawn%before%film, drawn%before%velocity]
+         call load_springs(problem, drawn%before%spring_loads, start%numbers)
+      end if
       state = start_of_tooth(drawn%resolved%problem, start, offset)
       call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)
       if (solved) call solve_reference(tooth, rule, tolerance, told%window, drawn%scene%spectrum, drawn%resolved%noise_floor, &

@@ -11,7 +11,7 @@ module told_summary
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
    use newmark_engine, only: solve_newmark
-   use problem, only: has_two_flanks, largest_state, problem_t
+   use problem, only: has_two_flanks, problem_t
    use quantities, only: quantity_acceleration_maximum, quantity_acceleration_minimum, quantity_certified, &
                          quantity_coast_film_maximum, quantity_coast_film_minimum, &
                          quantity_film_maximum, quantity_film_minimum, quantity_harmonics, quantity_orbit_period, &
@@ -70,7 +70,7 @@ contains
       type(problem_t) :: problems(size(drawn))
       type(motion_state_t) :: starts(size(drawn))
       type(ending_t) :: endings(size(drawn))
-      real(dp) :: none(0, largest_state, size(drawn))
+      real(dp) :: none(0, 2, size(drawn))
       integer :: i
 
       do i = 1, size(drawn)

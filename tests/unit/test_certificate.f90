@@ -2,6 +2,7 @@
 module test_certificate
    use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_of_return, no_certificate
    use checks, only: check_list_t
+   use engine, only: motion_state_t
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
    use rattle_class, only: class_creep, class_idle, class_irregular, class_quiet, class_subharmonic, rattle_verdict_t
@@ -307,8 +308,8 @@ contains
       call checks%check(certificate%reason == 'It is open.' .and. .not. certificate%certified, 'closing: the reason given')
       call checks%check(doubt() == '', 'closing: no record, no doubt')
       ! Two periods whose velocity grows by 4 m/s, of which the integral of z'' sees all, or 0.2 % less.
-      record = window_record_t(periods=2, end_velocity=4.0_dp, acceleration_sum=4.0_dp*frequency, &
-         acceleration_size=10.0_dp*frequency)
+      record = window_record_t(periods=2, start=motion_state_t(numbers=[1.0_dp, 0.0_dp]), end_velocity=4.0_dp, &
+                               acceleration_sum=4.0_dp*frequency, acceleration_size=10.0_dp*frequency)
       call checks%check(doubt() == '', 'closing: momentum')
       record%acceleration_sum = 3.98_dp*frequency
       call checks%check(index(doubt(), 'the mean of z"') > 0, 'closing: momentum is missing')

@@ -72,6 +72,7 @@ contains
       type(request_t) :: request
       type(ending_t) :: endings(scenes)
       real(dp) :: states(64, 2, scenes)
+      integer :: i
 
       scene = canonical_scene(law_iso_viscous, 64)
       lanes = problem_of(scene)
@@ -84,7 +85,8 @@ contains
       call lift_time_limit()
       call checks%check(all(endings%status == status_interrupted), 'motions: interrupted')
       call checks%check(all(endings%periods == 0 .and. endings%samples == 0), 'motions: nothing solved')
-      call checks%check(all(same_bits(endings%numbers(of_film), lanes%initial_film)), 'motions: where they began')
+      call checks%check(all(same_bits([(endings(i)%numbers(of_film), i=1, size(endings))], lanes%initial_film)), &
+                        'motions: where they began')
       call solve_motions(lanes, starts, request, states, endings)
       call checks%check(all(endings%status == status_complete .and. endings%periods == 3), 'motions: solved in the end')
    end subroutine test_motions

@@ -359,14 +359,14 @@ contains
       nodes%states(:, of_film) = 1.0e-6_dp
       do multiples = 3, 8
          record = window_record_t(multiples=multiples)
-         call start_record(motion_state_t(numbers=[1.0e-6_dp, 0.0_dp, 0.0_dp, 0.0_dp]), record)
+         call start_record(motion_state_t(numbers=[1.0e-6_dp, 0.0_dp]), record)
          nodes%pieces = pieces
          nodes%states(:, of_velocity) = phases
          call record_period(lane, 1.0_dp, nodes, record)
          call checks%check(abs(record%line_sums(0) - 1.0_dp) < rounding, 'coefficients: mean of a ramp')
          call checks%check(all(abs(record%line_sums(1:)) < rounding), 'coefficients: of a ramp')
          do k = 1, multiples
-            call start_record(motion_state_t(numbers=[1.0e-6_dp, 0.0_dp, 0.0_dp, 0.0_dp]), record)
+            call start_record(motion_state_t(numbers=[1.0e-6_dp, 0.0_dp]), record)
             nodes%pieces = pieces
             nodes%states(:, of_velocity) = sin(two_pi*real(k, dp)*phases) + 2.0_dp*cos(two_pi*real(k, dp)*phases)
             call record_period(lane, 0.0_dp, nodes, record)

@@ -1,0 +1,81 @@
+!> How the numbers of a state stand in a lane of a block, scaled: the one place of the engine that knows which number is which.
+module lane_state
+   use engine, only: motion_state_t
+   use kinds, only: dp
+   use lane_block, only: lane_block_t, slip_velocity
+   use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity
+   implicit none(type, external)
+   private
+
+   public :: state_of_lane, scaled_state, place_state, films_of_lane, thinner_scaled_film
+
+contains
+
+   !> State of a lane in units; the caller knows its period and method.
+   pure type(motion_state_t) function state_of_lane(lane, block) result(state)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      state%numbers = scaled_state(lane, block)
+      state%lienard_variable = state%numbers(of_velocity)
+      state%numbers = state%numbers*block%film_scale(lane)
+      state%numbers(of_velocity) = (state%lienard_variable + slip_velocity(block%film(lane, 0), lane, block)) &
+                                   *block%velocity_scale(lane)
+      state%carried_on = .true.
+   end function state_of_lane
+
+   !> Scaled state of a lane: all that a period follows from, the Lienard variable in place of the velocity [-].
+   pure function scaled_state(lane, block) result(state)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      real(dp) :: state(of_velocity + springs_of(lane, block))
+
+      state(of_film) = block%film(lane, 0)
+      state(of_velocity) = block%momentum(lane, 0)
+      state(of_drive_compression:) = block%compression(lane, :springs_of(lane, block), 0)
+   end function scaled_state
+
+   !> Springs of the motion in a lane.
+   pure integer function springs_of(lane, block)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      springs_of = 0
+      if (block%compliance(lane) > 0.0_dp) springs_of = merge(2, 1, block%backlash(lane) < huge(1.0_dp))
+   end function springs_of
+
+   !> Put a scaled state into a lane.
+   pure subroutine place_state(state, lane, block)
+      !> As of scaled_state
+      real(dp), intent(in) :: state(:)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(inout) :: block
+
+      block%film(lane, 0) = state(of_film)
+      block%momentum(lane, 0) = state(of_velocity)
+      block%compression(lane, :springs_of(lane, block), 0) = state(of_drive_compression:)
+   end subroutine place_state
+
+   !> Scaled films of drive and coast flank in a state, the second huge where there is one flank [-].
+   pure function films_of_lane(state, lane, block) result(films)
+      !> As of scaled_state
+      real(dp), intent(in) :: state(:)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      real(dp) :: films(2)
+
+      films = [state(of_film), block%backlash(lane) - state(of_film) + &
+               sum(state(of_drive_compression:of_velocity + springs_of(lane, block)))]
+   end function films_of_lane
+
+   !> The thinner one of them [-].
+   pure real(dp) function thinner_scaled_film(state, lane, block) result(thinner)
+      !> As of scaled_state
+      real(dp), intent(in) :: state(:)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      thinner = minval(films_of_lane(state, lane, block))
+   end function thinner_scaled_film
+
+end module lane_state
