@@ -16,7 +16,7 @@ contains
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
 
-      state%numbers = scaled_state(lane, block)
+      allocate (state%numbers, source=scaled_state(lane, block))
       state%lienard_variable = state%numbers(of_velocity)
       state%numbers = state%numbers*block%film_scale(lane)
       state%numbers(of_velocity) = (state%lienard_variable + slip_velocity(block%film(lane, 0), lane, block)) &

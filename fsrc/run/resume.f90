@@ -236,7 +236,7 @@ contains
       state%count%cuts = nint(row(7), int64)
       state%orbit = nint(row(8))
       place = size(head_names)
-      state%numbers = row(place + 1:place + numbers)
+      allocate (state%numbers, source=row(place + 1:place + numbers))
       watched(:, :) = reshape(row(place + numbers + 1:), shape(watched))
       state%watch%count = nint(row(9))
       state%watch%newest = nint(row(10))

@@ -345,7 +345,6 @@ contains
       type(problem_t) :: lanes(2)
       type(motion_state_t) :: starts(2)
       type(request_t) :: request
-      type(motions_t) :: collocation, taylor
       real(dp) :: error
       integer :: i
 
@@ -368,11 +367,15 @@ contains
          starts = start_of(lanes)
          starts%implicit = [.true., .false.]
          request = request_t(accuracy=accuracy, periods=periods(i), samples_per_period=64, sampled_periods=1)
-         collocation = motions_of(lanes(:1), starts(:1), request)
-         request%accuracy = 1.0e-4_dp*accuracy
-         taylor = motions_of(lanes(2:), starts(2:), request)
-         error = maxval(abs(collocation%states(:, of_film, :)/taylor%states(:, of_film, :) - 1.0_dp))
-         call checks%check(all([collocation%endings%status, taylor%endings%status] == status_complete), 'overshooting: solved')
+         block
+            type(motions_t) :: collocation, taylor
+
+            collocation = motions_of(lanes(:1), starts(:1), request)
+            request%accuracy = 1.0e-4_dp*accuracy
+            taylor = motions_of(lanes(2:), starts(2:), request)
+            error = maxval(abs(collocation%states(:, of_film, :)/taylor%states(:, of_film, :) - 1.0_dp))
+            call checks%check(all([collocation%endings%status, taylor%endings%status] == status_complete), 'overshooting: solved')
+         end block
          call checks%check(error < accuracy, 'overshooting: the film')
       end do
    end subroutine test_overshooting_newton
