@@ -271,7 +271,7 @@ def parse_options() -> argparse.Namespace:
         "export", help="CSV, Parquet, NetCDF or MAT", description="Write another format."
     )
     other.add_argument("file", type=Path, metavar="FILE", help="campaign result")
-    other.add_argument("--to", required=True, choices=("csv", "parquet", "netcdf", "mat"), help="the format")
+    other.add_argument("--to", required=True, choices=("csv", "parquet", "netcdf"), help="the format")
     other.add_argument("--output", type=Path, metavar="PATH", help="by default beside the campaign")
     outputs.add_option(other)
     other.set_defaults(act=export)

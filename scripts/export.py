@@ -16,7 +16,7 @@ from rattle import codes, command, outputs
 
 ROWS_AT_ONCE = 10000
 STANDARD_OUTPUT = Path("-")
-FORMATS = {"csv": ".csv", "netcdf": ".nc", "mat": ".mat"}
+FORMATS = {"csv": ".csv", "netcdf": ".nc"}
 OTHER_FORMATS = (".parquet", ".h5", ".xlsx", ".json")
 
 
@@ -111,7 +111,7 @@ def write(stream: TextIO, result: rattle.Result, names: list[str], stride: int) 
 
 def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
-        description="Write a result file as CSV with a head of name[unit], as NetCDF or as MAT-file."
+        description="Write a result file as CSV with a head of name[unit], or as NetCDF."
     )
     parser.add_argument("result", type=Path, metavar="RESULT", help="result file, NAME.rattle")
     parser.add_argument(
@@ -122,7 +122,7 @@ def parse_options() -> argparse.Namespace:
         "--output",
         type=Path,
         metavar="FILE",
-        help="FILE.csv, .nc or .mat, by default NAME.csv beside the result; '-' is standard output",
+        help="FILE.csv or .nc, by default NAME.csv beside the result; '-' is standard output",
     )
     outputs.add_option(parser)
     parser.add_argument(

@@ -6,7 +6,7 @@ module campaign_plan
    use key_table, only: key_name
    use kinds, only: dp, int64
    use odd_numbers, only: odd_numbers_of_list
-   use sampling, only: chunk_values, cross_plan, method_grid, method_sobol, plan_grid, plan_latin_hypercube, plan_sobol, &
+   use sampling, only: chunk_values, cross_plan, method_grid, plan_grid, plan_sobol, &
                        plan_table, sample_plan_t
    use scene_types, only: scene_t
    use signals, only: must_stop
@@ -78,11 +78,8 @@ contains
             ! The pair is the first axis: what other keys say of a gear is said of each pair.
             if (allocated(scene%pairs)) axes = [pair_axis, axes]
             call plan_grid(axes, plan, bad_axis, message)
-         case (method_sobol)
-            call plan_sobol(axes, int(scene%campaign%size, int64), int(scene%campaign%seed, int64), plan, bad_axis, message)
          case default
-            call plan_latin_hypercube(axes, int(scene%campaign%size, int64), int(scene%campaign%seed, int64), plan, &
-                                      bad_axis, message)
+            call plan_sobol(axes, int(scene%campaign%size, int64), int(scene%campaign%seed, int64), plan, bad_axis, message)
          end select
          if (len(message) > 0) then
             if (bad_axis > 0) message = key_name(axes(bad_axis)%position)//': '//message

@@ -4,7 +4,6 @@ module sampling
    use campaign_axis, only: axis_count, campaign_axis_t, check_axis, grid_value, spread_value
    use checksum, only: checksum_of
    use kinds, only: dp, int64
-   use latin_hypercube, only: hypercube_point, largest_hypercube_size, latin_hypercube_t, new_latin_hypercube
    use sobol_sequence, only: largest_dimension, largest_sobol_size, new_sobol_sequence, sobol_point, &
       sobol_sequence_t
    use text, only: integer_text
@@ -12,8 +11,7 @@ module sampling
    private
 
    !> The codes of samples count the words of &campaign sample in the order of the key table.
-   integer, parameter, public :: method_grid = 1, method_sobol = 2, method_latin_hypercube = 3, &
-      method_table = 4
+   integer, parameter, public :: method_grid = 1, method_sobol = 2, method_table = 3
    !> Most axes of a full grid
    integer, parameter :: most_grid_axes = 6
 
@@ -32,12 +30,11 @@ module sampling
       !> Checksum of the values of a table; 0: there is none
       integer(int64) :: table_checksum = 0_int64
       type(sobol_sequence_t), private :: sequence
-      type(latin_hypercube_t), private :: hypercube
       !> (key, scene)
       real(dp), allocatable, private :: table(:, :)
    end type sample_plan_t
 
-   public :: plan_grid, plan_sobol, plan_latin_hypercube, plan_table, cross_plan, scene_values, chunk_values, largest_value
+   public :: plan_grid, plan_sobol, plan_table, cross_plan, scene_values, chunk_values, largest_value
 
 contains
 
@@ -101,28 +98,6 @@ contains
       end if
       plan%sequence = new_sobol_sequence(size(axes), seed)
    end subroutine plan_sobol
-
-   !> Points of a Latin hypercube.
-   pure subroutine plan_latin_hypercube(axes, scene_count, seed, plan, bad_axis, message)
-      !> Axes, 1 or more
-      type(campaign_axis_t), intent(in) :: axes(:)
-      !> Number of scenes
-      integer(int64), intent(in) :: scene_count
-      !> Any number
-      integer(int64), intent(in) :: seed
-      !> The plan; of use only if the message is empty
-      type(sample_plan_t), intent(out) :: plan
-      !> Axis that the message is about; 0: none alone
-      integer, intent(out) :: bad_axis
-      !> What is wrong and what is allowed; empty if nothing is
-      character(:), allocatable, intent(out) :: message
-
-      plan%method = method_latin_hypercube
-      call take_axes(axes, .false., plan, bad_axis, message)
-      if (len(message) == 0) call take_size(scene_count, largest_hypercube_size, plan, message)
-      if (len(message) > 0) return
-      plan%hypercube = new_latin_hypercube(size(axes), scene_count, seed)
-   end subroutine plan_latin_hypercube
 
    !> Scenes as they are listed.
    pure subroutine plan_table(positions, values, plan)
@@ -221,11 +196,7 @@ contains
             rest = next
          end do
       case default
-         if (plan%method == method_sobol) then
-            call sobol_point(plan%sequence, rest, values(first:))
-         else
-            call hypercube_point(plan%hypercube, rest, values(first:))
-         end if
+         call sobol_point(plan%sequence, rest, values(first:))
          ! The loop over the keys is the inner one: a loop over scenes could be turned into vectors, and
          ! the vector library rounds powers differently from the scalar one that does what is left over.
          do i = first, size(plan%axes)

@@ -415,12 +415,12 @@ module key_table
             'Values of each varied key on a grid, both ends included.'), &
       key_t('campaign', 'values', table_kind, 'of key', '', any_number, '', of_campaigns, &
             'Values of a varied key instead of a range: values(:, 1) = ..., all of vary(1).'), &
-      key_t('campaign', 'sample', text_kind, '', 'grid', any_number, 'grid sobol latin-hypercube', of_campaigns, &
+      key_t('campaign', 'sample', text_kind, '', 'grid', any_number, 'grid sobol', of_campaigns, &
             'Which scenes: the full grid, or a sample of the ranges.'), &
-      key_t('campaign', 'size', integer_kind, '-', '', at_least_1, '', 'campaign.sample=sobol|latin-hypercube', &
+      key_t('campaign', 'size', integer_kind, '-', '', at_least_1, '', 'campaign.sample=sobol', &
             'Scenes of a sample.'), &
       key_t('campaign', 'seed', integer_kind, '-', '1', range_t(0.0_dp, .false., 2.0e9_dp, .false.), '', &
-            'campaign.sample=sobol|latin-hypercube', &
+            'campaign.sample=sobol', &
             'Seed of a sample: the same seed gives the same scenes everywhere.'), &
       key_t('campaign', 'csv', text_kind, '', '', any_number, '', of_campaigns, &
             'Table of scenes instead of vary: a CSV file whose header names group.key, one scene per row.'), &

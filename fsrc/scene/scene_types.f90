@@ -264,7 +264,7 @@ module scene_types
       integer, allocatable :: scale(:)
       real(dp), allocatable :: first(:), last(:), count(:)
       type(numbers_t), allocatable :: values(:)
-      !> 1 grid, 2 Sobol, 3 Latin hypercube
+      !> 1 grid, 2 Sobol
       integer :: sample = 1
       integer :: size = 0
       integer :: seed = 1

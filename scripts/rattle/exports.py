@@ -1,4 +1,4 @@
-"""Campaigns as CSV, Parquet, NetCDF and MAT-files; other results as NetCDF and MAT-files."""
+"""Campaigns as CSV, Parquet and NetCDF; other results as NetCDF."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import numpy as np
 
 from rattle.campaign_result import Campaign
 from rattle.codes import CODES, WORD_ENDING, word
-from rattle.mat_file import write_mat
 from rattle.result import Result
 from rattle.result_file import ResultFile
 
@@ -85,20 +84,6 @@ def _write_dataset(data: xarray.Dataset, path: Path) -> None:
     data.to_netcdf(path, engine="netcdf4", format="NETCDF4", encoding=encoding)
 
 
-def write_matlab(campaign: Campaign, path: Path) -> None:
-    """A MAT-file with a column vector over the scenes that are done for each column, and its unit."""
-    columns = {name: campaign[name][campaign.done] for name in campaign.names}
-    write_mat(path, columns, _texts(campaign, campaign.name, campaign.units))
-
-
-def write_matlab_series(result: Result, path: Path, names: Sequence[str], stride: int) -> None:
-    """A MAT-file with a column vector for each column, and its unit as NAME_unit."""
-    table = result.table()
-    units = {name: result.units[name] for name in names}
-    columns = {name: table[name][::stride] for name in names}
-    write_mat(path, columns, _texts(result, result.scene_name, units))
-
-
 def _texts(result: ResultFile, title: str, units: Mapping[str, str]) -> dict[str, str]:
     source = f"rattle {result.program_version}"
     texts = {f"{name}_unit": unit for name, unit in units.items()}
@@ -109,9 +94,7 @@ CAMPAIGN_WRITERS: dict[str, tuple[str, Callable[[Campaign, Path], None]]] = {
     "csv": (".csv", write_csv),
     "parquet": (".parquet", write_parquet),
     "netcdf": (".nc", write_netcdf),
-    "mat": (".mat", write_matlab),
 }
 SERIES_WRITERS: dict[str, Callable[[Result, Path, Sequence[str], int], None]] = {
     "netcdf": write_series,
-    "mat": write_matlab_series,
 }

@@ -1,10 +1,8 @@
-!> Tests of the random numbers: known answers of Philox, range, evenness, orders.
+!> Tests of the random numbers: known answers of Philox, range, evenness.
 module test_random_numbers
    use checks, only: check_list_t
-   use latin_hypercube, only: hash_permutation_t, new_hash_permutation, permuted
    use kinds, only: dp, int64
    use random_numbers, only: philox_words, random_bit_count, random_bits
-   use text, only: integer_text
    implicit none(type, external)
    private
 
@@ -20,8 +18,6 @@ contains
       call checks%start('random_numbers')
       call test_known_answers(checks)
       call test_uniform(checks)
-      call checks%start('hash_permutation')
-      call test_hash_permutation(checks)
    end subroutine run_random_numbers_tests
 
    !> The known answers that come with the published generator.
@@ -68,43 +64,5 @@ contains
                                                             0_int64), &
                         'upper half of the seed counts')
    end subroutine test_uniform
-
-   !> Every number once, for awkward sizes; seeds differ; no trend.
-   subroutine test_hash_permutation(checks)
-      type(check_list_t), intent(inout) :: checks
-      integer(int64), parameter :: sizes(12) = [1_int64, 2_int64, 3_int64, 4_int64, 5_int64, 7_int64, &
-                                                16_int64, 17_int64, &
-                                                99_int64, 1000_int64, 4096_int64, 4099_int64]
-      integer(int64), parameter :: largest = 2_int64**52
-      type(hash_permutation_t) :: permutation, other
-      logical :: seen(0:4098)
-      real(dp) :: trend
-      integer(int64) :: place, number
-      integer :: i
-
-      do i = 1, size(sizes)
-         permutation = new_hash_permutation(sizes(i), 5_int64, 1_int64)
-         seen = .false.
-         do place = 0_int64, sizes(i) - 1_int64
-            number = permuted(permutation, place)
-            if (number >= 0_int64 .and. number < sizes(i)) seen(number) = .true.
-         end do
-         call checks%check(count(seen) == sizes(i), 'every number once, size '//integer_text(sizes(i)))
-      end do
-      other = new_hash_permutation(4099_int64, 6_int64, 1_int64)
-      call checks%check(count([(permuted(permutation, place) == permuted(other, place), place=0_int64, &
-                                4098_int64)]) < 10, &
-                        'another seed gives another order')
-      trend = 0.0_dp
-      do place = 0_int64, 4098_int64
-         trend = trend + (real(place, dp)/4098.0_dp - 0.5_dp)*(real(permuted(permutation, place), &
-                                                            dp)/4098.0_dp - 0.5_dp)
-      end do
-      ! Its standard deviation is sqrt(n)/12.
-      call checks%check(abs(trend) < 4.0_dp*sqrt(4099.0_dp)/12.0_dp, 'no trend')
-      permutation = new_hash_permutation(largest, 5_int64, 1_int64)
-      number = permuted(permutation, largest - 1_int64)
-      call checks%check(number >= 0_int64 .and. number < largest, 'the largest size')
-   end subroutine test_hash_permutation
 
 end module test_random_numbers

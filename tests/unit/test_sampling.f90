@@ -3,7 +3,7 @@ module test_sampling
    use campaign_axis, only: campaign_axis_t, scale_linear, scale_logarithmic
    use checks, only: check_list_t, same_bits
    use kinds, only: dp, int64
-   use sampling, only: chunk_values, cross_plan, largest_value, plan_grid, plan_latin_hypercube, plan_sobol, plan_table, &
+   use sampling, only: chunk_values, cross_plan, largest_value, plan_grid, plan_sobol, plan_table, &
       sample_plan_t, scene_values
    use text, only: integer_text
    implicit none(type, external)
@@ -41,8 +41,8 @@ contains
 
       call plan_sobol([range_axis(2, scale_linear, 0.0_dp, 1.0_dp, 0), range_axis(3, scale_linear, 0.0_dp, 1.0_dp, 0)], &
                       5_int64, 1_int64, plans(1), bad_axis, message)
-      call plan_latin_hypercube([range_axis(2, scale_linear, 0.0_dp, 1.0_dp, 0), list_axis(3, [4.0_dp, 9.0_dp])], &
-                                5_int64, 1_int64, plans(2), bad_axis, message)
+      call plan_sobol([range_axis(2, scale_linear, 0.0_dp, 1.0_dp, 0), list_axis(3, [4.0_dp, 9.0_dp])], &
+                      5_int64, 7_int64, plans(2), bad_axis, message)
       allocate (table(2, 5))
       table = reshape([(real(i, dp), i=1, 10)], [2, 5])
       call plan_table([2, 3], table, plans(3))
@@ -173,13 +173,13 @@ contains
                                                             10.0_dp)) == 128, &
                         'equal shares of integers')
       call checks%check(count(same_bits(values(4, :), 2.0_dp)) == 256, 'equal shares of a list')
-      call plan_latin_hypercube(axes, 1024_int64, 9_int64, plan, bad_axis, message)
+      call plan_sobol(axes, 1024_int64, 9_int64, plan, bad_axis, message)
       call chunk_values(plan, 1_int64, values)
       call checks%check(minval(values(1, :)) > -2.0_dp .and. maxval(values(1, :)) < 6.0_dp, &
                         'within a linear range')
       call checks%check(minval(values(2, :)) > 1.0e-6_dp .and. maxval(values(2, :)) < 1.0e2_dp, &
                         'within a logarithmic range')
-      call checks%check(count(same_bits(values(4, :), 7.0_dp)) == 256, 'equal shares of a list, Latin hypercube')
+      call checks%check(count(same_bits(values(4, :), 7.0_dp)) == 256, 'equal shares of a list, shifted')
    end subroutine test_spread_values
 
    !> A scene has the same bits in chunks of any size, and alone.
@@ -196,11 +196,9 @@ contains
       axes(1) = range_axis(1, scale_logarithmic, 0.3_dp, 17.0_dp, 7)
       axes(2) = range_axis(2, scale_logarithmic, 1.0e-9_dp, 0.02_dp, 7)
       axes(3) = range_axis(3, scale_linear, -0.3_dp, 0.7_dp, 7)
-      do method = 1, 3
+      do method = 1, 2
          if (method == 1) call plan_grid(axes, plan, bad_axis, message)
          if (method == 2) call plan_sobol(axes, int(scenes, int64), 11_int64, plan, bad_axis, message)
-         if (method == 3) call plan_latin_hypercube(axes, int(scenes, int64), 11_int64, plan, bad_axis, &
-                                                    message)
          call chunk_values(plan, 1_int64, whole)
          equal = .true.
          do width = 1, 19
@@ -295,10 +293,8 @@ contains
 
       call plan_sobol([axis], 0_int64, 0_int64, plan, bad_axis, message)
       call checks%check(index(message, 'size must be from 1') > 0, 'no scene at all')
-      call plan_latin_hypercube([axis], -5_int64, 0_int64, plan, bad_axis, message)
+      call plan_sobol([axis], -5_int64, 0_int64, plan, bad_axis, message)
       call checks%check(index(message, 'it is -5') > 0, 'a negative size')
-      call plan_latin_hypercube([axis], 2_int64**30 + 1_int64, 0_int64, plan, bad_axis, message)
-      call checks%check(index(message, 'to 1073741824') > 0, 'a hypercube that is too large')
       call plan_sobol(many_axes(33, 2), 5_int64, 0_int64, plan, bad_axis, message)
       call checks%check(index(message, '32 keys at most') > 0, 'too many dimensions')
    end subroutine refuse_sizes

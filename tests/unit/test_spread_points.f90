@@ -1,8 +1,7 @@
-!> Tests of Sobol points and Latin hypercubes: known points, and one point in each stratum.
+!> Tests of Sobol points: known points, and one point in each stratum.
 module test_spread_points
    use checks, only: check_list_t
    use kinds, only: dp, int64
-   use latin_hypercube, only: hypercube_point, latin_hypercube_t, new_latin_hypercube
    use sobol_sequence, only: largest_sobol_size, new_sobol_sequence, sobol_point, sobol_sequence_t
    use text, only: integer_text
    implicit none(type, external)
@@ -20,8 +19,6 @@ contains
       call checks%start('sobol_sequence')
       call test_sobol_points(checks)
       call test_sobol_evenness(checks)
-      call checks%start('latin_hypercube')
-      call test_strata(checks)
    end subroutine run_spread_points_tests
 
    !> The first points of eight dimensions and point 1000 of 32, from an independent program.
@@ -85,40 +82,5 @@ contains
       call sobol_point(new_sobol_sequence(32, 1_int64), 0_int64, other)
       call checks%check(all(abs(other) > 0.0_dp), 'shifted away from the origin')
    end subroutine test_sobol_evenness
-
-   subroutine test_strata(checks)
-      type(check_list_t), intent(inout) :: checks
-      integer, parameter :: sizes(6) = [1, 2, 3, 10, 97, 1000]
-      type(latin_hypercube_t) :: hypercube
-      real(dp) :: point(6)
-      integer :: hits(0:999, 6), i, k, stratum
-      integer(int64) :: index
-      logical :: inside
-
-      do k = 1, size(sizes)
-         hypercube = new_latin_hypercube(6, int(sizes(k), int64), 3_int64)
-         hits = 0
-         inside = .true.
-         do index = 0_int64, sizes(k) - 1_int64
-            call hypercube_point(hypercube, index, point)
-            inside = inside .and. all(point > 0.0_dp .and. point < 1.0_dp)
-            do i = 1, 6
-               stratum = int(sizes(k)*point(i))
-               hits(stratum, i) = hits(stratum, i) + 1
-            end do
-         end do
-         call checks%check(inside, 'between 0 and 1, size '//integer_text(sizes(k)))
-         call checks%check(all(hits(:sizes(k) - 1, :) == 1), 'one in each stratum, size '// &
-                           integer_text(sizes(k)))
-      end do
-      ! The upper end of the largest size, where rounding is worst.
-      hypercube = new_latin_hypercube(1, 2_int64**30, 3_int64)
-      inside = .true.
-      do index = 0_int64, 2000_int64
-         call hypercube_point(hypercube, index, point(:1))
-         inside = inside .and. abs(2.0_dp**30*point(1) - anint(2.0_dp**30*point(1))) > 0.0_dp
-      end do
-      call checks%check(inside, 'never on the edge of a stratum')
-   end subroutine test_strata
 
 end module test_spread_points

@@ -24,7 +24,6 @@ STEADY = {"solver": {"method": None, "steps_per_period": None, "until": "'steady
 # Scripts with what stands before and behind the result.
 CALLS = {
     "export": ("export.py", (), ("--output", "o/of.csv")),
-    "export as MAT": ("export.py", (), ("--output", "o/of.mat")),
     "export as NetCDF": ("export.py", (), ("--output", "o/of.nc")),
     "export a column": ("export.py", (), ("--columns", "acceleration", "--stride", "3", "--output", "-")),
     "classify": ("classify.py", (), ("--output", "o/classes.csv")),
@@ -48,7 +47,7 @@ CALLS = {
     "campaign slurm": ("campaign.py", ("slurm", "--program", "x"), ("--script", "o/job")),
 }
 # What each kind of result must give: the scripts that do their work on it. Others refuse, with a sentence.
-ALWAYS = {"export", "export as MAT", "export as NetCDF", "report"}
+ALWAYS = {"export", "export as NetCDF", "report"}
 COMPARED = {"compare", "compare in Markdown"}
 SERIES = ALWAYS | {"export a column"}
 MOTION = SERIES | COMPARED | {"plot regime-map", "plot motion", "plot a motion over others"}

@@ -48,7 +48,6 @@ SAMPLE = CAMPAIGN + (
 PLANS = {
     "grid": GRID,
     "sobol": SAMPLE + "sample = 'sobol' /\n",
-    "latin-hypercube": SAMPLE + "sample = 'latin-hypercube' /\n",
     "csv": CAMPAIGN + "csv = 'scenes.csv' /\n",
 }
 

@@ -107,24 +107,3 @@ def test_one_failed_scene_is_enough_for_exit_1(forces, failed, run, scene_text, 
     assert (
         np.array(package.read_campaign(tmp_path / "results" / "many.rattle")["status"]) > 1.0
     ).sum() == failed
-
-
-def test_a_latin_hypercube_has_a_point_anywhere_in_each_stratum(run, scene_text, tmp_path: Path):
-    size = 60
-    campaign = {
-        "vary": "'load.force_amplitude', 'load.frequency'",
-        "first": "10.0, 500.0",
-        "last": "70.0, 800.0",
-        "sample": "'latin-hypercube'",
-        "size": str(size),
-        "record": "'steady_film'",
-    }
-    text = scene_text(scene={"task": "'campaign'"}, solver=SOLVER | {"periods": "2"}, campaign=campaign)
-    (tmp_path / "cube.nml").write_text(text)
-    assert run("cube.nml", cwd=tmp_path).returncode == 0
-    rows = package.read_campaign(tmp_path / "results" / "cube.rattle")
-    for key, first, last in (("load.force_amplitude", 10.0, 70.0), ("load.frequency", 500.0, 800.0)):
-        place = size * (rows[key] - first) / (last - first)
-        np.testing.assert_array_equal(np.sort(np.floor(place)), np.arange(size))
-        within = place - np.floor(place)
-        assert within.min() < 0.15 and within.max() > 0.85 and 0.2 < within.std() < 0.4

@@ -117,7 +117,7 @@ def main() -> None:
     sorted_cost, _, small_memory = own_seconds(options.program, small, 1)
     lean, _, _ = own_seconds(options.program, small, 1, "--set", "campaign.record=film_minimum,film_maximum")
     certified, _, _ = own_seconds(options.program, small, 1, *CERTIFIED)
-    scrambled_options = ["--set", "campaign.sample=latin-hypercube", "--set", f"campaign.size={small**2}"]
+    scrambled_options = ["--set", "campaign.sample=sobol", "--set", f"campaign.size={small**2}"]
     scrambled, _, _ = own_seconds(options.program, small, 1, *scrambled_options)
     bare = [
         "--set",
