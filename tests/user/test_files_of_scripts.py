@@ -33,7 +33,6 @@ def campaign(tmp_path) -> Path:
 
 COMMANDS = {
     "a motion as CSV": ("export.py", ("idle.rattle",), {"idle.csv"}),
-    "a motion as NetCDF": ("export.py", ("idle.rattle", "--to", "netcdf"), {"idle.nc"}),
     "a motion as NetCDF": ("export.py", ("idle.rattle", "--output", "of.nc"), {"of.nc"}),
     "a table of classes": ("classify.py", ("idle.rattle", "--output", "told.csv"), {"told.csv"}),
     "figures": ("plot.py", ("motion", "idle.rattle", *ONE), {"figure_08_idle.png"}),
