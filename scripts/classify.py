@@ -32,13 +32,12 @@ def main() -> int:
     for path in options.results:
         try:
             result = rattle.read(path)
+            command.note_open(result)
             verdict = classify(result, options.periods, overrides)
             measures = {key: verdict[key] for key, _, _ in MEASURES}
             rows.append({"file": str(path), "scene": result.scene_name, **measures})
-        except rattle.ResultError as fault:
+        except (rattle.ResultError, rattle.SummaryError) as fault:
             code = command.complain(str(fault))
-            continue
-        command.note_open(result)
     if rows:
         print(table.plain([heads(), *map(cells, rows)]))
         if options.output:

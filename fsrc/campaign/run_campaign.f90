@@ -4,7 +4,9 @@ module run_campaign
    use campaign_file, only: campaign_file_t
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
+   use earlier_files, only: check_lone_summary
    use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t, raise
+   use finished_files, only: bring_back, drop_aside, set_aside
    use file_system, only: file_state_t, state_of_path
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
@@ -14,6 +16,7 @@ module run_campaign
    use rattle_class, only: class_irregular_so_far
    use ranks, only: abort_ranks, next_tickets, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
    use scene_report, only: law_sentence
+   use scene_summary, only: add_results
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
    use signals, only: caught_signal
@@ -52,7 +55,7 @@ contains
       type(log_t) :: log
       type(output_lock_t) :: lock
       type(error_t), allocatable :: close_error
-      type(word_t), allocatable :: warnings(:)
+      type(word_t), allocatable :: warnings(:), summaries(:)
       integer(int64) :: spoilt
       integer :: i
       real(dp) :: started
@@ -71,11 +74,18 @@ contains
             exit_code = error%exit_code
          else if (faults%count() == 0) then
             earlier = state_of_path(result_path(scene))
-            if (carry_on .and. earlier%bytes > 0_int64) then
+            if (carry_on) call check_lone_summary(scene, error)
+            summaries = [word_t(summary_path(scene))]
+            if (.not. allocated(error)) call set_aside(summaries)
+            if (allocated(error)) then
+               continue
+            else if (carry_on .and. earlier%bytes > 0_int64) then
                call results%resume(result_path(scene), campaign%layout, spoilt, error)
             else
                call results%create(result_path(scene), campaign%layout, scene%output%overwrite .and. .not. carry_on, error)
             end if
+            if (allocated(error)) call bring_back(summaries)
+            call drop_aside(summaries)
             if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)
             exit_code = exit_complete
             if (allocated(error)) exit_code = error%exit_code
@@ -226,6 +236,7 @@ contains
       call summary%add('name', trim(scene%name))
       call summary%add('program_version', program_version)
       call summary%add('status', status_name(status))
+      call add_results(summary, [word_t(result_path(scene))], status)
       call summary%add('scenes', campaign%layout%scene_count)
       call summary%add('scenes_done', progress%done_before + progress%done)
       call summary%add('scenes_invalid', campaign%invalid)

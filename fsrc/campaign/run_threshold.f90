@@ -16,14 +16,14 @@ module run_threshold
    use ranks, only: abort_ranks, rank_count, share_number, sum_over_ranks, this_rank
    use scene_report, only: law_sentence
    use scene_status, only: status_complete, status_interrupted, status_not_written
-   use scene_summary, only: add_head
+   use scene_summary, only: add_head, add_results
    use scene_types, only: scene_t
    use signals, only: caught_signal
    use solve_threshold, only: search_lines
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
    use threshold_outcome, only: failed_scenes, load_outcome, outcome_t, save_outcome, share_points, solved_scenes, &
-                                start_outcome, write_rows_of
+                                check_earlier_threshold, start_outcome, write_rows_of
    use version, only: program_version
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads
@@ -68,6 +68,8 @@ contains
       if (this_rank() == 0) then
          call claim_output_place(scene, file, lock, faults, error)
          if (faults%count() == 0 .and. .not. allocated(error) .and. carry_on) call load_outcome(scene, threshold, outcome, error)
+         if (faults%count() == 0 .and. .not. allocated(error) .and. carry_on .and. .not. allocated(outcome%rows)) &
+            call check_earlier_threshold(scene, threshold, error)
          if (faults%count() == 0 .and. .not. allocated(error)) call log%open(log_path(scene), quiet, error)
          exit_code = merge(faults%exit_code, exit_complete, faults%count() > 0)
          if (allocated(error)) exit_code = error%exit_code
@@ -174,6 +176,7 @@ contains
       end if
       if (allocated(error)) status = status_not_written
       call add_head(summary, scene, status)
+      call add_results(summary, results, status)
       call summary%add('lines', threshold%lines%layout%scene_count)
       call summary%add('crossings', outcome%crossings)
       call summary%add('lines_without_crossing', outcome%uncrossed)

@@ -10,14 +10,14 @@ module threshold_outcome
    use key_table, only: keys
    use kinds, only: dp, int64
    use log_file, only: log_t
-   use output_place, only: state_path
+   use output_place, only: result_path, state_path
    use prepared_threshold, only: prepared_threshold_t
    use quantities, only: quantity_table
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
    use result_writer, only: result_writer_t
    use ranks, only: add_over_ranks, share_number, this_rank
-   use resume, only: begin_anew, open_earlier
+   use earlier_files, only: begin_anew, check_lone_summary, open_earlier
    use sampling, only: scene_values
    use scene_status, only: is_success
    use scene_types, only: scene_t
@@ -48,7 +48,8 @@ module threshold_outcome
       procedure :: age
    end type outcome_t
 
-   public :: start_outcome, share_points, add_lines, solved_scenes, failed_scenes, write_rows_of, save_outcome, load_outcome
+   public :: start_outcome, share_points, add_lines, solved_scenes, failed_scenes, write_rows_of, save_outcome, load_outcome, &
+             check_earlier_threshold
 
 contains
 
@@ -285,7 +286,6 @@ contains
       type(outcome_t), intent(inout) :: outcome
       !> Set if the state is damaged, or belongs to another scene or version
       type(error_t), allocatable, intent(out) :: error
-      character(*), parameter :: free_keys(0) = [character(1) ::]
       character(column_name_bytes), allocatable :: names(:)
       type(result_reader_t) :: reader
       integer :: done
@@ -294,9 +294,7 @@ contains
 
       kept = state_of_path(state_path(scene))
       if (kept%bytes == 0_int64) return
-      call open_earlier(scene, state_path(scene), free_keys, reader, error)
-      if (.not. allocated(error) .and. reader%source_checksum /= threshold%lines%layout%source_checksum) &
-         call raise(error, exit_bad_input, state_path(scene)//' belongs to other lines: their CSV file has changed since')
+      call open_of_same_lines(state_path(scene), scene, threshold, reader, error)
       if (.not. allocated(error)) then
          names = column_names(scene, threshold)
          if (size(names) /= reader%columns) then
@@ -327,5 +325,35 @@ contains
       outcome%rows = rows(:, 2:1 + done)
       outcome%points = points_of(scene, threshold, rows(:point_numbers, 2 + done:))
    end subroutine load_outcome
+
+   !> Where an earlier run has kept no state, its result, if there is one, must be that of this scene: it will be replaced. A state
+   !> of this scene is that of a run which was allowed to replace the result.
+   subroutine check_earlier_threshold(scene, threshold, error)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      !> Set if it is of another scene, or cannot be read
+      type(error_t), allocatable, intent(out) :: error
+      type(result_reader_t) :: reader
+      type(file_state_t) :: kept
+
+      kept = state_of_path(result_path(scene))
+      if (kept%bytes > 0_int64) call open_of_same_lines(result_path(scene), scene, threshold, reader, error)
+      call reader%close()
+      if (.not. allocated(error)) call check_lone_summary(scene, error)
+   end subroutine check_earlier_threshold
+
+   !> Open a file of an earlier run of this scene with the same lines.
+   subroutine open_of_same_lines(path, scene, threshold, reader, error)
+      character(*), intent(in) :: path
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      type(result_reader_t), intent(inout) :: reader
+      !> Set if it cannot be read, or belongs to another scene or other lines
+      type(error_t), allocatable, intent(out) :: error
+
+      call open_earlier(scene, path, [character(1) ::], reader, error)
+      if (.not. allocated(error) .and. reader%source_checksum /= threshold%lines%layout%source_checksum) &
+         call raise(error, exit_bad_input, path//' belongs to other lines: their CSV file has changed since'//begin_anew)
+   end subroutine open_of_same_lines
 
 end module threshold_outcome

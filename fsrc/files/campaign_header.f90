@@ -1,7 +1,7 @@
 !> What the header of a campaign file holds; see campaign_file.
 module campaign_header
    use errors, only: error_t, exit_bad_input, raise
-   use input_difference, only: first_difference
+   use input_difference, only: differing_keys
    use kinds, only: int64
    use random_access_file, only: random_access_file_t
    use result_format, only: campaign_table_magic, column_name_bytes, column_unit_bytes
@@ -56,16 +56,17 @@ contains
       type(campaign_layout_t), intent(in) :: layout
       !> What the header of the file says
       type(result_header_t), intent(out) :: header
-      !> Set if the file belongs to another campaign; the first key that differs is named
+      !> Set if the file belongs to another campaign; the keys that differ are named
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: difference
 
       call read_result_header(file, path, header, error)
       if (allocated(error)) return
       if (header%table_magic /= campaign_table_magic) then
-         call raise(error, exit_bad_input, path//' is not the result of a campaign, it has no table of chunks')
+         call raise(error, exit_bad_input, path//' is not the result of a campaign, it has no table of chunks; '// &
+                    '--overwrite begins anew')
       else if (header%input_text /= layout%input_text .or. len(header%input_text) /= len(layout%input_text)) then
-         difference = first_difference(header%input_text, layout%input_text)
+         difference = differing_keys(header%input_text, layout%input_text)
          if (len(difference) == 0) difference = 'the texts differ, though no key does'
          call raise(error, exit_bad_input, path//' was begun with another input: '//difference// &
                     '; --overwrite begins anew')

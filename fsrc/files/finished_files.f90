@@ -1,43 +1,99 @@
 !> The files of a run come to their places together, once all of them are complete; see byte_file.
+!>
+!> The summary goes first and comes last: a kill in between leaves results without a summary, never beside that of another run.
 module finished_files
    use byte_file, only: new_path, put_in_place
    use errors, only: error_t
-   use file_system, only: delete_file, path_exists
+   use file_system, only: delete_file, path_exists, rename_file
    use word_list, only: word_t
    implicit none(type, external)
    private
 
-   public :: place_files
+   public :: place_files, set_aside, bring_back, drop_aside
 
 contains
 
-   !> Put the files that stand beside their places there. After an error those of an earlier run stay as they were;
-   !> the summary, which says what happened, takes no place but an empty one.
-   subroutine place_files(results, summary, error)
+   !> Put the files that stand beside their places there. Where the first of them cannot be put there those of an earlier run stay
+   !> as they were; a summary that says what happened takes no place but an empty one.
+   subroutine place_files(results, summary, error, table)
       !> Paths of the results; one that stands in its place already is passed over
       type(word_t), intent(in) :: results(:)
       !> Path of the summary
       character(*), intent(in) :: summary
       !> In: what has failed so far; out: also if a file could not be put in its place
       type(error_t), allocatable, intent(inout) :: error
-      integer :: i
-      logical :: keep_summary, stands
+      !> Path of the summary of all pairs of a gearbox that this one is part of
+      character(*), optional, intent(in) :: table
+      type(word_t), allocatable :: summaries(:)
+      integer :: i, placed
+      logical :: stands
 
+      allocate (summaries(merge(2, 1, present(table))))
+      summaries(1)%text = summary
+      if (present(table)) summaries(2)%text = table
+      placed = 0
       stands = path_exists(summary)
-      keep_summary = allocated(error) .and. .not. stands
-      do i = 1, size(results)
-         stands = path_exists(new_path(results(i)%text))
-         if (stands .and. .not. allocated(error)) call put_in_place(results(i)%text, error)
-         if (allocated(error)) call delete_file(new_path(results(i)%text))
-      end do
-      if (.not. allocated(error)) then
-         call put_in_place(summary, error)
-      else if (keep_summary) then
-         call place_silently(summary)
+      if (allocated(error)) then
+         if (.not. stands) call place_silently(summary)
       else
-         call delete_file(new_path(summary))
+         call set_aside(summaries)
+         do i = 1, size(results)
+            stands = path_exists(new_path(results(i)%text))
+            if (.not. stands) cycle
+            call put_in_place(results(i)%text, error)
+            if (allocated(error)) exit
+            placed = placed + 1
+         end do
+         if (.not. allocated(error)) call put_in_place(summary, error)
+         if (allocated(error) .and. placed == 0) call bring_back(summaries)
+         call drop_aside(summaries)
       end if
+      do i = 1, size(results)
+         call delete_file(new_path(results(i)%text))
+      end do
+      call delete_file(new_path(summary))
    end subroutine place_files
+
+   !> Take files away from their places, so that they can be brought back.
+   subroutine set_aside(files)
+      !> Paths; where nothing stands nothing is done
+      type(word_t), intent(in) :: files(:)
+      integer :: i
+      logical :: ignored
+
+      do i = 1, size(files)
+         call rename_file(files(i)%text, old_path(files(i)%text), ignored)
+      end do
+   end subroutine set_aside
+
+   !> Bring files back that were set aside.
+   subroutine bring_back(files)
+      type(word_t), intent(in) :: files(:)
+      integer :: i
+      logical :: ignored
+
+      do i = 1, size(files)
+         call rename_file(old_path(files(i)%text), files(i)%text, ignored)
+      end do
+   end subroutine bring_back
+
+   !> Delete files that were set aside.
+   subroutine drop_aside(files)
+      type(word_t), intent(in) :: files(:)
+      integer :: i
+
+      do i = 1, size(files)
+         call delete_file(old_path(files(i)%text))
+      end do
+   end subroutine drop_aside
+
+   !> Where a file waits until others are in their places.
+   function old_path(path)
+      character(*), intent(in) :: path
+      character(:), allocatable :: old_path
+
+      old_path = new_path(path)//'.old'
+   end function old_path
 
    !> Put a file in its place; that it cannot be done is no news after an error.
    subroutine place_silently(path)

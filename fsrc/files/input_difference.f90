@@ -1,17 +1,20 @@
-!> Which key two resolved inputs first differ in.
+!> Which keys two resolved inputs differ in.
 module input_difference
    use errors, only: fault_list_t
    use namelist_text, only: assignment_t, scan_namelists
-   use text, only: integer_text
+   use text, only: counted, integer_text
    implicit none(type, external)
    private
 
-   public :: first_difference
+   !> Keys that are named with their values; more are counted.
+   integer, parameter :: most_told = 4
+
+   public :: differing_keys
 
 contains
 
-   !> A sentence that names the first key that differs, with both values; empty if no key differs.
-   function first_difference(stored, current, free) result(sentence)
+   !> The keys that differ, with both values: 'load.mass is 4.0 now and was 3.0; ...'; empty if none does.
+   function differing_keys(stored, current, free) result(sentence)
       !> Resolved input of an earlier run
       character(*), intent(in) :: stored
       !> Resolved input of this run
@@ -21,28 +24,40 @@ contains
       character(:), allocatable :: sentence
       type(assignment_t), allocatable :: old(:), new(:)
       type(fault_list_t) :: ignored
-      integer :: i, place
+      integer :: i, place, told
 
       call scan_namelists(stored, '', 1, old, ignored)
       call scan_namelists(current, '', 1, new, ignored)
       sentence = ''
+      told = 0
       do i = 1, size(new)
          if (len(new(i)%key) == 0 .or. may_differ(new(i), free)) cycle
          place = find(old, new(i))
          if (place == 0) then
-            sentence = key_name(new(i))//' is '//values_text(new(i))//' now and was not set'
+            call tell(key_name(new(i))//' is '//values_text(new(i))//' now and was not set')
          else if (values_text(old(place)) /= values_text(new(i))) then
-            sentence = different_values(old(place), new(i))
+            call tell(different_values(old(place), new(i)))
          end if
-         if (len(sentence) > 0) return
       end do
       do i = 1, size(old)
          if (len(old(i)%key) == 0 .or. may_differ(old(i), free)) cycle
-         if (find(new, old(i)) > 0) cycle
-         sentence = key_name(old(i))//' was '//values_text(old(i))//' and is not set now'
-         return
+         if (find(new, old(i)) == 0) call tell(key_name(old(i))//' was '//values_text(old(i))//' and is not set now')
       end do
-   end function first_difference
+      if (told > most_told) sentence = sentence//'; and '//counted(told - most_told, 'key')//' more'
+
+   contains
+
+      !> Put a difference behind the others.
+      subroutine tell(words)
+         character(*), intent(in) :: words
+
+         told = told + 1
+         if (told > most_told) return
+         if (told > 1) sentence = sentence//'; '
+         sentence = sentence//words
+      end subroutine tell
+
+   end function differing_keys
 
    !> Both values of a key; of long lists of one length the first ones that differ.
    pure function different_values(old, new) result(sentence)

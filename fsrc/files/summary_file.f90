@@ -4,13 +4,17 @@ module summary_file
    use byte_file, only: byte_file_t, put_in_place
    use checksum, only: checksum_of
    use errors, only: error_t
+   use file_system, only: read_whole_file
    use kinds, only: dp, int64
    use text, only: integer_text, logical_text, quoted, real_text
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
    !> First word of every summary, by which one is known.
    character(*), parameter, public :: summary_magic = '&summary'
+   !> What stands before the checksum of a summary.
+   character(*), parameter :: checksum_mark = '! checksum '
 
    !> A summary that is being put together.
    type, public :: summary_t
@@ -29,6 +33,8 @@ module summary_file
       procedure, private :: add_text
       procedure, private :: add_line
    end type summary_t
+
+   public :: value_in_summary, read_from_summary, checksum_in_summary
 
 contains
 
@@ -138,9 +144,56 @@ contains
       call file%open(path, error)
       if (allocated(error)) return
       text = summary_magic//new_line('a')//self%body//'/'//new_line('a')
-      call file%put(text//'! checksum '//integer_text(checksum_of(text))//new_line('a'), error)
+      call file%put(text//checksum_mark//integer_text(checksum_of(text))//new_line('a'), error)
       call file%close(close_error)
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
    end subroutine write_beside
+
+   !> Value of the first key of a name in a summary, without quotes; empty if there is none.
+   function value_in_summary(path, name) result(value)
+      character(*), intent(in) :: path
+      character(*), intent(in) :: name
+      character(:), allocatable :: value
+      type(word_t), allocatable :: values(:)
+
+      value = ''
+      call read_from_summary(path, '   '//name//' = ', values)
+      if (size(values) > 0) value = values(1)%text
+   end function value_in_summary
+
+   !> What follows in all lines of a summary that begin alike, without quotes.
+   subroutine read_from_summary(path, start, values)
+      character(*), intent(in) :: path
+      !> How the lines begin
+      character(*), intent(in) :: start
+      !> As texts, in their order
+      type(word_t), allocatable, intent(out) :: values(:)
+      integer, parameter :: largest_summary = 10000000
+      character(:), allocatable :: content, value
+      integer :: place, stat
+
+      allocate (values(0))
+      call read_whole_file(path, largest_summary, content, stat)
+      if (stat /= 0) return
+      do
+         place = index(content, new_line('a')//start)
+         if (place == 0) return
+         content = content(place + len(start) + 1:)
+         value = content(:index(content//new_line('a'), new_line('a')) - 1)
+         if (index(value, "'") == 1) value = value(2:len(value) - 1)
+         values = [values, word_t(value)]
+      end do
+   end subroutine read_from_summary
+
+   !> The checksum that ends a summary; 0 if it has none.
+   integer(int64) function checksum_in_summary(path) result(stored)
+      character(*), intent(in) :: path
+      type(word_t), allocatable :: values(:)
+      integer :: stat
+
+      stored = 0_int64
+      call read_from_summary(path, checksum_mark, values)
+      if (size(values) > 0) read (values(size(values))%text, *, iostat=stat) stored
+   end function checksum_in_summary
 
 end module summary_file

@@ -3,8 +3,9 @@ module batch
    use, intrinsic :: iso_fortran_env, only: error_unit
    use command_line, only: command_t
    use engine, only: checkpoint_t
+   use earlier_files, only: check_earlier_files
    use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t
-   use gearbox_table, only: pair_row_t, row_of_pair, whole_gearbox, write_table
+   use gearbox_table, only: check_earlier_table, pair_row_t, row_of_pair, whole_gearbox, write_table
    use judged_scene, only: judged_scene_t
    use memory_need, only: expect_scene_memory, scenes_that_fit
    use output_lock, only: output_lock_t
@@ -20,6 +21,7 @@ module batch
    use signals, only: caught_signal
    use text, only: integer_text
    use text_output, only: end_turn, lock_texts, put_line, put_text, share_output, speak_for, unlock_texts
+   use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads
    implicit none(type, external)
    private
@@ -55,7 +57,7 @@ contains
       if (.not. command%check) then
          ! Look first, make folders after, so that a fault in one scene leaves nothing behind for another.
          if (faults%count() == 0) call check_places(scenes, .false., faults)
-         if (faults%count() == 0 .and. command%resume) call check_states(scenes, faults)
+         if (faults%count() == 0 .and. command%resume) call check_earlier_runs(scenes, faults)
          if (faults%count() == 0) call check_places(scenes, .true., faults)
       end if
       if (command%resume .and. caught_signal() /= 0) then
@@ -97,7 +99,8 @@ contains
          place = begun
          call speak_for(place)
          call run_place(scenes(place), command, outcomes(place))
-         is_ending = is_ending .or. has_trouble(outcomes(place)) .or. outcomes(place)%status == status_interrupted
+         is_ending = is_ending .or. has_trouble(outcomes(place)) .or. outcomes(place)%status == status_interrupted &
+                     .or. caught_signal() /= 0
          outcomes(place)%is_over = .true.
          do while (told < begun)
             if (.not. outcomes(told + 1)%is_over) exit
@@ -125,7 +128,9 @@ contains
       if (allocated(outcome%error)) return
       ! Another run may have written these files since they were looked at.
       call check_output_place(scene, scene%source, .false., outcome%faults)
-      if (outcome%faults%count() == 0) call run_task(scene, command, judged, outcome%status, outcome%error)
+      if (outcome%faults%count() == 0 .and. command%resume .and. scene%task /= task_motion) &
+         call check_earlier_run(scene, outcome%error)
+      if (.not. has_trouble(outcome)) call run_task(scene, command, judged, outcome%status, outcome%error)
       call lock%release()
       if (is_pair(scene) .and. .not. has_trouble(outcome)) outcome%row = row_of_pair(scene, judged)
    end subroutine run_place
@@ -164,7 +169,8 @@ contains
          else if (in_trouble) then
             call print_faults(outcome%faults)
             exit_code = outcome%faults%exit_code
-         else if (outcome%status == status_interrupted) then
+         else if (outcome%status == status_interrupted .or. &
+                  (is_last_begun .and. place < size(scenes) .and. caught_signal() /= 0)) then
             exit_code = 128 + caught_signal()
          else if (exit_code == exit_complete .and. .not. is_success(outcome%status)) then
             exit_code = exit_scene_failed
@@ -252,20 +258,34 @@ contains
       end do
    end subroutine check_memory
 
-   !> States to be carried on belong to these very scenes.
-   subroutine check_states(scenes, faults)
+   !> What earlier runs have left, and this one would carry on or replace, belongs to these very scenes.
+   subroutine check_earlier_runs(scenes, faults)
       type(scene_t), intent(in) :: scenes(:)
       type(fault_list_t), intent(inout) :: faults
-      type(checkpoint_t) :: state
       type(error_t), allocatable :: error
-      integer :: i
+      integer :: i, j
 
       do i = 1, size(scenes)
-         if (scenes(i)%task /= task_motion) cycle
-         call load_state(scenes(i), state, error)
+         call check_earlier_run(scenes(i), error)
+         if (.not. allocated(error) .and. is_last_pair(scenes, i)) &
+            call check_earlier_table(whole_gearbox(scenes(i)), &
+                                     [(word_t(trim(scenes(j)%gear%name)), j=1, size(scenes))], error)
          if (allocated(error)) call faults%add(scenes(i)%source, 0, '', '', error%message)
       end do
-   end subroutine check_states
+   end subroutine check_earlier_runs
+
+   subroutine check_earlier_run(scene, error)
+      type(scene_t), intent(in) :: scene
+      !> Set if its files are of another scene
+      type(error_t), allocatable, intent(out) :: error
+      type(checkpoint_t) :: state
+
+      if (scene%task == task_motion) then
+         call load_state(scene, state, error)
+      else
+         call check_earlier_files(scene, error)
+      end if
+   end subroutine check_earlier_run
 
    !> Every scene has a place for its files.
    subroutine check_places(scenes, may_make, faults)

@@ -1,11 +1,12 @@
 !> The table of all gear pairs of an input: what became of each, and what they do together.
 module gearbox_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use errors, only: error_t
+   use earlier_files, only: begin_anew
+   use errors, only: error_t, exit_bad_input, raise
    use force_signal, only: force_signal_t, sum_in_phase
    use input_key, only: name_limit
    use judged_scene, only: judged_scene_t, quantity_value
-   use kinds, only: dp
+   use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
    use output_place, only: log_path, summary_path
    use quantities, only: a_code, a_flag, quantity_acceleration_maximum, quantity_acceleration_minimum, &
@@ -13,7 +14,7 @@ module gearbox_table
                          quantity_film_force_rms, quantity_film_minimum, quantity_rattle_class, quantity_table, quantity_word
    use scene_status, only: is_success, status_complete, status_interrupted, status_name
    use scene_types, only: scene_t
-   use summary_file, only: summary_t
+   use summary_file, only: checksum_in_summary, read_from_summary, summary_t
    use text, only: counted, integer_text, short_text
    use version, only: program_version
    use word_list, only: joined_words, word_t
@@ -31,6 +32,8 @@ module gearbox_table
       private
       character(name_limit) :: name = ''
       integer :: status = status_complete
+      !> Checksum of the summary of the pair
+      integer(int64) :: summary_checksum = 0_int64
       real(dp) :: numbers(size(told)) = 0.0_dp
       type(force_signal_t) :: film_force
    end type pair_row_t
@@ -42,11 +45,11 @@ module gearbox_table
       character(:), allocatable :: words
    end type together_t
 
-   public :: row_of_pair, write_table, whole_gearbox, together
+   public :: row_of_pair, write_table, whole_gearbox, together, check_earlier_table
 
 contains
 
-   !> Row of a judged pair.
+   !> Row of a judged pair whose files are in their places.
    function row_of_pair(scene, judged) result(row)
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(in) :: judged
@@ -55,6 +58,7 @@ contains
 
       row%name = scene%gear%name
       row%status = judged%status
+      row%summary_checksum = checksum_in_summary(summary_path(scene))
       do i = 1, size(told)
          row%numbers(i) = quantity_value(told(i), judged)
       end do
@@ -71,6 +75,26 @@ contains
       whole%name = scene%gearbox
       whole%output%series = .false.
    end function whole_gearbox
+
+   !> See that the table of an earlier run holds no pair that this input does not have.
+   subroutine check_earlier_table(gearbox, gears, error)
+      !> Scene that stands for all pairs
+      type(scene_t), intent(in) :: gearbox
+      !> Names of the gears of this input
+      type(word_t), intent(in) :: gears(:)
+      !> Set if there is one
+      type(error_t), allocatable, intent(out) :: error
+      type(word_t), allocatable :: told(:)
+      integer :: i, j
+
+      call read_from_summary(summary_path(gearbox), "   gear = ", told)
+      do i = 1, size(told)
+         if (any([(told(i)%text == gears(j)%text, j=1, size(gears))])) cycle
+         call raise(error, exit_bad_input, summary_path(gearbox)//" belongs to another gearbox: it tells of the gear '"// &
+                    told(i)%text//"', which is not set now"//begin_anew)
+         return
+      end do
+   end subroutine check_earlier_table
 
    !> Write the table as NAME.summary.nml, print it, and keep it in NAME.log.
    subroutine write_table(gearbox, pairs, rows, quiet, error)
@@ -108,6 +132,7 @@ contains
          call summary%next_group('pair')
          call summary%add('gear', trim(rows(i)%name))
          call summary%add('status', status_name(rows(i)%status))
+         if (rows(i)%summary_checksum /= 0_int64) call summary%add('summary_checksum', rows(i)%summary_checksum)
          do j = 1, size(told)
             associate (name => quantity_table(told(j))%name, number => rows(i)%numbers(j))
                if (ieee_is_nan(number)) cycle

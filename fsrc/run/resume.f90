@@ -7,9 +7,9 @@
 module resume
    use controlled_engine, only: last_search_period
    use engine, only: checkpoint_t
+   use earlier_files, only: begin_anew, check_earlier_result, check_lone_summary, open_earlier
    use errors, only: error_t, exit_bad_input, raise
    use file_system, only: file_state_t, state_of_path
-   use input_difference, only: first_difference
    use kinds, only: dp, int64
    use output_place, only: result_path, state_path
    use problem, only: problem_of, state_number_t, state_numbers
@@ -20,7 +20,6 @@ module resume
    use sample_recorder, only: series_rows
    use scene_types, only: method_taylor, scene_t, until_steady
    use text, only: integer_text
-   use version, only: program_version
    implicit none(type, external)
    private
 
@@ -37,10 +36,7 @@ module resume
                                                'spectrum.quiet_limit', 'spectrum.irregular_limit', 'spectrum.impact_limit', &
                                                'spectrum.certify', 'spectrum.certificate_tolerance']
 
-   !> What to do with a state that cannot be carried on.
-   character(*), parameter, public :: begin_anew = '; --overwrite instead of --resume begins the run anew'
-
-   public :: save_state, load_state, open_earlier
+   public :: save_state, load_state
 
 contains
 
@@ -83,7 +79,11 @@ contains
       real(dp), allocatable :: row(:, :)
 
       kept = state_of_path(state_path(scene))
-      if (kept%bytes == 0_int64) return
+      if (kept%bytes == 0_int64) then
+         call check_series(scene, error)
+         if (.not. allocated(error)) call check_lone_summary(scene, error)
+         return
+      end if
       numbers = state_numbers(problem_of(scene))
       call columns_of(numbers, names, units)
       allocate (row(size(names), 1))
@@ -95,7 +95,10 @@ contains
       call reader%close()
       if (allocated(error)) return
       state = state_of(row(:, 1), size(numbers))
-      if (state%periods == 0) return
+      if (state%periods == 0) then
+         call check_series(scene, error)
+         return
+      end if
       if (scene%solver%until /= until_steady) then
          ! The search ends here: what it has seen does not follow the motion any more.
          state%watch = orbit_watch_t()
@@ -110,37 +113,35 @@ contains
                     '; the window of this run would begin before')
          return
       end if
-      if (.not. scene%output%series) return
+      call check_series(scene, error)
+      if (allocated(error) .or. .not. scene%output%series) return
       call open_earlier(scene, result_path(scene), free_keys, reader, error)
       if (.not. allocated(error)) call reader%verify_rows(series_rows(scene, state%periods), error)
       call reader%close()
    end subroutine load_state
 
-   !> Open a file of an earlier run of this scene.
-   subroutine open_earlier(scene, path, free, reader, error)
-      !> Checked scene
+   !> See that an earlier series is of this scene. Where its run has come to an end and left no state, the run begins anew and
+   !> must be the same; where it has a state, or was killed, the run goes further.
+   subroutine check_series(scene, error)
       type(scene_t), intent(in) :: scene
-      character(*), intent(in) :: path
-      !> Keys that may have changed since
-      character(*), intent(in) :: free(:)
-      type(result_reader_t), intent(out) :: reader
-      !> Set if it cannot be read or belongs to another scene
+      !> Set if it is of another scene, or would become shorter
       type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: difference
+      type(file_state_t) :: series, state
+      type(result_reader_t) :: reader
 
-      call reader%open(path, error)
-      if (allocated(error)) then
-         error%message = error%message//begin_anew
-         return
+      series = state_of_path(result_path(scene))
+      state = state_of_path(state_path(scene))
+      if (series%bytes == 0_int64) return
+      call open_earlier(scene, result_path(scene), free_keys, reader, error)
+      call reader%close()
+      if (allocated(error)) return
+      if (reader%row_count > series_rows(scene, scene%solver%periods)) then
+         call raise(error, exit_bad_input, result_path(scene)//' holds '//integer_text(reader%row_count)//' rows; this run '// &
+                    'would end after '//integer_text(series_rows(scene, scene%solver%periods))//begin_anew)
+      else if (reader%row_count >= 0_int64 .and. state%bytes == 0_int64) then
+         call check_earlier_result(scene, result_path(scene), [character(1) ::], error)
       end if
-      if (reader%from_another_version) then
-         call raise(error, exit_bad_input, path//' was written by version '//reader%version//' of rattle, this is '// &
-                    program_version//begin_anew)
-         return
-      end if
-      difference = first_difference(reader%input_text, scene%resolved_input, free)
-      if (len(difference) > 0) call raise(error, exit_bad_input, path//' belongs to another scene: '//difference)
-   end subroutine open_earlier
+   end subroutine check_series
 
    !> Last period at which a run can take up a state and go on as if it had come there itself.
    pure integer function latest_start(scene, state)

@@ -13,7 +13,7 @@ module run_film
    use result_writer, only: result_writer_t
    use scene_report, only: law_sentence, report_head, speed_meaning
    use scene_status, only: status_complete, status_interrupted, status_not_written, status_sentence
-   use scene_summary, only: add_head
+   use scene_summary, only: add_head, add_results
    use scene_types, only: compute_profile, scene_t, speed_sum
    use signals, only: caught_signal
    use summary_file, only: summary_t
@@ -176,6 +176,7 @@ contains
       type(summary_t) :: summary
 
       call add_head(summary, scene, status)
+      call add_results(summary, result_files(scene), status)
       call summary%add('points', points)
       call summary%add('speed_meaning', speed_meaning(scene))
       call summary%add('sign_convention', 'stiffness -dW/dh0, damping -dW/dw: positive where the film resists')

@@ -5,6 +5,7 @@ module run_scene
    use engine, only: checkpoint_t, ending_t
    use errors, only: error_t
    use finished_files, only: place_files
+   use gearbox_table, only: whole_gearbox
    use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
@@ -96,9 +97,13 @@ contains
          if (.not. allocated(error)) call save_state(scene, state, error)
       end if
       if (allocated(error)) judged%status = status_not_written
-      call write_scene_summary(summary_path(scene), scene, judged, wall_seconds() - started, write_error)
+      call write_scene_summary(summary_path(scene), scene, judged, series_of(scene), wall_seconds() - started, write_error)
       if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
-      call place_files(result_files(scene), summary_path(scene), error)
+      if (scene%gearbox /= '') then
+         call place_files(result_files(scene), summary_path(scene), error, summary_path(whole_gearbox(scene)))
+      else
+         call place_files(result_files(scene), summary_path(scene), error)
+      end if
       if (.not. allocated(error)) call report_ending(log, scene, judged, solve_seconds)
       if (allocated(error)) judged%status = status_not_written
       status = judged%status
@@ -111,8 +116,16 @@ contains
       type(scene_t), intent(in) :: scene
       type(word_t), allocatable :: paths(:)
 
-      paths = [word_t(state_path(scene))]
-      if (scene%output%series) paths = [word_t(result_path(scene)), paths]
+      paths = [series_of(scene), word_t(state_path(scene))]
    end function result_files
+
+   !> The series, if it is asked for.
+   pure function series_of(scene) result(paths)
+      type(scene_t), intent(in) :: scene
+      type(word_t), allocatable :: paths(:)
+
+      allocate (paths(0))
+      if (scene%output%series) paths = [word_t(result_path(scene))]
+   end function series_of
 
 end module run_scene

@@ -28,7 +28,7 @@ module run_sweep
    use result_writer, only: result_writer_t
    use scene_report, only: law_sentence, report_head
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written, status_sentence
-   use scene_summary, only: add_head
+   use scene_summary, only: add_head, add_results
    use scene_types, only: scene_t, set_number
    use signals, only: caught_signal
    use summary_file, only: summary_t
@@ -265,6 +265,7 @@ contains
       type(summary_t) :: summary
 
       call add_head(summary, scene, status)
+      call add_results(summary, [word_t(result_path(scene))], status)
       call summary%add('motions', size(scene%sweep%values))
       call summary%add('motions_failed', failed)
       call summary%add('wall_seconds', seconds)

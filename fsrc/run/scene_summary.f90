@@ -9,26 +9,30 @@ module scene_summary
    use quantities, only: a_code, a_count, a_flag, a_list, part_class, part_cost, part_errors, part_lines, part_orbit, part_regime, &
                          part_scene, part_window, quantity_film_regime, quantity_law_contradicted, quantity_orbit_period, &
                          quantity_t, quantity_table, quantity_word
+   use result_checksum, only: checksum_of_new_result
    use scene_report, only: speed_meaning
-   use scene_status, only: is_success, status_name, status_no_rigid_film, status_sentence
+   use scene_status, only: is_success, status_name, status_no_rigid_film, status_not_written, status_sentence
    use scene_types, only: scene_t
    use summary_file, only: summary_t
    use version, only: program_version
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
-   public :: write_scene_summary, add_head
+   public :: write_scene_summary, add_head, add_results
 
 contains
 
    !> Write the summary of a scene beside its place, for place_files to bring it there.
-   subroutine write_scene_summary(path, scene, judged, seconds, error)
+   subroutine write_scene_summary(path, scene, judged, results, seconds, error)
       !> Path of the summary
       character(*), intent(in) :: path
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Its result
       type(judged_scene_t), intent(in) :: judged
+      !> Paths of its series, if it has one
+      type(word_t), intent(in) :: results(:)
       !> Wall time [s]
       real(dp), intent(in) :: seconds
       !> Set if the file cannot be written
@@ -36,6 +40,7 @@ contains
       type(summary_t) :: summary
 
       call add_head(summary, scene, judged%status, judged%time)
+      call add_results(summary, results, judged%status)
       call summary%add('law', choice_word('film', 'law', scene%film%law))
       call summary%add('model', choice_word('film', 'model', scene%film%model))
       call summary%add('speed_used', judged%resolved%problem%film%speed)
@@ -141,5 +146,23 @@ contains
       if (present(time)) call summary%add('status_time', time)
       call summary%add('status_text', status_sentence(status))
    end subroutine add_head
+
+   !> The checksums by which a reader knows the results that a summary belongs to: the first is that of NAME.rattle, 0 where the
+   !> run has left none, and that of the profiles follows.
+   subroutine add_results(summary, results, status)
+      type(summary_t), intent(inout) :: summary
+      !> Paths of the results that this run has written
+      type(word_t), intent(in) :: results(:)
+      !> Status of the run; one that could not write its files is known by that alone
+      integer, intent(in) :: status
+      character(*), parameter :: names(2) = [character(17) :: 'result_checksum', 'profiles_checksum']
+      integer :: i
+
+      if (status == status_not_written) return
+      if (size(results) == 0) call summary%add(trim(names(1)), 0)
+      do i = 1, size(results)
+         call summary%add(trim(names(i)), checksum_of_new_result(results(i)%text))
+      end do
+   end subroutine add_results
 
 end module scene_summary

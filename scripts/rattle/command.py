@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from rattle.result import Result, ResultError
-from rattle.summary import SummaryError
+from rattle.summary import SummaryError, read_summary
 
 COMPLETE = 0
 BAD_INPUT = 2
@@ -88,9 +88,14 @@ def note(sentence: str) -> None:
 
 
 def note_open(result: Result) -> None:
-    """Tell the user that a result is not closed, if it is not."""
+    """Tell the user that a result is not closed, or that the summary beside it is of another run."""
     if not result.closed:
         note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")
+    try:
+        if result.summary_path.exists():
+            read_summary(result.summary_path)
+    except SummaryError as fault:
+        note(str(fault))
 
 
 def parse(parser: argparse.ArgumentParser) -> argparse.Namespace:

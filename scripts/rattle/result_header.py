@@ -48,6 +48,7 @@ from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
+from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
@@ -223,6 +224,22 @@ def read_header(stream: BinaryIO, path: object) -> ResultHeader:
         seal=_read_seal(seal, row_count, chunks, path),
         chunks=chunks,
     )
+
+
+def checksum_of_head(path: Path) -> int:
+    """Checksum of all bytes before the rows, among which are those of the rows; 0 where there are none.
+
+    The summary of a run holds it, so that the two are known to belong together.
+    """
+    with path.open("rb") as stream:
+        fixed = stream.read(FIXED_PART.size)
+        if len(fixed) < FIXED_PART.size:
+            return 0
+        header_bytes = FIXED_PART.unpack(fixed)[3]
+        if not FIXED_PART.size <= header_bytes <= stream.seek(0, 2):
+            return 0
+        stream.seek(0)
+        return checksum(stream.read(header_bytes))
 
 
 def _read_chunks(stream: BinaryIO, head: bytes, space: int, path: object) -> ChunkTable:

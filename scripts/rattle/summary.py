@@ -9,12 +9,17 @@ from typing import Any
 from rattle.checksums import checksum
 from rattle.codes import QUANTITIES
 from rattle.namelist import NamelistError, parse
+from rattle.result_header import checksum_of_head
 
 Summary = Mapping[str, Any]
 # Words, with the unit, and what shows the number of a summary.
 Row = tuple[str, Callable[[Summary], str]]
 ABSENT = "-"
 CHECKSUM_MARK = b"! checksum "
+ENDING = ".summary.nml"
+# Keys that hold the checksum of a result, and how the name of that result ends.
+RESULTS = {"result_checksum": ".rattle", "profiles_checksum": ".profiles.rattle"}
+DIFFERENT = "one of the two is of another run, or damaged; rattle --overwrite writes both anew"
 
 
 class SummaryError(Exception):
@@ -24,7 +29,9 @@ class SummaryError(Exception):
 def read_summary(path: str | Path) -> dict[str, Any]:
     """The keys of a ``NAME.summary.nml``; what the run does not know is not in it.
 
-    That of a gearbox has the rows of its table as `gears`: the keys of each pair by its name.
+    That of a gearbox has the rows of its table as `gears`: the keys of each pair by its name. A summary that
+    does not belong to the results beside it is refused: a run was killed between the two, or files were
+    moved.
     """
     path = Path(path)
     try:
@@ -46,7 +53,24 @@ def read_summary(path: str | Path) -> dict[str, Any]:
     if pairs:
         summary["gears"] = {str(keys.pop("gear")).strip(): keys for keys in pairs}
     summary.setdefault("name", path.name.removesuffix(".nml").removesuffix(".summary"))
+    _check_results(path, summary)
     return summary
+
+
+def _check_results(path: Path, summary: Summary) -> None:
+    """Refuse a summary beside which the results of another run stand; one that stands alone is read."""
+    stem = path.name.removesuffix(ENDING)
+    for key, ending in RESULTS.items():
+        result = path.with_name(stem + ending)
+        if key in summary and result.exists() and checksum_of_head(result) != summary[key]:
+            why = "its run left no result" if summary[key] == 0 else DIFFERENT
+            raise SummaryError(f"{path} does not belong to {result} beside it: {why}.")
+    for gear, pair in summary.get("gears", {}).items():
+        other = path.with_name(f"{stem}.{gear}{ENDING}")
+        if "summary_checksum" not in pair or not other.exists():
+            continue
+        if other.read_bytes().rpartition(CHECKSUM_MARK)[2] != b"%d\n" % pair["summary_checksum"]:
+            raise SummaryError(f"{path} does not belong to {other} beside it: {DIFFERENT}.")
 
 
 def comparison_table(summaries: Sequence[Summary]) -> list[list[str]]:

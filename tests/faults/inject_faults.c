@@ -3,7 +3,7 @@
    Calls count that write, shorten, synchronise, rename, make or close a file below FAULT_FOLDER. FAULT_AT is the
    call that meets the fault, FAULT_KIND the fault: "error" (that call fails), "full" (from that call on nothing can
    be made or written), "short" (half of what is to be written is, then the disk is full), "kill" (the program ends
-   before the call), "none". Each call leaves a line in the file FAULT_TRACE: its name and the file that it meets.
+   before the call), "signal" (the signal FAULT_SIGNAL comes before the call), "none". Each call leaves a line in the file FAULT_TRACE: its name and the file that it meets.
    With FAULT_CLOCK the clock of the program goes on by so many milliseconds whenever it is read. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -45,7 +45,7 @@ static int is_output(int descriptor, const char *call)
     length = readlink(link, path, sizeof path - 1);
     if (length < 0) return 0;
     path[length] = '\0';
-    if (!below_folder(path)) return 0;
+    if (!below_folder(path) || (fcntl(descriptor, F_GETFL) & O_ACCMODE) == O_RDONLY) return 0;
     trace(call, path);
     return 1;
 }
@@ -67,6 +67,7 @@ static enum verdict judge(size_t bytes)
     if (strcmp(kind, "full") == 0 && bytes > 0) return FAIL;
     if (number > at) return PASS;
     if (strcmp(kind, "kill") == 0) raise(SIGKILL);
+    if (strcmp(kind, "signal") == 0) raise(atoi(getenv("FAULT_SIGNAL")));
     if (strcmp(kind, "error") == 0) return FAIL;
     if (strcmp(kind, "short") == 0) return bytes > 8 ? HALF : FAIL;
     return PASS;

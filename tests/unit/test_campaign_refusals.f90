@@ -7,7 +7,7 @@ module test_campaign_refusals
    use checks, only: check_list_t
    use errors, only: error_t, exit_bad_input, exit_system
    use file_system, only: delete_file, path_exists
-   use input_difference, only: first_difference
+   use input_difference, only: differing_keys
    use kinds, only: int64
    use random_access_file, only: random_access_file_t
    implicit none(type, external)
@@ -139,23 +139,23 @@ contains
    subroutine test_difference(checks)
       type(check_list_t), intent(inout) :: checks
 
-      call checks%check(first_difference(input, input) == '', 'no difference')
-      call checks%check(first_difference('&a b = 1, 2 c = 3 /', &
+      call checks%check(differing_keys(input, input) == '', 'no difference')
+      call checks%check(differing_keys('&a b = 1, 2 c = 3 /', &
                                          '&a b = 1, 2 c = 4 /') == 'a.c is 4 now and was 3', 'number')
-      call checks%check(first_difference('&a b = 1, 2 /', '&a b = 1 /') == 'a.b is 1 now and was 1, 2', &
+      call checks%check(differing_keys('&a b = 1, 2 /', '&a b = 1 /') == 'a.b is 1 now and was 1, 2', &
                         'list')
-      call checks%check(first_difference('&a c = 3 /', '&a b = 1 c = 3 /') == &
+      call checks%check(differing_keys('&a c = 3 /', '&a b = 1 c = 3 /') == &
                         'a.b is 1 now and was not set', 'new key')
-      call checks%check(first_difference("&a b = 'x' c = 3 /", &
+      call checks%check(differing_keys("&a b = 'x' c = 3 /", &
                                          '&a c = 3 /') == 'a.b was x and is not set now', 'lost key')
-      call checks%check(first_difference('&a b = 1 / &d b = 1 /', &
+      call checks%check(differing_keys('&a b = 1 / &d b = 1 /', &
                                          '&a b = 1 / &d b = 2 /') == 'd.b is 2 now and was 1', 'group')
-      call checks%check(first_difference('&a v(1) = 1 v(2) = 1 /', &
+      call checks%check(differing_keys('&a v(1) = 1 v(2) = 1 /', &
                                          '&a v(1) = 1 v(2) = 2 /') == 'a.v(2) is 2 now and was 1', &
                         'element')
-      call checks%check(first_difference('&a b = 1 / &d b = 1 /', '&a b = 2 / &d b = 2 /', ['a.b']) == &
+      call checks%check(differing_keys('&a b = 1 / &d b = 1 /', '&a b = 2 / &d b = 2 /', ['a.b']) == &
                         'd.b is 2 now and was 1', 'a key of another group than the one that may differ')
-      call checks%check(first_difference('&a b = 1 c = 1 /', '&a b = 2 d = 1 /', [character(3) :: 'a.b', 'a.d', 'a.c']) == '', &
+      call checks%check(differing_keys('&a b = 1 c = 1 /', '&a b = 2 d = 1 /', [character(3) :: 'a.b', 'a.d', 'a.c']) == '', &
                         'keys that may differ, come or go')
    end subroutine test_difference
 

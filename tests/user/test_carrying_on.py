@@ -272,7 +272,10 @@ def test_steady_run_is_finished_for_good(method: str, run, scene_text, tmp_path:
     told = carry_on(run, tmp_path, "--set", "solver.periods=5000")
     assert "found steady by the earlier run" in told
     assert first["status"] == "steady"
-    assert summary(tmp_path / "chained") == first
+    after = summary(tmp_path / "chained")
+    # The series says how many periods were asked for.
+    del first["result_checksum"], after["result_checksum"]
+    assert after == first
     assert np.array_equal(films(tmp_path / "chained"), before)
     assert run("--output", "long", "--set", "solver.periods=5000", "scene.nml", cwd=tmp_path).returncode == 0
     same(tmp_path)

@@ -88,7 +88,7 @@ def test_each_pair_is_the_scene_of_its_own_input(solve, tmp_path: Path) -> None:
     for gear, told in table["gears"].items():
         summary = summary_of(tmp_path / "results" / f"box.{gear}.summary.nml")
         for name, value in told.items():
-            if name != "certified":
+            if name not in ("certified", "summary_checksum"):
                 assert summary[name] == value, name
         force, power = force + told["film_force_rms"] ** 2, power + told["dissipated_power"]
     assert table["film_force_rms_uncorrelated"] == pytest.approx(force**0.5, rel=1e-14)

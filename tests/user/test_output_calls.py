@@ -15,15 +15,6 @@ import rattle as package
 RESULTS = ("scene.rattle", "scene.state", "scene.summary.nml")
 
 
-@pytest.fixture(scope="module")
-def shim(repository: Path, tmp_path_factory) -> Path:
-    """A library that lets an output call fail, or tells which there are."""
-    library = tmp_path_factory.mktemp("shim") / "inject_faults.so"
-    source = repository / "tests" / "faults" / "inject_faults.c"
-    subprocess.run(["gcc", "-shared", "-fPIC", "-o", library, source, "-ldl"], check=True)
-    return library
-
-
 @pytest.fixture
 def meet(shim: Path, rattle: Path, scene_text, tmp_path: Path) -> Callable:
     """Run the scene, or the campaign, in a folder of its own with a fault; its end and its output calls."""
