@@ -14,7 +14,7 @@ module campaign_certificate
    use periodic_orbit, only: attracting_period
    use carried_loads, only: films_of
    use problem, only: of_film, problem_t
-   use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, note_parting
+   use rattle_class, only: class_irregular, class_irregular_so_far, note_known, note_orbit
    use resolved_scene, only: resolved_scene_t
    use scene_group, only: classify_group, scene_group_t, solve_group
    use scene_status, only: is_success, status_steady
@@ -48,11 +48,18 @@ contains
       type(impact_agreement_t), intent(out), optional :: agree(:)
       type(request_t) :: tighter
       type(motion_state_t) :: starts(size(resolved))
-      integer, allocatable :: irregular(:)
+      integer, allocatable :: tested(:), irregular(:)
       logical :: wants(seen_quantities), behind(size(resolved))
       real(dp) :: noise(size(resolved))
-      integer :: i
+      integer :: i, k
 
+      stands = .false.
+      ! The class of what is irregular only so far cannot stand: its impacts alone are worth a tighter solution.
+      associate (n => size(resolved))
+         tested = pack([(i, i=1, n)], is_success(group%endings(:n)%status) .and. &
+                       (present(agree) .or. group%verdicts(:n)%class /= class_irregular_so_far))
+      end associate
+      if (size(tested) == 0) return
       tighter = request
       starts = start_of(resolved%problem)
       call tighten(method_taylor, request%accuracy, tighter%accuracy, starts(1)%implicit)
@@ -62,43 +69,44 @@ contains
       wants(compared) = .true.
       if (present(agree)) then
          wants([seen_load, seen_net_load]) = .true.
-         call solve_group(resolved%problem, starts, tighter, wants, tight, choices%impact_limit)
+         call solve_group(resolved(tested)%problem, starts(tested), tighter, wants, tight, choices(tested)%impact_limit)
       else
-         call solve_group(resolved%problem, starts, tighter, wants, tight)
+         call solve_group(resolved(tested)%problem, starts(tested), tighter, wants, tight)
       end if
-      call classify_group(resolved%problem, choices, noise, tighter, tight)
-      stands = .false.
+      call classify_group(resolved(tested)%problem, choices(tested), noise(tested), tighter, tight)
       behind = .false.
-      do i = 1, size(resolved)
+      do k = 1, size(tested)
          if (must_stop()) return
-         if (.not. (is_success(group%endings(i)%status) .and. is_success(tight%endings(i)%status))) cycle
-         if (tight%verdicts(i)%class == class_irregular_so_far) &
-            call note_orbit(tight%verdicts(i), attracting_period(nearby_orbit(resolved(i)%problem, tight%endings(i))))
-         ! It is one motion; followed once, it counts for both.
-         call note_parting(tight%verdicts(i), group%verdicts(i)%parting)
+         i = tested(k)
+         if (.not. is_success(tight%endings(k)%status)) cycle
+         if (group%verdicts(i)%class == class_irregular .and. tight%verdicts(k)%class == class_irregular_so_far) &
+            call note_orbit(tight%verdicts(k), attracting_period(nearby_orbit(resolved(i)%problem, tight%endings(k))))
+         call note_known(tight%verdicts(k), group%verdicts(i))
          if (present(agree)) &
             agree(i) = agreement_of(resolved(i)%problem, extremes_of_record(group%records(i)), &
                                     impacts_of_record(group%records(i), resolved(i)%problem%frequency), &
-                                    extremes_of_record(tight%records(i)), &
-                                    impacts_of_record(tight%records(i), resolved(i)%problem%frequency))
-         stands(i) = class_stands(resolved(i), choices(i), tighter, i, noise(i), group, tight)
-         behind(i) = stands(i) .and. group%verdicts(i)%class == class_irregular
+                                    extremes_of_record(tight%records(k)), &
+                                    impacts_of_record(tight%records(k), resolved(i)%problem%frequency))
+         stands(i) = class_stands(resolved(i), choices(i), tighter, i, k, noise(i), group, tight)
+         behind(k) = stands(i) .and. group%verdicts(i)%class == class_irregular
       end do
       if (.not. any(behind)) return
-      irregular = pack([(i, i=1, size(resolved))], behind)
-      call look_behind(resolved(irregular)%problem, choices(irregular), noise(irregular), tighter, irregular, &
+      irregular = pack([(k, k=1, size(tested))], behind(:size(tested)))
+      tested = tested(irregular)
+      call look_behind(resolved(tested)%problem, choices(tested), noise(tested), tighter, tested, &
                        tight%endings(irregular)%motion_state_t, tight, stands)
    end subroutine certify_group
 
    !> Whether the class of a scene stands as far as its window tells. One thread at a time makes these texts: gfortran keeps
    !> the length of a text that a function allocates for all of them.
-   logical function class_stands(resolved, choice, tighter, place, tight_noise, group, tight)
+   logical function class_stands(resolved, choice, tighter, place, tight_place, tight_noise, group, tight)
       type(resolved_scene_t), intent(in) :: resolved
       type(spectrum_choice_t), intent(in) :: choice
       !> What was asked of the tighter solution
       type(request_t), intent(in) :: tighter
-      !> Of the scene in both groups
+      !> Of the scene in its group, and in the tighter one
       integer, intent(in) :: place
+      integer, intent(in) :: tight_place
       !> Acceleration that the errors of the tighter solution explain [m/s2]
       real(dp), intent(in) :: tight_noise
       type(scene_group_t), intent(in) :: group
@@ -107,27 +115,27 @@ contains
       character(:), allocatable :: unclosed
       integer, allocatable :: same(:)
 
-      associate (record => group%records(place), tight_record => tight%records(place), verdict => group%verdicts(place), &
-                 tight_verdict => tight%verdicts(place), problem => resolved%problem, &
-                 samples => group%endings(place)%samples, tight_samples => tight%endings(place)%samples)
+      associate (record => group%records(place), tight_record => tight%records(tight_place), verdict => group%verdicts(place), &
+                 tight_verdict => tight%verdicts(tight_place), problem => resolved%problem, &
+                 samples => group%endings(place)%samples, tight_samples => tight%endings(tight_place)%samples)
          !$omp critical (sentences)
          unclosed = closing_sentence(record, problem%frequency, problem%mass, resolved%noise_floor)
          if (len(unclosed) == 0) unclosed = closing_sentence(tight_record, problem%frequency, problem%mass, tight_noise)
          if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, samples/tighter%samples_per_period)
          if (len(unclosed) == 0) unclosed = &
             doubt_of_return(verdict, samples/tighter%samples_per_period, &
-                            films_of(problem, reshape([tight_record%start%numbers, tight%endings(place)%numbers], &
+                            films_of(problem, reshape([tight_record%start%numbers, tight%endings(tight_place)%numbers], &
                                                       [2, size(tight_record%start%numbers)], order=[2, 1])), &
                             choice%certificate_tolerance)
          !$omp end critical (sentences)
          class_stands = len(unclosed) == 0 .and. verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient
          if (.not. class_stands) return
-         same = same_phase(group%states(:samples, of_film, place), tight%states(:tight_samples, of_film, place), &
+         same = same_phase(group%states(:samples, of_film, place), tight%states(:tight_samples, of_film, tight_place), &
                            tighter%samples_per_period, &
-                           group%endings(place)%status == status_steady .or. tight%endings(place)%status == status_steady)
+                           group%endings(place)%status == status_steady .or. tight%endings(tight_place)%status == status_steady)
          !$omp critical (sentences)
          call compare_windows(films_of(problem, group%states(:samples, :, place)), &
-                              films_of(problem, tight%states(same, :, place)), extremes_of_record(record), &
+                              films_of(problem, tight%states(same, :, tight_place)), extremes_of_record(record), &
                               extremes_of_record(tight_record), verdict, tight_verdict, unclosed, choice, &
                               choice%certificate_tolerance, tighter%accuracy, tight_noise, certificate)
          !$omp end critical (sentences)

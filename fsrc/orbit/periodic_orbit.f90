@@ -28,7 +28,8 @@ module periodic_orbit
    real(dp), parameter :: difference_step = 1.0e-4_dp
    !> Largest size of a compression that stays positive, over the compression
    real(dp), parameter :: most_of_compression = 100.0_dp
-   integer, parameter :: most_newton_steps = 8
+   !> How often Newton's method takes the slopes of the map
+   integer, parameter :: most_slopes = 8
 
    integer, parameter, public :: orbit_stable = 1, orbit_doubling_near = 2, orbit_fold_near = 3, orbit_torus_near = 4, &
                          orbit_unstable = 5
@@ -117,11 +118,10 @@ contains
          call map_states(problem, 1, map_accuracy, images, mapped)
          if (.not. mapped) return
          if (maxval(abs(images(:, 1) - state)*scale) > nearness*thinnest_film(problem, state)) cycle
-         orbit = newton(problem, period, state, scale)
-         if (orbit%period > 0) orbit = shortest(problem, orbit, scale)
-         if (orbit%period > 0 .and. orbit%distance <= nearness) return
+         orbit = newton(problem, period, state, scale, nearness)
+         if (orbit%period > 0) orbit = shortest(problem, orbit, scale, nearness)
+         if (orbit%period > 0) return
       end do
-      orbit = periodic_orbit_t()
    end function find_periodic_orbit
 
    !> Periods of the force after which motions near a periodic one repeat, 0 where there is none or they leave it.
@@ -155,11 +155,13 @@ contains
 
    !> The same motion with its shortest period: a fixed point of the map of one period is one of every longer map, and a motion that
    !> turns about it while it settles may come near it after several periods first.
-   function shortest(problem, orbit, scale)
+   function shortest(problem, orbit, scale, nearness)
       type(problem_t), intent(in) :: problem
       type(periodic_orbit_t), intent(in) :: orbit
       !> Film that one of each number counts as
       real(dp), intent(in) :: scale(:)
+      !> Distance at which a periodic motion is another one [-]
+      real(dp), intent(in) :: nearness
       type(periodic_orbit_t) :: shortest
       real(dp) :: images(size(scale), 1)
       integer :: period
@@ -172,7 +174,7 @@ contains
          if (.not. mapped) return
          associate (state => orbit%state)
             if (any(abs(images(:, 1) - state) > largest_disturbance*sizes_of(problem, state, scale))) cycle
-            shortest = newton(problem, period, state, scale)
+            shortest = newton(problem, period, state, scale, nearness)
          end associate
          shortest%distance = orbit%distance
          return
@@ -220,24 +222,33 @@ contains
                                                                         most_of_compression*abs(state(of_drive_compression:)))
    end function sizes_of
 
-   !> Fixed point of the map of some periods, and the multipliers there.
-   function newton(problem, period, start, scale) result(orbit)
+   !> Fixed point of the map of some periods, and the multipliers there. The slopes of the map take many times what its value takes:
+   !> steps keep those of the step before as long as the changes fall fast, and the last one takes those at its end.
+   function newton(problem, period, start, scale, nearness) result(orbit)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: period
       real(dp), intent(in) :: start(:)
       !> Film that one of each number counts as
       real(dp), intent(in) :: scale(:)
+      !> Distance from the start at which a fixed point is of no use [-]
+      real(dp), intent(in) :: nearness
       type(periodic_orbit_t) :: orbit
       real(dp), dimension(size(start)) :: state, change, sizes, step
       real(dp) :: states(size(start), 0:2*size(start)), jacobian(size(start), size(start)), matrix(size(start), size(start)), &
-                  thickness, moved, disturbance, disturbance_before
-      integer :: pass, i, n, pivots(size(start)), info
-      logical :: mapped
+                  factors(size(start), size(start)), thickness, moved, moved_before, distance, reach, &
+                  disturbance, disturbance_before
+      integer :: slopes_taken, i, n, last, pivots(size(start)), info
+      logical :: mapped, anew, settled
 
       n = size(start)
       state = start
       disturbance = huge(disturbance)
-      do pass = 1, most_newton_steps
+      moved = huge(moved)
+      anew = .true.
+      slopes_taken = 0
+      do
+         if (anew) slopes_taken = slopes_taken + 1
+         if (slopes_taken > most_slopes) return
          sizes = sizes_of(problem, state, scale)
          step = difference_step*sizes
          states = spread(state, 2, 2*n + 1)
@@ -245,33 +256,55 @@ contains
             states(i, 2*i - 1) = state(i) + step(i)
             states(i, 2*i) = state(i) - step(i)
          end do
-         call map_states(problem, period, map_accuracy, states, mapped)
+         last = merge(2*n, 0, anew)
+         call map_states(problem, period, map_accuracy, states(:, 0:last), mapped)
          if (.not. mapped) return
-         do i = 1, n
-            jacobian(:, i) = (states(:, 2*i - 1) - states(:, 2*i))/(2.0_dp*step(i))
-         end do
-         ! (1 - J) change = image - state, in units of the scale
+         if (anew) then
+            do i = 1, n
+               jacobian(:, i) = (states(:, 2*i - 1) - states(:, 2*i))/(2.0_dp*step(i))
+            end do
+            ! (1 - J) change = image - state, in units of the scale
+            do i = 1, n
+               matrix(:, i) = -jacobian(:, i)*scale/scale(i)
+               matrix(i, i) = matrix(i, i) + 1.0_dp
+            end do
+         end if
          change = (states(:, 0) - state)*scale
-         do i = 1, n
-            matrix(:, i) = -jacobian(:, i)*scale/scale(i)
-            matrix(i, i) = matrix(i, i) + 1.0_dp
-         end do
-         call dgesv(n, 1, matrix, n, pivots, change, n, info)
+         factors = matrix
+         call dgesv(n, 1, factors, n, pivots, change, n, info)
          if (info /= 0) return
          change = change/scale
-         state = state + change
-         thickness = thinnest_film(problem, state)
-         if (.not. thickness > 0.0_dp) return
+         thickness = thinnest_film(problem, state + change)
+         if (anew .and. .not. thickness > 0.0_dp) return
+         moved_before = moved
          moved = maxval(abs(change)*scale)/thickness
+         ! A step with old slopes that does not fall fast is not taken.
+         if (.not. (anew .or. (thickness > 0.0_dp .and. moved <= slowest_fall*moved_before))) then
+            moved = moved_before
+            anew = .true.
+            cycle
+         end if
+         state = state + change
          disturbance_before = disturbance
          disturbance = maxval(abs(change)/sizes)
-         if (moved > converged .and. (disturbance > largest_disturbance .or. disturbance < slowest_fall*disturbance_before)) cycle
+         distance = maxval(abs(state - start)*scale)/thickness
+         settled = anew .and. (moved <= converged .or. (disturbance <= largest_disturbance .and. &
+                                                        disturbance >= slowest_fall*disturbance_before))
+         ! Changes that halve at least lead no farther than the last one went.
+         reach = huge(reach)
+         if (moved < 0.5_dp*moved_before) reach = moved
+         if (settled) reach = 0.0_dp
+         if (distance - reach > nearness) return
+         if (.not. settled) then
+            anew = moved <= converged
+            cycle
+         end if
          orbit%multipliers = eigenvalues(jacobian*spread(scale, 2, n)/spread(scale, 1, n))
          ! A motion of whose stability nothing is known counts as none.
          if (size(orbit%multipliers) == 0) return
          orbit%period = period
          orbit%state = state
-         orbit%distance = maxval(abs(state - start)*scale)/thickness
+         orbit%distance = distance
          return
       end do
    end function newton

@@ -12,7 +12,7 @@ module certify_scene
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use carried_loads, only: films_of
    use problem, only: problem_t
-   use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, note_parting, rattle_verdict_t
+   use rattle_class, only: class_irregular, class_irregular_so_far, note_known, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: is_success, status_name
    use scene_types, only: method_newmark, method_taylor, scene_t
@@ -78,8 +78,7 @@ contains
          call note_orbit(tight_verdict, attracting_period(found))
          if (present(orbit) .and. found%period > 0) orbit = found
       end if
-      ! It is one motion; followed once, it counts for both.
-      call note_parting(tight_verdict, verdict%parting)
+      call note_known(tight_verdict, verdict)
       unclosed = closing_sentence(window%record, resolved%problem%frequency, resolved%problem%mass, resolved%noise_floor)
       if (len(unclosed) == 0) unclosed = &
          closing_sentence(tight%record, resolved%problem%frequency, resolved%problem%mass, &

@@ -22,7 +22,7 @@ module rattle_class
       type(spectral_lines_t) :: lines
    end type rattle_verdict_t
 
-   public :: classify, classify_steps, note_orbit, note_parting, is_off_harmonics
+   public :: classify, classify_steps, note_orbit, note_parting, note_known, is_off_harmonics
 
 contains
 
@@ -63,6 +63,18 @@ contains
       verdict%parting = parting
       if (parting%for_good) verdict%class = class_irregular
    end subroutine note_parting
+
+   !> What is known of a motion off its harmonics counts for another solution of it as well: looked at once, it counts for both. Where
+   !> it repeats after several periods, the films of both tell whether they are one motion.
+   elemental subroutine note_known(verdict, known)
+      !> Verdict on the lines of the other solution
+      type(rattle_verdict_t), intent(inout) :: verdict
+      !> Verdict on the motion
+      type(rattle_verdict_t), intent(in) :: known
+
+      call note_orbit(verdict, merge(2, 0, known%class == class_subharmonic))
+      call note_parting(verdict, known%parting)
+   end subroutine note_known
 
    !> Whether a window is off its harmonics, and its motion is not known to repeat.
    elemental logical function is_off_harmonics(class)
