@@ -1,4 +1,4 @@
-!> Progress of a campaign: one line on a terminal, a line every ten seconds elsewhere, and NAME.progress.nml for watchers.
+!> Progress of a campaign: one line on a terminal, a line every ten seconds at least elsewhere, and NAME.progress.nml for watchers.
 module campaign_progress
    use, intrinsic :: iso_fortran_env, only: output_unit
    use clock, only: wall_seconds
@@ -11,11 +11,14 @@ module campaign_progress
    implicit none(type, external)
    private
 
-   real(dp), parameter :: terminal_interval = 0.5_dp, line_interval = 10.0_dp, file_interval = 5.0_dp
+   !> What a thread takes at a time takes a few seconds: only then it is seen that a line is due [s]
+   real(dp), parameter :: terminal_interval = 0.5_dp, line_interval = 6.0_dp, file_interval = 5.0_dp
 
-   !> Progress so far. Threads add to the counts; the first of them tells.
+   !> Progress so far. Threads add to the counts; each of them tells.
    type, public :: campaign_progress_t
       integer(int64) :: scenes = 0_int64, done_before = 0_int64, done = 0_int64, failed = 0_int64
+      !> Scenes that other ranks have solved
+      integer(int64), private :: done_elsewhere = 0_int64
       !> Scenes whose motion leaves what the model can mean, and whose lines no samples follow and no integrals could be had for
       integer(int64) :: beyond_model = 0_int64, undersampled = 0_int64
       !> Scenes whose class was put to the test, and those of them whose class does not stand
@@ -27,6 +30,7 @@ module campaign_progress
    contains
       procedure :: start
       procedure :: add
+      procedure :: is_due
       procedure :: tell
       procedure :: finish
    end type campaign_progress_t
@@ -81,18 +85,33 @@ contains
       self%tested = self%tested + tested
       !$omp atomic
       self%uncertain = self%uncertain + uncertain
+      !$omp atomic
       self%irregular_so_far = self%irregular_so_far + irregular_so_far
    end subroutine add
 
-   !> Tell, if it is time to, and no other thread makes texts.
-   subroutine tell(self, log)
-      class(campaign_progress_t), intent(inout) :: self
-      !> Log of the campaign
-      type(log_t), intent(in) :: log
+   !> Whether it is time to tell.
+   logical function is_due(self)
+      class(campaign_progress_t), intent(in) :: self
       real(dp) :: now
 
       now = wall_seconds()
       !$omp critical (sentences)
+      is_due = now - self%written > file_interval .or. now - self%told >= merge(terminal_interval, line_interval, self%on_terminal)
+      !$omp end critical (sentences)
+   end function is_due
+
+   !> Tell, if it is time to, and no other thread makes texts.
+   subroutine tell(self, log, done)
+      class(campaign_progress_t), intent(inout) :: self
+      !> Log of the campaign
+      type(log_t), intent(in) :: log
+      !> Scenes that all ranks have done in all runs, where this is not the only rank
+      integer(int64), intent(in), optional :: done
+      real(dp) :: now
+
+      now = wall_seconds()
+      !$omp critical (sentences)
+      if (present(done)) self%done_elsewhere = max(0_int64, done - self%done_before - self%done)
       if (now - self%written > file_interval) call write_progress(self, now)
       if (now - self%told >= merge(terminal_interval, line_interval, self%on_terminal)) call tell_line(self, log, now)
       !$omp end critical (sentences)
@@ -123,6 +142,8 @@ contains
 
       if (self%on_terminal .and. .not. self%quiet) &
          write (output_unit, '(a)', advance='no', iostat=ignored) achar(13)//repeat(' ', 100)//achar(13)
+      ! The counts are those of all ranks now.
+      self%done_elsewhere = 0_int64
       call write_progress(self, wall_seconds())
       call log%line('  '//words(self, wall_seconds()))
    end subroutine finish
@@ -132,13 +153,15 @@ contains
       class(campaign_progress_t), intent(in) :: self
       real(dp), intent(in) :: now
       character(:), allocatable :: line
+      integer(int64) :: done
       real(dp) :: rate
 
-      rate = real(self%done, dp)/max(now - self%started, 1.0e-9_dp)
-      line = integer_text(self%done_before + self%done)//' of '//integer_text(self%scenes)//' scenes, '// &
+      done = self%done + self%done_elsewhere
+      rate = real(done, dp)/max(now - self%started, 1.0e-9_dp)
+      line = integer_text(self%done_before + done)//' of '//integer_text(self%scenes)//' scenes, '// &
              short_text(rate, 3)//' a second'
-      if (self%done > 0 .and. self%done_before + self%done < self%scenes) line = line//', '// &
-         short_text(real(self%scenes - self%done_before - self%done, dp)/rate, 2)//' s left'
+      if (done > 0 .and. self%done_before + done < self%scenes) line = line//', '// &
+         short_text(real(self%scenes - self%done_before - done, dp)/rate, 2)//' s left'
       line = line//', '//integer_text(self%failed)//' failed'
       if (self%tested > 0) line = line//', '//integer_text(self%uncertain)//' not certified'
    end function words
@@ -152,10 +175,10 @@ contains
 
       self%written = now
       call summary%add('scenes', self%scenes)
-      call summary%add('scenes_done', self%done_before + self%done)
+      call summary%add('scenes_done', self%done_before + self%done + self%done_elsewhere)
       call summary%add('scenes_failed', self%failed)
       call summary%add('seconds', now - self%started)
-      call summary%add('scenes_per_second', real(self%done, dp)/max(now - self%started, 1.0e-9_dp))
+      call summary%add('scenes_per_second', real(self%done + self%done_elsewhere, dp)/max(now - self%started, 1.0e-9_dp))
       call summary%write(self%path, ignored)
    end subroutine write_progress
 

@@ -9,7 +9,7 @@ module check_campaign
    use scene_types, only: scene_t
    use signals, only: lift_time_limit, limit_time, must_stop
    use solve_chunk, only: chunk_space_t, solve_scenes
-   use text, only: integer_text, short_text
+   use text, only: counted, integer_text, short_text
    implicit none(type, external)
    private
 
@@ -54,7 +54,7 @@ contains
               short_text(8.0e-6_dp*real(size(campaign%layout%names), dp)* &
                                                    real(campaign%layout%scene_count, dp), 3)//' MB'//new_line('a')// &
               '! chunks              '//integer_text(chunks)//' of at most '// &
-              integer_text(campaign%layout%chunk_rows)//' scenes'//new_line('a')// &
+              counted(campaign%layout%chunk_rows, 'scene')//new_line('a')// &
               '! core time, '//core_time_sentence(scene, campaign)
    end subroutine check_one_campaign
 

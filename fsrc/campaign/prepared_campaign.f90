@@ -4,13 +4,11 @@ module prepared_campaign
    use campaign_plan, only: count_invalid, plan_campaign
    use campaign_record, only: record_columns
    use errors, only: error_t, fault_list_t
-   use key_table, only: find_key
    use kinds, only: dp, int64
    use memory, only: expect_memory
-   use quantities, only: is_verified
-   use sampling, only: largest_value, sample_plan_t
+   use sampling, only: sample_plan_t
    use scene_types, only: scene_t, task_threshold
-   use schedule, only: chunk_rows_for
+   use schedule, only: chunk_rows_for, most_scenes
    use signals, only: lift_time_limit, limit_time
    use solve_chunk, only: chunk_bytes
    use text, only: integer_text
@@ -53,15 +51,12 @@ contains
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       integer(int64) :: last
-      real(dp) :: longest
 
       if (hurried) call limit_time(reading_limit)
       call plan_campaign(scene, file, campaign%plan, campaign%warnings, faults)
       if (hurried) call lift_time_limit()
       if (faults%count() > 0) return
-      longest = largest_value(campaign%plan, find_key('solver', 'periods'), real(scene%solver%periods, dp))
-      campaign%layout%chunk_rows = int(chunk_rows_for(campaign%plan%size, longest, &
-                                       is_verified(scene%campaign%record)), int64)
+      campaign%layout%chunk_rows = int(chunk_rows_for(campaign%plan%size), int64)
       call share_of_part(scene, campaign%plan%size, merge(1_int64, campaign%layout%chunk_rows, scene%task == task_threshold), &
                          campaign%first, last)
       campaign%layout%input_text = scene%resolved_input
@@ -81,20 +76,21 @@ contains
       character(*), intent(in) :: file
       type(campaign_t), intent(in) :: campaign
       type(fault_list_t), intent(inout) :: faults
-      !> A thread beside its chunk, and a chunk in all lists of them
+      !> A thread beside its scenes, and a chunk in all lists of them
       real(dp), parameter :: thread_bytes = 10.0e6_dp, listed_bytes = 64.0_dp
       type(error_t), allocatable :: error
+      integer(int64) :: together
       real(dp) :: chunks, row_bytes
 
       chunks = real((campaign%layout%scene_count + campaign%layout%chunk_rows - 1_int64)/campaign%layout%chunk_rows, dp)
-      row_bytes = 8.0_dp*real(size(campaign%layout%names), dp)* &
-                  real(min(campaign%layout%chunk_rows, campaign%layout%scene_count), dp)
+      together = min(max(campaign%layout%chunk_rows, int(most_scenes, int64)), campaign%layout%scene_count)
+      row_bytes = 8.0_dp*real(size(campaign%layout%names), dp)*real(together, dp)
       call expect_memory(real(omp_get_max_threads(), dp)*(thread_bytes + 2.0_dp*row_bytes + &
-                                                          chunk_bytes(scene, campaign%plan, campaign%layout%chunk_rows)) &
+                                                          chunk_bytes(scene, campaign%plan, together)) &
                          + listed_bytes*chunks, &
                          'this campaign of '//integer_text(campaign%layout%scene_count)//' scenes, of which each of '// &
                          integer_text(omp_get_max_threads())//' threads (--threads) solves '// &
-                         integer_text(campaign%layout%chunk_rows)//' at a time with windows of &spectrum periods and &campaign '// &
+                         integer_text(together)//' at a time with windows of &spectrum periods and &campaign '// &
                          'samples_per_period = '//integer_text(scene%campaign%samples_per_period)//',', error)
       if (allocated(error)) call faults%add_error(file, 0, '', '', error)
    end subroutine expect_campaign_memory

@@ -19,13 +19,14 @@ module run_campaign
    use scene_summary, only: add_results
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
+   use schedule, only: pace_t
    use signals, only: caught_signal
    use solve_chunk, only: chunk_space_t, solve_scenes
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
    use version, only: program_version
    use word_list, only: word_t
-   use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
+   use, intrinsic :: omp_lib, only: omp_get_max_threads
    implicit none(type, external)
    private
 
@@ -141,7 +142,7 @@ contains
       call share_number(exit_code)
    end subroutine run_one_campaign
 
-   !> Chunks until none is left, or a signal asks to stop.
+   !> Chunks until none is left, or a signal asks to stop: a thread takes as many at a time as a few seconds of work are.
    subroutine solve_chunks(scene, campaign, results, progress, log, error)
       type(scene_t), intent(in) :: scene
       type(campaign_t), intent(in) :: campaign
@@ -152,47 +153,96 @@ contains
       type(error_t), allocatable :: own_error
       integer(int64), allocatable :: pending(:)
       type(chunk_space_t) :: space
-      real(dp), allocatable :: rows(:, :)
-      integer(int64) :: ticket, first_row, last_row, chunk
+      type(pace_t) :: pace
+      integer(int64) :: ticket, last_ticket, taken, left, chunk, chunk_rows, ignored, scenes
+      real(dp) :: started
       logical :: failed
-      integer :: status_column
 
       failed = .false.
-      status_column = 2 + size(campaign%plan%positions)
       pending = pack([(chunk, chunk=1_int64, results%chunk_count())],.not. results%done_flags())
-      !$omp parallel default(shared) private(ticket, chunk, first_row, last_row, rows, space, own_error)
+      left = size(pending, kind=int64)
+      ! A file of an earlier version may have longer chunks.
+      call results%chunk_bounds(1_int64, ignored, chunk_rows)
+      chunk_rows = max(1_int64, chunk_rows)
+      !$omp parallel default(shared) private(ticket, last_ticket, taken, scenes, space, pace, started, own_error)
       do
+         started = wall_seconds()
          if (caught_signal() /= 0 .or. failed) exit
-         ticket = next_tickets(1_int64)
+         !$omp atomic read
+         taken = left
+         taken = (pace%next_share(taken*chunk_rows, rank_count()*omp_get_max_threads()) - 1_int64)/chunk_rows + 1_int64
+         ticket = next_tickets(taken)
          if (ticket > size(pending, kind=int64)) exit
-         chunk = pending(ticket)
-         call results%chunk_bounds(chunk, first_row, last_row)
-         allocate (rows(size(campaign%layout%names), last_row - first_row + 1_int64))
-         call solve_scenes(scene, campaign%plan, campaign%first + first_row - 1_int64, space, rows)
-         ! A chunk that was stopped is not written: its scenes are solved again when the run is carried on.
+         last_ticket = min(size(pending, kind=int64), ticket + taken - 1_int64)
+         !$omp atomic write
+         left = size(pending, kind=int64) - last_ticket
+         call solve_some(scene, campaign, pending(ticket:last_ticket), results, space, progress, scenes, own_error)
          if (caught_signal() /= 0) exit
-         call results%write_chunk(chunk, rows, own_error)
-         if (.not. allocated(own_error)) &
-            call progress%add(last_row - first_row + 1_int64, &
-                              count(.not. is_success(nint(rows(status_column, :))), kind=int64), &
-                              flagged(campaign%layout%names == 'model_limit', rows, 1.0_dp), &
-                              flagged(campaign%layout%names == 'sampling_sufficient', -rows, 0.0_dp), &
-                              flagged(campaign%layout%names == 'certified', rows, 0.0_dp), &
-                              flagged(campaign%layout%names == 'certified', -rows, 0.0_dp), &
-                              flagged(campaign%layout%names == 'rattle_class', rows, real(class_irregular_so_far, dp)))
-         deallocate (rows)
+         call pace%note(int(scenes), wall_seconds() - started)
          if (allocated(own_error)) then
             !$omp critical (campaign_error)
             failed = .true.
             if (.not. allocated(error)) call move_alloc(own_error, error)
             !$omp end critical (campaign_error)
          end if
-         if (this_rank() == 0) then
-            if (omp_get_thread_num() == 0) call progress%tell(log)
+         if (this_rank() == 0 .and. progress%is_due()) then
+            if (rank_count() > 1) then
+               call progress%tell(log, results%scenes_done())
+            else
+               call progress%tell(log)
+            end if
          end if
       end do
       !$omp end parallel
    end subroutine solve_chunks
+
+   !> Solve and write some chunks, those that follow each other side by side. What was stopped is not written: its scenes are solved
+   !> again when the run is carried on.
+   subroutine solve_some(scene, campaign, chunks, results, space, progress, scenes, error)
+      type(scene_t), intent(in) :: scene
+      type(campaign_t), intent(in) :: campaign
+      !> By rising numbers
+      integer(int64), intent(in) :: chunks(:)
+      type(campaign_file_t), intent(inout) :: results
+      !> Work space of this thread
+      type(chunk_space_t), intent(inout) :: space
+      type(campaign_progress_t), intent(inout) :: progress
+      !> How many scenes were solved
+      integer(int64), intent(out) :: scenes
+      !> Set if chunks could not be written
+      type(error_t), allocatable, intent(out) :: error
+      real(dp), allocatable :: rows(:, :)
+      integer(int64) :: first_row, last_row, ignored
+      integer :: first, last, status_column
+
+      status_column = 2 + size(campaign%plan%positions)
+      scenes = 0_int64
+      last = 0
+      do while (last < size(chunks))
+         first = last + 1
+         last = first
+         do while (last < size(chunks))
+            if (chunks(last + 1) /= chunks(last) + 1_int64) exit
+            last = last + 1
+         end do
+         call results%chunk_bounds(chunks(first), first_row, ignored)
+         call results%chunk_bounds(chunks(last), ignored, last_row)
+         allocate (rows(size(campaign%layout%names), last_row - first_row + 1_int64))
+         call solve_scenes(scene, campaign%plan, campaign%first + first_row - 1_int64, space, rows)
+         if (caught_signal() /= 0) return
+         call results%write_chunks(chunks(first), rows, error)
+         if (allocated(error)) return
+         call progress%add(last_row - first_row + 1_int64, &
+                           count(.not. is_success(nint(rows(status_column, :))), kind=int64), &
+                           flagged(campaign%layout%names == 'model_limit', rows, 1.0_dp), &
+                           flagged(campaign%layout%names == 'sampling_sufficient', -rows, 0.0_dp), &
+                           flagged(campaign%layout%names == 'certified', rows, 0.0_dp), &
+                           flagged(campaign%layout%names == 'certified', -rows, 0.0_dp), &
+                           flagged(campaign%layout%names == 'rattle_class', rows, real(class_irregular_so_far, dp)))
+         scenes = scenes + last_row - first_row + 1_int64
+         deallocate (rows)
+      end do
+   end subroutine solve_some
 
    !> Rows in which a column is not below a limit, 0 where it is not recorded. What is unknown, NaN, counts as below.
    pure integer(int64) function flagged(is_column, rows, limit)

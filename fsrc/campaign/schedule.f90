@@ -1,24 +1,21 @@
-!> How many scenes make a chunk, and in which order the scenes of a chunk are computed.
+!> How many scenes make a chunk of the file, how many a thread takes at a time, and in which order these are computed.
 module schedule
    use kinds, only: dp, int64
    implicit none(type, external)
    private
 
-   integer, parameter :: smallest_chunk = 256, largest_chunk = 8192
-   !> A chunk of fewer scenes leaves lanes of the engine empty, and is done no sooner
-   integer, parameter :: fewest_scenes = 8
-   !> Chunks that a large campaign is cut into, at least
-   integer(int64), parameter :: wanted_chunks = 512_int64
-   !> Most periods of all scenes of a chunk together. A period takes 10 to 30 microseconds, one of long flights and hard
-   !> impacts up to 330; with a certificate it takes up to four times as long. So a chunk is done within a minute and a
-   !> half: a time limit of two minutes always lets a campaign go on.
-   real(dp), parameter :: most_periods = 2.0_dp**18, most_certified_periods = 2.0_dp**16
+   !> Most scenes of a chunk, and chunks of a campaign as long as these are not reached
+   integer, parameter :: largest_chunk = 8192
+   integer(int64), parameter :: most_chunks = 16384_int64
 
    !> What a thread takes at a time [s]: a signal or a kill loses it, and no progress is told before it is done. Scenes that are
    !> many times slower than those before them still take less than ten seconds.
    real(dp), parameter :: wanted_seconds = 4.0_dp
    !> How many times as many scenes it takes at most as before, and at most at all
-   integer, parameter :: largest_growth = 8, most_scenes = 2048
+   integer, parameter :: largest_growth = 8
+   integer, parameter, public :: most_scenes = 2048
+   !> Scenes that are left to a thread in the end: fewer leave lanes empty, more leave the other threads nothing
+   integer(int64), parameter :: fewest_taken = 32_int64
 
    !> What the scenes that a thread solved last have taken.
    type, public :: pace_t
@@ -28,31 +25,23 @@ module schedule
    contains
       procedure :: note
       procedure :: next_scenes
+      procedure :: next_share
    end type pace_t
 
    public :: chunk_rows_for, cost_order
 
 contains
 
-   !> Scenes in a chunk. It depends on the campaign alone, never on threads or ranks, so that the bytes of
-   !> the result do not: chunks as small as keeps the table of chunks and the hand-outs cheap, since a chunk
-   !> under way is what a signal or a kill loses, and what the last worker may have to finish alone.
-   pure integer function chunk_rows_for(scene_count, periods, certified)
+   !> Scenes in a chunk of the file, which holds or does not hold all of it. It depends on the campaign alone, never on threads,
+   !> ranks or what scenes take, so that the bytes of the result do not: as few as a table of chunks allows, since a thread takes as
+   !> many chunks at a time as are done in a few seconds.
+   pure integer function chunk_rows_for(scene_count)
       !> Scenes of the campaign
       integer(int64), intent(in) :: scene_count
-      !> Most periods of a scene
-      real(dp), intent(in) :: periods
-      !> Whether every scene gets a certificate
-      logical, intent(in) :: certified
-      real(dp) :: most
 
-      chunk_rows_for = smallest_chunk
-      do while (chunk_rows_for < largest_chunk .and. scene_count/wanted_chunks > int(chunk_rows_for, int64))
+      chunk_rows_for = 1
+      do while (chunk_rows_for < largest_chunk .and. (scene_count - 1_int64)/chunk_rows_for >= most_chunks)
          chunk_rows_for = 2*chunk_rows_for
-      end do
-      most = merge(most_certified_periods, most_periods, certified)
-      do while (chunk_rows_for > fewest_scenes .and. real(chunk_rows_for, dp)*periods > most)
-         chunk_rows_for = chunk_rows_for/2
       end do
    end function chunk_rows_for
 
@@ -76,6 +65,17 @@ contains
       if (real(next_scenes, dp)*self%seconds > wanted_seconds*real(self%scenes, dp)) &
          next_scenes = max(1, int(wanted_seconds*real(self%scenes, dp)/self%seconds))
    end function next_scenes
+
+   !> How many scenes a thread takes of those that are left: less and less towards the end, so that all threads end together.
+   pure integer(int64) function next_share(self, left, threads)
+      class(pace_t), intent(in) :: self
+      !> Scenes that no thread has taken
+      integer(int64), intent(in) :: left
+      !> Threads of all ranks
+      integer, intent(in) :: threads
+
+      next_share = min(int(self%next_scenes(), int64), max(fewest_taken, left/(2_int64*threads) + 1_int64))
+   end function next_share
 
    !> Order by rising cost, equal costs in their old order (merge sort). Scene order(k) is computed as the
    !> k-th; its result goes back to place order(k).

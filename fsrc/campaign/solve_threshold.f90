@@ -22,8 +22,6 @@ module solve_threshold
    !> How old the state may become [s]. Several ranks have to wait for each other to keep it, and do so less often; a signal
    !> makes them keep all that they have.
    real(dp), parameter :: state_interval = 5.0_dp, shared_interval = 30.0_dp
-   !> Scenes that are left to a thread at the end of a pass: fewer leave lanes empty, more leave the other threads nothing
-   integer(int64), parameter :: fewest_taken = 32_int64
    !> Rows of a table of answers: whether the scene is solved, its status, its quantity, whether its class stands
    integer, parameter :: is_solved = 1, of_status = 2, of_quantity = 3, of_certificate = 4
 
@@ -95,8 +93,8 @@ contains
       type(chunk_space_t) :: space
       type(pace_t) :: pace, next_pace
       real(dp), allocatable :: answers(:, :), rows(:, :)
-      integer(int64) :: first, last, taken, share, left
-      integer :: status
+      integer(int64) :: first, last, taken, left
+      integer :: status, threads
       real(dp) :: started, round_started
       logical :: out_of_time
 
@@ -108,7 +106,7 @@ contains
       progress%scenes = solved_scenes(outcome) + plan%size
       round_started = wall_seconds()
       call renew_tickets()
-      share = 2_int64*rank_count()*omp_get_max_threads()
+      threads = rank_count()*omp_get_max_threads()
       left = plan%size
       !$omp parallel default(shared) private(first, last, taken, rows, space, pace, started, out_of_time)
       pace = known_pace
@@ -118,7 +116,7 @@ contains
          if (caught_signal() /= 0 .or. out_of_time) exit
          !$omp atomic read
          taken = left
-         taken = min(int(pace%next_scenes(), int64), max(fewest_taken, taken/share + 1_int64))
+         taken = pace%next_share(taken, threads)
          first = next_tickets(taken)
          if (first > plan%size) exit
          last = min(plan%size, first + taken - 1_int64)

@@ -37,7 +37,8 @@ module campaign_file
       procedure :: chunk_bounds
       procedure :: is_done
       procedure :: done_flags
-      procedure :: write_chunk
+      procedure :: write_chunks
+      procedure :: scenes_done
       procedure :: read_chunk
       procedure :: refresh
       procedure :: close => close_campaign
@@ -281,28 +282,50 @@ contains
       flags = self%checksums /= 0_int64
    end function done_flags
 
-   !> Write the rows of a chunk, then mark it as done. Threads may write different chunks at once.
-   subroutine write_chunk(self, chunk, rows, error)
+   !> Write the rows of chunks that follow each other, then mark them as done. Threads may write different chunks at once.
+   subroutine write_chunks(self, chunk, rows, error)
       class(campaign_file_t), intent(inout) :: self
-      !> From 1 to chunk_count
+      !> The first of them, from 1 to chunk_count
       integer(int64), intent(in) :: chunk
-      !> One column of this array is the row of a scene; as many as chunk_bounds says
+      !> One column of this array is the row of a scene; they end where a chunk ends
       real(dp), contiguous, intent(in) :: rows(:, :)
-      !> Set if the disk is full, say; the chunk is not done then
+      !> Set if the disk is full, say; the chunks are not done then
       type(error_t), allocatable, intent(out) :: error
-      integer(int64) :: first, last, sum_of_rows
+      integer(int64), allocatable :: sums(:)
+      integer(int64) :: from, first, last, last_chunk, i
 
-      call self%chunk_bounds(chunk, first, last)
-      if (size(rows, 1) /= size(self%header%names) .or. size(rows, 2, int64) /= last - first + 1_int64) then
+      call self%chunk_bounds(chunk, from, last)
+      last_chunk = chunk + max(0_int64, size(rows, 2, int64) - 1_int64)/self%header%chunk_rows
+      call self%chunk_bounds(last_chunk, first, last)
+      if (size(rows, 1) /= size(self%header%names) .or. size(rows, 2, int64) /= last - from + 1_int64) then
          call raise(error, exit_system, self%path//': chunk '//integer_text(chunk)//' has the wrong size')
          return
       end if
-      sum_of_rows = checksum_of(rows)
-      call self%file%write_at(self%header%row_place(first), rows, error)
-      if (.not. allocated(error)) &
-         call self%file%write_at(self%header%checksum_place(chunk), [sum_of_rows], error)
-      if (.not. allocated(error)) self%checksums(chunk) = sum_of_rows
-   end subroutine write_chunk
+      allocate (sums(chunk:last_chunk))
+      do i = chunk, last_chunk
+         call self%chunk_bounds(i, first, last)
+         sums(i) = checksum_of(rows(:, first - from + 1_int64:last - from + 1_int64))
+      end do
+      call self%file%write_at(self%header%row_place(from), rows, error)
+      if (.not. allocated(error)) call self%file%write_at(self%header%checksum_place(chunk), sums, error)
+      if (.not. allocated(error)) self%checksums(chunk:last_chunk) = sums
+   end subroutine write_chunks
+
+   !> Scenes that are done, by all ranks as far as the file tells.
+   integer(int64) function scenes_done(self)
+      class(campaign_file_t), intent(in) :: self
+      integer(int64) :: checksums(self%header%chunk_count), chunk, first, last
+      logical :: complete
+
+      scenes_done = 0_int64
+      call self%file%read_at(self%header%checksum_place(1_int64), checksums, complete)
+      if (.not. complete) return
+      do chunk = 1_int64, self%header%chunk_count
+         if (checksums(chunk) == 0_int64) cycle
+         call self%chunk_bounds(chunk, first, last)
+         scenes_done = scenes_done + last - first + 1_int64
+      end do
+   end function scenes_done
 
    !> Read the rows of a chunk back.
    subroutine read_chunk(self, chunk, rows, sound)

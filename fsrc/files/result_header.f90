@@ -74,7 +74,7 @@ contains
    pure subroutine lay_out(self)
       class(result_header_t), intent(inout) :: self
 
-      self%chunk_count = (self%row_limit - 1_int64)/self%chunk_rows + 1_int64
+      self%chunk_count = max(1_int64, (self%row_limit - 1_int64)/self%chunk_rows + 1_int64)
       self%header_bytes = aligned(self%checksum_place(self%chunk_count + 1_int64))
    end subroutine lay_out
 

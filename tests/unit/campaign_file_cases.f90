@@ -54,7 +54,7 @@ contains
       integer(int64) :: first, last
 
       call file%chunk_bounds(int(chunk, int64), first, last)
-      call file%write_chunk(int(chunk, int64), rows_of(first, last), error)
+      call file%write_chunks(int(chunk, int64), rows_of(first, last), error)
       call checks%check(.not. allocated(error) .and. file%is_done(int(chunk, int64)), 'write chunk '// &
                         integer_text(chunk))
    end subroutine compute

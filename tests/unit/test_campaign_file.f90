@@ -102,7 +102,7 @@ contains
       !$omp private(first, last, error) reduction(+:failed)
       do i = 1, chunks
          call file%chunk_bounds(int(i, int64), first, last)
-         call file%write_chunk(int(i, int64), rows_of(first, last), error)
+         call file%write_chunks(int(i, int64), rows_of(first, last), error)
          if (allocated(error)) failed = failed + 1
       end do
       !$omp end parallel do

@@ -189,7 +189,7 @@ contains
       type(error_t), allocatable :: error
 
       call create(checks, file, .true.)
-      call file%write_chunk(1_int64, rows_of(1_int64, 5_int64), error)
+      call file%write_chunks(1_int64, rows_of(1_int64, 5_int64), error)
       call expect(checks, error, exit_system, 'wrong size')
       call checks%check(.not. file%is_done(1_int64), 'a chunk that was not written is not done')
       call close_file(checks, file, .false.)
