@@ -96,7 +96,9 @@ contains
 
       now = wall_seconds()
       !$omp critical (sentences)
-      is_due = now - self%written > file_interval .or. now - self%told >= merge(terminal_interval, line_interval, self%on_terminal)
+      is_due = self%done_before + self%done < self%scenes .and. &
+               (now - self%written > file_interval .or. &
+                now - self%told >= merge(terminal_interval, line_interval, self%on_terminal))
       !$omp end critical (sentences)
    end function is_due
 

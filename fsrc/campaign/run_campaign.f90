@@ -165,6 +165,7 @@ contains
       call results%chunk_bounds(1_int64, ignored, chunk_rows)
       chunk_rows = max(1_int64, chunk_rows)
       !$omp parallel default(shared) private(ticket, last_ticket, taken, scenes, space, pace, started, own_error)
+      pace = pace_t()
       do
          started = wall_seconds()
          if (caught_signal() /= 0 .or. failed) exit

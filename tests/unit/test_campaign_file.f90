@@ -96,6 +96,17 @@ contains
       end do
       call close_file(checks, file, .true.)
       call checks%check(content_of(path) == undisturbed, 'the last chunk first')
+
+      call create(checks, file, .true.)
+      call file%chunk_bounds(3_int64, first, last)
+      call file%write_chunks(3_int64, rows_of(first, int(scenes, int64)), error)
+      call checks%check(.not. allocated(error) .and. count(file%done_flags()) == chunks - 2, 'all but two chunks at once')
+      call checks%check(file%scenes_done() == scenes - first + 1, 'scenes that are done')
+      call file%write_chunks(1_int64, rows_of(1_int64, first), error)
+      call checks%check(allocated(error) .and. .not. file%is_done(1_int64), 'rows that end within a chunk')
+      call file%write_chunks(1_int64, rows_of(1_int64, first - 1), error)
+      call close_file(checks, file, .true.)
+      call checks%check(content_of(path) == undisturbed, 'chunks side by side')
       call create(checks, file, .true.)
       failed = 0
       !$omp parallel do num_threads(4) schedule(dynamic) default(none) shared(file) &

@@ -1,8 +1,8 @@
-!> Tests of the schedule: stable order of costs, size of chunks.
+!> Tests of the schedule: stable order of costs, size of chunks, and what threads take at a time.
 module test_schedule
    use checks, only: check_list_t
    use kinds, only: dp, int64
-   use schedule, only: chunk_rows_for, cost_order
+   use schedule, only: chunk_rows_for, cost_order, pace_t
    implicit none(type, external)
    private
 
@@ -18,7 +18,8 @@ contains
       call checks%start('schedule')
       call test_cost_order(checks)
       call test_chunk_rows(checks)
-      call test_long_scenes(checks)
+      call test_work_at_a_time(checks)
+      call test_shares(checks)
    end subroutine run_schedule_tests
 
    subroutine test_cost_order(checks)
@@ -39,39 +40,72 @@ contains
       end do
    end subroutine test_cost_order
 
+   !> As few scenes as 16384 chunks allow, whatever the scenes take: 1, 2, 4 and so on up to 8192.
    subroutine test_chunk_rows(checks)
       type(check_list_t), intent(inout) :: checks
 
-      call checks%check(rows_of(1_int64) == 256, 'one scene')
-      ! 512 chunks of 256, 512 and so on, and their next larger campaign that 512 chunks cannot hold.
-      call checks%check(rows_of(257_int64*512_int64 - 1_int64) == 256, 'the most scenes for 256')
-      call checks%check(rows_of(257_int64*512_int64) == 512, 'the fewest scenes for 512')
-      call checks%check(rows_of(4097_int64*512_int64 - 1_int64) == 4096, 'the most scenes for 4096')
-      call checks%check(rows_of(4097_int64*512_int64) == 8192, 'the fewest scenes for 8192')
-      call checks%check(rows_of(1000000_int64) == 2048, 'a million scenes')
-      call checks%check(rows_of(huge(1_int64)) == 8192, 'beyond any size')
-
-   contains
-
-      !> Scenes in a chunk if each is so short that its periods do not matter.
-      pure integer function rows_of(scenes)
-         integer(int64), intent(in) :: scenes
-
-         rows_of = chunk_rows_for(scenes, 8.0_dp, .false.)
-      end function rows_of
-
+      call checks%check(chunk_rows_for(0_int64) == 1, 'a part without scenes')
+      call checks%check(chunk_rows_for(1_int64) == 1, 'one scene')
+      call checks%check(chunk_rows_for(16384_int64) == 1, 'the most scenes for 1')
+      call checks%check(chunk_rows_for(16385_int64) == 2, 'the fewest scenes for 2')
+      call checks%check(chunk_rows_for(4096_int64*16384_int64) == 4096, 'the most scenes for 4096')
+      call checks%check(chunk_rows_for(4096_int64*16384_int64 + 1_int64) == 8192, 'the fewest scenes for 8192')
+      call checks%check(chunk_rows_for(1000000_int64) == 64, 'a million scenes')
+      call checks%check(chunk_rows_for(huge(1_int64)) == 8192, 'beyond any size')
    end subroutine test_chunk_rows
 
-   !> Long scenes make small chunks, 262144 periods at most, 65536 with certificates, but never fewer than 8 scenes.
-   subroutine test_long_scenes(checks)
+   !> No more than 10 s of work are under way at once, as long as scenes cost no more than 2.5 times those before them, and a scene
+   !> alone no more than that; and scenes of one cost are not taken in smaller pieces than needed.
+   subroutine test_work_at_a_time(checks)
       type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: most_work = 10.0_dp, costs(5) = [1.0e-5_dp, 4.0e-3_dp, 0.3_dp, 3.0_dp, 9.0_dp]
+      type(pace_t) :: pace
+      integer(int64) :: left, taken
+      integer :: i, pieces
+      real(dp) :: cost, largest
 
-      call checks%check(chunk_rows_for(1_int64, 1024.0_dp, .false.) == 256, '256 scenes of 1024 periods')
-      call checks%check(chunk_rows_for(1_int64, 1025.0_dp, .false.) == 128, '128 scenes of 1025 periods')
-      call checks%check(chunk_rows_for(huge(1_int64), 400.0_dp, .false.) == 512, '512 scenes of 400 periods')
-      call checks%check(chunk_rows_for(1_int64, 1.0e9_dp, .false.) == 8, '8 scenes at least')
-      call checks%check(chunk_rows_for(1_int64, 256.0_dp, .true.) == 256, '256 certified scenes of 256 periods')
-      call checks%check(chunk_rows_for(1_int64, 257.0_dp, .true.) == 128, '128 certified scenes of 257 periods')
-   end subroutine test_long_scenes
+      call checks%check(pace%next_scenes() == 1, 'one scene, as long as nothing is known of any')
+      do i = 1, size(costs)
+         pace = pace_t()
+         left = 100000_int64
+         pieces = 0
+         largest = 0.0_dp
+         do while (left > 0_int64 .and. pieces < 1000)
+            taken = min(left, pace%next_share(left, 1))
+            pieces = pieces + 1
+            left = left - taken
+            largest = max(largest, real(taken, dp)*costs(i))
+            call pace%note(int(taken), real(taken, dp)*costs(i))
+         end do
+         call checks%check(largest <= max(4.0_dp, costs(i))*(1.0_dp + epsilon(1.0_dp)), 'scenes of one cost: 4 s, or one scene')
+         call checks%check(pieces < 1000 .eqv. left == 0_int64, 'pieces come to an end')
+         if (costs(i) < 0.1_dp) call checks%check(pieces < 200, 'scenes that cost little are not taken one by one')
+      end do
+      pace = pace_t()
+      cost = 1.0e-4_dp
+      largest = 0.0_dp
+      do while (cost < 4.0_dp)
+         taken = pace%next_share(1000000_int64, 4)
+         largest = max(largest, real(taken, dp)*cost)
+         call pace%note(int(taken), real(taken, dp)*cost)
+         cost = 2.5_dp*cost
+      end do
+      call checks%check(largest <= most_work .and. largest > 1.0_dp, 'scenes that cost more and more: 10 s at most')
+      call checks%check(pace%next_share(1000000_int64, 4) == 1_int64, 'slow scenes one by one')
+   end subroutine test_work_at_a_time
+
+   !> Threads take less and less towards the end, but not so few that lanes stay empty.
+   subroutine test_shares(checks)
+      type(check_list_t), intent(inout) :: checks
+      type(pace_t) :: pace
+
+      call pace%note(2048, 0.1_dp)
+      call checks%check(pace%next_share(1000000_int64, 2) == 2048_int64, 'no more than fit together')
+      call checks%check(pace%next_share(4000_int64, 2) == 1001_int64, 'a quarter of what is left for two threads')
+      call checks%check(pace%next_share(4000_int64, 20) == 101_int64, 'a fortieth for twenty')
+      call checks%check(pace%next_share(100_int64, 20) == 32_int64, 'but 32')
+      call pace%note(1, 1.0_dp)
+      call checks%check(pace%next_share(100_int64, 20) == 4_int64, 'and no more than time allows')
+   end subroutine test_shares
 
 end module test_schedule

@@ -52,10 +52,11 @@ def test_threads_and_parts_give_the_same_bytes(run, folder: Path) -> None:
 
 
 def test_more_parts_than_chunks_merge(run, folder: Path) -> None:
-    """Four chunks in six parts: two parts hold no scene, and the others are the whole."""
-    whole = solve(run, folder)
+    """Four chunks of a scene in six parts: two parts hold no scene, and the others are the whole."""
+    small = ["--set", "campaign.count=2,2"]
+    whole = solve(run, folder, *small)
     for part in range(1, 7):
-        options = ["--set", "campaign.parts=6", "--set", f"campaign.part={part}"]
+        options = [*small, "--set", "campaign.parts=6", "--set", f"campaign.part={part}"]
         ended = run("--output", "parts", *options, "scene.nml", cwd=folder, timeout=120.0)
         assert ended.returncode == 0, ended.stderr
     parts = [folder / "parts" / f"scene.part-{part}-of-6.rattle" for part in range(1, 7)]
@@ -328,7 +329,7 @@ def test_stopped_campaign_resumes_to_the_same_bytes(
     assert digest(solve(run, tmp_path, "--resume", name="cut")) == whole
 
 
-# Eight motions of a million periods, none of which repeats: the one chunk takes many minutes.
+# Eight motions of a million periods. The second never repeats: it takes many minutes.
 ENDLESS = {
     "load": {"force_amplitude": "993.1034482758621"},
     "solver": {**BASE["solver"], "periods": "1000000"},
@@ -347,7 +348,7 @@ ENDLESS = {
 def test_a_signal_ends_a_campaign_inside_a_chunk(
     number: int, rattle: Path, scene_text, tmp_path: Path
 ) -> None:
-    """The chunk under way is not written; nothing else is lost."""
+    """The scenes under way are not written; nothing else is lost."""
     (tmp_path / "scene.nml").write_text(grid(scene_text, 8, 1, **ENDLESS))
     result = tmp_path / "results" / "scene.rattle"
     process = subprocess.Popen([rattle, "--quiet", "scene.nml"], cwd=tmp_path)
@@ -361,8 +362,29 @@ def test_a_signal_ends_a_campaign_inside_a_chunk(
     finally:
         process.kill()
     campaign = package.read_campaign(result)
-    assert not campaign.closed and campaign.row_count == 8 and not campaign.done.any()
+    assert not campaign.closed and campaign.row_count == 8 and not campaign.done[1]
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "interrupted"
+
+
+def test_scenes_before_a_slow_one_are_kept(rattle: Path, scene_text, tmp_path: Path) -> None:
+    """Of twelve scenes the last takes many minutes: a kill loses it and what is solved beside it, not the others."""
+    periods = ", ".join(map(str, [*range(20, 31), 1000000]))
+    campaign = {"vary": "'solver.periods'", "values(:, 1)": periods, "record": "'film_minimum'"}
+    none = dict.fromkeys(("scale", "first", "last", "count"))
+    load = {**ENDLESS["load"], "frequency": "44.214285714285715"}
+    changes = {**ENDLESS, "load": load, "campaign": {**none, **campaign}}
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, **changes))
+    result = tmp_path / "results" / "scene.rattle"
+    process = subprocess.Popen([rattle, "--quiet", "--threads", "1", "scene.nml"], cwd=tmp_path)
+    try:
+        while not result.exists() or package.read_campaign(result).done.sum() < 9:
+            assert process.poll() is None
+            time.sleep(0.05)
+    finally:
+        process.kill()
+        process.wait()
+    campaign = package.read_campaign(result)
+    assert not campaign.closed and campaign.done[:9].all() and not campaign.done[-1]
 
 
 def test_a_signal_ends_the_check_of_a_campaign(rattle: Path, scene_text, tmp_path: Path) -> None:
@@ -379,7 +401,7 @@ def test_check_of_a_campaign_tells_what_it_had_no_time_for(run, scene_text, tmp_
     (tmp_path / "scene.nml").write_text(grid(scene_text, 8, 1, **ENDLESS))
     ended = run("--check", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 0
-    assert "! chunks              1 of at most 8 scenes\n" in ended.stdout
+    assert "! chunks              8 of at most 1 scene\n" in ended.stdout
     assert "8 scenes were not solved within 1 s" in ended.stdout
     many = {"count": "30000000, 300", "confirm_size": "t"}
     (tmp_path / "scene.nml").write_text(grid(scene_text, 2, 2, campaign=many))

@@ -10,9 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from result_writer import MOTION_COLUMNS, result_bytes, write_motion, write_result
+from result_writer import MOTION_COLUMNS, checksum, result_bytes, write_motion, write_result
 
 import rattle
+from rattle.checksums import checksums
 
 COLUMNS = [("time", "s"), ("acceleration", "m/s2")]
 ROWS = [[0.0, 1.5], [0.1, -2.5], [0.2, 1e-300]]
@@ -98,6 +99,13 @@ def test_every_flipped_bit_is_found_or_harmless(tmp_path):
         assert (result.program_version, result.closed) == ("0.1.0", True)
         assert values == [0.0, 0.1, 0.2, 1.5, -2.5, 1e-300, 9.0, -9.0]
     assert harmless < 120  # the padding alone
+
+
+@pytest.mark.parametrize("size", [1, 21, 508, 509, 510])
+def test_checksums_of_many_chunks_are_those_of_each(size):
+    rows = np.random.default_rng(size).normal(size=(20, size))
+    rows[3] = 0.0
+    assert checksums(rows).tolist() == [checksum(row.tobytes()) for row in rows]
 
 
 @pytest.mark.parametrize("closed", [True, False])
