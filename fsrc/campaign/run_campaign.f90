@@ -186,16 +186,24 @@ contains
             if (.not. allocated(error)) call move_alloc(own_error, error)
             !$omp end critical (campaign_error)
          end if
-         if (this_rank() == 0 .and. progress%is_due()) then
-            if (rank_count() > 1) then
-               call progress%tell(log, results%scenes_done())
-            else
-               call progress%tell(log)
-            end if
-         end if
+         if (this_rank() == 0) call tell_progress(results, progress, log)
       end do
       !$omp end parallel
    end subroutine solve_chunks
+
+   !> Tell the progress, if it is time to.
+   subroutine tell_progress(results, progress, log)
+      type(campaign_file_t), intent(in) :: results
+      type(campaign_progress_t), intent(inout) :: progress
+      type(log_t), intent(in) :: log
+
+      if (.not. progress%is_due()) return
+      if (rank_count() > 1) then
+         call progress%tell(log, results%scenes_done())
+      else
+         call progress%tell(log)
+      end if
+   end subroutine tell_progress
 
    !> Solve and write some chunks, those that follow each other side by side. What was stopped is not written: its scenes are solved
    !> again when the run is carried on.

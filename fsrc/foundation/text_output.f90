@@ -16,6 +16,8 @@ module text_output
    !> What each work has told before its turn, whose turn it is (0: works do not share the output), and which work this thread does
    type(word_t), allocatable :: waiting(:)
    integer :: turn = 0, own = 0
+   !> Whether works share the output: it changes only while one thread is at work, the turn while that thread holds the lock
+   logical :: shared = .false.
    !$omp threadprivate(own)
    !> Held by the thread that makes texts: gfortran keeps the length of a text that a function allocates for all threads
    integer(omp_nest_lock_kind) :: text_lock
@@ -29,11 +31,13 @@ contains
    subroutine put_text(text)
       character(*), intent(in) :: text
 
+      call lock_texts()
       if (has_turn()) then
          call write_text(standard_output, text, 'the standard output')
       else
          waiting(own)%text = waiting(own)%text//text
       end if
+      call unlock_texts()
    end subroutine put_text
 
    !> Let works go on side by side, each on a thread. The first has its turn to tell. A thread makes texts only between lock_texts
@@ -43,8 +47,9 @@ contains
       integer, intent(in) :: works
       integer :: i
 
-      if (turn > 0) call omp_destroy_nest_lock(text_lock)
-      if (works > 0) call omp_init_nest_lock(text_lock)
+      if (shared) call omp_destroy_nest_lock(text_lock)
+      shared = works > 0
+      if (shared) call omp_init_nest_lock(text_lock)
       if (allocated(waiting)) deallocate (waiting)
       waiting = [(word_t(''), i=1, works)]
       turn = min(works, 1)
@@ -52,12 +57,12 @@ contains
 
    !> Wait until no other thread makes texts. May be called again by the thread that does.
    subroutine lock_texts()
-      if (turn > 0) call omp_set_nest_lock(text_lock)
+      if (shared) call omp_set_nest_lock(text_lock)
    end subroutine lock_texts
 
    !> Let other threads make texts.
    subroutine unlock_texts()
-      if (turn > 0) call omp_unset_nest_lock(text_lock)
+      if (shared) call omp_unset_nest_lock(text_lock)
    end subroutine unlock_texts
 
    !> What this thread tells from here on is told for a work.
@@ -70,11 +75,13 @@ contains
 
    !> The work whose turn it is has told all: that of the next one comes, first of all what it has told by now.
    subroutine end_turn()
+      call lock_texts()
       turn = turn + 1
       if (turn <= size(waiting)) call write_text(standard_output, waiting(turn)%text, 'the standard output')
+      call unlock_texts()
    end subroutine end_turn
 
-   !> Whether what this thread tells goes out at once.
+   !> Whether what this thread tells goes out at once. Asked between lock_texts and unlock_texts: otherwise the turn may pass meanwhile.
    logical function has_turn()
       has_turn = own == turn
    end function has_turn

@@ -251,7 +251,9 @@ contains
          else
             call log%line('  no motion but rounding: '//quantity_word(quantity_rattle_class, rattle%class))
          end if
-         if (judged%series_coarse) call log%line('  warning: '//coarse_sentence(scene, judged))
+         ! Without a series, samples matter only where the lines are theirs.
+         if (judged%series_coarse .and. (scene%output%series .or. .not. lines%sampling_sufficient)) &
+            call log%line('  warning: '//coarse_sentence(scene, judged))
       end associate
       limit = nint(quantity_value(quantity_model_limit, judged))
       if (limit /= within_model) call log%line('  warning: '//model_limit_sentence(limit)//' (model_limit)')
@@ -305,7 +307,7 @@ contains
       end if
    end function stiffness_warning
 
-   !> What samples that are too few for the motion mean, and how many would do.
+   !> What samples that are too few for the motion mean, and what to do about it.
    pure function coarse_sentence(scene, judged) result(sentence)
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(in) :: judged
@@ -314,13 +316,16 @@ contains
 
       key = 'solver.samples_per_period'
       if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
+      if (judged%rattle%lines%sampling_sufficient .and. judged%lines_by_integrals) then
+         sentence = 'the motion has impacts that no samples of a series show: take peaks from its rows of the extremes, '// &
+                    'and lines from here, where they are integrals over the steps (series_coarse)'
+         return
+      end if
       sentence = 'the samples of the series are too few for its motion; '
       if (.not. judged%rattle%lines%sampling_sufficient) then
          sentence = sentence//'the lines are those of the samples: raise '//key
-      else if (.not. judged%lines_by_integrals) then
-         sentence = sentence//key//' = '//integer_text(judged%samples_per_period)//' would do, as many as gave the lines here'
       else
-         sentence = sentence//key//' up to 16384 would not do. The lines here are integrals over the steps'
+         sentence = sentence//key//' = '//integer_text(judged%samples_per_period)//' would do, as many as gave the lines here'
       end if
       if (scene%output%series) &
          sentence = sentence//' (series_coarse; the rows of the extremes stand in the series)'

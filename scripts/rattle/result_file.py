@@ -128,7 +128,7 @@ class CheckedRows:
         self._sound[unknown] = True
 
     def _verify_short_chunks(self, chunks: range) -> None:
-        """Chunks of a few rows, many at a time; one that is not what its checksum says is left to be told of."""
+        """Chunks of a few rows, many at a time; one that is not what its checksum says is left."""
         table, columns = self._header.chunks, self.mapped.shape[1]
         whole = range(chunks.start, min(chunks.stop, self._covered // table.chunk_rows))
         if table.kind == SERIES or table.chunk_rows * columns > LANES:

@@ -112,7 +112,10 @@ def coarse_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str:
     if not told["sampling_sufficient"]:
         what = f"the lines are those of the samples: raise {key}"
     elif told["lines_by_integrals"]:
-        what = f"{key} up to 16384 would not do. The lines here are integrals over the steps"
+        return (
+            "the motion has impacts that no samples of a series show: take peaks from its rows of the "
+            "extremes, and lines from here, where they are integrals over the steps (series_coarse)"
+        )
     else:
         what = f"{key} = {told['samples_per_period']} would do, as many as gave the lines here"
     return (
