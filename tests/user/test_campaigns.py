@@ -367,7 +367,7 @@ def test_a_signal_ends_a_campaign_inside_a_chunk(
 
 
 def test_scenes_before_a_slow_one_are_kept(rattle: Path, scene_text, tmp_path: Path) -> None:
-    """Of twelve scenes the last takes many minutes: a kill loses it and what is solved beside it, not the others."""
+    """Of twelve scenes the last takes many minutes: a kill loses it and what is solved beside it."""
     periods = ", ".join(map(str, [*range(20, 31), 1000000]))
     campaign = {"vary": "'solver.periods'", "values(:, 1)": periods, "record": "'film_minimum'"}
     none = dict.fromkeys(("scale", "first", "last", "count"))
