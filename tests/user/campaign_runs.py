@@ -34,6 +34,6 @@ def grid(scene_text, first: int, second: int, **changes: dict) -> str:
 def solve(
     run, folder: Path, *options: object, name: str = "whole", code: int = 0, **identity: object
 ) -> Path:
-    ended = run("--output", name, *options, "scene.nml", cwd=folder, timeout=120.0, **identity)
+    ended = run("--output", name, *options, "scene.nml", cwd=folder, timeout=600.0, **identity)
     assert ended.returncode == code, ended.stderr
     return folder / name / "scene.rattle"

@@ -68,7 +68,7 @@ def run(rattle: Path) -> Run:
         *arguments: object,
         cwd: Path,
         stdin: str | bytes = b"",
-        timeout: float = 300.0,
+        timeout: float = 600.0,
         program: Path | str = rattle,
         **identity: object,
     ) -> subprocess.CompletedProcess[str]:

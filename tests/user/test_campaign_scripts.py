@@ -116,7 +116,7 @@ def test_a_job_script_hands_every_path_on_as_it_is(name, ranks, made, tmp_path):
         env=environment,
         capture_output=True,
         check=False,
-        timeout=60,
+        timeout=600.0,
     )
     assert ended.returncode == 0, ended.stderr
     called = told.read_text().splitlines()
@@ -190,7 +190,7 @@ def test_warning_is_handed_on_and_only_an_interrupted_job_goes_back(campaign_inp
     with pytest.raises(subprocess.TimeoutExpired):
         job.wait(0.3)  # the trap of the program has to be set
     job.send_signal(10)
-    assert job.wait(10) == (0 if requeued else code)
+    assert job.wait(600) == (0 if requeued else code)
     lines = log.read_text().splitlines()
     expected = "--resume --threads 1 --set campaign.part=2 --set campaign.parts=3 map.nml"
     assert lines == [expected, "scontrol requeue 7_2"][: 1 + requeued]

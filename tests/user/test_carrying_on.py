@@ -99,7 +99,7 @@ def terminated(rattle: Path, folder: Path, *options: str, after: float) -> dict:
         time.sleep(0.01)
     time.sleep(after)
     process.send_signal(signal.SIGTERM)
-    assert process.wait(20) == 128 + signal.SIGTERM
+    assert process.wait(600) == 128 + signal.SIGTERM
     return summary(folder / "cut")
 
 

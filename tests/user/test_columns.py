@@ -147,13 +147,13 @@ def test_a_row_of_a_sweep_is_the_single_scene(key, group, first, last, run, scen
         scene={"task": "'sweep'"}, solver=SOLVER, sweep=sweep, output={"directory": "'swept'"}, **changes
     )
     (tmp_path / "sweep.nml").write_text(text)
-    ended = run("sweep.nml", cwd=tmp_path, timeout=60.0)
+    ended = run("sweep.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0, ended.stderr
     rows = package.read(tmp_path / "swept" / "sweep.rattle")
     np.testing.assert_allclose(rows[key], np.linspace(first, last, 3))
     (tmp_path / "one.nml").write_text(scene_text(solver=SOLVER | {"until": "'steady'"}, **changes))
     for row, value in enumerate(rows[key]):
-        ended = run("--overwrite", "--set", f"{group}.{key}={value}", "one.nml", cwd=tmp_path, timeout=60.0)
+        ended = run("--overwrite", "--set", f"{group}.{key}={value}", "one.nml", cwd=tmp_path, timeout=600.0)
         assert ended.returncode == 0, ended.stderr
         one = summary_of(tmp_path / "results" / "one.summary.nml")
         for name in ("film_minimum", "film_maximum", "acceleration_minimum", "acceleration_maximum"):

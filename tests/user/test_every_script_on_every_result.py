@@ -89,7 +89,7 @@ def results(tmp_path_factory, rattle, run, repository, scene_text) -> Path:
 
     def solve(name: str, text: str, *options: str, codes: tuple[int, ...] = (0,)) -> None:
         (folder / f"{name}.nml").write_text(text)
-        ended = run("--output", ".", *options, f"{name}.nml", cwd=folder, timeout=120.0)
+        ended = run("--output", ".", *options, f"{name}.nml", cwd=folder, timeout=600.0)
         assert ended.returncode in codes, ended.stderr
 
     solve("motion", scene_text(load={"force_amplitude": "20.0"}, solver={"periods": "20"}))
@@ -146,7 +146,7 @@ def interrupt(rattle: Path, folder: Path, scene_text) -> None:
     while process.poll() is None and not (path.exists() and path.stat().st_size > 20_000):
         time.sleep(0.005)
     process.send_signal(signal.SIGTERM)
-    assert process.wait(60) == 128 + signal.SIGTERM
+    assert process.wait(600) == 128 + signal.SIGTERM
 
 
 @pytest.mark.parametrize("kind", WORKING)

@@ -51,7 +51,7 @@ DIGITS = 1e-7
 def solve(run, scene_text, folder: Path, name: str, **groups) -> tuple[dict, rattle.Result]:
     groups = {**CANONICAL, "load": LOAD | ORDERS, "solver": TAYLOR, "spectrum": {"periods": "8"}, **groups}
     (folder / f"{name}.nml").write_text(scene_text(**groups))
-    ended = run(f"{name}.nml", cwd=folder, timeout=120.0)
+    ended = run(f"{name}.nml", cwd=folder, timeout=600.0)
     assert ended.returncode == 0, ended.stderr
     return summary_of(folder / "results" / f"{name}.summary.nml"), rattle.read(
         folder / "results" / f"{name}.rattle"

@@ -52,7 +52,7 @@ def test_full_file_system_keeps_what_was_written(run, rattle: Path, scene_text, 
     if not inside:
         warnings.warn("nothing may be mounted here: a limit on the size of files stands in", stacklevel=1)
     command = [*inside, "bash", "-c", script, rattle]
-    ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120.0)
+    ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=600.0)
     assert ended.returncode == 0, ended.stderr
     assert (tmp_path / "code").read_text() == "3\n"
     assert (tmp_path / "words").read_text() == f"small/scene.rattle cannot be written: {words}\n"
@@ -92,7 +92,7 @@ def test_full_disk_keeps_what_was_written(run, rattle: Path, scene_text, tmp_pat
     limited = f"ulimit -f 200; exec {rattle} --quiet --output cut scene.nml"
     ended = subprocess.run(["bash", "-c", limited], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert ended.returncode == 3 and ended.stderr
-    resumed = run("--output", "cut", "--resume", "scene.nml", cwd=tmp_path, timeout=120.0)
+    resumed = run("--output", "cut", "--resume", "scene.nml", cwd=tmp_path, timeout=600.0)
     # No chunk counts as done before its rows are written, so none turns out to be damaged.
     assert resumed.returncode == 0 and "damaged" not in resumed.stdout
     assert digest(tmp_path / "cut" / "scene.rattle") == whole

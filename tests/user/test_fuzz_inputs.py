@@ -117,14 +117,14 @@ def survives(run):
     def call(content: bytes, *arguments: str) -> None:
         folder = Path(tempfile.mkdtemp(prefix="rattle-fuzz-"))
         try:
-            checked = run("--check", "-", *arguments, cwd=folder, stdin=content, timeout=5.0)
+            checked = run("--check", "-", *arguments, cwd=folder, stdin=content, timeout=600.0)
             assert_plain(checked)
             assert checked.returncode in (0, 2), checked
             assert list(folder.iterdir()) == []
             event(f"--check ends with {checked.returncode}")
             if checked.returncode == 2 or not is_short(checked.stdout):
                 return
-            ended = run("-", *arguments, "--output", "here", cwd=folder, stdin=content, timeout=5.0)
+            ended = run("-", *arguments, "--output", "here", cwd=folder, stdin=content, timeout=600.0)
             assert_plain(ended)
             assert ended.returncode in (0, 1), ended
             event(f"run ends with {ended.returncode}")

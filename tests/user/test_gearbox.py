@@ -61,7 +61,7 @@ def solve(run, tmp_path: Path):
         (tmp_path / "scenes.csv").write_text(
             "shaft.speed_rpm,gear.drag_torque\n800,0.05\n750,0.1\n900,0.07\n"
         )
-        ended = run(f"{name}.nml", "--overwrite", *arguments, cwd=tmp_path, timeout=60.0)
+        ended = run(f"{name}.nml", "--overwrite", *arguments, cwd=tmp_path, timeout=600.0)
         assert ended.returncode == ends, ended.stderr
         return ended
 
@@ -173,7 +173,7 @@ def test_side_by_side_tells_and_writes_the_same(solve, scene_text, run, tmp_path
     for threads in (1, 2, 5):
         place = str(threads)
         files = ("box.nml", "lost.nml", "last.nml")
-        ended = run(*files, "--threads", threads, "--output", place, cwd=tmp_path, timeout=60.0)
+        ended = run(*files, "--threads", threads, "--output", place, cwd=tmp_path, timeout=600.0)
         assert ended.returncode == 1 and ended.stderr == ""
         told[place] = re.sub(r"in \S+ s,", "", ended.stdout).replace(f" {place}/", " ")
     first = [line for line in told["1"].splitlines() if line.startswith("rattle ")]
@@ -205,17 +205,17 @@ def test_a_signal_ends_all_pairs_that_have_begun(rattle: Path, run, tmp_path: Pa
     process = subprocess.Popen(call, cwd=tmp_path)
     logs = [tmp_path / "results" / f"box.{gear}.log" for gear in ("1st", "4th")]
     started = time.monotonic()
-    while not all(log.exists() and log.read_text() for log in logs) and time.monotonic() - started < 20.0:
+    while not all(log.exists() and log.read_text() for log in logs) and time.monotonic() - started < 600.0:
         time.sleep(0.01)
     process.send_signal(signal.SIGTERM)
-    assert process.wait(20) == 128 + signal.SIGTERM
+    assert process.wait(600) == 128 + signal.SIGTERM
     table = package.read_summary(tmp_path / "results" / "box.summary.nml")
     assert table["status"] == "interrupted" and list(table["gears"]) == ["1st", "4th"]
     assert [pair["status"] for pair in table["gears"].values()] == ["interrupted"] * 2
     solved = [summary_of(log.with_suffix(".summary.nml"))["periods_solved"] for log in logs]
     shorter = ["--set", f"solver.periods={max(solved) + 20}"]
     for options in (["--resume"], ["--threads", "1", "--output", "long"]):
-        ended = run(*shorter, *options, "box.nml", cwd=tmp_path, timeout=60.0)
+        ended = run(*shorter, *options, "box.nml", cwd=tmp_path, timeout=600.0)
         assert ended.returncode == 0, ended.stderr
     for gear in ("1st", "4th", "5th"):
         for ending in ("rattle", "state"):

@@ -121,7 +121,7 @@ def test_summary_of_an_impact_is_right_or_uncertain(
         output={"series": ".false."},
     )
     (tmp_path / "scene.nml").write_text(text)
-    ended = run("scene.nml", cwd=tmp_path, timeout=120.0)
+    ended = run("scene.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0, ended
     summary = summary_of(tmp_path / "results" / "scene.summary.nml")
     if summary["certificate"] != "certified":
@@ -201,7 +201,7 @@ def test_a_row_counts_the_power_beyond_its_harmonics(run, scene_text, tmp_path: 
         "spectrum": {"periods": "16"},
     }
     (tmp_path / "scene.nml").write_text(scene_text(**groups, output={"series": ".false."}))
-    assert run("scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    assert run("scene.nml", cwd=tmp_path, timeout=600.0).returncode == 0
     campaign = {
         "vary(1)": "'load.force_amplitude'",
         "first(1)": "2.7129121323930496",
@@ -210,7 +210,7 @@ def test_a_row_counts_the_power_beyond_its_harmonics(run, scene_text, tmp_path: 
         "scale(1)": "'linear'",
     }
     (tmp_path / "row.nml").write_text(scene_text(scene={"task": "'campaign'"}, campaign=campaign, **groups))
-    assert run("row.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    assert run("row.nml", cwd=tmp_path, timeout=600.0).returncode == 0
     row = rattle.read_campaign(tmp_path / "results" / "row.rattle")
     assert row["sampling_sufficient"][0] == 1.0
     assert row["irregular_fraction"][0] > 0.01

@@ -35,7 +35,7 @@ def meet(shim: Path, rattle: Path, scene_text, tmp_path: Path) -> Callable:
             capture_output=True,
             text=True,
             check=False,
-            timeout=60,
+            timeout=600.0,
         )
         return ended, trace.read_text().splitlines()
 

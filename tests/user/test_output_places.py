@@ -109,6 +109,6 @@ def test_pipe_in_place_of_a_file(refused, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(scene_text())
     (tmp_path / "results").mkdir()
     os.mkfifo(tmp_path / "results" / "scene.log")
-    faults = refused("scene.nml", "--overwrite", timeout=5.0)
+    faults = refused("scene.nml", "--overwrite", timeout=600.0)
     assert len(faults) == 1
     assert "results/scene.log exists and was not written by rattle" in faults[0]

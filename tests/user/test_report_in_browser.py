@@ -47,7 +47,7 @@ def browse(place: Path, *options: str) -> str:
         [BROWSER, *arguments, *options, place.as_uri()],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600.0,
         check=False,
     )
     assert ended.returncode == 0, ended.stderr
@@ -63,7 +63,7 @@ def page(tmp_path_factory, repository, run) -> Path:
     for path in inputs:
         chosen = [word for word in small if path.stem == "map" and "camp" in word or path.stem in word]
         options = [part for word in chosen for part in ("--set", word)]
-        ended = run(path, *options, "--output", folder, cwd=folder, timeout=120.0)
+        ended = run(path, *options, "--output", folder, cwd=folder, timeout=600.0)
         assert ended.returncode == 0, ended.stderr
     output = folder / "page.html"
     results = [folder / f"{path.stem}.rattle" for path in inputs]

@@ -34,7 +34,7 @@ def solve(run, tmp_path: Path):
 
     def call(*options: object, parts: tuple[int, int] | None = None) -> Path:
         chosen = part_of(*parts) if parts else []
-        ended = run("--overwrite", *chosen, *options, "scene.nml", cwd=tmp_path, timeout=120.0)
+        ended = run("--overwrite", *chosen, *options, "scene.nml", cwd=tmp_path, timeout=600.0)
         assert ended.returncode == 0, ended.stderr
         return path_of(tmp_path, *parts) if parts else tmp_path / "results" / "scene.rattle"
 
@@ -117,9 +117,9 @@ def test_a_part_is_carried_on(rattle, run, solve, scene_text, tmp_path: Path) ->
             break
     else:
         raise AssertionError("the run could not be cut between two lines")
-    ended = run("--resume", *part_of(1, 2), "scene.nml", cwd=tmp_path, timeout=120.0)
+    ended = run("--resume", *part_of(1, 2), "scene.nml", cwd=tmp_path, timeout=600.0)
     assert "all is solved from the start" in ended.stdout
-    ended = run("--resume", *part_of(2, 2), "scene.nml", cwd=tmp_path, timeout=120.0)
+    ended = run("--resume", *part_of(2, 2), "scene.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0 and "lines of the earlier run" in ended.stdout, ended.stderr
     assert path_of(tmp_path, 2, 2).read_bytes() == expected
     assert not state.exists()

@@ -38,7 +38,7 @@ def found(run, tmp_path: Path):
 
     def find(text: str, *options: object, code: int = 0, name: str = "scene"):
         (tmp_path / f"{name}.nml").write_text(text)
-        ended = run(*options, f"{name}.nml", cwd=tmp_path, timeout=120.0)
+        ended = run(*options, f"{name}.nml", cwd=tmp_path, timeout=600.0)
         assert ended.returncode == code, ended.stderr
         return package.read(tmp_path / "results" / f"{name}.rattle").frame()
 
@@ -55,7 +55,7 @@ def grid_column(run, scene_text, folder: Path, column: str, values, **changes: d
         "record": f"'{column}'",
     }
     (folder / "grid.nml").write_text(scene_text(**{**BASE, **changes}, campaign=campaign))
-    assert run("--overwrite", "grid.nml", cwd=folder, timeout=120.0).returncode in (0, 1)
+    assert run("--overwrite", "grid.nml", cwd=folder, timeout=600.0).returncode in (0, 1)
     rows = package.read_campaign(folder / "results" / "grid.rattle")
     return np.array([rows[column], rows["status"]]).reshape(2, 3, len(values))
 
@@ -226,14 +226,14 @@ def test_threads_and_another_run_give_the_same_bytes(found, run, scene_text, tmp
         ("four", ["--threads", "4"]),
         ("again", ["--resume"]),
     ):
-        assert run(*options, "--output", place, "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+        assert run(*options, "--output", place, "scene.nml", cwd=tmp_path, timeout=600.0).returncode == 0
         digests.add(digest(tmp_path / place / "scene.rattle"))
     assert len(digests) == 1
     before = contents(tmp_path)
     ended = run("scene.nml", cwd=tmp_path)
     assert ended.returncode == 2 and "--overwrite replaces it" in ended.stderr
     assert contents(tmp_path) == before
-    ended = run("--resume", "scene.nml", cwd=tmp_path, timeout=120.0)
+    ended = run("--resume", "scene.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0 and "all is solved from the start" in ended.stdout
 
 
@@ -247,10 +247,10 @@ def test_a_signal_ends_it_without_a_result(number, rattle, run, scene_text, tmp_
     process = subprocess.Popen([rattle, "--overwrite", "--quiet", *many, "scene.nml"], cwd=tmp_path)
     log = tmp_path / "results" / "scene.log"
     started = time.monotonic()
-    while "100000 values a line" not in log.read_text() and time.monotonic() - started < 20.0:
+    while "100000 values a line" not in log.read_text() and time.monotonic() - started < 600.0:
         time.sleep(0.01)
     process.send_signal(number)
-    assert process.wait(20) == 128 + number
+    assert process.wait(600) == 128 + number
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "interrupted"
     assert "cut short after 0 of 3 lines; --resume goes on with these and " in log.read_text()
     assert digest(tmp_path / "results" / "scene.rattle") == before
@@ -281,11 +281,11 @@ def cut_short(
     log.unlink(missing_ok=True)
     process = subprocess.Popen(call, cwd=folder)
     started = time.monotonic()
-    while not log.exists() and time.monotonic() - started < 20.0:
+    while not log.exists() and time.monotonic() - started < 600.0:
         time.sleep(0.01)
     time.sleep(seconds)
     process.send_signal(number)
-    return process.wait(20)
+    return process.wait(600)
 
 
 def cut_between(rattle: Path, folder: Path) -> int:
@@ -303,7 +303,7 @@ def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -
     # Of the class: no crossing is certified as close to its change as asked for.
     classes = {**LONG, "criterion": "'class'", "level": None}
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text, campaign=MANY_LINES, threshold=classes))
-    assert run("--output", "whole", "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    assert run("--output", "whole", "scene.nml", cwd=tmp_path, timeout=600.0).returncode == 0
     whole, results = tmp_path / "whole", tmp_path / "results"
     assert not (whole / "scene.state").exists()
     lines = cut_between(rattle, tmp_path)
@@ -313,7 +313,7 @@ def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -
     assert ended.returncode == 2 and "--resume continues it" in ended.stderr
     assert cut_short(rattle, tmp_path, signal.SIGKILL, 0.02, "--resume") == -signal.SIGKILL
     assert state_path(tmp_path).read_bytes() == kept
-    ended = run("--resume", "--threads", "2", "scene.nml", cwd=tmp_path, timeout=120.0)
+    ended = run("--resume", "--threads", "2", "scene.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0, ended.stderr
     assert f"carried on after {lines} lines of the earlier run" in ended.stdout
     assert digest(results / "scene.rattle") == digest(whole / "scene.rattle")
@@ -325,14 +325,14 @@ def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -
 def test_cut_in_its_first_lines_it_goes_on_where_it_was(rattle, run, scene_text, tmp_path: Path) -> None:
     """Cut again and again before its first line is done: nothing is counted twice, no byte differs."""
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text, threshold={"count": "513"}))
-    assert run("--output", "whole", "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    assert run("--output", "whole", "scene.nml", cwd=tmp_path, timeout=600.0).returncode == 0
     seconds, cuts, values = 0.02, [], 0
     while len(cuts) < 60:
         options = ["--resume"] if cuts else ["--overwrite"]
         process = subprocess.Popen([rattle, "--quiet", "--threads", "1", *options, "scene.nml"], cwd=tmp_path)
         time.sleep(seconds)
         process.send_signal(signal.SIGTERM)
-        if process.wait(60) == 0:
+        if process.wait(600) == 0:
             break
         log = tmp_path / "results" / "scene.log"
         told = re.search(r"with these and (\d+) values? of the next", log.read_text() if log.exists() else "")
@@ -346,7 +346,7 @@ def test_cut_in_its_first_lines_it_goes_on_where_it_was(rattle, run, scene_text,
         seconds *= 1.5 if cuts[-1] == values else 1.0
         values = cuts[-1]
     else:
-        assert run("--resume", "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+        assert run("--resume", "scene.nml", cwd=tmp_path, timeout=600.0).returncode == 0
     assert sum(value > 0 for value in cuts) >= 2, cuts
     assert digest(tmp_path / "results" / "scene.rattle") == digest(tmp_path / "whole" / "scene.rattle")
     told, expected = (summary_of(tmp_path / at / "scene.summary.nml") for at in ("results", "whole"))
@@ -364,7 +364,7 @@ def test_states_of_others_are_refused(rattle, run, scene_text, tmp_path: Path) -
     kept = state_path(tmp_path).read_bytes()
 
     def refusal(*options: str) -> str:
-        ended = run("--resume", *options, "scene.nml", cwd=tmp_path, timeout=60.0)
+        ended = run("--resume", *options, "scene.nml", cwd=tmp_path, timeout=600.0)
         assert ended.returncode == 2, ended.stderr
         assert state_path(tmp_path).exists()
         return ended.stderr
@@ -376,7 +376,7 @@ def test_states_of_others_are_refused(rattle, run, scene_text, tmp_path: Path) -
     state_path(tmp_path).write_bytes(kept[:-300] + bytes(300))
     assert "scene.state" in refusal()
     state_path(tmp_path).write_bytes(kept)
-    assert run("--resume", "scene.nml", cwd=tmp_path, timeout=120.0).returncode == 0
+    assert run("--resume", "scene.nml", cwd=tmp_path, timeout=600.0).returncode == 0
 
 
 def test_check_tells_lines_and_cost(run, scene_text, tmp_path: Path) -> None:
@@ -482,7 +482,7 @@ def test_every_gear_of_a_box_has_its_curve(run, repository: Path, tmp_path: Path
     changes += ["campaign.first=800.0", "campaign.last=1600.0", "campaign.count=3"]
     options = [part for change in changes for part in ("--set", change)]
     (tmp_path / "box.nml").write_text(text)
-    ended = run(*options, "box.nml", cwd=tmp_path, timeout=120.0)
+    ended = run(*options, "box.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0, ended.stderr
     result = package.read(tmp_path / "results" / "box.rattle")
     rows = result.frame()
@@ -492,7 +492,7 @@ def test_every_gear_of_a_box_has_its_curve(run, repository: Path, tmp_path: Path
     parts = [f"&gear{part}" for part in text[first:].split("&gear")[1:]]
     rest = text[:first] + parts[-1].partition("\n/\n")[2]
     (tmp_path / "alone.nml").write_text(rest + parts[1].partition("\n/\n")[0] + "\n/\n")
-    ended = run(*options, "alone.nml", cwd=tmp_path, timeout=120.0)
+    ended = run(*options, "alone.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0, ended.stderr
     alone = package.read(tmp_path / "results" / "alone.rattle").frame()
     np.testing.assert_array_equal(alone["lower"], rows["lower"][3:6])
