@@ -9,6 +9,9 @@ module input_difference
    !> Keys that are named with their values; more are counted.
    integer, parameter :: most_told = 4
 
+   !> Keys whose files hold tables, of which the rows stand as comments in a resolved input
+   character(*), parameter :: tables(2) = [character(15) :: 'gear.drag_table', 'shaft.table']
+
    public :: differing_keys
 
 contains
@@ -43,6 +46,10 @@ contains
          if (len(old(i)%key) == 0 .or. may_differ(old(i), free)) cycle
          if (find(new, old(i)) == 0) call tell(key_name(old(i))//' was '//values_text(old(i))//' and is not set now')
       end do
+      do i = 1, size(tables)
+         if (lines_of(stored, trim(tables(i))) /= lines_of(current, trim(tables(i)))) &
+            call tell(trim(tables(i))//' holds other rows now')
+      end do
       if (told > most_told) sentence = sentence//'; and '//counted(told - most_told, 'key')//' more'
 
    contains
@@ -58,6 +65,29 @@ contains
       end subroutine tell
 
    end function differing_keys
+
+   !> What is told of the rows of a table, which stand in a file of their own.
+   pure function lines_of(input, table) result(lines)
+      !> Resolved input
+      character(*), intent(in) :: input
+      !> Key of the table
+      character(*), intent(in) :: table
+      character(:), allocatable :: lines
+      character(:), allocatable :: opening
+      integer :: first, last, place
+
+      opening = '! derived: '//table//' '
+      lines = ''
+      first = 1
+      do
+         place = index(input(first:), opening)
+         if (place == 0) exit
+         first = first + place - 1
+         last = first + index(input(first:)//new_line('a'), new_line('a')) - 1
+         lines = lines//input(first:min(last, len(input)))
+         first = min(last, len(input)) + 1
+      end do
+   end function lines_of
 
    !> Both values of a key; of long lists of one length the first ones that differ.
    pure function different_values(old, new) result(sentence)

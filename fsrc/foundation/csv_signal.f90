@@ -4,9 +4,9 @@
 module csv_signal
    use axis_unit, only: axis_unit_t, no_axis, unit_of_name
    use csv_fields, only: csv_text_t, field_t
+   use csv_lines, only: cause_of_count, is_row, next_line, read_names, take_number, wrong_count
    use errors, only: fault_list_t
    use kinds, only: dp, int64
-   use number_text, only: read_strict_real
    use text, only: integer_text, short_text
    use word_list, only: word_t
    implicit none(type, external)
@@ -69,7 +69,7 @@ contains
       else
          call next_line(text, int(lines), line, fields, count)
          header = line
-         call read_names(path, header, fields(:count), names, faults)
+         call read_names(path, header, 'time_s,force', fields(:count), names, faults)
       end if
       if (faults%count() == before) then
          call next_line(text, int(lines), line, fields, count)
@@ -84,100 +84,6 @@ contains
       call text%close()
       if (faults%count() == before) call check_uniform(path, recording, faults)
    end subroutine read_csv_signal
-
-   !> The next line that is neither a comment nor empty, as its fields; none at the end of the file.
-   subroutine next_line(text, lines, line, fields, count)
-      type(csv_text_t), intent(inout) :: text
-      !> Lines of the file
-      integer, intent(in) :: lines
-      !> Number of the line, from 1
-      integer, intent(inout) :: line
-      !> Grows as it must
-      type(field_t), allocatable, intent(inout) :: fields(:)
-      !> How many fields the line has
-      integer, intent(out) :: count
-      type(field_t) :: field
-
-      if (.not. allocated(fields)) allocate (fields(2))
-      count = 0
-      do while (line < lines .and. .not. (text%broken .or. text%stopped))
-         line = line + 1
-         count = 0
-         do
-            call text%take_field(field)
-            count = count + 1
-            if (count > size(fields)) fields = [fields, fields]
-            fields(count) = field
-            if (field%ends_line) exit
-         end do
-         if (.not. (index(fields(1)%word(), '#') == 1 .or. (count == 1 .and. len(fields(1)%word()) == 0))) return
-         count = 0
-      end do
-   end subroutine next_line
-
-   !> The header: names that commas separate.
-   subroutine read_names(path, line, fields, names, faults)
-      character(*), intent(in) :: path
-      integer, intent(in) :: line
-      type(field_t), intent(in) :: fields(:)
-      !> Without quotes around them
-      type(word_t), allocatable, intent(inout) :: names(:)
-      type(fault_list_t), intent(inout) :: faults
-      character(:), allocatable :: message
-      real(dp) :: number
-      logical :: sound
-      integer :: i
-
-      message = ''
-      deallocate (names)
-      allocate (names(size(fields)))
-      do i = 1, size(fields)
-         names(i)%text = fields(i)%bare()
-         if (len(message) > 0) cycle
-         call read_strict_real(names(i)%text, number, sound)
-         if (sound) message = 'the first line holds numbers; it must name the columns, such as time_s,force'
-         if (index(names(i)%text, achar(0)) > 0) message = 'it is no plain text; save it as CSV in UTF-8'
-         if (index(names(i)%text, achar(13)) > 0) message = 'carriage returns alone end its lines; line feeds are needed'
-         if (len(wrong_separator(fields)) > 0) message = wrong_separator(fields)
-      end do
-      if (size(fields) == 0) message = 'the file is empty; its first line must name its columns, such as time_s,force'
-      if (len(message) > 0) call faults%add(path, merge(line, 0, size(fields) > 0), '', '', message)
-   end subroutine read_names
-
-   !> What separates the columns of a line if it is no comma, as a fault; empty if nothing seems to.
-   pure function wrong_separator(fields) result(message)
-      type(field_t), intent(in) :: fields(:)
-      character(:), allocatable :: message
-      character(*), parameter :: tab = achar(9)
-      character(:), allocatable :: word, bare
-      integer :: i
-
-      message = ''
-      do i = 1, size(fields)
-         word = fields(i)%word()
-         bare = fields(i)%bare()
-         ! A name in one pair of quotes may hold anything.
-         if (word /= bare .and. scan(bare, '"'//"'") == 0) cycle
-         if (index(word, ';') > 0) message = 'semicolons separate the columns; commas are needed, and points in the numbers'
-         if (len(message) == 0 .and. index(word, tab) > 0) message = 'tabs separate the columns; commas are needed'
-      end do
-   end function wrong_separator
-
-   !> Whether a line has a field for each name, and a number among them: then its header is one.
-   pure logical function is_row(fields, columns)
-      type(field_t), intent(in) :: fields(:)
-      integer, intent(in) :: columns
-      real(dp) :: number
-      logical :: sound
-      integer :: i
-
-      is_row = .false.
-      if (size(fields) /= columns) return
-      do i = 1, size(fields)
-         call read_strict_real(fields(i)%bare(), number, sound)
-         is_row = is_row .or. sound
-      end do
-   end function is_row
 
    !> Which column is the signal, and which one its axis (0: none is).
    subroutine choose_column(path, line, names, is_table, column, chosen, axis, faults)
@@ -271,10 +177,9 @@ contains
                if (digits > 0) most_decimals = max(most_decimals, decimals)
             end if
          else
-            call faults%add(path, line, '', '', 'the line has '//integer_text(columns)//' columns, the header '// &
-                            integer_text(names)//cause_of_count())
+            call faults%add(path, line, '', '', wrong_count(fields(:columns), names))
             ! What is wrong with the first line, or with how the numbers are written, is wrong with all that follow.
-            is_hopeless = count == 1 .or. len(cause_of_count()) > 0
+            is_hopeless = count == 1 .or. len(cause_of_count(fields(:columns), names)) > 0
          end if
          if (is_hopeless) exit
          call next_line(text, lines, line, fields, columns)
@@ -300,54 +205,16 @@ contains
       subroutine read_number(position, number)
          integer, intent(in) :: position
          real(dp), intent(out) :: number
-         character(:), allocatable :: word, place
-         logical :: sound
+         character(:), allocatable :: message
+         logical :: is_wrong
 
-         word = fields(position)%bare()
-         call read_strict_real(word, number, sound)
-         if (sound .or. is_hopeless) return
-         place = 'column '//integer_text(position)//': '
-         is_hopeless = len(wrong_separator(fields(:columns))) > 0
-         if (is_hopeless) then
-            call faults%add(path, line, '', '', wrong_separator(fields(:columns)))
-         else if (len(word) == 0) then
-            call faults%add(path, line, '', '', place//'a number is missing')
-         else if (count == 1) then
-            call faults%add(path, line, '', '', place//'no number stands here; units belong into the name, as in time_s')
-            is_hopeless = .true.
-         else
-            call faults%add(path, line, '', '', place//'no number stands here')
-         end if
+         if (is_hopeless) return
+         call take_number(fields(:columns), position, count == 1, number, message, is_wrong)
+         if (len(message) > 0) call faults%add(path, line, '', '', message)
+         is_hopeless = is_wrong
       end subroutine read_number
 
-      !> Why a line may have too many columns.
-      function cause_of_count() result(cause)
-         character(:), allocatable :: cause
-         real(dp) :: number
-         logical :: sound
-         integer :: i
-
-         cause = ''
-         if (len(wrong_separator(fields(:columns))) > 0) cause = ': '//wrong_separator(fields(:columns))
-         if (len(cause) > 0 .or. columns < names) return
-         do i = 1, columns
-            call read_strict_real(without_half_quotes(fields(i)%bare()), number, sound)
-            if (.not. sound) return
-         end do
-         cause = ': with a decimal comma a number is two columns; write a decimal point'
-      end function cause_of_count
-
    end subroutine read_rows
-
-   !> A field without a quote at its begin or its end: a number with a decimal comma begins in one field and ends in the next.
-   pure function without_half_quotes(word) result(rest)
-      character(*), intent(in) :: word
-      character(:), allocatable :: rest
-
-      rest = word
-      if (index(rest, '"') == 1) rest = rest(2:)
-      if (len(rest) > 0 .and. index(rest, '"') == len(rest)) rest = rest(:len(rest) - 1)
-   end function without_half_quotes
 
    !> How many significant digits a number has, and how many of them behind the point of one without an exponent.
    pure subroutine count_digits(word, digits, decimals)

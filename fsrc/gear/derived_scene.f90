@@ -8,9 +8,12 @@ module derived_scene
    use input_key, only: is_computable
    use key_table, only: find_key, keys
    use kinds, only: dp
+   use loose_gear_drag, only: drag_of_gear, gap_is_turbulent, reference_diameter
    use oil_data, only: kinematic_viscosity, least_viscosity_meant, oil_pressure_viscosity, oil_viscosity
    use scene_rules, only: rule_t, sentence_length
-   use scene_types, only: forced_orders, highest_order, scene_t, set_number, shaft_t, task_sweep
+   use scene_types, only: drag_computed, drag_given, drag_tabulated, forced_orders, highest_order, scene_t, set_number, shaft_t, &
+                          task_sweep
+   use table_values, only: excitation_at, is_within
    use text, only: short_text
    use word_list, only: word_t
    implicit none(type, external)
@@ -38,6 +41,7 @@ contains
          end associate
       end if
       if (.not. scene%gear%given) return
+      scene%drag = drag_of_gear(scene%gear, scene%shaft%speed_rpm, scene%oil)
       call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
       scene%contact%radius = contact%radius
       scene%contact%length = contact%length
@@ -58,6 +62,8 @@ contains
       real(dp), intent(in) :: force_per_acceleration
       real(dp) :: base
 
+      if (allocated(scene%shaft%table)) &
+         call excitation_at(scene%shaft%table, scene%shaft%speed_rpm, scene%shaft%accelerations, scene%shaft%phases)
       base = base_order(scene%shaft%orders)
       if (.not. base > 0.0_dp) return
       scene%excitation%frequency = base*scene%shaft%speed_rpm/60.0_dp
@@ -96,7 +102,7 @@ contains
       associate (gear => scene%gear)
          pair_of = gear_pair_t(gear%teeth_1, gear%teeth_2, gear%normal_module, gear%pressure_angle_deg, gear%helix_angle_deg, &
                                gear%face_width, gear%centre_distance, gear%contact_position, gear%contact_lines, &
-                               gear%loose_inertia, gear%drag_torque)
+                               gear%loose_inertia, scene%drag%torque, gear%tip_diameter_1, gear%tip_diameter_2)
       end associate
    end function pair_of
 
@@ -150,17 +156,84 @@ contains
       call demand(broken, 'contact', 'length', scene%contact%length, 'gear.face_width')
       call demand(broken, 'kinematics', 'entrainment_speed', scene%kinematics%entrainment_speed, 'shaft.speed_rpm')
       call demand(broken, 'load', 'mass', scene%excitation%mass, 'gear.loose_inertia')
+      call add_drag_rules(broken, scene)
+      if (allocated(scene%shaft%table)) &
+         call demand_within(broken, 'shaft', 'speed_rpm', scene%shaft%speed_rpm, scene%shaft%table%speeds, 'shaft.table')
       base = base_order(scene%shaft%orders)
       if (.not. base > 0.0_dp) then
-         call add(broken, 'shaft.orders', 'they have no common divisor to repeat with; halves, thirds and the like have')
+         call add(broken, orders_key(scene), 'they have no common divisor to repeat with; halves, thirds and the like have')
          return
       end if
       call demand(broken, 'load', 'frequency', scene%excitation%frequency, 'shaft.speed_rpm')
       if (maxval(scene%excitation%force_orders) > highest_order) &
-         call add(broken, 'shaft.orders', 'the highest is too large a multiple of their common divisor')
+         call add(broken, orders_key(scene), 'the highest is too large a multiple of their common divisor')
       if (scene%solver%samples_per_period() < 4*maxval(scene%excitation%force_orders)) &
          call add(broken, 'solver.samples_per_period', 'at least four for each multiple of the base frequency are needed')
    end function derived_rules
+
+   !> Key that the orders of the shaft come from.
+   pure function orders_key(scene) result(key)
+      type(scene_t), intent(in) :: scene
+      character(12) :: key
+
+      key = 'shaft.orders'
+      if (allocated(scene%shaft%table)) key = 'shaft.table'
+   end function orders_key
+
+   !> Rules of a drag that is computed or taken from a table.
+   pure subroutine add_drag_rules(broken, scene)
+      type(rule_t), allocatable, intent(inout) :: broken(:)
+      type(scene_t), intent(in) :: scene
+      character(sentence_length) :: sentence
+      character(26) :: cause
+
+      associate (gear => scene%gear)
+         select case (scene%drag%known_by)
+         case (drag_tabulated)
+            cause = 'gear.drag_table'
+            call demand_within(broken, 'shaft', 'speed_rpm', scene%shaft%speed_rpm, gear%drag_table%speeds, cause)
+            call demand_within(broken, 'oil', 'temperature_celsius', scene%oil%temperature_celsius, &
+                               gear%drag_table%temperatures, cause)
+         case (drag_computed)
+            cause = 'gear.bearing_mean_diameter'
+            if (gear%immersion_depth > reference_diameter(gear)) then
+               write (sentence, '(2(a, es10.3), a)') 'the reference circle of gear 2 has a diameter of ', &
+                  reference_diameter(gear), ' m, and its lowest point cannot lie', gear%immersion_depth, ' m below the oil'
+               call add(broken, 'gear.immersion_depth', sentence)
+            end if
+            if (gear%synchroniser_cones > 0 .and. &
+                .not. min(gear%synchroniser_diameter, gear%synchroniser_width, gear%synchroniser_gap) > 0.0_dp) &
+               call add(broken, 'gear.synchroniser_cones', &
+                        'cones need synchroniser_diameter, synchroniser_width and synchroniser_gap')
+         case default
+            cause = 'gear.drag_torque'
+         end select
+         call demand(broken, 'load', 'steady_force', scene%excitation%steady_force, trim(cause))
+         if (scene%drag%known_by == drag_given .or. gear%backlash > 0.0_dp .or. scene%drag%torque > 0.0_dp) return
+         write (sentence, '(a, es10.3, a)') 'without a backlash the drag torque must be positive; here it is', &
+            scene%drag%torque, ' N m'
+         call add(broken, trim(cause), sentence)
+      end associate
+   end subroutine add_drag_rules
+
+   !> A value must lie within the rows of a table.
+   pure subroutine demand_within(broken, group, name, value, axis, table)
+      type(rule_t), allocatable, intent(inout) :: broken(:)
+      !> Key of the value
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: value
+      !> Ascending
+      real(dp), intent(in) :: axis(:)
+      !> Key of the table
+      character(*), intent(in) :: table
+      character(sentence_length) :: sentence
+
+      if (is_within(axis, value)) return
+      write (sentence, '(a, g0.7, 5a, 2(g0.7, a))') 'it is ', value, ' ', trim(keys(find_key(group, name))%unit), ' and ', &
+         trim(table), ' goes from ', axis(1), ' to ', axis(size(axis)), ' '//trim(keys(find_key(group, name))%unit)
+      call add(broken, group//'.'//name, sentence)
+   end subroutine demand_within
 
    !> Add a rule that is broken.
    pure subroutine add(broken, key, sentence)
@@ -216,7 +289,7 @@ contains
       if (scene%gear%given) call tell_gear(scene)
    end subroutine complete_scene
 
-   !> The scenes at both ends of a sweep can be derived.
+   !> The scenes at all values of a sweep can be derived.
    subroutine check_sweep(scene, faults)
       type(scene_t), intent(in) :: scene
       type(fault_list_t), intent(inout) :: faults
@@ -224,15 +297,17 @@ contains
       type(scene_t) :: swept
       integer :: i
 
+      swept = scene
       associate (sweep => scene%sweep)
-         do i = 1, sweep%outward, sweep%outward - 1
-            swept = scene
+         do i = 1, sweep%outward
             call set_number(swept, keys(sweep%key)%group, keys(sweep%key)%name, sweep%values(i))
             call derive(swept)
             if (allocated(broken)) deallocate (broken)
             allocate (broken, source=derived_rules(swept))
-            if (size(broken) > 0) call faults%add(scene%source, 0, 'sweep', trim(merge('first', 'last ', i == 1)), &
-                                                  trim(broken(1)%sentence))
+            if (size(broken) == 0) cycle
+            call faults%add(scene%source, 0, 'sweep', trim(merge('last ', 'first', i == sweep%outward)), &
+                            'at '//short_text(sweep%values(i), 7)//': '//trim(broken(1)%sentence))
+            exit
          end do
       end associate
    end subroutine check_sweep
@@ -307,13 +382,27 @@ contains
             word_t('warning: the drag of '//short_text(excitation%steady_force, 4)//' N is larger than the inertia force of '// &
                    short_text(excitation%force_scale*sum(excitation%force_amplitudes), 4)// &
                    ' N at most: nothing drives the teeth apart')]
-         if (allocated(scene%shaft%speed_amplitudes)) &
+         if (allocated(scene%shaft%speed_amplitudes) .or. allocated(scene%shaft%table)) &
             call tell(scene, 'shaft.accelerations', accelerations_of(scene%shaft), 'rad/s2')
+         if (allocated(scene%shaft%table)) call tell(scene, 'shaft.orders', scene%shaft%orders, '')
+         if (allocated(scene%shaft%table)) call tell(scene, 'shaft.phases', scene%shaft%phases, 'rad')
          call tell(scene, 'gear.base_radius_1', [contact%base_radius_1], 'm')
          call tell(scene, 'gear.base_radius_2', [contact%base_radius_2], 'm')
          call tell(scene, 'gear.centre_distance', [contact%centre_distance], 'm')
          call tell(scene, 'gear.working_pressure_angle', [contact%working_pressure_angle], 'deg')
          call tell(scene, 'gear.base_helix_angle', [contact%base_helix_angle], 'deg')
+         call tell(scene, 'gear.contact_ratio', [contact%contact_ratio], '')
+         call tell(scene, 'gear.overlap_ratio', [contact%overlap_ratio], '')
+         if (scene%gear%tip_diameter_1 > 0.0_dp) call tell(scene, 'gear.contact_lines', [contact%contact_lines], '')
+         if (scene%drag%known_by /= drag_given) call tell(scene, 'gear.drag_torque', [scene%drag%torque], 'N m')
+         if (scene%drag%known_by == drag_computed) then
+            call tell(scene, 'gear.drag_bearing', [scene%drag%bearing], 'N m')
+            call tell(scene, 'gear.drag_synchroniser', [scene%drag%synchroniser], 'N m')
+            call tell(scene, 'gear.drag_churning', [scene%drag%churning], 'N m')
+            if (gap_is_turbulent(scene%gear, scene%shaft%speed_rpm, scene%oil)) scene%warnings = [scene%warnings, &
+               word_t('warning: oil whirls in the gap of the synchroniser or of the plain bearing at this speed, where it is '// &
+                      'computed as laminar: it brakes more')]
+         end if
          call tell(scene, 'contact.radius', [scene%contact%radius], 'm')
          call tell(scene, 'contact.length', [scene%contact%length], 'm')
          if (scene%contact%backlash > 0.0_dp) call tell(scene, 'contact.backlash', [scene%contact%backlash], 'm')

@@ -30,6 +30,9 @@ module gear_contact
       !> Inertia J_2 of the loose gear [kg m2] and drag torque T_d on it [N m]
       real(dp) :: loose_inertia = 0.0_dp
       real(dp) :: drag_torque = 0.0_dp
+      !> Tip diameters [m]; 0: not given, and contact_lines is
+      real(dp) :: tip_diameter_1 = 0.0_dp
+      real(dp) :: tip_diameter_2 = 0.0_dp
    end type gear_pair_t
 
    !> The contact of its flanks.
@@ -48,6 +51,10 @@ module gear_contact
       real(dp) :: radius = 0.0_dp
       real(dp) :: length = 0.0_dp
       real(dp) :: tooth_width = 0.0_dp
+      !> Contact ratios eps_alpha, by the tip diameters or those of teeth as high as usual, and eps_beta; lines in contact
+      real(dp) :: contact_ratio = 0.0_dp
+      real(dp) :: overlap_ratio = 0.0_dp
+      real(dp) :: contact_lines = 0.0_dp
       !> Surface speeds u_1 and u_2, and entrainment speed U [m/s]
       real(dp) :: surface_speed_1 = 0.0_dp
       real(dp) :: surface_speed_2 = 0.0_dp
@@ -105,8 +112,10 @@ contains
          message = 'it lies beyond the line of action, which touches the base circles at its ends'
          return
       end if
+      call find_contact_ratios(pair, transverse_module, transverse_angle, working, contact, wrong, message)
+      if (len(wrong) > 0) return
       contact%radius = rho_1*rho_2/((rho_1 + rho_2)*cos(base_helix))
-      contact%tooth_width = pair%face_width*pair%contact_lines
+      contact%tooth_width = pair%face_width*contact%contact_lines
       contact%length = contact%tooth_width/cos(base_helix)
       contact%surface_speed_1 = two_pi*shaft_speed*rho_1
       contact%surface_speed_2 = two_pi*shaft_speed*rho_2*real(pair%teeth_1, dp)/real(pair%teeth_2, dp)
@@ -115,5 +124,56 @@ contains
       contact%steady_force = pair%drag_torque/(contact%base_radius_2*cos(base_helix))
       contact%force_per_acceleration = contact%mass*cos(base_helix)*contact%base_radius_1
    end subroutine find_contact
+
+   !> Contact ratios, and the lines in contact: with tip diameters the transverse contact ratio, since the mean length of all lines
+   !> is eps_alpha b/cos beta_b whatever eps_beta is. Without them the ratio is that of tips at r + m_n (1 + x), both
+   !> gears with half of the sum of the profile shifts. ISO 21771.
+   pure subroutine find_contact_ratios(pair, transverse_module, transverse_angle, working, contact, wrong, message)
+      type(gear_pair_t), intent(in) :: pair
+      real(dp), intent(in) :: transverse_module
+      !> alpha_t and alpha_wt [rad]
+      real(dp), intent(in) :: transverse_angle
+      real(dp), intent(in) :: working
+      !> With base radii and centre distance
+      type(gear_contact_t), intent(inout) :: contact
+      character(:), allocatable, intent(inout) :: wrong
+      character(:), allocatable, intent(inout) :: message
+      character(*), parameter :: names(2) = ['tip_diameter_1', 'tip_diameter_2']
+      real(dp) :: tips(2), bases(2), roots(2), line, shift, helix
+      logical :: given
+      integer :: i
+
+      helix = degree*pair%helix_angle
+      given = pair%tip_diameter_1 > 0.0_dp .and. pair%tip_diameter_2 > 0.0_dp
+      shift = 0.5_dp*real(pair%teeth_1 + pair%teeth_2, dp)*(involute(working) - involute(transverse_angle)) &
+              /(2.0_dp*tan(degree*pair%pressure_angle))
+      tips = 0.5_dp*transverse_module*real([pair%teeth_1, pair%teeth_2], dp) + pair%normal_module*(1.0_dp + shift)
+      if (given) tips = 0.5_dp*[pair%tip_diameter_1, pair%tip_diameter_2]
+      bases = [contact%base_radius_1, contact%base_radius_2]
+      line = contact%centre_distance*sin(working)
+      roots = sqrt(max(0.0_dp, (tips - bases)*(tips + bases)))
+      contact%contact_ratio = (sum(roots) - line)/(pi*transverse_module*cos(transverse_angle))
+      contact%overlap_ratio = pair%face_width*sin(abs(helix))/(pi*pair%normal_module)
+      contact%contact_lines = pair%contact_lines
+      if (.not. given) return
+      contact%contact_lines = contact%contact_ratio
+      do i = 1, 2
+         if (len(wrong) > 0) exit
+         if (tips(i) <= bases(i)) message = 'the tip lies within the base circle'
+         if (roots(i) > line) message = 'tips interfere: it reaches beyond the end of the line of action'
+         if (len(message) > 0) wrong = names(i)
+      end do
+      if (len(wrong) > 0 .or. contact%contact_ratio > 0.0_dp) return
+      wrong = names(1)
+      message = 'the teeth of both gears do not reach each other'
+   end subroutine find_contact_ratios
+
+   !> inv alpha = tan alpha - alpha.
+   pure real(dp) function involute(angle)
+      !> [rad]
+      real(dp), intent(in) :: angle
+
+      involute = tan(angle) - angle
+   end function involute
 
 end module gear_contact

@@ -13,8 +13,10 @@ module oil_data
 
    !> 0 degC [K]
    real(dp), parameter :: zero_celsius = 273.15_dp
+   !> What ASTM D341 adds to a kinematic viscosity [mm2/s], and by what a kelvin lowers the density [kg/(m3 K)]
+   real(dp), parameter :: shift = 0.7_dp, density_slope = 0.7_dp
 
-   public :: kinematic_viscosity, oil_density, oil_viscosity, oil_pressure_viscosity
+   public :: kinematic_viscosity, oil_density, oil_viscosity, oil_pressure_viscosity, viscosity_temperature_slope
 
 contains
 
@@ -25,16 +27,41 @@ contains
       real(dp), intent(in) :: at_100
       !> [degC]
       real(dp), intent(in) :: temperature
-      real(dp), parameter :: shift = 0.7_dp
       !> Colder oil is a solid: 10**251 mm2/s
       real(dp), parameter :: largest = 2.4_dp
       real(dp) :: z_40, z_100, share
 
-      z_40 = log10(log10(at_40 + shift))
-      z_100 = log10(log10(at_100 + shift))
+      z_40 = walther(at_40)
+      z_100 = walther(at_100)
       share = log((temperature + zero_celsius)/(40.0_dp + zero_celsius))/log((100.0_dp + zero_celsius)/(40.0_dp + zero_celsius))
       viscosity = 10.0_dp**(10.0_dp**min(largest, z_40 + share*(z_100 - z_40))) - shift
    end function kinematic_viscosity
+
+   !> Ordinate of ASTM D341, log10 log10(nu + 0.7).
+   elemental real(dp) function walther(viscosity)
+      !> nu [mm2/s]
+      real(dp), intent(in) :: viscosity
+
+      walther = log10(log10(viscosity + shift))
+   end function walther
+
+   !> By which share the dynamic viscosity falls with a kelvin, beta = -d ln eta/dT [1/K]: the derivative of both formulas, with
+   !> M = d walther/d log10 K, negative. Drag section 15.
+   elemental real(dp) function viscosity_temperature_slope(at_40, at_100, density_15, temperature) result(slope)
+      !> Kinematic viscosities at 40 and 100 degC [mm2/s]
+      real(dp), intent(in) :: at_40
+      real(dp), intent(in) :: at_100
+      !> Density at 15 degC [kg/m3]
+      real(dp), intent(in) :: density_15
+      !> [degC]
+      real(dp), intent(in) :: temperature
+      real(dp) :: m, viscosity
+
+      m = (walther(at_100) - walther(at_40))/log10((100.0_dp + zero_celsius)/(40.0_dp + zero_celsius))
+      viscosity = kinematic_viscosity(at_40, at_100, temperature)
+      slope = -m*log(viscosity + shift)*(viscosity + shift)/(viscosity*(temperature + zero_celsius)) &
+              + density_slope/oil_density(density_15, temperature)
+   end function viscosity_temperature_slope
 
    !> Density rho [kg/m3].
    elemental real(dp) function oil_density(at_15, temperature) result(density)
@@ -43,7 +70,7 @@ contains
       !> [degC]
       real(dp), intent(in) :: temperature
 
-      density = at_15 - 0.7_dp*(temperature - 15.0_dp)
+      density = at_15 - density_slope*(temperature - 15.0_dp)
    end function oil_density
 
    !> Dynamic viscosity eta0 [Pa s].

@@ -4,6 +4,7 @@
 !> All that a force is stands here and, scaled for the lanes of a block, in module lane_force. A phase stands on
 !> the unit circle at exp(2 pi i x), from whose powers every harmonic of a force follows.
 module force
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use elementary_functions, only: cosine_sine
    use kinds, only: dp
    use scene_types, only: excitation_t
@@ -22,7 +23,8 @@ module force
       real(dp), allocatable :: others(:, :)
    end type force_t
 
-   public :: cosine_force, force_of, force_at, forces_on_circle, force_of_period, largest_oscillation, largest_size
+   public :: cosine_force, force_of, force_at, forces_on_circle, force_of_period, inertia_ratio, &
+             largest_oscillation, largest_size
 
 contains
 
@@ -136,13 +138,36 @@ contains
       end do
    end function largest_oscillation
 
-   !> Largest size of a force and a steady one beside it [N]. Several orders are looked at in 16 places to the period of the highest
-   !> one; what may be larger between two of them than all others is followed to where it is largest.
+   !> Largest size of a force and a steady one beside it [N].
    pure real(dp) function largest_size(force, beside)
       !> The force
       type(force_t), intent(in) :: force
       !> [N]
       real(dp), intent(in) :: beside
+
+      largest_size = largest_value(force, beside, [1.0_dp, -1.0_dp])
+   end function largest_size
+
+   !> Lambda of a loose gear: the largest force with which its inertia pulls the tooth off the flank where the drag holds it, over
+   !> the steady force, J_2 (z_1/z_2) max(-theta_1'')/T_d. Not a number without a steady force.
+   pure real(dp) function inertia_ratio(force)
+      !> The force on a loose gear: its steady part is that of the drag, what oscillates that of the shaft
+      type(force_t), intent(in) :: force
+
+      inertia_ratio = ieee_value(inertia_ratio, ieee_quiet_nan)
+      if (abs(force%steady) > 0.0_dp) inertia_ratio = &
+         largest_value(force, -force%steady, spread(-sign(1.0_dp, force%steady), 1, 2))/abs(force%steady)
+   end function inertia_ratio
+
+   !> Largest of a force and a steady one beside it times one of two signs [N]: of its size, its rise or its fall. Several orders
+   !> are looked at in 16 places to the period of the highest one; what may be larger between two of them than all others is
+   !> followed to where it is largest.
+   pure real(dp) function largest_value(force, beside, signs)
+      !> The force
+      type(force_t), intent(in) :: force
+      !> [N]
+      real(dp), intent(in) :: beside
+      real(dp), intent(in) :: signs(2)
       integer, parameter :: places_per_wave = 16
       !> Share of the oscillation by which a wave may rise above the nearest of the places: (pi/16)**2/2
       real(dp), parameter :: between = 0.02_dp
@@ -150,23 +175,23 @@ contains
       real(dp) :: top
       integer :: n, i
 
-      largest_size = abs(force%steady + beside) + hypot(force%cosine, force%sine)
+      largest_value = maxval(signs*(force%steady + beside)) + hypot(force%cosine, force%sine)
       if (force%highest < 2) return
       n = places_per_wave*force%highest
       allocate (sizes(n))
       call force_of_period(force, sizes)
-      sizes = abs(sizes + beside)
+      sizes = max(signs(1)*(sizes + beside), signs(2)*(sizes + beside))
       top = maxval(sizes)
-      largest_size = top
+      largest_value = top
       do i = 1, n
          if (sizes(i) + between*largest_oscillation(force) < top) cycle
          if (sizes(i) < max(sizes(modulo(i - 2, n) + 1), sizes(modulo(i, n) + 1))) cycle
-         largest_size = max(largest_size, largest_near(real(i, dp)/real(n, dp), 1.0_dp/real(n, dp)))
+         largest_value = max(largest_value, largest_near(real(i, dp)/real(n, dp), 1.0_dp/real(n, dp)))
       end do
 
    contains
 
-      !> Largest size between two phases that stand as far on both sides of one, by the golden section.
+      !> Largest value between two phases that stand as far on both sides of one, by the golden section.
       pure real(dp) function largest_near(phase, distance)
          real(dp), intent(in) :: phase
          real(dp), intent(in) :: distance
@@ -193,13 +218,13 @@ contains
          largest_near = maxval(values)
       end function largest_near
 
-      !> Size at a phase [N].
+      !> Value at a phase [N].
       pure real(dp) function size_at(phase)
          real(dp), intent(in) :: phase
 
-         size_at = abs(force_at(force, modulo(phase, 1.0_dp)) + beside)
+         size_at = maxval(signs*(force_at(force, modulo(phase, 1.0_dp)) + beside))
       end function size_at
 
-   end function largest_size
+   end function largest_value
 
 end module force

@@ -3,6 +3,7 @@ module judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use certificate, only: certificate_t
    use engine, only: motion_count_t
+   use force, only: inertia_ratio
    use force_signal, only: force_signal_t
    use impacts, only: impact_count_t
    use kinds, only: dp
@@ -16,7 +17,8 @@ module judged_scene
       quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_certified, quantity_coast_film_maximum, &
       quantity_coast_film_minimum, quantity_coast_load_maximum, quantity_crest_factor, quantity_damping_ratio, &
       quantity_deflection, quantity_deflection_share, quantity_dissipated_energy, quantity_dissipated_power, &
-      quantity_double_sided, quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, &
+      quantity_double_sided, quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
+      quantity_inertia_ratio, quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, &
       quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
       quantity_gear_position_maximum, quantity_gear_position_minimum, quantity_impact_impulse_maximum_coast, &
       quantity_impact_impulse_maximum_drive, quantity_impact_impulse_mean_coast, quantity_impact_impulse_mean_drive, &
@@ -43,6 +45,7 @@ module judged_scene
    use regime_check, only: model_limit, regime_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: status_complete, status_no_rigid_film
+   use scene_types, only: drag_computed, drag_t, drag_unknown
    use window_extremes, only: window_extremes_t
    use window_impacts, only: double_sided_impacts, has_reversal, has_separation, verdict_of, window_impacts_t
    implicit none(type, external)
@@ -96,6 +99,10 @@ contains
          if (judged%resolved%natural_frequency > 0.0_dp) value = judged%resolved%natural_frequency
       case (quantity_damping_ratio)
          if (judged%resolved%natural_frequency > 0.0_dp) value = judged%resolved%damping_ratio
+      case (quantity_drag_torque, quantity_drag_bearing, quantity_drag_synchroniser, quantity_drag_churning)
+         value = drag_value(quantity, judged%resolved%drag)
+      case (quantity_inertia_ratio)
+         if (judged%resolved%drag%known_by /= drag_unknown) value = inertia_ratio(judged%resolved%problem%force)
       case (quantity_orbit_period)
          value = real(merge(judged%orbit%period, judged%repeats_after, judged%orbit%period > 0), dp)
       case (quantity_periods_solved)
@@ -115,6 +122,27 @@ contains
          if (judged%status == status_no_rigid_film .and. quantity == quantity_law_contradicted) value = flag(.true.)
       end select
    end function quantity_value
+
+   !> Drag torque or a part of it; parts are known where it is computed.
+   pure real(dp) function drag_value(quantity, drag) result(value)
+      integer, intent(in) :: quantity
+      type(drag_t), intent(in) :: drag
+
+      value = ieee_value(value, ieee_quiet_nan)
+      if (drag%known_by == drag_unknown) return
+      if (quantity == quantity_drag_torque) value = drag%torque
+      if (drag%known_by /= drag_computed) return
+      select case (quantity)
+      case (quantity_drag_bearing)
+         value = drag%bearing
+      case (quantity_drag_synchroniser)
+         value = drag%synchroniser
+      case (quantity_drag_churning)
+         value = drag%churning
+      case default
+         continue
+      end select
+   end function drag_value
 
    !> Value of a quantity that rests on the window.
    pure real(dp) function window_value(quantity, judged) result(value)

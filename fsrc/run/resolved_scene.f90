@@ -10,7 +10,7 @@ module resolved_scene
    use regime, only: steel_tooth
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
-   use scene_types, only: iteration_newton, least_static_load, method_newmark, predictor_extrapolated, scene_t, until_steady
+   use scene_types, only: drag_t, iteration_newton, least_static_load, method_newmark, predictor_extrapolated, scene_t, until_steady
    use taylor_step_control, only: film_weight, momentum_weight
    implicit none(type, external)
    private
@@ -18,6 +18,8 @@ module resolved_scene
    !> What follows from a scene.
    type, public :: resolved_scene_t
       type(problem_t) :: problem = problem_t()
+      !> Drag torque on a loose gear of &gear
+      type(drag_t) :: drag
       !> Film that carries Q + m g [m]; 0 where no rigid film does: then nothing that rests on it is known
       real(dp) :: steady_film = 0.0_dp
       !> Of small motions about it, with the total derivatives of the scene's own film; 0: they do not oscillate, or it is not known
@@ -51,6 +53,7 @@ contains
       real(dp) :: static_load, stiffness, damping, rest(2), force
 
       resolved%problem = problem_of(scene)
+      if (scene%gear%given) resolved%drag = scene%drag
       resolved%tooth_compliance = 1.0_dp/scene%contact%flank_stiffness(steel_tooth)
       if (scene%contact%stiffness > 0.0_dp) resolved%tooth_compliance = 1.0_dp/scene%contact%stiffness
       static_load = scene%excitation%static_load()

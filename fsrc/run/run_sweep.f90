@@ -170,6 +170,7 @@ contains
 
       codes = quantities_told_in('sweep')
       if (scene%contact%backlash > 0.0_dp) codes = [codes, quantities_told_in('flanks')]
+      if (scene%gear%given) codes = [codes, quantities_told_in('gears')]
    end function told_quantities
 
    !> Row of a value; what is unknown is 0.

@@ -3,6 +3,7 @@ module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use certificate, only: certificate_word
    use film_law, only: film_load, law_words, with_exact_film
+   use force, only: inertia_ratio
    use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp
    use log_file, only: log_magic, log_t
@@ -16,7 +17,7 @@ module scene_report
    use regime_check, only: model_limit, model_limit_sentence, regime_sentence, within_model
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
-   use scene_types, only: method_newmark, model_reynolds, scene_t, speed_mean, task_film
+   use scene_types, only: drag_computed, method_newmark, model_reynolds, scene_t, speed_mean, task_film
    use text, only: integer_text, short_text
    use version, only: program_version
    implicit none(type, external)
@@ -173,12 +174,30 @@ contains
                           resolved%problem%film%radius)
       if (resolved%problem%initial_film > 0.0_dp .and. limit /= within_model) &
          lines = lines//'! warning: at rest '//model_limit_sentence(limit)//' (model_limit)'//end_of_line
-      if (scene%gear%given) lines = lines//law_advice(scene)
+      if (scene%gear%given) lines = lines//drag_advice(resolved)//law_advice(scene)
       warning = stiffness_warning(scene, 'at rest', share)
       if (len(warning) > 0) lines = lines//'! '//warning//end_of_line
       lines = lines//'! A, B and alpha p are those of the exact film with u = '//short_text(resolved%problem%film%speed, 6)// &
               ' m/s, '//speed_meaning(scene)
    end function resolved_lines
+
+   !> What holds the teeth of a gear pair together, part by part, and whether inertia pulls them apart.
+   pure function drag_advice(resolved) result(lines)
+      type(resolved_scene_t), intent(in) :: resolved
+      character(:), allocatable :: lines
+      real(dp) :: ratio
+
+      associate (drag => resolved%drag)
+         lines = '! drag torque                          '//short_text(drag%torque, 4)//' N m'
+         if (drag%known_by == drag_computed) lines = lines//': bearing '//short_text(drag%bearing, 4)//', synchroniser '// &
+            short_text(drag%synchroniser, 4)//', churning '//short_text(drag%churning, 4)
+      end associate
+      ratio = inertia_ratio(resolved%problem%force)
+      lines = lines//new_line('a')
+      if (ieee_is_nan(ratio)) return
+      lines = lines//'! inertia ratio Lambda                 '//short_text(ratio, 4)//': without oil the tooth '// &
+              trim(merge('leaves its flank  ', 'stays on its flank', ratio > 1.0_dp))//new_line('a')
+   end function drag_advice
 
    !> Which film law the film of a gear pair at rest asks for, by the exact pressure there.
    pure function law_advice(scene) result(line)

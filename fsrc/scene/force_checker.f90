@@ -66,16 +66,54 @@ contains
                            'the highest harmonic of the force needs at least '//integer_text(4*highest)//remedy, faults)
    end subroutine check_force
 
-   !> Speed and force need the shaft.
+   !> Speed and force need the shaft, the drag is known in one way, and what belongs together stands together.
    subroutine check_gear(input, faults)
       !> Typed values
       type(scene_input_t), intent(in) :: input
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
+      character(*), parameter :: with_oil(2) = [character(21) :: 'drag_table', 'bearing_mean_diameter'], &
+                                 cone_keys(3) = [character(21) :: 'synchroniser_diameter', 'synchroniser_width', &
+                                                 'synchroniser_gap']
+      integer :: i, cones
 
       if (.not. input%has_group('shaft')) call faults%add(input%file, 0, 'shaft', '', &
                                                          'this group is required where &gear stands: it drives the gears')
+      if (.not. any([input%is_given('gear', 'drag_torque'), input%is_given('gear', 'drag_table'), &
+                     input%is_given('gear', 'bearing_mean_diameter')])) &
+         call input%add_fault('gear', 'drag_torque', 'the drag on the loose gear is required: give exactly one of drag_torque; '// &
+                              'drag_table; bearing_mean_diameter, from which it is computed', faults)
+      do i = 1, 2
+         if (input%is_given('gear', trim(with_oil(i))) .and. .not. input%has_group('oil')) &
+            call input%add_fault('gear', trim(with_oil(i)), 'it needs the temperature of the oil: give &oil', faults)
+      end do
+      call check_both(input, ['tip_diameter_1', 'tip_diameter_2'], faults)
+      call check_both(input, [character(17) :: 'bearing_width', 'bearing_clearance'], faults)
+      if (input%is_faulty('gear', 'synchroniser_cones')) return
+      cones = input%count('gear', 'synchroniser_cones')
+      do i = 1, size(cone_keys)
+         if (cones > 0 .and. .not. (input%is_given('gear', trim(cone_keys(i))) .or. &
+                                    input%is_faulty('gear', trim(cone_keys(i))))) &
+            call input%add_fault('gear', trim(cone_keys(i)), 'this key is required where synchroniser_cones > 0', faults)
+         if (cones == 0 .and. input%is_given('gear', trim(cone_keys(i))) .and. &
+             input%is_given('gear', 'bearing_mean_diameter')) &
+            call input%add_fault('gear', trim(cone_keys(i)), 'this key is used only with synchroniser_cones > 0; leave it out', &
+                                 faults)
+      end do
    end subroutine check_gear
+
+   !> Two keys of a gear stand together or not at all.
+   subroutine check_both(input, names, faults)
+      type(scene_input_t), intent(in) :: input
+      character(*), intent(in) :: names(2)
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i
+
+      do i = 1, 2
+         if (input%is_given('gear', trim(names(i))) .and. .not. input%is_given('gear', trim(names(3 - i)))) &
+            call input%add_fault('gear', trim(names(i)), 'give both '//trim(names(1))//' and '//trim(names(2)), faults)
+      end do
+   end subroutine check_both
 
    !> The shaft drives gears, and its lists are of one length.
    subroutine check_shaft(input, faults)
@@ -84,13 +122,14 @@ contains
       !> Faults are appended
       type(fault_list_t), intent(inout) :: faults
       character(*), parameter :: lists(4) = [character(16) :: 'orders', 'phases', 'accelerations', 'speed_amplitudes'], &
-                                 rule = 'give either accelerations or speed_amplitudes with orders, or signal'
+                                 rule = 'give either accelerations or speed_amplitudes with orders, or signal, or table'
       real(dp), allocatable :: orders(:)
       integer :: i
 
       if (.not. input%has_group('gear')) call faults%add(input%file, 0, 'gear', '', &
                                                         'this group is required where &shaft stands: it says what is driven')
       if (any([(input%is_faulty('shaft', trim(lists(i))), i=1, size(lists))])) return
+      if (input%is_given('shaft', 'table') .or. input%is_faulty('shaft', 'table')) return
       if (input%is_given('shaft', 'accelerations') .and. input%is_given('shaft', 'speed_amplitudes')) then
          call input%add_fault('shaft', 'speed_amplitudes', rule, faults)
       else if (.not. (input%is_given('shaft', 'accelerations') .or. input%is_given('shaft', 'speed_amplitudes'))) then

@@ -34,8 +34,9 @@ module input_key
       type(range_t) :: range
       !> Allowed words, separated by blanks; empty: any text that the reader accepts
       character(2400) :: choices
-      !> 'group.key=word[|word] [& ...]': legal only then; empty: always
-      character(48) :: used_when
+      !> Rules with ' & ' between, all of which must hold; empty: always legal. 'group.key=word[|word]': it has one of these words;
+      !> 'group.key[|group.key]': one of these is given; 'without group.key': it is not.
+      character(128) :: used_when
       !> What it means
       character(240) :: sentence
       !> Value in the template where there is no default

@@ -44,7 +44,10 @@ module key_table
    type(range_t), parameter :: a_speed_group = range_t(1.0e-30_dp, .false., 1.0e10_dp, .false.)
    type(range_t), parameter :: fraction = range_t(0.0_dp, .true., 1.0_dp, .false.)
 
+   ! Keys of the one of three ways in which the drag of a loose gear is known
+   character(*), parameter :: of_computed_drag = 'gear.bearing_mean_diameter'
    character(*), parameter :: of_motions = 'scene.task=motion|sweep|campaign|threshold', &
+      of_listed_motions = of_motions//' & without shaft.table', &
       of_campaigns = 'scene.task=campaign|threshold', of_thresholds = 'scene.task=threshold', &
       certified = 'scene.task=motion|threshold'
 
@@ -225,20 +228,78 @@ module key_table
       key_t('gear', 'contact_position', real_kind, 'm', '0.0', any_number, '', of_motions, &
             'Place of the contact on the line of action: 0 is the pitch point, positive towards the root of gear 2.', &
             sensible=range_t(lower=-0.1_dp, upper=0.1_dp)), &
-      key_t('gear', 'contact_lines', real_kind, '-', '1.0', positive, '', of_motions, &
-            'Tooth pairs in contact at a time, each as long as the face is wide.', &
+      key_t('gear', 'contact_lines', real_kind, '-', '1.0', positive, '', of_motions//' & without gear.tip_diameter_1', &
+            'Mean length of all lines of contact over that of one as long as the face is wide: the transverse contact ratio, '// &
+            'which tip_diameter_1 and tip_diameter_2 give.', &
             sensible=range_t(lower=0.1_dp, upper=10.0_dp), &
             computable=range_t(1.0e-6_dp, .false., 1.0e6_dp, .false.)), &
+      key_t('gear', 'tip_diameter_1', real_kind, 'm', '', positive, '', of_motions, &
+            'Tip diameter of the gear on the shaft. With both, contact_lines is the transverse contact ratio eps_alpha.', &
+            sensible=range_t(lower=5.0e-3_dp, upper=2.0_dp), &
+            computable=a_length), &
+      key_t('gear', 'tip_diameter_2', real_kind, 'm', '', positive, '', of_motions, &
+            'Tip diameter of the loose gear.', &
+            sensible=range_t(lower=5.0e-3_dp, upper=2.0_dp), &
+            computable=a_length), &
       key_t('gear', 'loose_inertia', real_kind, 'kg m2', 'required', positive, '', of_motions, &
             'Moment of inertia of the loose gear about its axis.', &
             example='1.715e-3', &
             sensible=range_t(lower=1.0e-7_dp, upper=10.0_dp), &
             computable=range_t(1.0e-15_dp, .false., 1.0e12_dp, .false.)), &
-      key_t('gear', 'drag_torque', real_kind, 'N m', 'required', any_number, '', of_motions, &
-            'Drag torque on the loose gear, which holds its teeth against the drive flank; without a backlash it is positive.', &
+      key_t('gear', 'drag_torque', real_kind, 'N m', '', any_number, '', &
+            of_motions//' & without gear.drag_table & without '//of_computed_drag, &
+            'Drag torque on the loose gear, which holds its teeth against the drive flank; without a backlash it is positive. '// &
+            'Give this, drag_table or bearing_mean_diameter.', &
             example='0.10', &
             sensible=range_t(lower=-100.0_dp, upper=100.0_dp), &
             computable=a_signed_force), &
+      key_t('gear', 'drag_table', text_kind, '', '', any_number, '', of_motions//' & without '//of_computed_drag, &
+            'CSV file, in the folder of this input, with measured drag torques on a full grid: columns speed_rpm (of gear 1), '// &
+            'temperature_celsius, torque [N m]; bilinear, refused outside.'), &
+      key_t('gear', 'drag_scale', real_kind, '-', '1.0', positive, '', of_computed_drag//'|gear.drag_table', &
+            'Multiplies a computed or tabulated drag: fits it to what was measured, spreads it, is varied.', &
+            sensible=range_t(lower=0.05_dp, upper=20.0_dp), &
+            computable=range_t(1.0e-9_dp, .false., 1.0e9_dp, .false.)), &
+      key_t('gear', 'bearing_mean_diameter', real_kind, 'm', '', positive, '', of_motions, &
+            'Mean diameter of the bearing of the loose gear. The drag is then computed from it, synchroniser, churning and &oil.', &
+            sensible=range_t(lower=2.0e-3_dp, upper=1.0_dp), &
+            computable=a_length), &
+      key_t('gear', 'bearing_factor', real_kind, '-', '6.0', positive, '', of_computed_drag//' & without gear.bearing_width', &
+            'Factor f_0 of a needle bearing (Palmgren): 6 oil mist, 12 oil bath or grease, 24 jet or vertical.', &
+            sensible=range_t(lower=0.5_dp, upper=50.0_dp), &
+            computable=a_scale), &
+      key_t('gear', 'bearing_width', real_kind, 'm', '', positive, '', of_computed_drag, &
+            'Width of a plain bearing; with bearing_clearance it stands for the needle bearing.', &
+            sensible=range_t(lower=1.0e-3_dp, upper=0.5_dp), &
+            computable=a_length), &
+      key_t('gear', 'bearing_clearance', real_kind, 'm', '', positive, '', of_computed_drag, &
+            'Radial clearance of a plain bearing.', &
+            sensible=range_t(lower=1.0e-6_dp, upper=1.0e-3_dp), &
+            computable=a_play), &
+      key_t('gear', 'synchroniser_cones', integer_kind, '-', '0', range_t(0.0_dp, .false., 3.0_dp, .false.), '', of_computed_drag, &
+            'Gaps of the disengaged synchroniser that shear: 1, 2, 3 of single, double, triple cones; 0: it has none.'), &
+      key_t('gear', 'synchroniser_diameter', real_kind, 'm', '', positive, '', of_computed_drag, &
+            'Mean diameter of the cones of the synchroniser; required where there are cones.', &
+            sensible=range_t(lower=5.0e-3_dp, upper=1.0_dp), &
+            computable=a_length), &
+      key_t('gear', 'synchroniser_width', real_kind, 'm', '', positive, '', of_computed_drag, &
+            'Width of a cone, along it; required where there are cones.', &
+            sensible=range_t(lower=5.0e-4_dp, upper=0.2_dp), &
+            computable=a_length), &
+      key_t('gear', 'synchroniser_gap', real_kind, 'm', '', positive, '', of_computed_drag, &
+            'Gap of a cone, normal to it, taken as full of oil; required where there are cones.', &
+            sensible=range_t(lower=1.0e-5_dp, upper=5.0e-3_dp), &
+            computable=a_play), &
+      key_t('gear', 'immersion_depth', real_kind, 'm', '0.0', not_negative, '', of_computed_drag, &
+            'Depth of the lowest point of the reference circle below the oil in motion, which is lower than at rest; 0: dry. '// &
+            'At most the reference diameter.', &
+            sensible=range_t(lower=0.0_dp, upper=1.0_dp), &
+            computable=range_t(0.0_dp, .false., 1.0e7_dp, .false.)), &
+      key_t('gear', 'own_shaft_ratio', real_kind, '-', '0.0', any_number, '', of_computed_drag, &
+            'Speed of the shaft that carries the loose gear over that of gear 1, positive where it turns as the loose gear '// &
+            'does: 0 in neutral at rest, z_1/z_2 of the pair that is engaged.', &
+            sensible=range_t(lower=-10.0_dp, upper=10.0_dp), &
+            computable=range_t(-1.0e6_dp, .false., 1.0e6_dp, .false.)), &
       key_t('gear', 'backlash', real_kind, 'm', '', positive, '', of_motions, &
             'Play between both flanks along their normal; absent: the drive flank alone.', &
             sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
@@ -253,38 +314,42 @@ module key_table
             example='800.0', &
             sensible=range_t(lower=1.0_dp, upper=1.0e5_dp), &
             computable=range_t(1.0e-6_dp, .false., 1.0e9_dp, .false.)), &
-      key_t('shaft', 'orders', reals_kind, '-', 'required', positive, '', of_motions, &
+      key_t('shaft', 'table', text_kind, '', '', any_number, '', of_motions, &
+            'CSV file, in the folder of this input, with a measured run-up instead of orders, accelerations and phases: '// &
+            'columns speed_rpm, acceleration_O [rad/s2] and, if known, phase_O of each order O; linear, refused outside.'), &
+      key_t('shaft', 'orders', reals_kind, '-', 'required', positive, '', of_listed_motions, &
             'Engine orders of its angular acceleration, multiples of the speed; an engine of four strokes has halves among them.', &
             example='2.0', &
             sensible=range_t(lower=0.1_dp, upper=1000.0_dp), &
             computable=range_t(1.0e-3_dp, .false., 1.0e6_dp, .false.)), &
-      key_t('shaft', 'accelerations', reals_kind, 'rad/s2', '', not_negative, '', of_motions, &
+      key_t('shaft', 'accelerations', reals_kind, 'rad/s2', '', not_negative, '', of_listed_motions, &
             'Amplitude of the angular acceleration of each engine order; load.force_scale multiplies all of them.', &
             example='600.0', &
             sensible=range_t(lower=0.0_dp, upper=1.0e5_dp), &
             computable=an_amplitude), &
-      key_t('shaft', 'speed_amplitudes', reals_kind, 'rad/s', '', not_negative, '', of_motions, &
+      key_t('shaft', 'speed_amplitudes', reals_kind, 'rad/s', '', not_negative, '', of_listed_motions, &
             'Amplitude of the angular speed of each engine order instead of accelerations: differentiated at speed_rpm, '// &
             'whatever that is varied to. A signal of a speed becomes this.', &
             sensible=range_t(lower=0.0_dp, upper=1.0e3_dp), &
             computable=an_amplitude), &
-      key_t('shaft', 'phases', reals_kind, 'rad', '', any_number, '', of_motions, &
+      key_t('shaft', 'phases', reals_kind, 'rad', '', any_number, '', of_listed_motions, &
             'Phase of each engine order: A cos(2 pi order t speed_rpm/60 + phase) is its acceleration or speed; absent: all 0.', &
             sensible=range_t(lower=-1.0e3_dp, upper=1.0e3_dp), &
             computable=a_phase), &
-      key_t('shaft', 'signal', text_kind, '', '', any_number, '', of_motions, &
+      key_t('shaft', 'signal', text_kind, '', '', any_number, '', of_listed_motions, &
             'CSV file, in the folder of this input, with cycles of the motion of the shaft, uniformly sampled, instead of '// &
             'orders, accelerations (or speed_amplitudes) and phases. Its axis must fit speed_rpm and cycle_revolutions.'), &
-      key_t('shaft', 'signal_column', text_kind, '', '', any_number, '', of_motions, &
+      key_t('shaft', 'signal_column', text_kind, '', '', any_number, '', of_listed_motions, &
             'Name of the signal in the header of the file; absent: the only column that is no time or angle.'), &
-      key_t('shaft', 'signal_orders', integer_kind, '-', '', an_order, '', of_motions, &
+      key_t('shaft', 'signal_orders', integer_kind, '-', '', an_order, '', of_listed_motions, &
             'Harmonics of the cycle that are kept, from the first on; absent: those that hold all but 1e-6 of its power.'), &
-      key_t('shaft', 'signal_cycles', integer_kind, '-', '', range_t(1.0_dp, .false., 1.0e6_dp, .false.), '', of_motions, &
+      key_t('shaft', 'signal_cycles', integer_kind, '-', '', range_t(1.0_dp, .false., 1.0e6_dp, .false.), '', of_listed_motions, &
             'Cycles in the file, which are averaged; absent: as many as its axis of time or angle spans, one without it.'), &
       key_t('shaft', 'signal_kind', text_kind, '', 'angular_acceleration', any_number, &
-            'angular_acceleration angular_speed angular_speed_rpm', of_motions, &
+            'angular_acceleration angular_speed angular_speed_rpm', of_listed_motions, &
             'What the signal is: rad/s2, rad/s or 1/min; a speed is differentiated at speed_rpm.'), &
-      key_t('shaft', 'cycle_revolutions', integer_kind, '-', '2', range_t(1.0_dp, .false., 1.0e4_dp, .false.), '', of_motions, &
+      key_t('shaft', 'cycle_revolutions', integer_kind, '-', '2', range_t(1.0_dp, .false., 1.0e4_dp, .false.), '', &
+            of_listed_motions, &
             'Revolutions of the shaft in a cycle of the signal: two of a four-stroke engine.'), &
       key_t('oil', 'viscosity_40_cst', real_kind, 'mm2/s', 'required', a_data_viscosity, '', '', &
             'Kinematic viscosity at 40 degC, of the data sheet.', &
@@ -308,7 +373,11 @@ module key_table
       key_t('oil', 'pressure_viscosity', real_kind, '1/Pa', '', positive, '', '', &
             'Barus coefficient alpha; absent: that of its kind at this temperature.', &
             sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp), &
-            computable=a_pressure_viscosity) &
+            computable=a_pressure_viscosity), &
+      key_t('oil', 'volume', real_kind, 'm3', '2.0e-3', positive, '', of_computed_drag, &
+            'Volume of the oil that a gear churns.', &
+            sensible=range_t(lower=1.0e-4_dp, upper=0.1_dp), &
+            computable=range_t(1.0e-12_dp, .false., 1.0e6_dp, .false.)) &
       ]
 
    type(key_t), parameter :: keys_of_tasks(*) = [ &
@@ -387,7 +456,7 @@ module key_table
             'Cells of the finite-volume solution, an even number; its load is extrapolated from these and half of these.'), &
       key_t('sweep', 'key', text_kind, '', 'required', any_number, &
             'frequency force_amplitude steady_force entrainment_speed force_scale backlash stiffness '// &
-            'speed_rpm drag_torque temperature_celsius', &
+            'speed_rpm drag_torque drag_scale temperature_celsius', &
             'scene.task=sweep', &
             'What is swept: a key of &load or &contact, the entrainment speed; or a key of &shaft, &gear or &oil.', &
             example='frequency'), &

@@ -5,7 +5,10 @@ module keys_in_use
    implicit none(type, external)
    private
 
-   public :: in_use
+   !> How a rule begins that forbids a key
+   character(*), parameter :: without = 'without '
+
+   public :: in_use, reason_unused
 
 contains
 
@@ -14,32 +17,79 @@ contains
       type(scene_input_t), intent(in) :: input
       !> Position in the key table
       integer, intent(in) :: position
-      character(:), allocatable :: rules
-      integer :: conjunction
 
       used = .true.
       if (any(optional_groups == keys(position)%group)) used = input%has_group(trim(keys(position)%group))
       if (keys(position)%given_by /= '') used = .not. input%has_group(trim(keys(position)%given_by))
-      rules = trim(keys(position)%used_when)
-      do while (used .and. len(rules) > 0)
-         conjunction = index(rules//' & ', ' & ')
-         used = rule_holds(input, rules(:conjunction - 1))
-         rules = rules(min(len(rules), conjunction + 2) + 1:)
-      end do
+      if (used) used = broken_rule(input, position) == ''
    end function in_use
 
-   !> Whether 'group.key=word|word' holds, and the deciding key is itself in use.
+   !> What keeps a key that is given from being used by a rule of the table, and what to do.
+   pure function reason_unused(input, position) result(words)
+      type(scene_input_t), intent(in) :: input
+      !> Position in the key table
+      integer, intent(in) :: position
+      character(:), allocatable :: words
+
+      words = broken_rule(input, position)
+      if (index(words, without) == 1) then
+         words = 'it cannot stand beside '//words(len(without) + 1:)//'; leave one of the two out'
+      else
+         words = 'this key is used only with '//words//'; leave it out'
+      end if
+   end function reason_unused
+
+   !> The first rule of a key that does not hold; empty if all do.
+   pure recursive function broken_rule(input, position) result(rule)
+      type(scene_input_t), intent(in) :: input
+      !> Position in the key table
+      integer, intent(in) :: position
+      character(:), allocatable :: rule
+      character(:), allocatable :: rules
+      integer :: conjunction
+
+      rules = trim(keys(position)%used_when)
+      do while (len(rules) > 0)
+         conjunction = index(rules//' & ', ' & ')
+         rule = rules(:conjunction - 1)
+         if (.not. rule_holds(input, rule)) return
+         rules = rules(min(len(rules), conjunction + 2) + 1:)
+      end do
+      rule = ''
+   end function broken_rule
+
+   !> Whether a rule holds; a deciding word counts only where its key is itself in use.
    pure recursive logical function rule_holds(input, rule) result(holds)
       type(scene_input_t), intent(in) :: input
       character(*), intent(in) :: rule
-      integer :: dot, equals, decider
+      integer :: equals, decider, first, last
 
-      dot = index(rule, '.')
       equals = index(rule, '=')
-      decider = find_key(rule(:dot - 1), rule(dot + 1:equals - 1))
-      holds = in_use(input, decider)
-      if (.not. holds .or. .not. input%entries(decider)%present .or. input%entries(decider)%faulty) return
-      holds = index('|'//rule(equals + 1:)//'|', '|'//input%entries(decider)%word//'|') > 0
+      if (equals > 0) then
+         decider = named_key(rule(:equals - 1))
+         holds = in_use(input, decider)
+         if (.not. holds .or. .not. input%entries(decider)%present .or. input%entries(decider)%faulty) return
+         holds = index('|'//rule(equals + 1:)//'|', '|'//input%entries(decider)%word//'|') > 0
+      else if (index(rule, without) == 1) then
+         holds = .not. input%entries(named_key(rule(len(without) + 1:)))%given
+      else
+         holds = .false.
+         first = 1
+         do while (first <= len(rule))
+            last = first + index(rule(first:)//'|', '|') - 2
+            holds = holds .or. input%entries(named_key(rule(first:last)))%given
+            first = last + 2
+         end do
+      end if
    end function rule_holds
+
+   !> Position of 'group.key' in the key table.
+   pure integer function named_key(name)
+      character(*), intent(in) :: name
+      integer :: dot
+
+      dot = index(name, '.')
+      named_key = find_key(name(:dot - 1), name(dot + 1:))
+   end function named_key
 
 end module keys_in_use

@@ -23,6 +23,7 @@ module quantities
 
    enum, bind(c)
       enumerator :: quantity_status = 1, quantity_steady_film, quantity_natural_frequency, quantity_damping_ratio, &
+         quantity_drag_torque, quantity_drag_bearing, quantity_drag_synchroniser, quantity_drag_churning, quantity_inertia_ratio, &
          quantity_window_periods, quantity_samples_per_period, quantity_series_coarse, quantity_lines_by_integrals, &
          quantity_film_minimum, quantity_film_maximum, quantity_velocity_minimum, quantity_velocity_maximum, &
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
@@ -63,7 +64,7 @@ module quantities
       integer :: part
       integer :: need
       !> Where it is told, besides the words of its codes: any of summary, sweep, flanks (a sweep of scenes with a backlash),
-      !> campaign (a word of its key record), log
+      !> gears (a sweep of gears), campaign (a word of its key record), log
       character(28) :: told_in
       character(160) :: meaning
       !> Words of the codes, from the first code on, a bar between two
@@ -85,6 +86,19 @@ module quantities
          'Of small motions about the steady film, undamped; unknown where they are overdamped.'), &
       quantity_t(quantity_damping_ratio, 'damping_ratio', '-', a_number, part_scene, needs_nothing, 'summary campaign log', &
          'Of small motions about the steady film; unknown where they are overdamped.', digits=4), &
+      quantity_t(quantity_drag_torque, 'drag_torque', 'N m', a_number, part_scene, needs_nothing, 'summary gears campaign log', &
+         'Drag torque on the loose gear of &gear, as given, tabulated or computed, with its drag_scale.', digits=4), &
+      quantity_t(quantity_drag_bearing, 'drag_bearing', 'N m', a_number, part_scene, needs_nothing, 'summary gears campaign log', &
+         'Part of a computed drag_torque: the bearing; negative where the own shaft pulls the gear forward.', digits=4), &
+      quantity_t(quantity_drag_synchroniser, 'drag_synchroniser', 'N m', a_number, part_scene, needs_nothing, &
+         'summary gears campaign log', &
+         'Part of a computed drag_torque: the synchroniser; negative where the own shaft pulls the gear forward.', digits=4), &
+      quantity_t(quantity_drag_churning, 'drag_churning', 'N m', a_number, part_scene, needs_nothing, &
+         'summary gears campaign log', &
+         'Part of a computed drag_torque: the oil that the gear churns.', digits=4), &
+      quantity_t(quantity_inertia_ratio, 'inertia_ratio', '-', a_number, part_scene, needs_nothing, 'summary gears campaign log', &
+         'Lambda: largest inertia force that pulls the tooth of a loose gear off its flank over the drag that holds it there; '// &
+         'above 1 it leaves without oil.', digits=4), &
       quantity_t(quantity_window_periods, 'window_periods', '-', a_count, part_window, needs_nothing, 'summary', &
          'Periods of the force at the end of the run that are judged.'), &
       quantity_t(quantity_samples_per_period, 'samples_per_period', '-', a_count, part_window, needs_nothing, 'summary', &

@@ -4,7 +4,7 @@ module scene_checker
    use force_checker, only: check_force, check_gear, check_shaft
    use input_key, only: allowed_text, in_range, is_computable, not_computable_text, real_kind, reals_kind
    use key_table, only: find_key, find_swept_key, key_name, keys
-   use keys_in_use, only: in_use
+   use keys_in_use, only: in_use, reason_unused
    use kinds, only: dp
    use memory, only: expect_memory
    use quantities, only: a_count, a_number, quantity_code, quantity_table
@@ -121,8 +121,7 @@ contains
                                  '; leave it out', faults)
             cycle
          end if
-         call input%add_fault(trim(keys(i)%group), trim(keys(i)%name), 'this key is used only with '// &
-                              trim(keys(i)%used_when)//'; leave it out', faults)
+         call input%add_fault(trim(keys(i)%group), trim(keys(i)%name), reason_unused(input, i), faults)
       end do
    end subroutine check_used
 

@@ -14,6 +14,7 @@ module scene_reader
    use scene_input, only: new_scene_input, scene_input_t
    use scene_types, only: forced_orders, output_t, scene_t, task_campaign, task_sweep, task_threshold
    use signal_reader, only: take_signal
+   use table_reader, only: take_drag_table, take_excitation_table
    use task_reader, only: read_campaign, read_points, read_sweep, read_threshold
    use text, only: integer_text, lower, quoted
    implicit none(type, external)
@@ -79,6 +80,8 @@ contains
          allocate (scenes(i)%warnings(0))
          call take_signal(inputs(i), 'load', scenes(i)%warnings, own)
          call take_signal(inputs(i), 'shaft', scenes(i)%warnings, own)
+         call take_drag_table(inputs(i), scenes(i)%gear, own)
+         call take_excitation_table(inputs(i), scenes(i)%shaft, own)
          if (is_input) call check_together(inputs(i), own)
          call read_name(inputs(i), path, scenes(i)%name, own)
          call read_pair_name(inputs(i), scenes(:i), own)
@@ -255,7 +258,9 @@ contains
             if (input%is_given('load', 'force_phases')) excitation%force_phases = input%numbers('load', 'force_phases')
             spectrum%forced = forced_orders(excitation%force_orders, excitation%force_amplitudes)
          end if
-         if (input%has_group('shaft')) then
+         if (allocated(scene%shaft%table)) then
+            scene%shaft%orders = scene%shaft%table%orders
+         else if (input%has_group('shaft')) then
             scene%shaft%orders = input%numbers('shaft', 'orders')
             if (input%is_given('shaft', 'accelerations')) scene%shaft%accelerations = input%numbers('shaft', 'accelerations')
             if (input%is_given('shaft', 'speed_amplitudes')) &

@@ -1,11 +1,11 @@
 !> Rules between the numbers of a scene: read, swept or drawn by a campaign, they must hold.
 module scene_rules
    use kinds, only: dp
-   use scene_types, only: least_entrainment_speed, least_static_load, scene_t
+   use scene_types, only: drag_given, least_entrainment_speed, least_static_load, scene_t
    implicit none(type, external)
    private
 
-   integer, parameter, public :: sentence_length = 112
+   integer, parameter, public :: sentence_length = 160
 
    !> A rule that a scene breaks.
    type, public :: rule_t
@@ -45,7 +45,8 @@ contains
          holds(5) = .not. scene%oil%given .or. scene%oil%viscosity_100_cst < scene%oil%viscosity_40_cst
          if (scene%gear%given) then
             rules(1) = rule_t('gear.drag_torque', 'without a backlash the drag torque must be positive')
-            holds(1) = scene%gear%backlash > 0.0_dp .or. scene%gear%drag_torque > 0.0_dp
+            holds(1) = scene%gear%backlash > 0.0_dp .or. scene%gear%drag_torque > 0.0_dp &
+                       .or. scene%gear%drag_known_by() /= drag_given
             rules(2)%keys = 'film.initial_film gear.backlash'
             holds(2) = .not. (scene%gear%backlash > 0.0_dp .and. scene%film%initial_film >= scene%gear%backlash)
          end if

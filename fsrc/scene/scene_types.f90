@@ -114,6 +114,27 @@ module scene_types
       procedure :: static_load
    end type excitation_t
 
+   !> How the drag torque on a loose gear is known
+   integer, parameter, public :: drag_unknown = 0, drag_given = 1, drag_tabulated = 2, drag_computed = 3
+
+   !> A measured drag torque over speed and temperature, on a full grid
+   type, public :: drag_table_t
+      !> Ascending [1/min] and [degC]
+      real(dp), allocatable :: speeds(:), temperatures(:)
+      !> (speed, temperature) [N m]
+      real(dp), allocatable :: torques(:, :)
+   end type drag_table_t
+
+   !> The drag torque on a loose gear; positive: it holds the gear against the drive flank
+   type, public :: drag_t
+      integer :: known_by = drag_unknown
+      real(dp) :: torque = 0.0_dp
+      !> Its parts, where it is computed, which add up to it [N m]
+      real(dp) :: bearing = 0.0_dp
+      real(dp) :: synchroniser = 0.0_dp
+      real(dp) :: churning = 0.0_dp
+   end type drag_t
+
    !> &gear: a loose gear and the gear that drives it, of which the contact follows
    type, public :: gear_t
       logical :: given = .false.
@@ -131,13 +152,45 @@ module scene_types
       real(dp) :: pressure_angle_deg = 0.0_dp
       real(dp) :: helix_angle_deg = 0.0_dp
       real(dp) :: contact_lines = 1.0_dp
-      !> Inertia of the loose gear [kg m2] and drag torque on it [N m]
+      !> Tip diameters [m]; 0: not given, and contact_lines is
+      real(dp) :: tip_diameter_1 = 0.0_dp
+      real(dp) :: tip_diameter_2 = 0.0_dp
+      !> Inertia of the loose gear [kg m2] and drag torque on it [N m], of which one of three stands: the torque, a table, a bearing
       real(dp) :: loose_inertia = 0.0_dp
       real(dp) :: drag_torque = 0.0_dp
+      type(drag_table_t), allocatable :: drag_table
+      !> What multiplies a computed or tabulated drag
+      real(dp) :: drag_scale = 1.0_dp
+      !> Bearing: mean diameter [m], 0: the drag is not computed; f_0 of a needle bearing, or width and radial clearance of a
+      !> plain one [m]
+      real(dp) :: bearing_mean_diameter = 0.0_dp
+      real(dp) :: bearing_factor = 0.0_dp
+      real(dp) :: bearing_width = 0.0_dp
+      real(dp) :: bearing_clearance = 0.0_dp
+      !> Synchroniser: cones that shear, their mean diameter, width, and gap normal to the cone [m]
+      integer :: synchroniser_cones = 0
+      real(dp) :: synchroniser_diameter = 0.0_dp
+      real(dp) :: synchroniser_width = 0.0_dp
+      real(dp) :: synchroniser_gap = 0.0_dp
+      !> Depth of the lowest point of the reference circle below the oil [m]
+      real(dp) :: immersion_depth = 0.0_dp
+      !> Speed of the shaft that carries the loose gear over that of the shaft that drives it
+      real(dp) :: own_shaft_ratio = 0.0_dp
       !> Play along the normal of the flanks [m], 0: one flank; stiffness of the teeth for each width [N/m2], 0: rigid
       real(dp) :: backlash = 0.0_dp
       real(dp) :: tooth_stiffness = 0.0_dp
+   contains
+      procedure :: drag_known_by
    end type gear_t
+
+   !> A measured run-up of a shaft: amplitudes and phases of its orders over speed
+   type, public :: excitation_table_t
+      !> Ascending [1/min]
+      real(dp), allocatable :: speeds(:)
+      real(dp), allocatable :: orders(:)
+      !> (speed, order) [rad/s2] and [rad]
+      real(dp), allocatable :: accelerations(:, :), phases(:, :)
+   end type excitation_table_t
 
    !> &shaft: speed [1/min] and motion of the gear that drives, the sum of amplitude cos(2 pi order t/turn + phase)
    type, public :: shaft_t
@@ -146,6 +199,8 @@ module scene_types
       real(dp), allocatable :: orders(:), phases(:)
       !> Amplitudes of the angular acceleration [rad/s2]; or of the angular speed [rad/s], which is differentiated at speed_rpm
       real(dp), allocatable :: accelerations(:), speed_amplitudes(:)
+      !> Of which accelerations and phases follow at speed_rpm
+      type(excitation_table_t), allocatable :: table
    end type shaft_t
 
    !> Kind of base oil.
@@ -162,6 +217,8 @@ module scene_types
       integer :: base = oil_mineral
       !> Barus coefficient [1/Pa]; 0: that of its kind at this temperature
       real(dp) :: pressure_viscosity = 0.0_dp
+      !> Volume of the sump [m3]
+      real(dp) :: volume = 0.0_dp
    end type oil_t
 
    !> &film
@@ -322,6 +379,8 @@ module scene_types
       type(gear_t) :: gear
       !> All pairs of a campaign over several, of which the gear is one
       type(gear_t), allocatable :: pairs(:)
+      !> Drag torque on the loose gear, derived
+      type(drag_t) :: drag
       type(shaft_t) :: shaft
       type(oil_t) :: oil
       type(film_choice_t) :: film
@@ -440,6 +499,32 @@ contains
             gear%loose_inertia = value
          case ('gear.drag_torque')
             gear%drag_torque = value
+         case ('gear.drag_scale')
+            gear%drag_scale = value
+         case ('gear.tip_diameter_1')
+            gear%tip_diameter_1 = value
+         case ('gear.tip_diameter_2')
+            gear%tip_diameter_2 = value
+         case ('gear.bearing_mean_diameter')
+            gear%bearing_mean_diameter = value
+         case ('gear.bearing_factor')
+            gear%bearing_factor = value
+         case ('gear.bearing_width')
+            gear%bearing_width = value
+         case ('gear.bearing_clearance')
+            gear%bearing_clearance = value
+         case ('gear.synchroniser_cones')
+            gear%synchroniser_cones = nint(value)
+         case ('gear.synchroniser_diameter')
+            gear%synchroniser_diameter = value
+         case ('gear.synchroniser_width')
+            gear%synchroniser_width = value
+         case ('gear.synchroniser_gap')
+            gear%synchroniser_gap = value
+         case ('gear.immersion_depth')
+            gear%immersion_depth = value
+         case ('gear.own_shaft_ratio')
+            gear%own_shaft_ratio = value
          case ('gear.backlash')
             gear%backlash = value
          case ('gear.tooth_stiffness')
@@ -454,6 +539,8 @@ contains
             oil%density_15 = value
          case ('oil.temperature_celsius')
             oil%temperature_celsius = value
+         case ('oil.volume')
+            oil%volume = value
          case ('oil.pressure_viscosity')
             oil%pressure_viscosity = value
          case ('film.initial_film')
@@ -493,6 +580,15 @@ contains
       forced = .false.
       forced(pack(orders, orders <= highest_order .and. amplitudes >= least_share*maxval(amplitudes))) = .true.
    end function forced_orders
+
+   !> How the drag torque of a pair is known.
+   pure integer function drag_known_by(self)
+      class(gear_t), intent(in) :: self
+
+      drag_known_by = drag_given
+      if (allocated(self%drag_table)) drag_known_by = drag_tabulated
+      if (self%bearing_mean_diameter > 0.0_dp) drag_known_by = drag_computed
+   end function drag_known_by
 
    !> Stiffness of a flank whose teeth have one for each metre of their width [N/m].
    elemental real(dp) function flank_stiffness(self, tooth_stiffness)

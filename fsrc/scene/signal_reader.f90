@@ -5,8 +5,8 @@ module signal_reader
    use constants, only: two_pi
    use csv_signal, only: read_csv_signal, recording_t
    use errors, only: fault_list_t
-   use file_system, only: lies_inside
    use fourier, only: trigonometric_interpolation
+   use input_path, only: path_of_file
    use key_table, only: find_key
    use keys_in_use, only: in_use
    use kinds, only: dp
@@ -44,7 +44,7 @@ contains
       character(len(force_keys)), allocatable :: shape_keys(:), keys(:)
       type(recording_t) :: recording
       real(dp), allocatable :: samples(:), orders(:), amplitudes(:), phases(:), forces(:)
-      character(:), allocatable :: folder, path, unit, fate, what, told, amplitude_key
+      character(:), allocatable :: path, unit, fate, what, told, amplitude_key
       real(dp) :: mean, dropped, scatter
       integer :: i, before, last, cycles
 
@@ -71,13 +71,8 @@ contains
       if (group == 'shaft') input%entries([(find_key(group, trim(shape_keys(i))), i=1, 2)])%given = .true.
       if (group == 'shaft') input%entries([(find_key(group, trim(shape_keys(i))), i=1, 2)])%faulty = .true.
       if (any([(input%is_faulty(group, trim(keys(i))), i=1, size(keys))])) return
-      path = input%word(group, 'signal')
-      folder = input%file(:index(input%file, '/', back=.true.))
-      if (path(1:1) /= '/') path = folder//path
-      if (.not. lies_inside(path, folder)) then
-         call input%add_fault(group, 'signal', 'the file lies outside the folder of this input; bring it there', faults)
-         return
-      end if
+      path = path_of_file(input, group, 'signal', faults)
+      if (len(path) == 0) return
       call read_csv_signal(path, input%word(group, 'signal_column'), recording, faults)
       if (faults%count() == before) call count_cycles(input, group, path, recording, cycles, told, faults)
       ! A cycle that is not known is so by a fault of the input, which is told in its place.

@@ -148,7 +148,8 @@ contains
       end select
    end function is_allowed
 
-   !> Whether 'group.key=word[|word]', once or several times with ' & ' between, names keys and their words.
+   !> Whether the rules of a key, ' & ' between two, name keys and their words: 'group.key=word[|word]', 'group.key[|group.key]' or
+   !> 'without group.key'.
    logical function decider_exists(key) result(exists)
       type(key_t), intent(in) :: key  !> Line of the table
 
@@ -160,8 +161,19 @@ contains
       do while (len(rest) > 0)
          rule = rest(:index(rest//' & ', ' & ') - 1)
          rest = rest(min(len(rest), len(rule) + 3) + 1:)
-         dot = index(rule, '.')
          equals = index(rule, '=')
+         if (equals == 0) then
+            if (index(rule, 'without ') == 1) rule = rule(9:)
+            rule = rule//'|'
+            do while (len(rule) > 0)
+               dot = index(rule, '.')
+               bar = index(rule, '|')
+               exists = exists .and. find_key(rule(:dot - 1), rule(dot + 1:bar - 1)) > 0
+               rule = rule(bar + 1:)
+            end do
+            cycle
+         end if
+         dot = index(rule, '.')
          exists = exists .and. dot > 1 .and. equals > dot + 1
          if (.not. exists) return
          decider = find_key(rule(:dot - 1), rule(dot + 1:equals - 1))

@@ -13,6 +13,8 @@ module test_quantities
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
    use quantities, only: a_list, a_number, needs_impacts, quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
+                         quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
+                         quantity_inertia_ratio, &
                          quantity_impacts_drive, quantity_certified, quantity_gear_position_maximum, &
                          quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
                          quantity_word
@@ -82,6 +84,9 @@ contains
          else if (any(i == [quantity_gear_position_minimum, quantity_gear_position_maximum]) .and. &
                   .not. has_elastic_teeth(single%resolved%problem)) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid teeth')
+         else if (any(i == [quantity_drag_torque, quantity_drag_bearing, quantity_drag_synchroniser, quantity_drag_churning, &
+                            quantity_inertia_ratio])) then
+            call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no gear')
          else if (i == quantity_lyapunov_exponent) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of a motion that repeats')
          else

@@ -1,0 +1,298 @@
+!> &gear drag_table and &shaft table: what was measured, from CSV files. What is wrong with a file is told with its line and column.
+!> The rows stand as comments in the resolved input, where a run that is carried on finds them changed.
+module table_reader
+   use csv_table, only: csv_table_t, read_csv_table
+   use errors, only: fault_list_t
+   use input_entry, only: numbers_text
+   use input_key, only: allowed_text, in_range, is_computable, not_computable_text
+   use input_path, only: path_of_file
+   use key_table, only: find_key, keys
+   use keys_in_use, only: in_use
+   use kinds, only: dp
+   use number_text, only: read_strict_real
+   use scene_input, only: scene_input_t
+   use scene_types, only: gear_t, shaft_t
+   use text, only: integer_text, short_text
+   implicit none(type, external)
+   private
+
+   character(*), parameter :: drag_columns(3) = [character(19) :: 'speed_rpm', 'temperature_celsius', 'torque'], &
+                              drag_example = 'speed_rpm,temperature_celsius,torque', &
+                              excitation_example = 'speed_rpm,acceleration_2,phase_2'
+
+   public :: take_drag_table, take_excitation_table
+
+contains
+
+   !> Read the table of the drag, if there is one.
+   subroutine take_drag_table(input, gear, faults)
+      !> Typed values
+      type(scene_input_t), intent(inout) :: input
+      !> Gets the table
+      type(gear_t), intent(inout) :: gear
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(csv_table_t) :: csv
+      character(:), allocatable :: path
+      integer :: before, places(3), i, j, row
+      logical, allocatable :: is_known(:, :)
+
+      before = faults%count()
+      call open_table(input, 'gear', 'drag_table', drag_example, path, csv, faults)
+      if (len(path) == 0 .or. faults%count() > before) return
+      do i = 1, size(drag_columns)
+         places(i) = place_of(csv, trim(drag_columns(i)))
+         if (places(i) == 0) call faults%add(path, csv%header, '', '', 'there is no column '//trim(drag_columns(i))// &
+                                             '; the header must be '//drag_example)
+      end do
+      do i = 1, size(csv%names)
+         if (any(places == i)) cycle
+         call faults%add(path, csv%header, '', '', 'column '//integer_text(i)//': its name is none of '//drag_example// &
+                         ', or stands there twice')
+      end do
+      if (faults%count() > before) return
+      call check_column(path, csv, places(1), 'shaft', 'speed_rpm', faults)
+      call check_column(path, csv, places(2), 'oil', 'temperature_celsius', faults)
+      call check_column(path, csv, places(3), 'gear', 'drag_torque', faults)
+      if (size(csv%lines) < 2) call faults%add(path, csv%lines(1), '', '', 'a table needs two rows at least')
+      if (faults%count() > before) return
+      allocate (gear%drag_table)
+      associate (table => gear%drag_table, speeds => csv%values(:, places(1)), temperatures => csv%values(:, places(2)))
+         table%speeds = different(speeds)
+         table%temperatures = different(temperatures)
+         allocate (table%torques(size(table%speeds), size(table%temperatures)), source=0.0_dp)
+         allocate (is_known(size(table%speeds), size(table%temperatures)), source=.false.)
+         do row = 1, size(csv%lines)
+            i = count(table%speeds <= speeds(row))
+            j = count(table%temperatures <= temperatures(row))
+            if (is_known(i, j)) call faults%add(path, csv%lines(row), '', '', 'columns '//integer_text(places(1))//' and '// &
+                                                integer_text(places(2))//': a row with this speed and temperature stands above')
+            is_known(i, j) = .true.
+            table%torques(i, j) = csv%values(row, places(3))
+         end do
+         do i = 1, size(table%speeds)
+            do j = 1, size(table%temperatures)
+               if (.not. is_known(i, j)) call faults%add(path, 0, '', '', 'the grid has a hole: there is no row with '// &
+                  'speed_rpm '//short_text(table%speeds(i), 7)//' and temperature_celsius '// &
+                  short_text(table%temperatures(j), 7))
+            end do
+         end do
+      end associate
+      call tell_rows(input, 'gear.drag_table', csv)
+   end subroutine take_drag_table
+
+   !> Read the table of the motion of the shaft, if there is one.
+   subroutine take_excitation_table(input, shaft, faults)
+      !> Typed values
+      type(scene_input_t), intent(inout) :: input
+      !> Gets the table
+      type(shaft_t), intent(inout) :: shaft
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(csv_table_t) :: csv
+      character(:), allocatable :: path
+      real(dp), allocatable :: orders(:)
+      integer, allocatable :: accelerations(:), phases(:)
+      integer :: before, speed, i, row
+
+      before = faults%count()
+      call open_table(input, 'shaft', 'table', excitation_example, path, csv, faults)
+      if (len(path) == 0 .or. faults%count() > before) return
+      call sort_columns(path, csv, speed, orders, accelerations, phases, faults)
+      if (faults%count() > before) return
+      call check_column(path, csv, speed, 'shaft', 'speed_rpm', faults)
+      do i = 1, size(orders)
+         call check_column(path, csv, accelerations(i), 'shaft', 'accelerations', faults)
+         if (phases(i) > 0) call check_column(path, csv, phases(i), 'shaft', 'phases', faults)
+      end do
+      do row = 2, size(csv%lines)
+         if (csv%values(row, speed) > csv%values(row - 1, speed)) cycle
+         call faults%add(path, csv%lines(row), '', '', column_text(csv, speed)//'the speeds must ascend, and after '// &
+                         short_text(csv%values(row - 1, speed), 7)//' comes '//short_text(csv%values(row, speed), 7))
+      end do
+      if (size(csv%lines) < 2) call faults%add(path, csv%lines(1), '', '', 'a table needs two rows at least')
+      if (faults%count() > before) return
+      allocate (shaft%table)
+      shaft%table%speeds = csv%values(:, speed)
+      shaft%table%orders = orders
+      shaft%table%accelerations = csv%values(:, accelerations)
+      allocate (shaft%table%phases(size(csv%lines), size(orders)), source=0.0_dp)
+      do i = 1, size(orders)
+         if (phases(i) > 0) shaft%table%phases(:, i) = csv%values(:, phases(i))
+      end do
+      call tell_rows(input, 'shaft.table', csv)
+   end subroutine take_excitation_table
+
+   !> Which column is what: the speed, and each order with its acceleration and phase (0: it has none).
+   subroutine sort_columns(path, csv, speed, orders, accelerations, phases, faults)
+      character(*), intent(in) :: path
+      type(csv_table_t), intent(in) :: csv
+      integer, intent(out) :: speed
+      real(dp), allocatable, intent(out) :: orders(:)
+      integer, allocatable, intent(out) :: accelerations(:)
+      integer, allocatable, intent(out) :: phases(:)
+      type(fault_list_t), intent(inout) :: faults
+      character(*), parameter :: acceleration = 'acceleration_', phase = 'phase_'
+      real(dp) :: order
+      integer :: i, k
+      logical :: is_unknown
+
+      allocate (orders(0), accelerations(0), phases(0))
+      speed = place_of(csv, 'speed_rpm')
+      if (speed == 0) call faults%add(path, csv%header, '', '', 'there is no column speed_rpm; a header is '//excitation_example)
+      do i = 1, size(csv%names)
+         if (i == speed .or. index(csv%names(i)%text, phase) == 1) cycle
+         call read_order(csv%names(i)%text, acceleration, order, is_unknown)
+         if (is_unknown) then
+            call add('its name is none of speed_rpm, acceleration_O and phase_O with an order O, such as acceleration_2, or '// &
+                     'stands there twice')
+         else if (order_place() > 0) then
+            call add('the order stands there twice')
+         else
+            orders = [orders, order]
+            accelerations = [accelerations, i]
+            phases = [phases, 0]
+         end if
+      end do
+      do i = 1, size(csv%names)
+         if (index(csv%names(i)%text, phase) /= 1) cycle
+         call read_order(csv%names(i)%text, phase, order, is_unknown)
+         k = order_place()
+         if (is_unknown .or. k == 0) then
+            call add('it is a phase of an order that has no column acceleration_O')
+         else if (phases(k) > 0) then
+            call add('the phase of this order stands there twice')
+         else
+            phases(k) = i
+         end if
+      end do
+      if (size(orders) == 0) call faults%add(path, csv%header, '', '', 'there is no column of an order; a header is '// &
+                                             excitation_example)
+
+   contains
+
+      subroutine add(message)
+         character(*), intent(in) :: message
+
+         call faults%add(path, csv%header, '', '', 'column '//integer_text(i)//': '//message)
+      end subroutine add
+
+      !> Place of the order among those that are known, 0 if it is not.
+      integer function order_place()
+         do order_place = 1, size(orders)
+            if (.not. abs(orders(order_place) - order) > 0.0_dp) return
+         end do
+         order_place = 0
+      end function order_place
+
+   end subroutine sort_columns
+
+   !> The order in a name such as acceleration_2.
+   subroutine read_order(name, opening, order, is_unknown)
+      character(*), intent(in) :: name
+      !> What the name begins with
+      character(*), intent(in) :: opening
+      real(dp), intent(out) :: order
+      !> Whether it is no such name
+      logical, intent(out) :: is_unknown
+      logical :: sound
+
+      order = 0.0_dp
+      is_unknown = index(name, opening) /= 1
+      if (is_unknown) return
+      call read_strict_real(name(len(opening) + 1:), order, sound)
+      is_unknown = .not. (sound .and. is_computable(keys(find_key('shaft', 'orders')), order))
+   end subroutine read_order
+
+   !> Path and content of a table, if the input has one; an empty path if it has not, or if there is a fault.
+   subroutine open_table(input, group, name, example, path, csv, faults)
+      type(scene_input_t), intent(in) :: input
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+      character(*), intent(in) :: example
+      character(:), allocatable, intent(out) :: path
+      type(csv_table_t), intent(out) :: csv
+      type(fault_list_t), intent(inout) :: faults
+
+      path = ''
+      if (.not. input%is_given(group, name) .or. input%is_faulty(group, name)) return
+      if (.not. in_use(input, find_key(group, name))) return
+      path = path_of_file(input, group, name, faults)
+      if (len(path) > 0) call read_csv_table(path, example, csv, faults)
+   end subroutine open_table
+
+   !> All values of a column are allowed for the key whose unit they have.
+   subroutine check_column(path, csv, column, group, name, faults)
+      character(*), intent(in) :: path
+      type(csv_table_t), intent(in) :: csv
+      integer, intent(in) :: column
+      character(*), intent(in) :: group
+      character(*), intent(in) :: name
+      type(fault_list_t), intent(inout) :: faults
+      integer :: row
+
+      associate (key => keys(find_key(group, name)))
+         do row = 1, size(csv%lines)
+            associate (value => csv%values(row, column))
+               if (.not. in_range(key, value)) then
+                  call faults%add(path, csv%lines(row), '', '', column_text(csv, column)//short_text(value, 7)// &
+                                  ' is not allowed; allowed: '//allowed_text(key))
+               else if (.not. is_computable(key, value)) then
+                  call faults%add(path, csv%lines(row), '', '', column_text(csv, column)//not_computable_text(key, value))
+               end if
+            end associate
+         end do
+      end associate
+   end subroutine check_column
+
+   !> A column of a fault.
+   pure function column_text(csv, column) result(words)
+      type(csv_table_t), intent(in) :: csv
+      integer, intent(in) :: column
+      character(:), allocatable :: words
+
+      words = 'column '//integer_text(column)//' ('//csv%names(column)%text//'): '
+   end function column_text
+
+   !> First column of a name, 0 if there is none.
+   pure integer function place_of(csv, name)
+      type(csv_table_t), intent(in) :: csv
+      character(*), intent(in) :: name
+
+      do place_of = 1, size(csv%names)
+         if (csv%names(place_of)%text == name) return
+      end do
+      place_of = 0
+   end function place_of
+
+   !> The different ones of some numbers, ascending.
+   pure function different(numbers) result(ascending)
+      real(dp), intent(in) :: numbers(:)
+      real(dp), allocatable :: ascending(:)
+
+      ascending = [minval(numbers)]
+      do while (ascending(size(ascending)) < maxval(numbers))
+         ascending = [ascending, minval(numbers, mask=numbers > ascending(size(ascending)))]
+      end do
+   end function different
+
+   !> Tell the rows of a table, as comments of the resolved input.
+   subroutine tell_rows(input, key, csv)
+      type(scene_input_t), intent(inout) :: input
+      !> As group.name
+      character(*), intent(in) :: key
+      type(csv_table_t), intent(in) :: csv
+      character(:), allocatable :: names
+      integer :: i
+
+      names = ''
+      do i = 1, size(csv%names)
+         names = names//', '//csv%names(i)%text
+      end do
+      call input%tell(key//' columns = '//names(3:))
+      do i = 1, size(csv%lines)
+         call input%tell(key//' row = '//numbers_text(csv%values(i, :)))
+      end do
+   end subroutine tell_rows
+
+end module table_reader
