@@ -12,7 +12,7 @@ module table_reader
    use number_text, only: read_strict_real
    use scene_input, only: scene_input_t
    use scene_types, only: gear_t, shaft_t
-   use text, only: integer_text, short_text
+   use text, only: integer_text, real_text
    implicit none(type, external)
    private
 
@@ -73,8 +73,8 @@ contains
          do i = 1, size(table%speeds)
             do j = 1, size(table%temperatures)
                if (.not. is_known(i, j)) call faults%add(path, 0, '', '', 'the grid has a hole: there is no row with '// &
-                  'speed_rpm '//short_text(table%speeds(i), 7)//' and temperature_celsius '// &
-                  short_text(table%temperatures(j), 7))
+                  'speed_rpm '//real_text(table%speeds(i))//' and temperature_celsius '// &
+                  real_text(table%temperatures(j)))
             end do
          end do
       end associate
@@ -108,7 +108,7 @@ contains
       do row = 2, size(csv%lines)
          if (csv%values(row, speed) > csv%values(row - 1, speed)) cycle
          call faults%add(path, csv%lines(row), '', '', column_text(csv, speed)//'the speeds must ascend, and after '// &
-                         short_text(csv%values(row - 1, speed), 7)//' comes '//short_text(csv%values(row, speed), 7))
+                         real_text(csv%values(row - 1, speed), 7)//' comes '//short_text(csv%values(row, speed)))
       end do
       if (size(csv%lines) < 2) call faults%add(path, csv%lines(1), '', '', 'a table needs two rows at least')
       if (faults%count() > before) return
@@ -235,7 +235,7 @@ contains
          do row = 1, size(csv%lines)
             associate (value => csv%values(row, column))
                if (.not. in_range(key, value)) then
-                  call faults%add(path, csv%lines(row), '', '', column_text(csv, column)//short_text(value, 7)// &
+                  call faults%add(path, csv%lines(row), '', '', column_text(csv, column)//real_text(value)// &
                                   ' is not allowed; allowed: '//allowed_text(key))
                else if (.not. is_computable(key, value)) then
                   call faults%add(path, csv%lines(row), '', '', column_text(csv, column)//not_computable_text(key, value))
