@@ -108,7 +108,7 @@ contains
       do row = 2, size(csv%lines)
          if (csv%values(row, speed) > csv%values(row - 1, speed)) cycle
          call faults%add(path, csv%lines(row), '', '', column_text(csv, speed)//'the speeds must ascend, and after '// &
-                         real_text(csv%values(row - 1, speed), 7)//' comes '//short_text(csv%values(row, speed)))
+                         real_text(csv%values(row - 1, speed))//' comes '//real_text(csv%values(row, speed)))
       end do
       if (size(csv%lines) < 2) call faults%add(path, csv%lines(1), '', '', 'a table needs two rows at least')
       if (faults%count() > before) return

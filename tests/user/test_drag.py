@@ -16,7 +16,8 @@ GEAR = """&gear
    centre_distance = 0.070, loose_inertia = 8.9e-4, backlash = 9e-5, tooth_stiffness = 14e9
 """
 COMPUTED = """   bearing_mean_diameter = 0.038, immersion_depth = 0.030730400709
-   synchroniser_cones = 2, synchroniser_diameter = 0.062, synchroniser_width = 0.008, synchroniser_gap = 0.2e-3
+   synchroniser_cones = 2, synchroniser_diameter = 0.062, synchroniser_width = 0.008
+   synchroniser_gap = 0.2e-3
 """
 PLAIN = COMPUTED + "   bearing_width = 0.02, bearing_clearance = 3e-5\n"
 TABULATED = "   drag_table = 'drag.csv'\n"
@@ -114,7 +115,7 @@ def test_tables_are_followed_between_their_rows(call) -> None:
 
 
 def test_tables_as_people_write_them(call, tmp_path: Path) -> None:
-    """Columns and rows of a grid in any order, comments, quotes, ends of lines of Windows, orders of halves."""
+    """Columns and rows of a grid in any order, comments, quotes, ends of lines of Windows, halves."""
     table(
         tmp_path / "drag.csv",
         '# bench 3\r\n"torque", "speed_rpm", "temperature_celsius"',
@@ -411,7 +412,7 @@ VARIED = {
 
 @pytest.mark.parametrize("varied", VARIED)
 def test_rows_are_the_single_scenes(varied: str, call, tmp_path: Path) -> None:
-    """What follows from speed, oil and drawing is derived anew for every row; the shaft has a measured run-up."""
+    """What follows from speed, oil, drawing and a measured run-up is derived anew for every row."""
     key = varied.split()[-1]
     drag, values = VARIED[varied]
     text = scene(drag, RUN_UP)
@@ -454,8 +455,8 @@ def test_sweeps_tell_the_drag_of_each_value(
 
 
 def test_thresholds_over_the_drag_scale(call, tmp_path: Path) -> None:
-    """Lambda is 1 where the scale is Lambda of the scale 1. The film swings faster than the shaft: at the drag at which
-    its load just falls to nothing it hardly adds to the inertia."""
+    """Lambda is 1 where the scale is Lambda of the scale 1. The film swings faster than the shaft: where its
+    load just falls to nothing it hardly adds to the inertia."""
     base = scene(COMPUTED, rest="&solver until = 'steady', periods = 60 /\n&spectrum periods = 4 /\n")
     ratio = float(re.search(r"Lambda +([\d.]+)", call(base, "--check").stdout)[1])
     text = base + "&scene task = 'threshold' /\n&threshold key = 'gear.drag_scale', first = 0.5, last = 8\n"
