@@ -195,7 +195,7 @@ contains
          end_of_line// &
          'What this takes for granted: the shaft is so heavy against the loose gear that its motion is given; the '// &
          'contact stays at one'//end_of_line// &
-         'place of the line of action and has as many lines as `contact_lines` says; the drag torque is constant; '// &
+         'place of the line of action and has as many lines as `contact_lines` says; the drag is that of the mean speed; '// &
          'gravity does nothing'//end_of_line// &
          'to a gear on its bearing (`load.gravity` is 0); oil is there and as warm as `temperature_celsius`. '// &
          '`backlash` is measured along'//end_of_line// &

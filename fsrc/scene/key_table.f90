@@ -374,8 +374,8 @@ module key_table
             'Barus coefficient alpha; absent: that of its kind at this temperature.', &
             sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp), &
             computable=a_pressure_viscosity), &
-      key_t('oil', 'volume', real_kind, 'm3', '2.0e-3', positive, '', of_computed_drag, &
-            'Volume of the oil that a gear churns.', &
+      key_t('oil', 'volume', real_kind, 'm3', '2.0e-3', positive, '', of_motions, &
+            'Volume of the oil that gears churn, where a drag is computed.', &
             sensible=range_t(lower=1.0e-4_dp, upper=0.1_dp), &
             computable=range_t(1.0e-12_dp, .false., 1.0e6_dp, .false.)) &
       ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,6 +14,9 @@ from rattle.campaign_result import SCENE, Campaign
 from rattle.command import CommandError
 from rattle.namelist import parse_groups
 from rattle.outputs import Writer, text_writer
+
+# Keys that name tables in files of their own.
+TABLES = ("gear.drag_table", "shaft.table")
 
 
 def extreme_rows(campaign: Campaign, column: str, count: int, *, smallest: bool = False) -> np.ndarray:
@@ -46,11 +50,35 @@ def scene_label(campaign: Campaign, row: int) -> str:
 def inputs(
     campaign: Campaign, rows: Sequence[int], directory: Path, results: str
 ) -> list[tuple[Path, Writer]]:
-    """A file for each row that takes its input: the base scene with the values of this one, and a series."""
-    return [
-        (directory / f"{scene_label(campaign, row)}.nml", text_writer(input_text(campaign, row, results)))
-        for row in rows
-    ]
+    """A file for each row that takes its input: the base scene with the values of this one, and a series.
+
+    Tables that the base input names stand beside them.
+    """
+    files = {
+        directory / f"{scene_label(campaign, row)}.nml": input_text(campaign, row, results) for row in rows
+    }
+    for row in rows:
+        for name, text in tables(campaign, row).values():
+            files[directory / name] = text
+    return [(path, text_writer(text)) for path, text in files.items()]
+
+
+def tables(campaign: Campaign, row: int) -> dict[str, tuple[str, str]]:
+    """The tables of one scene by their keys: names of files, and what they hold.
+
+    The resolved input has their rows as comments; those of a gear pair stand behind its name.
+    """
+    text, pair = campaign.input_text, ""
+    if campaign.gears:
+        pair = campaign.gears[int(campaign[GEAR][row]) - 1]
+        text = text.partition(f"\n! gear {pair}\n")[2].partition("\n! gear ")[0]
+    found = {}
+    for key in TABLES:
+        lines = re.findall(rf"^! derived: {re.escape(key)} (?:columns|row) = (.*)$", text, re.MULTILINE)
+        if lines:
+            name = f"{campaign.name}.{pair + '.' if pair and key.startswith('gear') else ''}{key}.csv"
+            found[key] = (name, "".join(line.replace(", ", ",") + "\n" for line in lines))
+    return found
 
 
 def input_text(campaign: Campaign, row: int, results: str) -> str:
@@ -67,6 +95,9 @@ def input_text(campaign: Campaign, row: int, results: str) -> str:
         group, key = name.split(".", 1)
         groups.setdefault(group, f90nml.Namelist())
         groups[group][key] = _number(value, groups[group].get(key), name)
+    for name, (file, _) in tables(campaign, row).items():
+        group, key = name.split(".", 1)
+        groups[group][key] = file
     scene = groups.setdefault("scene", f90nml.Namelist())
     scene["name"] = scene_label(campaign, row)
     scene["task"] = "motion"

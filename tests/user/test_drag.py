@@ -10,6 +10,7 @@ import pytest
 from outcomes import summary_of
 
 import rattle as package
+from rattle import outputs, rerun
 
 GEAR = """&gear
    teeth_1 = 19, teeth_2 = 37, normal_module = 2.2e-3, helix_angle_deg = 28.0, face_width = 0.016
@@ -514,3 +515,25 @@ def test_a_force_scale_multiplies_the_run_up(call) -> None:
     assert derived(half)["load.force_amplitudes"] == whole["load.force_amplitudes"]
     ratios = [float(re.search(r"Lambda +([\d.]+)", text)[1]) for text in (half,)]
     assert ratios[0] > 0.0
+
+
+def test_single_scenes_of_a_campaign_take_their_tables_along(call, run, tmp_path: Path) -> None:
+    """Each scene again, from the result alone, in another folder: the same numbers."""
+    names = ("tabulated", "computed")
+    gears = [
+        GEAR.replace("&gear\n", f"&gear\n   name = '{name}'\n") + drag + "/\n"
+        for name, drag in zip(names, (TABULATED, COMPUTED), strict=True)
+    ]
+    plan = "&scene task = 'campaign' /\n&campaign vary = 'shaft.speed_rpm', values(:, 1) = 650, 950\n"
+    for text in (scene(TABULATED, RUN_UP), "".join(gears) + RUN_UP + REST + SHORT):
+        call(text + plan + RECORD + "/\n", "--output", "many", "--overwrite")
+        rows = package.read_campaign(tmp_path / "many" / "pair.rattle")
+        again = tmp_path / f"again{len(rows['scene'])}"
+        outputs.write(rerun.inputs(rows, range(len(rows["scene"])), again, "results"), overwrite=False)
+        for row in range(len(rows["scene"])):
+            label = rerun.scene_label(rows, row)
+            ended = run(f"{label}.nml", cwd=again)
+            assert ended.returncode == 0, ended.stderr
+            found = summary_of(again / "results" / f"{label}.summary.nml")
+            assert found["drag_torque"] == rows["drag_torque"][row]
+            assert found["inertia_ratio"] == rows["inertia_ratio"][row]
