@@ -1,7 +1,7 @@
 !> Scenes that are solved side by side: the samples of their windows, what the steps tell of them, and their classes.
 module scene_group
    use certify_scene, only: nearby_orbit
-   use engine, only: ending_t, motion_state_t, request_t
+   use engine, only: ending_t, motion_state_t, request_t, reserved_periods
    use fine_window, only: classify_window, integral_record
    use irregular_motion, only: follow_irregular
    use kinds, only: dp
@@ -56,7 +56,9 @@ contains
       integer :: samples, numbers, n, i
 
       n = size(problems)
-      samples = max(1, request%sampled_periods*request%samples_per_period)
+      samples = request%sampled_periods
+      if (request%until_steady) samples = reserved_periods(samples)
+      samples = max(1, samples*request%samples_per_period)
       numbers = maxval(state_size(problems))
       if (allocated(group%states)) then
          if (size(group%states, 1) < samples .or. size(group%states, 2) /= numbers .or. size(group%states, 3) < n) &

@@ -2,8 +2,7 @@
 module solve_chunk
    use campaign_certificate, only: certify_group, compared
    use campaign_record, only: record_row
-   use controlled_engine, only: reserved_periods
-   use engine, only: ending_t, request_t, start_of
+   use engine, only: ending_t, request_t, reserved_periods, start_of
    use judged_scene, only: judged_scene_t
    use key_table, only: find_key
    use force, only: force_of, largest_oscillation
@@ -234,7 +233,6 @@ contains
       request = engine_request(scene)
       request%samples_per_period = 1
       if (any(needed([needs_spectrum, needs_certificate]))) request%samples_per_period = scene%campaign%samples_per_period
-      if (request%until_steady) request%sampled_periods = reserved_periods(scene%spectrum%periods)
       request%forecast = request%until_steady
    end function request_of
 

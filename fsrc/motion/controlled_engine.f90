@@ -5,15 +5,15 @@
 !> orbit that it is judged by.
 module controlled_engine
    use clock, only: wall_seconds
-   use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, request_t, sample_sink_t, &
-      start_of, status_of_stop
+   use engine, only: checkpoint_t, ending_t, last_search_period, motion_state_t, motion_watcher_t, request_t, &
+      reserved_periods, sample_sink_t, start_of, status_of_stop
    use errors, only: error_t
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use many_motions, only: solve_motions
    use carried_loads, only: acceleration_at, accelerations_of_samples
    use problem, only: of_film, problem_t, state_size
-   use repetition, only: longest_orbit, orbit_watch_t
+   use repetition, only: orbit_watch_t
    use scene_status, only: is_success, status_complete, status_interrupted, status_steady
    use window_record, only: window_record_t
    implicit none(type, external)
@@ -24,7 +24,7 @@ module controlled_engine
    !> Periods of a block without samples.
    integer, parameter :: block_periods = 256
 
-   public :: solve_controlled, solve_window, find_steady_motion, last_search_period, reserved_periods
+   public :: solve_controlled, solve_window, find_steady_motion
 
 contains
 
@@ -77,24 +77,6 @@ contains
       call solve_blocks(problem, request, here, started, periods, window, sink, watcher, checkpoint, ending, record, error)
       if (ending%orbit > 0 .and. ending%status == status_complete) ending%status = status_steady
    end subroutine solve_controlled
-
-   !> Last period of a run until steady after which it may be found that the motion repeats: the longest orbit and
-   !> the window have to follow.
-   pure integer function last_search_period(periods, window)
-      !> Most periods, and periods of the window at their end
-      integer, intent(in) :: periods
-      integer, intent(in) :: window
-
-      last_search_period = periods - reserved_periods(window) - 1
-   end function last_search_period
-
-   !> Periods at the end of a run until steady of which each may belong to the window.
-   pure integer function reserved_periods(window)
-      !> Periods of the window
-      integer, intent(in) :: window
-
-      reserved_periods = max(window, longest_orbit)
-   end function reserved_periods
 
    !> States and accelerations of the last periods of a motion, what its steps tell, and how it ended.
    subroutine solve_window(problem, start, accuracy, samples_per_period, periods, window, states, values, ending, record, &
@@ -153,8 +135,8 @@ contains
       real(dp), allocatable :: unused(:, :, :)
 
       request = request_t(accuracy=accuracy, periods=periods, until_steady=.true., samples_per_period=1, &
-                          sampled_periods=reserved_periods(window))
-      allocate (unused(request%sampled_periods, state_size(problem), 1), source=0.0_dp)
+                          sampled_periods=window)
+      allocate (unused(reserved_periods(window), state_size(problem), 1), source=0.0_dp)
       call solve_motions([problem], [start], request, unused, endings)
       found = endings(1)
    end subroutine find_steady_motion
@@ -238,12 +220,13 @@ contains
             block_request%periods = min(sampled_from, here%periods + block_periods)
             call solve_motions([problem], [here], block_request, none, endings)
          else
-            last = min(periods, here%periods + sampled_block(request))
-            ! A block ends where the window begins: from there the run can be carried on, and its steps are recorded.
+            ! A block ends where the window begins: from there the run can be carried on. The window is one block, as it is for
+            ! motions side by side, so that its record counts as many returns.
             if (here%periods < periods - window) then
-               call solve_sampled(problem, request, here, min(last, periods - window), sink, endings(1), error=error)
+               last = min(periods - window, here%periods + sampled_block(request))
+               call solve_sampled(problem, request, here, last, sink, endings(1), error=error)
             else
-               call solve_sampled(problem, request, here, last, sink, endings(1), records, error)
+               call solve_sampled(problem, request, here, periods, sink, endings(1), records, error)
             end if
          end if
          if (allocated(error)) return

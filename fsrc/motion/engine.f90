@@ -6,7 +6,7 @@ module engine
    use kinds, only: dp, int64
    use carried_loads, only: initial_state
    use problem, only: problem_t
-   use repetition, only: orbit_watch_t
+   use repetition, only: longest_orbit, orbit_watch_t
    use scene_status, only: status_complete, status_interrupted, status_time_limit
    use signals, only: caught_signal
    implicit none(type, external)
@@ -20,7 +20,7 @@ module engine
       integer :: periods = 0
       !> Samples of a period, at phases 1/n, 2/n, ... 1: Newmark's steps
       integer :: samples_per_period = 0
-      !> Periods sampled, the last ones, or one orbit of a motion found steady; 0: no samples
+      !> Periods sampled, the last ones, or one orbit of a motion found steady, however long; 0: no samples
       integer :: sampled_periods = 0
       !> Stop when the motion is known to repeat
       logical :: until_steady = .false.
@@ -145,7 +145,7 @@ module engine
       end subroutine watch_period
    end interface
 
-   public :: start_of, status_of_stop
+   public :: start_of, status_of_stop, last_search_period, reserved_periods
 
 contains
 
@@ -155,6 +155,24 @@ contains
 
       start_of = motion_state_t(numbers=initial_state(problem))
    end function start_of
+
+   !> Last period of a run until steady after which it may be found that the motion repeats: the longest orbit and
+   !> the window have to follow.
+   pure integer function last_search_period(periods, window)
+      !> Most periods, and periods of the window at their end
+      integer, intent(in) :: periods
+      integer, intent(in) :: window
+
+      last_search_period = periods - reserved_periods(window) - 1
+   end function last_search_period
+
+   !> Periods at the end of a run until steady of which each may belong to the window.
+   pure integer function reserved_periods(window)
+      !> Periods of the window
+      integer, intent(in) :: window
+
+      reserved_periods = max(window, longest_orbit)
+   end function reserved_periods
 
    !> Whether a motion may go on, status_complete, or must stop between two periods and why.
    integer function status_of_stop(request, started) result(status)

@@ -115,6 +115,11 @@ contains
 
       start_status = status_film_lost
       if (.not. all(ieee_is_finite(start%numbers))) return
+      if (.not. abs(start%numbers(of_film)) > 0.0_dp) then
+         ! Without a film to start from there never was one to lose.
+         start_status = problem%film%status_without_load
+         return
+      end if
       if (has_elastic_teeth(problem)) then
          if (start%numbers(of_film) <= 0.0_dp) return
          start_status = merge(status_complete, status_overflow, &

@@ -21,7 +21,7 @@ module lane_integration
    use lane_state, only: place_state, scaled_state, state_of_lane, thinner_scaled_film
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
    use problem, only: has_elastic_teeth, of_velocity, problem_t
-   use repetition, only: orbit_watch_t, watch_from
+   use repetition, only: orbit_watch_t, recurrence_t, watch_from
    use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
    use step_nodes, only: take_nodes
@@ -168,6 +168,8 @@ contains
       type(motion_state_t) :: start
 
       call begin_samples(run%samples, lane)
+      ! So the returns of a window are found after as many of its periods, whatever came before.
+      if (run%watches(lane)%period == run%watches(lane)%sample_from) run%watches(lane)%past = recurrence_t()
       if (.not. present(records)) return
       associate (record => records(run%watches(lane)%scene))
          if (record%periods > 0) return

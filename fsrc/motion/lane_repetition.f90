@@ -12,9 +12,9 @@
 !> the unit circle, the same in two successive estimates, and a place that is near. So a motion that leaves an unstable one
 !> is not led back to it.
 module lane_repetition
-   use engine, only: request_t
+   use engine, only: last_search_period, request_t
    use kinds, only: dp, int64
-   use lane_run, only: departure_t, lane_run_t
+   use lane_run, only: departure_t, lane_run_t, lane_watch_t
    use lane_sampling, only: repeat_samples
    use lane_state, only: films_of_lane, place_state, thinner_scaled_film
    use problem, only: films_at_rest, has_elastic_teeth, of_film, of_velocity, problem_t, settling_of, settling_t, state_size, &
@@ -62,8 +62,7 @@ contains
       integer :: orbit
 
       associate (watch => run%watches(lane), block => run%block)
-         ! A run without samples is one to be carried on: there the last state counts like the others.
-         if (request%until_steady .and. (watch%period < watch%sample_from .or. request%sampled_periods == 0)) then
+         if (is_searching(watch, request)) then
             weight = momentum_weight(thinner_scaled_film(watch%state, lane, block), block%damping_rate(lane), block%force(lane))
             weights = 1.0_dp
             weights(of_velocity) = weight
@@ -74,15 +73,26 @@ contains
                watch%ending%distance = distance
                watch%ending%status = status_steady
                watch%sample_from = watch%period
-               watch%last_period = watch%period + min(orbit, request%sampled_periods)
+               watch%last_period = watch%period + merge(orbit, 0, request%sampled_periods > 0)
             else if (request%forecast .and. .not. run%elastic) then
-               call look_ahead(weight, lane, run)
+               call look_ahead(weight, lane, last_search_period(request%periods, request%sampled_periods), run)
             end if
-         else if (.not. (request%until_steady .or. request%every_period)) then
+         else if (.not. request%every_period) then
             call skip_returns(lane, states, run)
          end if
       end associate
    end subroutine find_repetition
+
+   !> Whether it is still to be found that a motion repeats. A run without samples is one to be carried on: there the last state
+   !> counts like the others.
+   pure logical function is_searching(watch, request)
+      type(lane_watch_t), intent(in) :: watch
+      type(request_t), intent(in) :: request
+
+      is_searching = request%until_steady .and. watch%ending%orbit == 0
+      if (request%sampled_periods > 0) is_searching = &
+         is_searching .and. watch%period <= last_search_period(request%periods, request%sampled_periods)
+   end function is_searching
 
    !> How the film of a lane settles from where it is.
    pure type(settling_t) function settling_of_lane(lane, problem, run)
@@ -113,8 +123,8 @@ contains
       integer :: cycle_periods, cycles
 
       associate (watch => run%watches(lane))
-         call look_back(watch%past, watch%period, watch%state, watch%ending%count%steps, &
-                        cycle_periods, cycle_steps)
+         call look_back(watch%past, merge(watch%period - watch%sample_from, watch%period, watch%period > watch%sample_from), &
+                        watch%state, watch%ending%count%steps, cycle_periods, cycle_steps)
          if (cycle_periods == 0) return
          cycles = 0
          if (watch%period < watch%sample_from) then
@@ -126,17 +136,19 @@ contains
          if (cycles == 0) return
          watch%period = watch%period + cycles*cycle_periods
          watch%ending%count%steps = watch%ending%count%steps + int(cycles, int64)*cycle_steps
-         watch%past = recurrence_t()
+         if (watch%period < watch%sample_from) watch%past = recurrence_t()
       end associate
    end subroutine skip_returns
 
    !> Jump to where the motion is forecast to settle, or restore the saved state if the jump failed. So a motion that does not
    !> repeat is the one that follows from its start, to the last bit.
-   pure subroutine look_ahead(weight, lane, run)
+   pure subroutine look_ahead(weight, lane, last, run)
       !> Film that a momentum of one counts as [-]
       real(dp), intent(in) :: weight
       !> Lane
       integer, intent(in) :: lane
+      !> Last period after which repetition may be found
+      integer, intent(in) :: last
       type(lane_run_t), intent(inout) :: run
       real(dp) :: rest(2)
       real(dp), allocatable :: state(:)
@@ -150,7 +162,7 @@ contains
          orbit = 0
          if (watch%forecasts < most_forecasts) call forecast_rest(watch%states, weight, run%block%backlash(lane), orbit, rest)
          back_at = watch%period + excursion_once + excursion_per_period*orbit
-         if (orbit > 0 .and. back_at < watch%sample_from) then
+         if (orbit > 0 .and. back_at <= last) then
             if (watch%departure%period == 0) then
                watch%excursions = watch%excursions + 1
                watch%departure = departure_t(watch%period, watch%state, watch%states)

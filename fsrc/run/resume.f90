@@ -5,8 +5,7 @@
 !> which the longer run would still look for repetition, with all that the search looks back on; once the motion is
 !> known to repeat, the state at the start of the one orbit that it is judged by.
 module resume
-   use controlled_engine, only: last_search_period
-   use engine, only: checkpoint_t
+   use engine, only: checkpoint_t, last_search_period
    use earlier_files, only: begin_anew, check_earlier_result, check_lone_summary, open_earlier
    use errors, only: error_t, exit_bad_input, raise
    use file_system, only: file_state_t, state_of_path

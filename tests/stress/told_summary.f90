@@ -2,7 +2,7 @@
 !> value of a sweep, without their files. The only file of this study that knows how the program does that.
 module told_summary
    use certificate, only: certificate_word
-   use controlled_engine, only: reserved_periods, solve_controlled
+   use controlled_engine, only: solve_controlled
    use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, request_t, start_of
    use errors, only: error_t
    use impact_reference, only: compared_harmonics
@@ -198,7 +198,6 @@ contains
             told(i)%orbit = nint(row(10))
             told(i)%periods = nint(row(11))
             told(i)%window = scene%spectrum%periods
-            if (scene%solver%until == until_steady) told(i)%window = reserved_periods(scene%spectrum%periods)
             ! A motion that was found to repeat while it was followed is judged by one orbit, others by the whole window.
             if (told(i)%orbit > 0 .and. nint(row(1)) == status_steady) told(i)%window = told(i)%orbit
             told(i)%certificate_asked = certified

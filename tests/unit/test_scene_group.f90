@@ -2,7 +2,6 @@
 module test_scene_group
    use canonical_scenes, only: canonical_scene, loose_gear
    use checks, only: check_list_t, same_bits
-   use controlled_engine, only: reserved_periods
    use engine, only: request_t, start_of
    use kinds, only: dp
    use node_extremes, only: seen_quantities
@@ -33,7 +32,7 @@ contains
       integer, intent(in) :: periods
       type(request_t) :: request
 
-      request = request_t(accuracy=1.0e-6_dp, periods=periods, samples_per_period=16, sampled_periods=reserved_periods(16), &
+      request = request_t(accuracy=1.0e-6_dp, periods=periods, samples_per_period=16, sampled_periods=16, &
                           until_steady=.true.)
    end function request_of
 
