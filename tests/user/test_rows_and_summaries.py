@@ -27,7 +27,7 @@ QUANTITIES = (
 
 @pytest.mark.parametrize(("until", "periods"), [("steady", 10), ("periods", 60)])
 def test_windows_are_the_same(until: str, periods: int, run, scene_text, tmp_path: Path) -> None:
-    """Of motions that have not settled, and of those that return to the last bit: as many periods, the same ones."""
+    """Of motions that have not settled, and of those that return to the last bit: the same periods."""
     forces = (5.0, 100.0, 205.7, 300.0)
     solver = {
         "method": None,
