@@ -168,7 +168,9 @@ contains
          call solve_motions([problem], [here], block_request, none, endings, watches)
          ! Where the search ends is known only now: samples, if wanted, are made by solving the block again.
          if (request%all_samples) then
-            call solve_sampled(problem, request, here, endings(1)%periods, sink, sampled, error=error)
+            call solve_sampled(problem, request, here, endings(1)%periods + merge(0, 1, can_go_on(endings(1)%status) .or. &
+                                                                                  is_success(endings(1)%status)), &
+                               sink, sampled, error=error)
             if (allocated(error)) return
             if (sampled%status == status_interrupted) then
                ! Samples are lacking: the run is carried on from the start of the block.
@@ -258,7 +260,8 @@ contains
       sampled_block = max(1, block_samples/request%samples_per_period)
    end function sampled_block
 
-   !> Solve the periods of a block, from where the motion stands, and hand over their samples.
+   !> Solve the periods of a block, from where the motion stands, and hand over their samples; of a period in which the motion fails
+   !> those before.
    subroutine solve_sampled(problem, request, here, last, sink, found, records, error)
       type(problem_t), intent(in) :: problem
       type(request_t), intent(in) :: request
@@ -273,7 +276,7 @@ contains
       type(request_t) :: block_request
       type(ending_t) :: endings(1)
       real(dp), allocatable :: states(:, :, :), values(:), force(:)
-      integer :: samples, period, first_sample, last_sample
+      integer :: samples, first, last_of_period, last_sample
 
       samples = request%samples_per_period
       block_request = request_t(accuracy=request%accuracy, samples_per_period=samples, periods=last, &
@@ -283,14 +286,12 @@ contains
       call force_of_period(problem%force, force)
       call solve_motions([problem], [here], block_request, states, endings, records=records)
       found = endings(1)
-      call accelerations_of_samples(problem, samples, states(:found%samples, :, 1), &
-                                    values(:found%samples))
-      do period = 1, found%samples/samples
-         first_sample = (period - 1)*samples + 1
-         last_sample = period*samples
-         call sink%take(int(here%periods + period - 1, int64)*int(samples, int64) + 1_int64, force, &
-                        states(first_sample:last_sample, :, 1), &
-                        values(first_sample:last_sample), error)
+      last_sample = found%samples + found%samples_of_failure
+      call accelerations_of_samples(problem, samples, states(:last_sample, :, 1), values(:last_sample))
+      do first = 1, last_sample, samples
+         last_of_period = min(first + samples - 1, last_sample)
+         call sink%take(int(here%periods, int64)*int(samples, int64) + int(first, int64), force(:last_of_period - first + 1), &
+                        states(first:last_of_period, :, 1), values(first:last_of_period), error)
          if (allocated(error)) return
       end do
    end subroutine solve_sampled
@@ -312,6 +313,7 @@ contains
       ending%motion_state_t = found%motion_state_t
       ending%status = merge(status_complete, found%status, is_success(found%status))
       ending%time = found%time
+      ending%film = found%film
       ending%count%evaluations = ending%count%evaluations + found%count%steps
       ending%count%steps = ending%count%evaluations
    end subroutine record_block

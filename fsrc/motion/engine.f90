@@ -70,14 +70,14 @@ module engine
    type, extends(motion_state_t), public :: ending_t
       !> Status of scene_status
       integer :: status = status_complete
-      !> Time reached, within a period too where the motion failed [s]
-      real(dp) :: time = 0.0_dp
+      !> Time reached, within a period too where the motion failed [s], and the film there [m]
+      real(dp) :: time = 0.0_dp, film = 0.0_dp
       !> Periods after which a steady motion repeats, else 0
       integer :: orbit = 0
       !> Bound of the relative distance of the film from the motion that repeats [-]
       real(dp) :: distance = 0.0_dp
-      !> Samples written
-      integer :: samples = 0
+      !> Samples written: of whole periods, and of the one in which the motion failed
+      integer :: samples = 0, samples_of_failure = 0
       type(motion_count_t) :: count = motion_count_t()
    end type ending_t
 

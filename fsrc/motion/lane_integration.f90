@@ -20,9 +20,9 @@ module lane_integration
    use lane_run, only: lane_run_t, lane_watch_t
    use lane_state, only: place_state, scaled_state, state_of_lane, thinner_scaled_film
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
-   use problem, only: has_elastic_teeth, of_velocity, problem_t
+   use problem, only: has_elastic_teeth, of_film, of_velocity, problem_t
    use repetition, only: orbit_watch_t, recurrence_t, watch_from
-   use scene_status, only: status_complete, status_film_lost, status_interrupted, status_not_converged
+   use scene_status, only: is_success, status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
    use step_nodes, only: take_nodes
    use window_record, only: record_period, start_record, window_record_t
@@ -237,8 +237,10 @@ contains
             watch%ending%status = status_film_lost
          if (block%no_load(lane)) watch%ending%status = run%films(lane)%status_without_load
          watch%phase = block%phase(lane)
+         watch%film = block%film(lane, 0)*block%film_scale(lane)
          watch%ending%count%steps = watch%ending%count%steps + nint(block%period_steps(lane), int64)
-         ! Samples of the period that was not finished do not count.
+         ! The motion is carried on, by other steps, from the start of the period that was not finished.
+         watch%ending%samples_of_failure = run%samples%written(lane) - samples_before(watch, run%samples)
          run%samples%written(lane) = samples_before(watch, run%samples)
          run%nodes(lane)%pieces = 0
          call place_state(watch%state, lane, block)
@@ -283,6 +285,7 @@ contains
       type(motion_count_t), intent(in) :: count
 
       ending%motion_state_t = start
+      if (allocated(start%numbers)) ending%film = start%numbers(of_film)
       ending%status = status
       ending%implicit = implicit
       ending%count = count
@@ -303,6 +306,8 @@ contains
          ending%periods = run%watches(lane)%period
          ending%implicit = .not. run%by_series
          ending%time = (real(ending%periods, dp) + run%watches(lane)%phase)/problems(run%watches(lane)%scene)%frequency
+         ending%film = ending%numbers(of_film)
+         if (.not. is_success(ending%status) .and. ending%status /= status_interrupted) ending%film = run%watches(lane)%film
          ending%samples = run%samples%written(lane)
          endings(run%watches(lane)%scene) = ending
       end associate

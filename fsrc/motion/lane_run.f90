@@ -35,8 +35,8 @@ module lane_run
       !> Excursion under way, the period at which it has failed, its forecasts, and excursions made
       type(departure_t) :: departure = departure_t()
       integer :: back_at = 0, forecasts = 0, excursions = 0
-      !> Phase in the period that was not finished, of a motion that failed [periods]
-      real(dp) :: phase = 0.0_dp
+      !> Phase in the period that was not finished, of a motion that failed [periods], and the film there [m]
+      real(dp) :: phase = 0.0_dp, film = 0.0_dp
       type(ending_t) :: ending = ending_t()
    end type lane_watch_t
 

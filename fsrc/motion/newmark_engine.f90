@@ -72,6 +72,7 @@ contains
       else
          call start_motion(kernel, problem, state, ending%count, ending%status)
          ending%numbers(of_film) = state%film
+         ending%film = state%film
          if (ending%status /= status_complete) return
          call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], &
                         reshape([state%film, state%velocity], [1, 2]), [state%acceleration], error)
@@ -97,6 +98,7 @@ contains
          call sink%take(first_step, force(:done), states_of_steps(:done, :), accelerations(:done), error)
          ending%numbers(of_film) = state%film
          ending%numbers(of_velocity) = state%velocity
+         ending%film = state%film
          ending%time = real(first_step + int(done - 1, int64), dp)/(problem%frequency*real(steps, dp))
          if (allocated(error) .or. ending%status /= status_complete) return
          ending%periods = period

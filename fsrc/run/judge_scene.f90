@@ -10,7 +10,7 @@ module judge_scene
    use loudness, only: loudness_of_record, loudness_of_samples
    use node_extremes, only: seen_pressure
    use carried_loads, only: thinnest_film
-   use problem, only: of_film, of_velocity, problem_t
+   use problem, only: of_velocity, problem_t
    use rattle_class, only: note_orbit, rattle_verdict_t
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
@@ -34,7 +34,7 @@ contains
 
       judged%status = ending%status
       judged%time = ending%time
-      if (allocated(ending%numbers)) judged%film = ending%numbers(of_film)
+      judged%film = ending%film
       judged%periods = ending%periods
       judged%repeats_after = ending%orbit
       judged%count = ending%count
