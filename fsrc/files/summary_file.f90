@@ -21,7 +21,7 @@ module summary_file
       private
       character(:), allocatable :: body
    contains
-      generic :: add => add_real, add_reals, add_integer, add_long, add_logical, add_text
+      generic :: add => add_real, add_reals, add_integer, add_long, add_logical, add_text, add_texts
       procedure :: next_group
       procedure :: write => write_summary
       procedure :: write_beside
@@ -31,6 +31,7 @@ module summary_file
       procedure, private :: add_long
       procedure, private :: add_logical
       procedure, private :: add_text
+      procedure, private :: add_texts
       procedure, private :: add_line
    end type summary_t
 
@@ -102,6 +103,23 @@ contains
 
       call self%add_line(name, quoted(value))
    end subroutine add_text
+
+   !> Add a list of texts, one to a line.
+   subroutine add_texts(self, name, values)
+      class(summary_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      !> Values, none: the key is left out
+      type(word_t), intent(in) :: values(:)
+      character(:), allocatable :: text
+      integer :: i
+
+      if (size(values) == 0) return
+      text = quoted(values(1)%text)
+      do i = 2, size(values)
+         text = text//','//new_line('a')//repeat(' ', 6)//quoted(values(i)%text)
+      end do
+      call self%add_line(name, text)
+   end subroutine add_texts
 
    subroutine add_line(self, name, value)
       class(summary_t), intent(inout) :: self

@@ -12,6 +12,7 @@ module gearbox_table
    use quantities, only: a_code, a_flag, quantity_acceleration_maximum, quantity_acceleration_minimum, &
                          quantity_acceleration_rms, quantity_certified, quantity_dissipated_power, quantity_double_sided, &
                          quantity_film_force_rms, quantity_film_minimum, quantity_rattle_class, quantity_table, quantity_word
+   use scene_report, only: acceleration_words
    use scene_status, only: is_success, status_complete, status_interrupted, status_name
    use scene_types, only: scene_t
    use summary_file, only: checksum_in_summary, read_from_summary, summary_t
@@ -117,7 +118,7 @@ contains
       if (allocated(error)) return
       call log%line(log_magic//program_version//', gearbox '//trim(gearbox%name)//': '//counted(pairs, 'pair'))
       sums = together(pairs, rows)
-      call report_rows(log, rows, sums)
+      call report_rows(log, gearbox, rows, sums)
       call summary%add('name', trim(gearbox%name))
       call summary%add('program_version', program_version)
       call summary%add('status', status_name(merge(status_interrupted, status_complete, size(rows) < pairs .or. &
@@ -186,8 +187,9 @@ contains
    end function together
 
    !> A line for each pair, and what all do together.
-   subroutine report_rows(log, rows, sums)
+   subroutine report_rows(log, gearbox, rows, sums)
       type(log_t), intent(in) :: log
+      type(scene_t), intent(in) :: gearbox
       type(pair_row_t), intent(in) :: rows(:)
       type(together_t), intent(in) :: sums
       character(:), allocatable :: class
@@ -215,6 +217,7 @@ contains
                     number_cell(sums%power))
       call log%line('  '//cell('together, in phase', width + 73)//number_cell(sums%force_in_phase))
       call log%line('  '//sums%words)
+      call log%line('  peak and rms of the acceleration'//acceleration_words(gearbox))
    end subroutine report_rows
 
    !> Words with blanks behind them up to a width; one at least.

@@ -23,7 +23,7 @@ module scene_report
    implicit none(type, external)
    private
 
-   public :: report_head, report_start, report_ending, law_sentence, resolved_lines, speed_meaning
+   public :: acceleration_words, report_head, report_start, report_ending, law_sentence, resolved_lines, speed_meaning
 
 contains
 
@@ -116,6 +116,16 @@ contains
          sentence = law_words(scene%film)
       end if
    end function law_sentence
+
+   !> What the acceleration of a gear pair is, behind a number; empty without a pair.
+   pure function acceleration_words(scene) result(words)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: words
+
+      words = ''
+      if (scene%gear%given) words = ' relative to the shaft, along the line of action'
+   end function acceleration_words
 
    !> Which u the formulas of a scene take.
    pure function speed_meaning(scene) result(words)
@@ -228,6 +238,7 @@ contains
       type(judged_scene_t), intent(in) :: judged
       !> Wall time of its solution [s]
       real(dp), intent(in) :: solve_seconds
+      character(:), allocatable :: film
       real(dp) :: passes
       integer :: part
 
@@ -236,9 +247,12 @@ contains
       call log%line('  '//integer_text(judged%count%steps)//' steps in '//short_text(solve_seconds, 3)//' s, '// &
                     short_text(passes, 3)//' passes a step, '//integer_text(judged%count%cuts)// &
                     ' steps cut where the film law had no value')
-      if (.not. is_success(judged%status)) call log%line('  '//status_name(judged%status)//' at t = '// &
-                           short_text(judged%time, 6)//' s, film '//micrometres(judged%film)//' um: '// &
-                                                                status_sentence(judged%status))
+      if (.not. is_success(judged%status)) then
+         film = ', without a film to start from'
+         if (judged%film > 0.0_dp) film = ', film '//micrometres(judged%film)//' um'
+         call log%line('  '//status_name(judged%status)//' at t = '//short_text(judged%time, 6)//' s'//film//': '// &
+                       status_sentence(judged%status))
+      end if
       if (judged%judged) call report_window(log, scene, judged)
       do part = part_window, part_cost
          call report_part(log, judged, part)
@@ -258,7 +272,7 @@ contains
       associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
          call log%line('  film '//micrometres(lowest(seen_film)%value)//' to '//micrometres(highest(seen_film)%value)// &
                        ' um, acceleration '//short_text(lowest(seen_acceleration)%value, 5)//' to '// &
-                       short_text(highest(seen_acceleration)%value, 5)//' m/s2')
+                       short_text(highest(seen_acceleration)%value, 5)//' m/s2'//acceleration_words(scene))
       end associate
       associate (rattle => judged%rattle, lines => judged%rattle%lines)
          if (lines%moving) then

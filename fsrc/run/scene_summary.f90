@@ -10,7 +10,7 @@ module scene_summary
                          part_scene, part_window, quantity_film_regime, quantity_law_contradicted, quantity_orbit_period, &
                          quantity_t, quantity_table, quantity_word
    use result_checksum, only: checksum_of_new_result
-   use scene_report, only: speed_meaning
+   use scene_report, only: acceleration_words, speed_meaning
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_not_written, status_sentence
    use scene_types, only: scene_t
    use summary_file, only: summary_t
@@ -45,6 +45,7 @@ contains
       call summary%add('model', choice_word('film', 'model', scene%film%model))
       call summary%add('speed_used', judged%resolved%problem%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))
+      if (scene%gear%given) call summary%add('acceleration_meaning', adjustl(acceleration_words(scene)))
       call add_derived(summary, scene)
       call add_part(summary, judged, part_scene)
       if (judged%judged) then
@@ -145,6 +146,7 @@ contains
       call summary%add('status', status_name(status))
       if (present(time)) call summary%add('status_time', time)
       call summary%add('status_text', status_sentence(status))
+      if (allocated(scene%warnings)) call summary%add('input_warnings', scene%warnings)
    end subroutine add_head
 
    !> The checksums by which a reader knows the results that a summary belongs to: the first is that of NAME.rattle, 0 where the

@@ -4,6 +4,7 @@ module input_entry
    use input_key, only: allowed_text, in_range, integer_kind, is_list, key_t, list_kind, logical_kind, path_limit, &
                         real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
+   use mistaken_units, only: meant_behind
    use namelist_scanner, only: value_t
    use namelist_text, only: assignment_t
    use number_text, only: read_strict_integer, read_strict_real
@@ -273,6 +274,7 @@ contains
          allowed = allowed//' of at most '//integer_text(path_limit)//' characters'
       if (key%kind == text_kind .and. key%choices /= '' .and. key%default /= '') &
          allowed = allowed//"; without this key: '"//trim(key%default)//"'"
+      if (any(key%kind == [real_kind, reals_kind]) .and. .not. value%quoted) allowed = allowed//meant_behind(key, entry%number)
       call faults%add(entry%file, entry%line, trim(key%group), trim(key%name), &
                       shown(value)//' is not allowed; allowed: '//allowed)
    end subroutine read_value

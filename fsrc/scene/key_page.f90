@@ -198,6 +198,8 @@ contains
          'place of the line of action and has as many lines as `contact_lines` says; the drag is that of the mean speed; '// &
          'gravity does nothing'//end_of_line// &
          'to a gear on its bearing (`load.gravity` is 0); oil is there and as warm as `temperature_celsius`. '// &
+         'Every acceleration'//end_of_line// &
+         'that is told is that of the loose gear relative to the shaft, along the line of action. '// &
          '`backlash` is measured along'//end_of_line// &
          'the normal of the flanks: circumferential backlash at the reference circle times cos(alpha_t) '// &
          'cos(beta_b). A cycle that was '// &

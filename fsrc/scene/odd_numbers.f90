@@ -1,16 +1,20 @@
-!> Numbers that the keys allow and no engineer can mean, millimetres typed for metres: a line each, with the place.
+!> Numbers that the keys allow and no engineer can mean, millimetres typed for metres: a line each, with the place, and what they
+!> would be in the unit that was surely meant (module mistaken_units).
 module odd_numbers
+   use constants, only: two_pi
    use input_entry, only: entry_t
-   use input_key, only: is_sensible, real_kind, sensible_text
+   use input_key, only: real_kind, reals_kind
    use key_table, only: find_key, find_swept_key, keys
    use kinds, only: dp
+   use mistaken_units, only: acceleration_meant, is_odd, meant_behind, odd_words, speed_meant
    use scene_input, only: scene_input_t
-   use text, only: integer_text, printable, real_text
+   use scene_types, only: shaft_t
+   use text, only: integer_text, printable, real_text, short_text
    use word_list, only: split_words, word_t
    implicit none(type, external)
    private
 
-   public :: odd_numbers_of_input, odd_numbers_of_list
+   public :: odd_numbers_of_input, odd_numbers_of_list, odd_swings
 
 contains
 
@@ -24,8 +28,11 @@ contains
 
       allocate (lines(0))
       do i = 1, size(keys)
-         if (keys(i)%kind == real_kind .and. input%entries(i)%given) &
-            call add_odd(input%entries(i), '&'//trim(keys(i)%group)//' '//trim(keys(i)%name), i, input%entries(i)%number, '', lines)
+         associate (entry => input%entries(i), what => '&'//trim(keys(i)%group)//' '//trim(keys(i)%name))
+            if (.not. entry%given) cycle
+            if (keys(i)%kind == real_kind) call add_odd(entry, what, i, entry%number, '', lines)
+            if (keys(i)%kind == reals_kind) lines = [lines, odd_numbers_of_list(place_of(entry), what, i, entry%numbers)]
+         end associate
       end do
       task = input%word('scene', 'task')
       if (task == 'sweep' .or. task == 'threshold') call add_ends(input, task, lines)
@@ -98,10 +105,9 @@ contains
       character(*), intent(in) :: for_whom
       type(word_t), allocatable, intent(inout) :: lines(:)
 
-      if (is_sensible(keys(position), number)) return
-      lines = [lines, word_t('warning: '//place_of(entry)//': '//what//' = '//real_text(number)//' '// &
-                             trim(keys(position)%unit)//' is not what machines have'//for_whom//' ('// &
-                             sensible_text(keys(position))//'); is it in this unit?')]
+      if (.not. is_odd(keys(position), number)) return
+      lines = [lines, word_t('warning: '//place_of(entry)//': '//what//' = '//odd_words(keys(position), number, for_whom)// &
+                             question(position, number))]
    end subroutine add_odd
 
    !> What is odd about a list of numbers: one line, or none. Where each has a line of its own in a file, the first odd one is
@@ -123,7 +129,7 @@ contains
       odd = 0
       first = 0
       do i = 1, size(numbers)
-         if (is_sensible(keys(position), numbers(i))) cycle
+         if (.not. is_odd(keys(position), numbers(i))) cycle
          odd = odd + 1
          if (odd == 1) first = i
       end do
@@ -133,11 +139,65 @@ contains
       if (odd > 1) how_many = 'the first of '//integer_text(odd)//' such numbers'
       line = ''
       if (present(first_line)) line = ':'//integer_text(first_line + first - 1)
-      lines = [word_t('warning: '//place//line//': '//what//': '//real_text(numbers(first))//' '//trim(keys(position)%unit)// &
-                      ' is not what machines have'//whose(position)//' ('// &
-                      sensible_text(keys(position))//'), '//how_many//' among '//integer_text(size(numbers))// &
-                      '; is it in this unit?')]
+      lines = [word_t('warning: '//place//line//': '//what//': '//odd_words(keys(position), numbers(first), whose(position))// &
+                      ', '//how_many//' among '//integer_text(size(numbers))//question(position, numbers(first)))]
    end function odd_numbers_of_list
+
+   !> Behind an odd number what it would be in another unit, or the question whether it is in its own.
+   pure function question(position, number) result(words)
+      !> Key by its position in the table
+      integer, intent(in) :: position
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      words = meant_behind(keys(position), number)
+      if (len(words) == 0) words = '; is it in this unit?'
+   end function question
+
+   !> What is odd about the motion of a shaft at its speed: an engine shakes no shaft so that an order has an acceleration of more
+   !> than half the square of the mean angular speed, 25 % of the speed at order 2.
+   pure function odd_swings(input, shaft) result(lines)
+      !> Typed values without a fault
+      type(scene_input_t), intent(in) :: input
+      !> The motion of the shaft that they, or a signal, give
+      type(shaft_t), intent(in) :: shaft
+      type(word_t), allocatable :: lines(:)
+      real(dp), parameter :: largest_share = 0.5_dp
+      real(dp), allocatable :: accelerations(:)
+      real(dp) :: speed, limit
+      character(:), allocatable :: key, number, meant
+      integer :: worst
+
+      allocate (lines(0))
+      if (.not. allocated(shaft%orders)) return
+      if (is_odd(keys(find_key('shaft', 'speed_rpm')), shaft%speed_rpm)) return
+      speed = two_pi*shaft%speed_rpm/60.0_dp
+      limit = largest_share*speed**2
+      if (allocated(shaft%speed_amplitudes)) then
+         allocate (accelerations, source=shaft%speed_amplitudes*shaft%orders*speed)
+      else
+         allocate (accelerations, source=shaft%accelerations)
+      end if
+      worst = maxloc(accelerations, dim=1)
+      if (worst == 0) return
+      if (.not. accelerations(worst) > limit) return
+      if (allocated(shaft%speed_amplitudes)) then
+         limit = limit/(shaft%orders(worst)*speed)
+         number = real_text(shaft%speed_amplitudes(worst))//' rad/s'
+         meant = short_text(limit, 3)//' rad/s at most); it would be '//speed_meant(shaft%speed_amplitudes(worst))
+      else
+         number = real_text(accelerations(worst))//' rad/s2'
+         meant = short_text(limit, 3)//' rad/s2 at most); it would be '//acceleration_meant(accelerations(worst))
+      end if
+      key = 'accelerations'
+      if (input%is_given('shaft', 'speed_amplitudes')) key = 'speed_amplitudes'
+      if (input%is_given('shaft', 'signal')) key = 'signal'
+      associate (entry => input%entries(find_key('shaft', key)), order => shaft%orders(worst))
+         lines = [word_t('warning: '//place_of(entry)//': &shaft '//key//': '//number//' of order '//short_text(order, 3)// &
+                         ' is not what machines have: the speed of '//real_text(shaft%speed_rpm)//' 1/min would swing by '// &
+                         short_text(100.0_dp*accelerations(worst)/(order*speed**2), 2)//' % ('//meant)]
+      end associate
+   end function odd_swings
 
    !> Of which key the numbers of a sweep, a threshold or a campaign are.
    pure function whose(position) result(words)

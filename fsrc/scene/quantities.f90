@@ -119,17 +119,18 @@ module quantities
          'Largest film velocity of the window: the fastest separation.'), &
       quantity_t(quantity_acceleration_minimum, 'acceleration_minimum', 'm/s2', a_number, part_window, &
          needs_acceleration_range, 'summary sweep campaign', &
-         'Smallest acceleration of the window.'), &
+         'Smallest acceleration of the window; with a &gear relative to the shaft, along the line of action.'), &
       quantity_t(quantity_acceleration_maximum, 'acceleration_maximum', 'm/s2', a_number, part_window, &
          needs_acceleration_range, 'summary sweep campaign', &
-         'Largest acceleration of the window.'), &
+         'Largest acceleration of the window; with a &gear relative to the shaft, along the line of action.'), &
       quantity_t(quantity_load_minimum, 'load_minimum', 'N', a_number, part_window, needs_load_range, 'summary', &
          'Smallest load of the film over the window.'), &
       quantity_t(quantity_load_maximum, 'load_maximum', 'N', a_number, part_window, needs_load_range, 'summary campaign', &
          'Largest load of the film over the window.'), &
       quantity_t(quantity_acceleration_rms, 'acceleration_rms', 'm/s2', a_number, part_window, needs_nothing, &
          'summary sweep campaign log', &
-         'Root of the mean square of the acceleration over the window.', digits=4), &
+         'Root of the mean square of the acceleration over the window; with a &gear relative to the shaft, along the line of '// &
+         'action.', digits=4), &
       quantity_t(quantity_crest_factor, 'crest_factor', '-', a_number, part_window, needs_acceleration_range, &
          'summary campaign', &
          'Largest size of the acceleration over acceleration_rms; of a cosine 1.414.'), &

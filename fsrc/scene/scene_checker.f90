@@ -6,6 +6,7 @@ module scene_checker
    use key_table, only: find_key, find_swept_key, key_name, keys
    use keys_in_use, only: in_use, reason_unused
    use kinds, only: dp
+   use mistaken_units, only: meant_behind
    use memory, only: expect_memory
    use quantities, only: a_count, a_number, quantity_code, quantity_table
    use scene_input, only: scene_input_t
@@ -82,7 +83,8 @@ contains
 
          if (is_computable(keys(position), number)) return
          call input%add_fault(trim(keys(position)%group), trim(keys(position)%name), &
-                              not_computable_text(keys(position), number), faults)
+                              not_computable_text(keys(position), number)//meant_behind(keys(position), number), &
+                              faults)
          input%entries(position)%faulty = .true.
       end subroutine check_number
 
@@ -346,7 +348,7 @@ contains
             message = 'not allowed for '//key//'; allowed: '//allowed_text(keys(position))// &
                       ', and above zero where the spacing is logarithmic'
          else if (.not. is_computable(keys(position), ends(i))) then
-            message = not_computable_text(keys(position), ends(i))
+            message = not_computable_text(keys(position), ends(i))//meant_behind(keys(position), ends(i))
          else
             cycle
          end if

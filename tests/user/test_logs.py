@@ -54,6 +54,9 @@ def start_of_motion(told: Mapping[str, Any]) -> str:
     return words
 
 
+RELATIVE = "relative to the shaft, along the line of action"
+
+
 def lines_of_motion(path: Path) -> list[str | None]:
     """The log of a motion, from its summary and its resolved input."""
     told, given = rattle.read_summary(path.with_suffix(".summary.nml")), rattle.read(path).input
@@ -79,11 +82,12 @@ def lines_of_motion(path: Path) -> list[str | None]:
 def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[str | None]:
     certificate = f" ({told['certificate']})" if "certificate" in told else ""
     limits = [ENDS[name] for name in ENDS if name in told["model_limit"]]
+    relative = f" {RELATIVE}" if "gear" in given else ""
     contradicted = "  warning: the film law of the scene does not fit this regime (law_contradicted)"
     return [
         f"  film {um(told['film_minimum'], 5).removesuffix(' um')} to {um(told['film_maximum'], 5)}, "
         f"acceleration {short(told['acceleration_minimum'], 5)} to "
-        f"{short(told['acceleration_maximum'], 5)} m/s2",
+        f"{short(told['acceleration_maximum'], 5)} m/s2{relative}",
         spectrum_words(told, certificate),
         f"  warning: {coarse_words(told, given)}" if told["series_coarse"] else None,
         f"  warning: {', and '.join(limits)} (model_limit)" if limits else None,
@@ -278,7 +282,9 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
     ended = run("box.nml", "--set", "scene.name=box", "--output", tmp_path, cwd=tmp_path)
     assert ended.returncode == code, ended.stderr
     table = rattle.read_summary(tmp_path / "box.summary.nml")
-    head, heads, units, *rows, together, file = (tmp_path / "box.log").read_text().splitlines()
+    head, heads, units, *rows, uncorrelated, in_phase, words, relative, file = (
+        (tmp_path / "box.log").read_text().splitlines()
+    )
     assert head == f"rattle {table['program_version']}, gearbox box: {len(table['gears'])} pairs"
     cells = [[cell for cell in re.split("  +", row.strip()) if cell] for row in rows]
     assert cells == [told_by_the_table(gear, told) for gear, told in table["gears"].items()]
@@ -295,14 +301,25 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
     failed = sum(told["status"] not in SUCCESSES for told in table["gears"].values())
     assert table["pairs"] == len(forces) and table["pairs_failed"] == failed and (failed > 0) == (code == 1)
     assert file == f"  {tmp_path}/box.summary.nml"
+    assert words == f"  {table['film_force_text']}"
+    assert relative == f"  peak and rms of the acceleration {RELATIVE}"
+    sums = ("film_force_rms_uncorrelated", "film_force_rms_in_phase", "dissipated_power")
     if failed:
-        assert "film_force_rms" not in table and together.split() == ["together", "-", "-"]
+        assert not set(sums) & set(table)
+        assert uncorrelated.split() == ["together,", "uncorrelated", "-", "-"]
+        assert in_phase.split() == ["together,", "in", "phase", "-"]
         return
-    assert table["film_force_rms"] == pytest.approx(np.sqrt(np.sum(np.square(forces))), rel=1e-12)
+    assert table[sums[0]] == pytest.approx(np.sqrt(np.sum(np.square(forces))), rel=1e-12)
     assert table["dissipated_power"] == pytest.approx(np.sum(powers), rel=1e-12)
-    assert together.split()[0] == "together"
-    assert together[starts[-2] :].split()[0] == short(table["film_force_rms"], 4)
-    assert together[starts[-1] :] == short(table["dissipated_power"], 4)
+    assert re.split("  +", uncorrelated.strip()) == [
+        "together, uncorrelated",
+        short(table[sums[0]], 4),
+        short(table["dissipated_power"], 4),
+    ]
+    assert re.split("  +", in_phase.strip()) == ["together, in phase", short(table[sums[1]], 4)]
+    assert (
+        uncorrelated.index(short(table[sums[0]], 4)) == in_phase.index(short(table[sums[1]], 4)) == starts[-2]
+    )
 
 
 def test_the_log_of_a_film_task_is_its_summary(solve, repository):
@@ -363,7 +380,7 @@ RECORD = "'rattle_class', 'acceleration_maximum', 'certified', 'model_limit', 's
     ("name", "last", "changes"),
     (
         ("doubtful", "400.0, 20.0", {}),
-        ("hard", "1e7, 20.0", {}),
+        ("far", "1e7, 20.0", {}),
         ("failing", "400.0, 20.0", {"film": {"law": "'piezo-viscous'", "model": "'reynolds'"}}),
     ),
 )

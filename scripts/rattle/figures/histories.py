@@ -58,7 +58,7 @@ def draw_acceleration(results: Sequence[Result], labels: Sequence[str], periods:
             *last_periods(result, "acceleration", periods), label=style.curve_label(result, label), **line
         )
     period_rules(axes, results, periods)
-    axes.set_ylabel(style.ACCELERATION_LABEL)
+    axes.set_ylabel(style.of_acceleration(style.ACCELERATION_LABEL, results))
     axes.set_xlabel(time_label(results, periods))
     note = coarse_words(results[0], "acceleration", periods, "m/s$^2$")
     style.name_runs(figure, axes, "Acceleration of the film surface", results, labels, note)
@@ -82,7 +82,7 @@ def draw_flanks(result: Result, label: str) -> Figure:
     plain_log_ticks(both[0].yaxis, *both[0].get_ylim())
     last.axhline(0.0, color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
     last.plot(*last_periods(result, "acceleration", periods), color=style.FORCE_COLOUR)
-    last.set_ylabel(style.ACCELERATION_LABEL)
+    last.set_ylabel(style.of_acceleration(style.ACCELERATION_LABEL, [result]))
     last.set_xlabel(time_label([result], periods))
     for axes in (*both, last):
         period_rules(axes, [result], periods)
@@ -117,7 +117,7 @@ def _draw_impact(axes: Axes, below: Axes, near: tuple[float, float]) -> None:
     below.axhline(0.0, color=style.PERIOD_COLOUR, linewidth=0.7, zorder=0)
     below.plot(*curve.get_data(), color=curve.get_color(), marker=".", markersize=2.0)
     below.set_xlim(near)
-    below.set_ylabel(style.ACCELERATION_LABEL)
+    below.set_ylabel(axes.get_ylabel())
     below.set_xlabel("The largest impact, on the same axis of time [ms]")
     axes.axvspan(*near, color=style.PERIOD_COLOUR, alpha=0.6, linewidth=0, zorder=0)
 

@@ -167,7 +167,7 @@ def draw_acceleration(
         last.set_yscale("log")
         last.set_ylim(FLOOR * largest, 3.0 * largest)
     for axes in panels:
-        axes.set_ylabel(style.AMPLITUDE_LABEL)
+        axes.set_ylabel(style.of_acceleration(style.AMPLITUDE_LABEL, results))
     if view.decibels and largest > 0.0:
         _show_levels(last)
     figure.align_ylabels()

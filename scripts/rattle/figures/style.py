@@ -32,6 +32,8 @@ HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]  # of words o
 
 ACCELERATION_LABEL = r"Acceleration $\ddot{z}$ [m/s$^2$]"
 AMPLITUDE_LABEL = r"Amplitude of $\ddot{z}$ [m/s$^2$]"
+# What the acceleration of a gear pair is.
+TO_THE_SHAFT = "to the shaft, on line of action"
 FILM_LABEL = r"Film thickness $h$ [$\mathrm{\mu}$m]"
 FORCE_LABEL = r"Applied force $F$ [N]"
 RATIO_LABEL = r"Frequency ratio $f/f_\mathrm{exc}$"
@@ -223,3 +225,9 @@ def name_runs(
 def _repeated(labels: Sequence[str]) -> list[bool]:
     counts = Counter(labels)
     return [counts[label] > 1 for label in labels]
+
+
+def of_acceleration(label: str, results: Sequence[Result]) -> str:
+    """The label of an axis: with a &gear the acceleration is relative to the shaft, along the line of action."""
+    on_a_shaft = any(result.shaft_speed is not None for result in results)
+    return label.replace(" [", f" relative\n{TO_THE_SHAFT} [") if on_a_shaft else label

@@ -79,6 +79,7 @@ def part(result: ResultFile, name: str) -> list[str]:
         page.paragraph(asked.in_short(result)),
         *parts,
         page.heading(2, "What was asked"),
+        *motion.odd_numbers(result),
         *asked.inputs(result),
         page.heading(2, "How to compute it again"),
         *asked.repeat(result, name),

@@ -24,6 +24,7 @@ COMPUTED = {
     "model": ("Film model: published, the formulas of the paper; reynolds, exact", ""),
     "speed_used": ("Speed that the film was computed with", "m/s"),
     "speed_meaning": ("That speed is", ""),
+    "acceleration_meaning": ("Accelerations are", ""),
     "status_time": ("Time at which the run ended", "s"),
     "film_at_status_time": ("Film at that time", "m"),
     "wall_seconds": ("Time that the computation took", "s"),
@@ -120,6 +121,14 @@ REMARK_WORDS = ("stiffness", "deflection", "double_sided", "coast", "backlash")
 
 def summary_of(result: ResultFile) -> Summary | None:
     return read_summary(result.summary_path) if result.summary_path.exists() else None
+
+
+def odd_numbers(result: ResultFile) -> list[str]:
+    """What the program found odd about the input: numbers that were surely meant in another unit, and the like."""
+    summary = summary_of(result) or {}
+    told = summary.get("input_warnings", [])
+    lines = [told] if isinstance(told, str) else told
+    return [page.paragraph(f"{line[:1].upper()}{line[1:]}.", "note") for line in lines]
 
 
 def verdict(result: Result, summary: Summary | None) -> list[str]:
