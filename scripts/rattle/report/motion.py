@@ -124,7 +124,7 @@ def summary_of(result: ResultFile) -> Summary | None:
 
 
 def odd_numbers(result: ResultFile) -> list[str]:
-    """What the program found odd about the input: numbers that were surely meant in another unit, and the like."""
+    """What the program found odd about the input, as numbers that were surely meant in another unit."""
     summary = summary_of(result) or {}
     told = summary.get("input_warnings", [])
     lines = [told] if isinstance(told, str) else told
