@@ -170,6 +170,8 @@ contains
 
       allocate (lines(0))
       if (.not. allocated(shaft%orders)) return
+      ! The amplitudes of a run-up are those of its table, at each speed.
+      if (.not. (allocated(shaft%speed_amplitudes) .or. allocated(shaft%accelerations))) return
       if (is_odd(keys(find_key('shaft', 'speed_rpm')), shaft%speed_rpm)) return
       speed = two_pi*shaft%speed_rpm/60.0_dp
       limit = largest_share*speed**2
