@@ -47,7 +47,8 @@ program main
       call run_all_tasks(command, exit_code)
    end if
    if (len(lost_text()) > 0) then
-      write (error_unit, '(a)') lost_text()//' could not be written; the disk may be full, or nobody reads any more'
+      write (error_unit, '(a)') lost_text()// &
+         ' could not be written; the disk may be full, it was taken away, or nobody reads any more'
       if (exit_code == exit_complete .or. exit_code == exit_scene_failed) exit_code = exit_system
    end if
    stop exit_code, quiet = .true.

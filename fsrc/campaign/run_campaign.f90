@@ -5,13 +5,13 @@ module run_campaign
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
    use earlier_files, only: check_lone_summary
-   use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t, raise
+   use errors, only: error_t, exit_complete, exit_scene_failed, exit_system, fault_list_t, raise
    use finished_files, only: bring_back, drop_aside, set_aside
-   use file_system, only: file_state_t, state_of_path
+   use file_system, only: file_state_t, path_exists, state_of_path
    use kinds, only: dp, int64
    use log_file, only: log_magic, log_t
-   use output_lock, only: output_lock_t
-   use output_place, only: claim_output_place, log_path, progress_path, result_path, summary_path
+   use output_lock, only: expect_own_lock, output_lock_t
+   use output_place, only: claim_output_place, log_path, progress_path, result_path, stem, summary_path
    use prepared_campaign, only: campaign_t, prepare_campaign
    use rattle_class, only: class_irregular_so_far
    use ranks, only: abort_ranks, next_tickets, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
@@ -119,8 +119,7 @@ contains
             call log%line('  '//warnings(i)%text)
          end do
          if (spoilt > 0) call log%line('  '//integer_text(spoilt)//' chunks of the earlier run were damaged; they are solved again')
-         if (.not. results%is_locked()) call log%line('  warning: this file system knows no locks; see that no other run '// &
-                                                      'writes here')
+         if (len(lock%warning) > 0) call log%line('  '//lock%warning)
       end if
       call progress%start(progress_path(scene), campaign%layout%scene_count, done_scenes(results), quiet)
       call solve_chunks(scene, campaign, results, progress, log, error)
@@ -284,11 +283,12 @@ contains
       integer, intent(out) :: exit_code
       type(error_t), allocatable, intent(out) :: error
       type(summary_t) :: summary
-      type(error_t), allocatable :: summary_error
+      type(error_t), allocatable :: overtaken, summary_error
       integer :: status
-      logical :: finished
+      logical :: finished, stands
 
       call results%close(finished, error)
+      call expect_own_lock(stem(scene), overtaken)
       status = merge(status_complete, status_interrupted, finished)
       if (allocated(error) .or. not_written) status = status_not_written
       call progress%finish(log)
@@ -307,8 +307,14 @@ contains
       if (any(campaign%layout%names == 'rattle_class')) &
          call summary%add('scenes_irregular_so_far_in_this_run', progress%irregular_so_far)
       call summary%add('wall_seconds', wall_seconds() - started)
-      call summary%write(summary_path(scene), summary_error)
-      if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+      if (allocated(overtaken)) then
+         call move_alloc(overtaken, error)
+      else
+         call summary%write(summary_path(scene), summary_error)
+         if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+         stands = path_exists(result_path(scene))
+         if (.not. (stands .or. allocated(error))) call raise(error, exit_system, result_path(scene)//' was taken away')
+      end if
       if (progress%beyond_model > 0) call log%line('  warning: '//counted(progress%beyond_model, 'scene')//' beyond what the '// &
          'model can mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
       if (progress%undersampled > 0) call log%line('  warning: the lines of '//counted(progress%undersampled, 'scene')// &

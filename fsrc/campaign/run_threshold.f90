@@ -89,6 +89,9 @@ contains
       call start_outcome(scene, threshold, outcome)
       call share_points(scene, threshold, outcome)
       if (this_rank() == 0) call report_start(log, scene, threshold, carry_on, outcome)
+      if (this_rank() == 0) then
+         if (len(lock%warning) > 0) call log%line('  '//lock%warning)
+      end if
       if (this_rank() == 0 .and. .not. carry_on) call delete_file(state_path(scene))
       lines_before = int(outcome%lines)
       call share_number(lines_before)

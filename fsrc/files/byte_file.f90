@@ -1,13 +1,13 @@
 !> Files that are written byte by byte, with every failure seen. The runtime's own unformatted and stream
 !> output forgets that the disk was full when it empties its buffer; hence this one.
 !>
-!> A file is written beside its place, as PATH.new, and put there when it is complete, or as soon as what it holds
-!> makes sense. Until then whatever stands at the place stays as it is.
+!> A file is written beside its place, under a name that nobody can foresee, and put there when it is complete, or as soon as what
+!> it holds makes sense. Until then whatever stands at the place stays as it is.
 module byte_file
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc
    use errors, only: error_t, error_words, exit_system, last_error, raise
-   use file_descriptor, only: close_descriptor, open_replacing, synchronise_descriptor, write_bytes
-   use file_system, only: delete_file, rename_file
+   use file_descriptor, only: close_descriptor, open_new, synchronise_descriptor, write_bytes
+   use file_system, only: delete_file, random_word, rename_file, stands_at
    use kinds, only: dp, int64
    use text_output, only: lock_texts, unlock_texts
    implicit none(type, external)
@@ -45,17 +45,38 @@ module byte_file
       procedure, private :: fail
    end type byte_file_t
 
-   public :: new_path, put_in_place
+   !> How a run calls what it puts beside its files; module state, for all files of a run are known by it.
+   character(16) :: word_of_run = ''
+
+   public :: new_path, old_path, own_word, put_in_place
 
 contains
 
+   !> Word by which this run calls what it puts beside its files.
+   function own_word()
+      character(16) :: own_word
+
+      !$omp critical (word_of_run_is_made)
+      if (word_of_run == '') word_of_run = random_word()
+      own_word = word_of_run
+      !$omp end critical (word_of_run_is_made)
+   end function own_word
+
    !> Where a file is written until it is put in its place.
-   pure function new_path(path)
+   function new_path(path)
       character(*), intent(in) :: path
       character(:), allocatable :: new_path
 
-      new_path = path//'.new'
+      new_path = path//'.'//own_word()//'.new'
    end function new_path
+
+   !> Where an earlier file waits until others are in their places.
+   function old_path(path)
+      character(*), intent(in) :: path
+      character(:), allocatable :: old_path
+
+      old_path = path//'.'//own_word()//'.old'
+   end function old_path
 
    !> Put a file that was written beside its place there, in one step; what stands there is replaced.
    subroutine put_in_place(path, error)
@@ -83,7 +104,7 @@ contains
       self%placed = .false.
       self%not_on_disk = 0_int64
       if (.not. allocated(self%buffer)) allocate (self%buffer(buffer_bytes))
-      self%descriptor = open_replacing(new_path(path))
+      self%descriptor = open_new(new_path(path))
       if (self%descriptor < 0) call self%fail(error)
    end subroutine open_file
 
@@ -189,12 +210,30 @@ contains
          call synchronise_descriptor(self%descriptor, sound)
          if (.not. sound) call self%fail(error)
       end if
+      if (.not. self%broken) call expect_at_place(self, error)
       descriptor = self%descriptor
       self%descriptor = -1
       call close_descriptor(descriptor, sound)
       if (.not. sound .and. .not. self%broken) call self%fail(error)
       if (self%broken .and. .not. self%placed) call delete_file(new_path(self%path))
    end subroutine close_file
+
+   !> See that nobody has taken the file away: what is written into a file without a name is lost.
+   subroutine expect_at_place(self, error)
+      class(byte_file_t), intent(inout) :: self
+      !> Set if it does not stand where it should
+      type(error_t), allocatable, intent(out) :: error
+      logical :: stands
+
+      if (self%placed) then
+         stands = stands_at(self%descriptor, self%path)
+      else
+         stands = stands_at(self%descriptor, new_path(self%path))
+      end if
+      if (stands) return
+      self%broken = .true.
+      call raise(error, exit_system, self%path//' cannot be written: it was taken away or replaced while the run wrote it')
+   end subroutine expect_at_place
 
    !> Write bytes behind those that the file has.
    subroutine write_on(self, bytes, error)

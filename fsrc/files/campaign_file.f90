@@ -5,12 +5,13 @@
 !> at any moment leaves chunks that are whole or count as not done. The bytes of the finished file depend
 !> neither on the order of the chunks nor on the number of runs that it took.
 module campaign_file
+   use byte_file, only: beside => new_path
    use campaign_header, only: campaign_layout_t, check_same_campaign, header_for
    use checksum, only: checksum_of
-   use errors, only: error_t, exit_bad_input, exit_system, raise
+   use errors, only: error_t, error_words, exit_bad_input, exit_system, last_error, raise
    use file_system, only: delete_file, file_state_t, first_bytes, path_exists, rename_file, state_of_path
    use kinds, only: dp, int64
-   use random_access_file, only: lock_held, lock_refused, random_access_file_t
+   use random_access_file, only: lock_failed, lock_held, lock_refused, random_access_file_t
    use result_format, only: result_magic, row_count_offset, rows_unknown
    use result_header, only: header_text, result_header_t
    use signals, only: must_stop
@@ -46,6 +47,7 @@ module campaign_file
       procedure, private :: attach
       procedure, private :: verify
       procedure, private :: give_up
+      procedure, private :: expect_at_place
    end type campaign_file_t
 
    public :: campaign_layout_t
@@ -89,19 +91,19 @@ contains
          call old%file%open(path, .false., error)
          if (.not. allocated(error)) call old%take_lock(path, error)
       end if
-      new_path = path//'.new'
+      new_path = beside(path)
       if (.not. allocated(error)) then
          call self%file%open(new_path, .true., error)
          ! Nothing has run yet: a place that cannot be written is bad input.
-         if (allocated(error)) error%exit_code = exit_bad_input
+         if (allocated(error)) call raise(error, exit_bad_input, path//' cannot be written: '//error_words(last_error()))
       end if
       if (.not. allocated(error)) call self%take_lock(new_path, error)
-      ! Between the opening and the lock another run may have brought this very file to its path.
-      overtaken = .not. path_exists(new_path)
-      if (.not. (stood .or. overtaken)) overtaken = path_exists(path)
+      overtaken = .false.
+      if (.not. stood) overtaken = path_exists(path)
       if (overtaken .and. .not. allocated(error)) &
          call raise(error, exit_system, path//' is being written by another run')
       if (allocated(error)) then
+         if (self%file%is_open()) call delete_file(new_path)
          call self%give_up()
          call old%give_up()
          return
@@ -176,13 +178,15 @@ contains
       class(campaign_file_t), intent(inout) :: self
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: why
       integer :: outcome
 
-      call self%file%lock(outcome)
+      call self%file%lock(outcome, why)
       self%locked = outcome == lock_held
       if (outcome == lock_refused) &
          call raise(error, exit_system, path//' is being written by another run; wait for its end, or '// &
                     'choose another name or output directory')
+      if (outcome == lock_failed) call raise(error, exit_system, path//' cannot be locked: '//why)
    end subroutine take_lock
 
    !> Whether other runs are kept out; false on file systems without locks.
@@ -301,6 +305,8 @@ contains
          call raise(error, exit_system, self%path//': chunk '//integer_text(chunk)//' has the wrong size')
          return
       end if
+      call self%expect_at_place(error)
+      if (allocated(error)) return
       allocate (sums(chunk:last_chunk))
       do i = chunk, last_chunk
          call self%chunk_bounds(i, first, last)
@@ -354,7 +360,8 @@ contains
 
       finished = .false.
       if (.not. self%file%is_open()) return
-      call self%refresh(error)
+      call self%expect_at_place(error)
+      if (.not. allocated(error)) call self%refresh(error)
       if (.not. allocated(error)) call self%file%synchronise(error)
       if (.not. allocated(error)) then
          finished = all(self%checksums /= 0_int64)
@@ -367,6 +374,18 @@ contains
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
       finished = finished .and. .not. allocated(error)
    end subroutine close_campaign
+
+   !> See that nobody has taken the file away: what is written into a file without a name is lost.
+   subroutine expect_at_place(self, error)
+      class(campaign_file_t), intent(in) :: self
+      !> Set if it does not stand at its path
+      type(error_t), allocatable, intent(out) :: error
+      logical :: stands
+
+      stands = self%file%stands_at(self%path)
+      if (.not. stands) call raise(error, exit_system, self%path//' cannot be written: it was taken away or replaced while the '// &
+                                   'run wrote it')
+   end subroutine expect_at_place
 
    !> Close the file after a failure that is an error already.
    subroutine give_up(self)

@@ -2,9 +2,10 @@
 !>
 !> The summary goes first and comes last: a kill in between leaves results without a summary, never beside that of another run.
 module finished_files
-   use byte_file, only: new_path, put_in_place
-   use errors, only: error_t
+   use byte_file, only: new_path, old_path, put_in_place
+   use errors, only: error_t, exit_system, raise
    use file_system, only: delete_file, path_exists, rename_file
+   use output_lock, only: expect_own_lock
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -25,6 +26,7 @@ contains
       !> Path of the summary of all pairs of a gearbox that this one is part of
       character(*), optional, intent(in) :: table
       type(word_t), allocatable :: summaries(:)
+      type(error_t), allocatable :: overtaken
       integer :: i, placed
       logical :: stands
 
@@ -32,19 +34,31 @@ contains
       summaries(1)%text = summary
       if (present(table)) summaries(2)%text = table
       placed = 0
+      call expect_own_lock(summary(:index(summary, '.summary.nml', back=.true.) - 1), overtaken)
       stands = path_exists(summary)
-      if (allocated(error)) then
+      if (allocated(overtaken)) then
+         ! Whatever stands there is that of the other run.
+         call move_alloc(overtaken, error)
+      else if (allocated(error)) then
          if (.not. stands) call place_silently(summary)
       else
          call set_aside(summaries)
          do i = 1, size(results)
             stands = path_exists(new_path(results(i)%text))
-            if (.not. stands) cycle
-            call put_in_place(results(i)%text, error)
+            if (stands) then
+               call put_in_place(results(i)%text, error)
+            else
+               stands = path_exists(results(i)%text)
+               if (.not. stands) call raise(error, exit_system, results(i)%text//' cannot be written: it was taken away')
+            end if
             if (allocated(error)) exit
             placed = placed + 1
          end do
          if (.not. allocated(error)) call put_in_place(summary, error)
+         do i = 1, size(results)
+            stands = path_exists(results(i)%text)
+            if (.not. (stands .or. allocated(error))) call raise(error, exit_system, results(i)%text//' was taken away')
+         end do
          if (allocated(error) .and. placed == 0) call bring_back(summaries)
          call drop_aside(summaries)
       end if
@@ -86,14 +100,6 @@ contains
          call delete_file(old_path(files(i)%text))
       end do
    end subroutine drop_aside
-
-   !> Where a file waits until others are in their places.
-   function old_path(path)
-      character(*), intent(in) :: path
-      character(:), allocatable :: old_path
-
-      old_path = new_path(path)//'.old'
-   end function old_path
 
    !> Put a file in its place; that it cannot be done is no news after an error.
    subroutine place_silently(path)

@@ -2,8 +2,8 @@
 module log_file
    use, intrinsic :: iso_c_binding, only: c_int
    use errors, only: error_t, error_words, exit_system, last_error, raise
-   use file_descriptor, only: close_descriptor, open_replacing
-   use file_system, only: delete_file, file_state_t, state_of_path
+   use file_descriptor, only: close_descriptor, open_new
+   use file_system, only: delete_file, file_state_t, stands_at, state_of_path
    use text_output, only: lost_text, note_lost_text, put_line, write_line
    implicit none(type, external)
    private
@@ -37,7 +37,9 @@ contains
 
       self%to_terminal = .not. quiet
       self%path = path
-      self%descriptor = open_replacing(path)
+      ! One that stands there is not written into: it could bear another name elsewhere.
+      call delete_file(path)
+      self%descriptor = open_new(path)
       if (self%descriptor < 0_c_int) call raise(error, exit_system, path//' cannot be written: '//error_words(last_error()))
    end subroutine open_log
 
@@ -58,11 +60,11 @@ contains
       logical :: closed
 
       if (self%descriptor < 0_c_int) return
+      if (.not. stands_at(self%descriptor, self%path)) call note_lost_text(self%path)
       call close_descriptor(self%descriptor, closed)
       if (.not. closed) call note_lost_text(self%path)
       self%descriptor = -1_c_int
       state = state_of_path(self%path)
-      ! A log that was led to a device is none of ours to take away.
       if (state%is_file .and. state%bytes < len(log_magic)) call delete_file(self%path)
    end subroutine close_log
 

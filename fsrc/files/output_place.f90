@@ -1,10 +1,9 @@
 !> Where the files of a scene go, and whether they may go there. Looked at before anything runs.
 module output_place
    use errors, only: error_t, fault_list_t
-   use byte_file, only: new_path
-   use file_system, only: file_state_t, first_bytes, is_directory, is_writable, make_directory, path_exists, state_of_path
+   use file_system, only: file_state_t, first_bytes, is_directory, is_link, is_writable, make_directory, path_exists, state_of_path
    use log_file, only: log_magic
-   use output_lock, only: lock_path, output_lock_t
+   use output_lock, only: lock_magic, lock_path, output_lock_t
    use result_format, only: result_magic
    use scene_types, only: compute_profile, scene_t, task_campaign, task_film, task_motion, task_threshold
    use summary_file, only: summary_magic
@@ -106,25 +105,17 @@ contains
          call faults%add(file, 0, 'output', 'directory', "the folder '"//directory//"' is not writable")
          return
       end if
-      if (scene%task /= task_motion .or. scene%output%series) call check_file(result_path(scene), result_magic)
+      if (scene%task /= task_motion .or. scene%output%series) call check_kind(result_path(scene), result_magic, .false.)
       if (scene%task == task_film .and. scene%points%compute(compute_profile)) &
-         call check_file(profiles_path(scene), result_magic)
-      if (scene%task == task_motion .or. scene%task == task_threshold) call check_file(state_path(scene), result_magic)
-      call check_file(summary_path(scene), summary_magic)
-      if (scene%task == task_campaign .or. scene%task == task_threshold) call check_file(progress_path(scene), summary_magic)
+         call check_kind(profiles_path(scene), result_magic, .false.)
+      if (scene%task == task_motion .or. scene%task == task_threshold) call check_kind(state_path(scene), result_magic, .false.)
+      call check_kind(summary_path(scene), summary_magic, .false.)
+      if (scene%task == task_campaign .or. scene%task == task_threshold) &
+         call check_kind(progress_path(scene), summary_magic, .false.)
       call check_kind(log_path(scene), log_magic, .false.)
-      call check_kind(lock_path(stem(scene)), '', .true.)
+      call check_kind(lock_path(stem(scene)), lock_magic, .true.)
 
    contains
-
-      !> A file, and the one beside its place that a killed run may have left.
-      subroutine check_file(path, magic)
-         character(*), intent(in) :: path
-         character(*), intent(in) :: magic
-
-         call check_kind(path, magic, .false.)
-         call check_kind(new_path(path), magic, .true.)
-      end subroutine check_file
 
       !> What stands there begins with the magic, and may be replaced. An empty file holds nothing that could be lost: a
       !> run was killed before it wrote there.
@@ -137,21 +128,30 @@ contains
          character(len(magic)) :: start
          integer :: got
          character(:), allocatable :: way_on
-         logical :: ours
+         logical :: ours, leads_away
 
+         leads_away = is_link(path)
+         if (leads_away) then
+            call faults%add(file, 0, 'output', '', path//' is a link, which rattle did not make; it is neither followed nor '// &
+                            'replaced')
+            return
+         end if
          way_on = ''
          if (scene%task == task_campaign .or. scene%task == task_threshold) way_on = '--resume continues it, '
          state = state_of_path(path)
+         got = 0
          if (.not. state%exists) return
          ! Pipes and devices are not opened: a pipe would wait for its other end.
          ours = state%is_file .and. state%bytes == 0
          if (state%is_file .and. .not. ours .and. len(magic) > 0) then
             call first_bytes(path, start, got)
             ours = got == len(magic) .and. start == magic
-            ! A crash of the machine may leave zeros where bytes were on their way to the disk.
-            if (may_stand .and. got == len(magic)) ours = ours .or. verify(start, achar(0)) == 0
+            ! A crash of the machine may leave zeros where bytes were on their way to the disk, a full disk half a word.
+            if (may_stand) ours = ours .or. verify(start(:got), achar(0)) == 0 .or. (got > 0 .and. index(magic, start(:got)) == 1)
          end if
-         if (.not. ours) then
+         if (.not. ours .and. state%is_file .and. got == 0) then
+            call faults%add(file, 0, 'output', '', path//' exists and may not be read')
+         else if (.not. ours) then
             call faults%add(file, 0, 'output', '', path//' exists and was not written by rattle; it is never replaced')
          else if (state%bytes > 0 .and. .not. (may_stand .or. scene%output%overwrite)) then
             call faults%add(file, 0, 'output', 'overwrite', path//' exists; '//way_on//'--overwrite replaces it')

@@ -1,12 +1,12 @@
 !> Files that are read and written at any place, by several threads at once as long as their places differ,
 !> with every failure seen. Thin calls of the C library.
 module random_access_file
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_long, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc, c_long
    use errors, only: error_t, error_words, exit_system, interrupted_call, last_error, no_locks, no_such_call, not_supported, &
-                     raise
-   use file_descriptor, only: close_descriptor, open_existing, read_and_write, read_bytes, read_only, synchronise_descriptor, &
-                              write_bytes
-   use file_system, only: file_state_t, state_of_descriptor, state_of_path
+                     raise, would_wait
+   use file_descriptor, only: close_descriptor, open_existing, open_or_make, read_and_write, read_bytes, read_only, &
+                              synchronise_descriptor, write_bytes
+   use file_system, only: is_at_path => stands_at
    use kinds, only: dp, int64
    implicit none(type, external)
    private
@@ -14,7 +14,7 @@ module random_access_file
    integer(c_int), parameter :: exclusive_without_waiting = 6, from_end = 2
 
    !> What came of asking for the lock.
-   integer, parameter, public :: lock_held = 1, lock_refused = 2, lock_unknown = 3
+   integer, parameter, public :: lock_held = 1, lock_refused = 2, lock_unknown = 3, lock_failed = 4
 
    !> An open file. Its procedures change nothing in it but open and close.
    type, public :: random_access_file_t
@@ -46,19 +46,6 @@ module random_access_file
    end type random_access_file_t
 
    interface
-      function c_fopen(path, mode) bind(c, name='fopen') result(stream)
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*)
-         character(kind=c_char), intent(in) :: mode(*)
-         type(c_ptr) :: stream
-      end function c_fopen
-
-      function c_fclose(stream) bind(c, name='fclose') result(stat)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-         integer(c_int) :: stat
-      end function c_fclose
-
       function c_flock(descriptor, operation) bind(c, name='flock') result(stat)
          import :: c_int
          integer(c_int), value :: descriptor
@@ -92,20 +79,13 @@ contains
       logical, intent(in) :: may_make
       !> Set if it cannot be opened
       type(error_t), allocatable, intent(out) :: error
-      type(c_ptr) :: stream
-      integer(c_int) :: ignored
 
       self%path = path
       if (may_make) then
-         ! To append makes a missing file and leaves any other as it is.
-         stream = c_fopen(path//c_null_char, 'a'//c_null_char)
-         if (.not. c_associated(stream)) then
-            call self%fail('opened', error)
-            return
-         end if
-         ignored = c_fclose(stream)
+         self%descriptor = open_or_make(path)
+      else
+         self%descriptor = open_existing(path, read_and_write)
       end if
-      self%descriptor = open_existing(path, read_and_write)
       if (self%descriptor < 0) call self%fail('opened', error)
    end subroutine open_file
 
@@ -139,19 +119,25 @@ contains
 
    !> Ask for the advisory lock of the file, without waiting for it. It lasts until the file is closed or
    !> the program ends in whatever way. Some file systems of clusters know no locks.
-   subroutine lock(self, outcome)
+   subroutine lock(self, outcome, why)
       class(random_access_file_t), intent(in) :: self
-      !> lock_held, lock_refused (another run has it), or lock_unknown (there are no locks here)
+      !> lock_held, lock_refused (another run has it), lock_unknown (there are no locks here) or lock_failed (anything else)
       integer, intent(out) :: outcome
+      !> What the operating system says where the lock is not held
+      character(:), allocatable, intent(out) :: why
       integer(c_int) :: cause
 
+      why = ''
       do
          outcome = lock_held
          if (c_flock(self%descriptor, exclusive_without_waiting) == 0) return
          cause = last_error()
-         outcome = lock_refused
+         if (cause == interrupted_call) cycle
+         outcome = lock_failed
+         if (cause == would_wait) outcome = lock_refused
          if (any(cause == [no_locks, no_such_call, not_supported])) outcome = lock_unknown
-         if (cause /= interrupted_call) return
+         why = error_words(cause)
+         return
       end do
    end subroutine lock
 
@@ -159,12 +145,8 @@ contains
    logical function stands_at(self, path)
       class(random_access_file_t), intent(in) :: self
       character(*), intent(in) :: path
-      type(file_state_t) :: open_one, at_path
 
-      open_one = state_of_descriptor(self%descriptor)
-      at_path = state_of_path(path)
-      stands_at = open_one%exists .and. at_path%exists .and. open_one%number == at_path%number .and. &
-                  all(open_one%device == at_path%device)
+      stands_at = is_at_path(self%descriptor, path)
    end function stands_at
 
    !> Cut the file to a length, or lengthen it by zeros that take no place on the disk.

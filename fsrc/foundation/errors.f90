@@ -48,8 +48,8 @@ module errors
    public :: raise, last_error, error_words
 
    !> Failures of calls of the operating system.
-   integer(c_int), parameter, public :: interrupted_call = 4, invalid_call = 22, no_locks = 37, no_such_call = 38, &
-                                        not_supported = 95
+   integer(c_int), parameter, public :: interrupted_call = 4, would_wait = 11, not_permitted = 13, invalid_call = 22, &
+                                        no_locks = 37, no_such_call = 38, not_supported = 95
 
    interface
       function c_errno_location() bind(c, name='__errno_location') result(location)

@@ -11,21 +11,17 @@ module file_descriptor
    integer(c_int), parameter, public :: read_only = 0, read_and_write = 2
    integer(c_int), parameter, public :: standard_input = 0, standard_output = 1
    integer(c_int), parameter :: read_and_write_for_all = 438
+   !> Bits that say how a file is opened, as Linux has them.
+   integer(c_int), parameter :: write_only = 1, make_missing = 64, only_new = 128, follow_no_link = 131072
 
    interface
-      function c_open(path, flags) bind(c, name='open') result(descriptor)
+      function c_open(path, flags, mode) bind(c, name='open') result(descriptor)
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int), value :: flags
-         integer(c_int) :: descriptor
-      end function c_open
-
-      function c_creat(path, mode) bind(c, name='creat') result(descriptor)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
          integer(c_int), value :: mode
          integer(c_int) :: descriptor
-      end function c_creat
+      end function c_open
 
       function c_close(descriptor) bind(c, name='close') result(stat)
          import :: c_int
@@ -74,27 +70,37 @@ module file_descriptor
       end function c_pwrite
    end interface
 
-   public :: open_existing, open_replacing, synchronise_descriptor, close_descriptor, read_bytes, write_bytes
+   public :: open_existing, open_new, open_or_make, synchronise_descriptor, close_descriptor, read_bytes, write_bytes
 
 contains
 
-   !> Open a file that is there; a negative descriptor: it cannot be opened.
+   !> Open a file that is there; a negative descriptor: it cannot be opened. A link is followed only to read.
    integer(c_int) function open_existing(path, access) result(descriptor)
       !> Path, without blanks behind it
       character(*), intent(in) :: path
       !> read_only or read_and_write
       integer(c_int), intent(in) :: access
 
-      descriptor = c_open(path//c_null_char, access)
+      descriptor = c_open(path//c_null_char, merge(access, ior(access, follow_no_link), access == read_only), 0_c_int)
    end function open_existing
 
-   !> Open an empty file for writing, in place of one that is there; a negative descriptor: it cannot be opened.
-   integer(c_int) function open_replacing(path) result(descriptor)
+   !> Make a file for writing; a negative descriptor: it cannot be made, or something stands there, be it a link to nowhere.
+   integer(c_int) function open_new(path) result(descriptor)
       !> Path, without blanks behind it
       character(*), intent(in) :: path
 
-      descriptor = c_creat(path//c_null_char, read_and_write_for_all)
-   end function open_replacing
+      descriptor = c_open(path//c_null_char, ior(ior(write_only, follow_no_link), ior(make_missing, only_new)), &
+                          read_and_write_for_all)
+   end function open_new
+
+   !> Open a file for reading and writing, whatever it holds, and make it if it is missing; a negative descriptor: it cannot be
+   !> opened, or is a link.
+   integer(c_int) function open_or_make(path) result(descriptor)
+      !> Path, without blanks behind it
+      character(*), intent(in) :: path
+
+      descriptor = c_open(path//c_null_char, ior(ior(read_and_write, follow_no_link), make_missing), read_and_write_for_all)
+   end function open_or_make
 
    !> See that everything written stands on the disk itself.
    subroutine synchronise_descriptor(descriptor, stands)

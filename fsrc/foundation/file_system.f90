@@ -1,21 +1,24 @@
 !> What Fortran lacks of the file system: whole files as text, folders, permissions, terminals.
 !> Thin calls of the C library.
 module file_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int16_t, c_int32_t, c_int64_t, c_null_char, c_ptr, c_associated
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int16_t, c_int32_t, c_int64_t, c_null_char, c_null_funptr, &
+      c_null_ptr, c_ptr, c_size_t, c_associated, c_f_pointer, c_funptr
    use file_descriptor, only: close_descriptor, open_existing, read_bytes, read_only, standard_input, standard_output
    use kinds, only: int64
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
    public :: read_whole_file, first_bytes, path_exists, file_state_t, state_of_path, state_of_descriptor, &
              is_directory, is_writable, make_directory, rename_file, &
-             delete_file, is_terminal, lies_inside
+             delete_file, is_terminal, lies_inside, is_link, stands_at, found_files, random_word
 
    !> What stands at a path.
    type :: file_state_t
       logical :: exists = .false.
       !> Whether it is a file that keeps bytes: no folder, pipe or device
       logical :: is_file = .false.
+      logical :: is_folder = .false., is_link = .false.
       integer(int64) :: bytes = 0_int64
       !> Number of the file on its device, and of the device in two parts
       integer(int64) :: number = 0_int64
@@ -33,8 +36,17 @@ module file_system
       integer(c_int64_t) :: reserved(14)
    end type statx_t
 
-   integer(c_int), parameter :: from_working_directory = -100, path_is_empty = 4096, basic_facts = 2047
-   integer, parameter :: type_bits = int(o'170000'), regular_file = int(o'100000')
+   !> The answer of glob.
+   type, bind(c) :: glob_t
+      integer(c_size_t) :: count
+      type(c_ptr) :: paths
+      integer(c_size_t) :: offset
+      integer(c_int) :: flags
+      type(c_funptr) :: procedures(5)
+   end type glob_t
+
+   integer(c_int), parameter :: from_working_directory = -100, path_is_empty = 4096, link_itself = 256, basic_facts = 2047
+   integer, parameter :: type_bits = int(o'170000'), regular_file = int(o'100000'), folder = int(o'040000'), link = int(o'120000')
    integer(c_int), parameter :: test_exists = 0, test_write_and_enter = 3
 
    interface
@@ -81,6 +93,28 @@ module file_system
          character(kind=c_char), intent(out) :: real_path(*)
          type(c_ptr) :: place
       end function c_realpath
+
+      function c_glob(pattern, flags, on_error, answer) bind(c, name='glob') result(stat)
+         import :: c_char, c_funptr, c_int, glob_t
+         character(kind=c_char), intent(in) :: pattern(*)
+         integer(c_int), value :: flags
+         type(c_funptr), value :: on_error
+         type(glob_t), intent(inout) :: answer
+         integer(c_int) :: stat
+      end function c_glob
+
+      subroutine c_globfree(answer) bind(c, name='globfree')
+         import :: glob_t
+         type(glob_t), intent(inout) :: answer
+      end subroutine c_globfree
+
+      function c_getrandom(number, count, flags) bind(c, name='getrandom') result(got)
+         import :: c_int, c_int64_t, c_size_t
+         integer(c_int64_t), intent(out) :: number
+         integer(c_size_t), value :: count
+         integer(c_int), value :: flags
+         integer(c_size_t) :: got
+      end function c_getrandom
 
       function c_isatty(descriptor) bind(c, name='isatty') result(answer)
          import :: c_int
@@ -189,6 +223,8 @@ contains
       state%exists = c_statx(directory, path, flags, basic_facts, facts) == 0
       if (.not. state%exists) return
       state%is_file = iand(int(facts%mode), type_bits) == regular_file
+      state%is_folder = iand(int(facts%mode), type_bits) == folder
+      state%is_link = iand(int(facts%mode), type_bits) == link
       state%bytes = facts%bytes
       state%number = facts%number
       state%device = facts%device
@@ -197,9 +233,86 @@ contains
    !> Whether a path is a directory.
    logical function is_directory(path)
       character(*), intent(in) :: path
+      type(file_state_t) :: state
 
-      is_directory = c_access(trim(path)//'/.'//c_null_char, test_exists) == 0
+      state = state_of_path(path)
+      is_directory = state%is_folder
    end function is_directory
+
+   !> Whether a path is a link, wherever it leads.
+   logical function is_link(path)
+      character(*), intent(in) :: path
+      type(file_state_t) :: state
+
+      state = state_of(from_working_directory, trim(path)//c_null_char, link_itself)
+      is_link = state%is_link
+   end function is_link
+
+   !> Whether an open file is the one that stands at a path.
+   logical function stands_at(descriptor, path)
+      integer(c_int), intent(in) :: descriptor
+      character(*), intent(in) :: path
+      type(file_state_t) :: open_one, at_path
+
+      open_one = state_of_descriptor(descriptor)
+      at_path = state_of_path(path)
+      stands_at = open_one%exists .and. at_path%exists .and. open_one%number == at_path%number .and. &
+                  all(open_one%device == at_path%device)
+   end function stands_at
+
+   !> Paths of the files that are called like a pattern, in their order.
+   subroutine found_files(folder_and_start, pattern, paths)
+      !> What all of them begin with, as it stands
+      character(*), intent(in) :: folder_and_start
+      !> What follows, as a shell has it
+      character(*), intent(in) :: pattern
+      type(word_t), allocatable, intent(out) :: paths(:)
+      type(glob_t) :: answer
+      type(c_ptr), pointer :: places(:)
+      character(kind=c_char), pointer :: letters(:)
+      character(:), allocatable :: quoted
+      integer, parameter :: longest_path = 4096
+      integer :: i, j, length
+
+      allocate (paths(0))
+      quoted = ''
+      do i = 1, len(folder_and_start)
+         if (index('*?[]\', folder_and_start(i:i)) > 0) quoted = quoted//'\'
+         quoted = quoted//folder_and_start(i:i)
+      end do
+      answer = glob_t(0_c_size_t, c_null_ptr, 0_c_size_t, 0_c_int, c_null_funptr)
+      if (c_glob(quoted//pattern//c_null_char, 0_c_int, c_null_funptr, answer) /= 0) return
+      call c_f_pointer(answer%paths, places, [answer%count])
+      deallocate (paths)
+      allocate (paths(size(places)))
+      do i = 1, size(places)
+         call c_f_pointer(places(i), letters, [longest_path])
+         length = 0
+         do while (letters(length + 1) /= c_null_char)
+            length = length + 1
+         end do
+         allocate (character(length) :: paths(i)%text)
+         do j = 1, length
+            paths(i)%text(j:j) = letters(j)
+         end do
+      end do
+      call c_globfree(answer)
+   end subroutine found_files
+
+   !> Sixteen letters that nobody can foresee.
+   function random_word() result(word)
+      character(16) :: word
+      integer(c_int64_t) :: number
+      integer(c_size_t) :: got
+
+      got = c_getrandom(number, 8_c_size_t, 0_c_int)
+      ! Without a source of randomness the moment makes names that are new all the same.
+      if (got /= 8_c_size_t) call system_clock(number)
+      write (word, '(z16.16)') number
+      do got = 1_c_size_t, 16_c_size_t
+         if (word(got:got) >= 'A') word(got:got) = achar(iachar(word(got:got)) + 32)
+      end do
+   end function random_word
 
    !> Whether a file lies in a folder or below it, wherever links and '..' on the way to both lead. One that is not there
    !> lies nowhere else.

@@ -5,8 +5,11 @@ module signals
    implicit none(type, external)
    private
 
-   integer(c_int), parameter :: signal_interrupt = 2, signal_user_1 = 10, signal_terminate = 15
+   integer(c_int), parameter :: signal_hang_up = 1, signal_interrupt = 2, signal_user_1 = 10, signal_terminate = 15, &
+                                signal_processor_time = 24
    integer(c_int), parameter :: signal_broken_pipe = 13, signal_alarm = 14, signal_file_too_large = 25
+   !> SIG_IGN is the address 1.
+   integer(c_intptr_t), parameter :: ignored = 1_c_intptr_t
 
    !> Module state is unavoidable here: a signal handler has no argument that could carry it.
    integer(c_int), volatile :: caught = 0
@@ -31,17 +34,21 @@ module signals
 
 contains
 
-   !> Note SIGINT, SIGTERM and SIGUSR1 (the warning of batch systems) instead of dying of them. A terminal
-   !> that nobody reads any more and a limit on the size of files are left to the calls that write.
+   !> Note SIGINT, SIGTERM, SIGHUP (the terminal is gone), SIGXCPU (a limit of processor time) and SIGUSR1 (the warning of batch
+   !> systems) instead of dying of them. A terminal that nobody reads any more and a limit on the size of files are left to the
+   !> calls that write.
    subroutine catch_signals()
       type(c_funptr) :: previous
 
       previous = c_signal(signal_interrupt, c_funloc(note_signal))
       previous = c_signal(signal_terminate, c_funloc(note_signal))
       previous = c_signal(signal_user_1, c_funloc(note_signal))
-      ! SIG_IGN is the address 1.
-      previous = c_signal(signal_broken_pipe, transfer(1_c_intptr_t, c_null_funptr))
-      previous = c_signal(signal_file_too_large, transfer(1_c_intptr_t, c_null_funptr))
+      previous = c_signal(signal_processor_time, c_funloc(note_signal))
+      previous = c_signal(signal_hang_up, c_funloc(note_signal))
+      ! What nohup has begun is to outlive the terminal.
+      if (transfer(previous, ignored) == ignored) previous = c_signal(signal_hang_up, previous)
+      previous = c_signal(signal_broken_pipe, transfer(ignored, c_null_funptr))
+      previous = c_signal(signal_file_too_large, transfer(ignored, c_null_funptr))
    end subroutine catch_signals
 
    !> Number of the first signal caught, 0 if none.

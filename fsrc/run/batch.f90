@@ -123,17 +123,35 @@ contains
       type(outcome_t), intent(inout) :: outcome
       type(judged_scene_t) :: judged
       type(output_lock_t) :: lock
+      type(scene_t) :: warned
 
       call lock%take(stem(scene), outcome%error)
       if (allocated(outcome%error)) return
+      warned = scene
+      if (len(lock%warning) > 0) call warn(warned, lock%warning)
       ! Another run may have written these files since they were looked at.
       call check_output_place(scene, scene%source, .false., outcome%faults)
       if (outcome%faults%count() == 0 .and. command%resume .and. scene%task /= task_motion) &
          call check_earlier_run(scene, outcome%error)
-      if (.not. has_trouble(outcome)) call run_task(scene, command, judged, outcome%status, outcome%error)
+      if (.not. has_trouble(outcome)) call run_task(warned, command, judged, outcome%status, outcome%error)
       call lock%release()
       if (is_pair(scene) .and. .not. has_trouble(outcome)) outcome%row = row_of_pair(scene, judged)
    end subroutine run_place
+
+   !> Add a warning to those of a scene.
+   subroutine warn(scene, warning)
+      type(scene_t), intent(inout) :: scene
+      character(*), intent(in) :: warning
+      type(word_t), allocatable :: warnings(:)
+      integer :: i
+
+      allocate (warnings(size(scene%warnings) + 1))
+      do i = 1, size(scene%warnings)
+         warnings(i)%text = scene%warnings(i)%text
+      end do
+      warnings(size(warnings))%text = warning
+      call move_alloc(warnings, scene%warnings)
+   end subroutine warn
 
    !> What follows from the outcome of a scene, once all before it are settled: its row, the table of its gearbox, the exit code.
    subroutine settle_place(command, scenes, outcomes, place, is_last_begun, rows, in_trouble, exit_code)

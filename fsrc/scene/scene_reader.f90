@@ -1,7 +1,7 @@
 !> From the text of an input to a scene: values are typed by the key table, checked together, and put
 !> into the types group by group if there was no fault. All faults of an input are reported at once.
 module scene_reader
-   use errors, only: fault_list_t
+   use errors, only: fault_list_t, last_error, not_permitted
    use file_system, only: read_whole_file
    use input_entry, only: numbers_text, value_text
    use input_key, only: name_limit, table_kind
@@ -60,7 +60,11 @@ contains
       select case (stat)
       case (0)
       case (1)
-         call faults%add(file, 0, '', '', 'there is no such file, or it may not be read')
+         if (last_error() == not_permitted) then
+            call faults%add(file, 0, '', '', 'it may not be read')
+         else
+            call faults%add(file, 0, '', '', 'there is no such file')
+         end if
       case (2)
          call faults%add(file, 0, '', '', 'it cannot be read as a file')
       case default

@@ -3,8 +3,10 @@
    Calls count that write, shorten, synchronise, rename, make or close a file below FAULT_FOLDER. FAULT_AT is the
    call that meets the fault, FAULT_KIND the fault: "error" (that call fails), "full" (from that call on nothing can
    be made or written), "short" (half of what is to be written is, then the disk is full), "kill" (the program ends
-   before the call), "signal" (the signal FAULT_SIGNAL comes before the call), "none". Each call leaves a line in the file FAULT_TRACE: its name and the file that it meets.
-   With FAULT_CLOCK the clock of the program goes on by so many milliseconds whenever it is read. */
+   before the call), "signal" (the signal FAULT_SIGNAL comes before the call), "none". Each call leaves a line in the
+   file FAULT_TRACE: its name and the file that it meets. Before the first call whose line is FAULT_WAIT the program
+   makes a file `waiting` beside that file, and goes on once it is taken away. With FAULT_FLOCK every lock fails with
+   that number. With FAULT_CLOCK the clock of the program goes on by so many milliseconds whenever it is read. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -14,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/types.h>
 #include <time.h>
 #include <unistd.h>
@@ -28,13 +31,45 @@ static int below_folder(const char *path)
     return folder != NULL && path != NULL && strstr(path, folder) != NULL;
 }
 
+#define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+
+/* The name of a file without the word of 16 letters by which a run knows its own: NAME.new for NAME.WORD.new. */
+static void plain_name(const char *path, char *name, size_t size)
+{
+    size_t length;
+    snprintf(name, size, "%s", strrchr(path, '/') + 1);
+    length = strlen(name);
+    if (length < 22 || name[length - 4] != '.' || name[length - 21] != '.') return;
+    if (strspn(name + length - 20, "0123456789abcdef") == 16) memmove(name + length - 20, name + length - 3, 4);
+}
+
+/* Make a file `waiting` beside that of the call, and wait until somebody has taken it away. */
+static void wait_beside(const char *path)
+{
+    char waiting[4096];
+    int descriptor;
+    snprintf(waiting, sizeof waiting, "%.*s/waiting", (int)(strrchr(path, '/') - path), path);
+    descriptor = NEXT(open)(waiting, O_CREAT | O_WRONLY, 0666);
+    if (descriptor >= 0) NEXT(close)(descriptor);
+    while (access(waiting, F_OK) == 0) usleep(5000);
+}
+
 static void trace(const char *call, const char *path)
 {
-    const char *file = getenv("FAULT_TRACE");
-    FILE *stream = file != NULL ? fopen(file, "a") : NULL;
-    if (stream == NULL) return;
-    fprintf(stream, "%s %s\n", call, strrchr(path, '/') + 1);
-    fclose(stream);
+    static int has_waited = 0;
+    const char *file = getenv("FAULT_TRACE"), *wait = getenv("FAULT_WAIT");
+    char name[512], words[600];
+    FILE *stream;
+    plain_name(path, name, sizeof name);
+    snprintf(words, sizeof words, "%s %s", call, name);
+    stream = file != NULL ? fopen(file, "a") : NULL;
+    if (stream != NULL) {
+        fprintf(stream, "%s\n", words);
+        fclose(stream);
+    }
+    if (wait == NULL || has_waited || strcmp(wait, words) != 0) return;
+    has_waited = 1;
+    wait_beside(path);
 }
 
 static int is_output(int descriptor, const char *call)
@@ -79,8 +114,6 @@ static int failed(void)
     return -1;
 }
 
-#define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
-
 ssize_t write(int descriptor, const void *bytes, size_t count)
 {
     enum verdict verdict = is_output(descriptor, "write") ? judge(count) : PASS;
@@ -115,6 +148,14 @@ int close(int descriptor)
 int rename(const char *from, const char *to)
 {
     return is_output_path(to, "rename") && judge(0) != PASS ? failed() : NEXT(rename)(from, to);
+}
+
+int flock(int descriptor, int operation)
+{
+    const char *cause = getenv("FAULT_FLOCK");
+    if (cause == NULL) return NEXT(flock)(descriptor, operation);
+    errno = atoi(cause);
+    return -1;
 }
 
 int creat(const char *path, mode_t mode)

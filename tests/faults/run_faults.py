@@ -1,17 +1,23 @@
 #!/usr/bin/env python3
-"""Lets runs meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files.
+"""Lets runs meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files,
+edited inputs, links, signals, missing locks, and files that are taken away.
 
-A try fails if data are lost or silently wrong, if a run ends with exit code 0 and without all its rows, if
-neither --resume nor --overwrite mends what it left, or if a file that is not the program's has changed.
+A try fails if data are lost or silently wrong, if a summary stands beside the result of another run, if a run
+ends with exit code 0 and without all its rows, if neither --resume nor --overwrite mends what it left, or if a
+file that is not the program's has changed.
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
+import errno
+import io
 import os
 import random
 import re
 import resource
+import runpy
 import shutil
 import signal
 import subprocess
@@ -28,6 +34,8 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
 
 import rattle  # noqa: E402
+from rattle.command import CommandError  # noqa: E402
+from rattle.merge import merge  # noqa: E402
 
 BASE = """&contact radius = 0.0127 length = 0.010 /
 &lubricant viscosity = 0.3 pressure_viscosity = 2.0e-8 /
@@ -65,6 +73,15 @@ TABLE = """&scene task = 'campaign' /
 &spectrum periods = 8 /
 &campaign csv = 'table.csv' samples_per_period = 64 /
 """
+THRESHOLD = """&scene task = 'threshold' /
+&solver periods = 60 accuracy = 1e-6 /
+&spectrum periods = 2 certify = .false. /
+&threshold key = 'load.force_amplitude' criterion = 'harmonic_distortion' level = 0.3
+   first = 20.0 last = 200.0 count = 5 tolerance = 0.01 /
+&campaign vary = 'load.mass' first = 2.0 last = 3.0 count = 6 /
+"""
+# Values of an input that an engineer may edit.
+EDITS = ("viscosity = 0.3", "length = 0.010", "radius = 0.0127", "mass = 3.0", "entrainment_speed = 1.905")
 # Address space of a try: with less the libraries are not loaded, with more every task here is solved [bytes].
 LEAST_MEMORY, MOST_MEMORY = 22e6, 200e6
 FOREIGN = {"notes.txt": b"my notes\n", "scene.part": b"RATTLE, my own\n"}
@@ -81,11 +98,15 @@ class Task:
     expected: dict[str, bytes] = field(default_factory=dict)
     start: dict[str, bytes] = field(default_factory=dict)
     seconds: float = 0.0
-    calls: int = 0
+    trace: tuple[str, ...] = ()
 
     @property
     def is_campaign(self) -> bool:
         return self.name in ("campaign", "table")
+
+    @property
+    def calls(self) -> int:
+        return len(self.trace)
 
     @property
     def command(self) -> tuple[str, ...]:
@@ -105,6 +126,7 @@ TASKS = (
     Task("film", FILM, files=("scene.rattle", "scene.profiles.rattle")),
     Task("campaign", BASE + CAMPAIGN),
     Task("table", BASE + TABLE),
+    Task("threshold", BASE + THRESHOLD),
 )
 
 
@@ -170,7 +192,7 @@ class Study:
         trace = self.folder / "trace"
         trace.unlink(missing_ok=True)
         assert self.call(*task.command, **self.fault("none", 0), FAULT_TRACE=str(trace)).returncode == 0
-        task.calls = len(trace.read_text().splitlines())
+        task.trace = tuple(trace.read_text().splitlines())
 
     def fault(self, kind: str, at: int) -> dict[str, str]:
         return {
@@ -204,7 +226,8 @@ class Study:
         faults = self.kept_foreign()
         for name, content in task.start.items():
             path = self.results / name
-            if name not in task.expected:
+            # A summary goes before its result is replaced, and comes last.
+            if name not in task.expected or (name.endswith(".nml") and not path.exists()):
                 continue
             now = path.read_bytes() if path.exists() else b""
             if now != content and timeless(now, task) != timeless(task.expected[name], task):
@@ -232,6 +255,16 @@ class Study:
                 return []
         return ["rows that can be read are wrong"]
 
+    def belongs(self) -> list[str]:
+        """Whether a summary beside a result is the one of that result."""
+        if not (self.results / "scene.rattle").exists() or not (self.results / "scene.summary.nml").exists():
+            return []
+        try:
+            rattle.read_summary(self.results / "scene.summary.nml")
+        except rattle.SummaryError as fault:
+            return [str(fault)]
+        return []
+
     def mended(self, task: Task) -> list[str]:
         """Whether the run can be carried on or begun anew, to the undisturbed result."""
         if self.call("--resume").returncode == 0:
@@ -247,11 +280,12 @@ class Study:
     def after(self, task: Task, code: int) -> list[str]:
         """All that must hold after a run that a fault has met."""
         if code == 0:
-            return self.complete(task) + self.kept_foreign() + self.litter()
-        return self.kept(task) + self.readable(task) + self.mended(task) + self.litter()
+            return self.complete(task) + self.belongs() + self.kept_foreign() + self.litter()
+        faults = self.kept(task) + self.readable(task) + self.belongs()
+        return faults + self.mended(task) + self.belongs() + self.litter()
 
     def litter(self) -> list[str]:
-        left = [path.name for path in self.results.iterdir() if path.suffix in (".new", ".lock")]
+        left = [path.name for path in self.results.iterdir() if path.suffix in (".new", ".old", ".lock")]
         return [f"{name} is left behind" for name in left]
 
     # --- faults ----------------------------------------------------------------------------------------
@@ -350,7 +384,10 @@ class Study:
 
     def read_after_flip(self, task: Task, name: str) -> list[str]:
         path = self.results / name
-        beside = self.folder / ("expected." + name.partition(".")[2])
+        # Alone in its folder: a summary is held against the result beside it.
+        beside = self.folder / "sound" / name
+        shutil.rmtree(beside.parent, ignore_errors=True)
+        beside.parent.mkdir()
         beside.write_bytes(task.expected[name])
         try:
             if name.endswith(".nml"):
@@ -371,7 +408,7 @@ class Study:
 
     def foreign_files(self, task: Task) -> None:
         """A file of somebody else at a name that the run would write."""
-        names = [*task.expected, "scene.log", "scene.lock", "scene.rattle.new", "scene.summary.nml.new"]
+        names = [*task.expected, "scene.log", "scene.lock"]
         names += ["scene.progress.nml"] if task.is_campaign else []
         for number in range(self.tries):
             self.lay_out(task)
@@ -384,6 +421,237 @@ class Study:
             faults += [] if code == 2 else [f"exit code {code}"]
             self.score("foreign file in the way", task, faults + self.kept_foreign())
 
+    def finished(self, task: Task) -> None:
+        """The folder once the task is done."""
+        self.lay_out(task)
+        for name, content in task.expected.items():
+            (self.results / name).write_bytes(content)
+
+    def edit(self, task: Task) -> str:
+        """Change one value of the input; the key."""
+        given = self.random.choice([edit for edit in EDITS if edit in task.text])
+        key, value = given.split(" = ")
+        edited = f"{float(value) * self.random.uniform(0.8, 1.2):.6g}"
+        (self.folder / "scene.nml").write_text(task.text.replace(given, f"{key} = {edited}"))
+        return key
+
+    def edited_inputs(self, task: Task) -> None:
+        """--resume of an edited input over a finished result, whole or without some of its files."""
+        for _ in range(self.tries):
+            self.finished(task)
+            lost = self.random.choice(
+                ([], ["scene.state"], ["scene.summary.nml"], ["scene.state", "scene.summary.nml"])
+            )
+            for name in lost:
+                (self.results / name).unlink(missing_ok=True)
+            before = {path.name: path.read_bytes() for path in self.results.iterdir()}
+            key = self.edit(task)
+            ended = self.told("--resume")
+            faults = [] if ended.returncode == 2 else [f"exit code {ended.returncode}"]
+            faults += [] if f"{key} is " in ended.stderr else [f"it says {ended.stderr[:200]}"]
+            after = {path.name: path.read_bytes() for path in self.results.iterdir()}
+            faults += [] if before == after else ["the finished files have changed"]
+            self.score("edited input, --resume", task, faults, key)
+
+    def told(self, *options: str, **environment: str) -> subprocess.CompletedProcess[str]:
+        """One run with its words."""
+        return subprocess.run(
+            [self.program, "--quiet", "--threads", "2", *options, "scene.nml"],
+            cwd=self.folder,
+            env={**os.environ, **environment},
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=120,
+        )
+
+    def renames(self, task: Task) -> None:
+        """A kill at or behind a rename of a run that replaces the finished files of another input."""
+        near = [number for number, call in enumerate(task.trace, 1) if call.startswith("rename")]
+        for _ in range(self.tries):
+            self.finished(task)
+            self.edit(task)
+            # An overwriting run has a rename more: that of the summary that goes first.
+            number = self.random.choice(near) + self.random.randrange(4)
+            code = self.call("--overwrite", **self.fault("kill", number)).returncode
+            faults = [] if code in (-signal.SIGKILL, 0) else [f"exit code {code}"]
+            faults += self.belongs() + self.kept_foreign()
+            try:
+                rows_of(self.results / "scene.rattle", task.is_campaign)
+            except rattle.ResultError as fault:
+                faults.append(str(fault))
+            if self.call("--overwrite").returncode != 0:
+                faults.append("--overwrite does not mend it")
+            faults += self.belongs() + self.litter()
+            self.score("kill between renames", task, faults, f"call {number}")
+
+    def taken_away(self, task: Task) -> None:
+        """Result or folder are removed at a random call: the run says so, or ends before."""
+        lines = sorted({line for line in task.trace if ".lock" not in line})
+        for _ in range(self.tries):
+            self.lay_out(task)
+            line, whole = self.random.choice(lines), self.random.random() < 0.5
+            process = self.call(*task.command, wait=False, **self.fault("none", 0), FAULT_WAIT=line)
+            waiting = self.results / "waiting"
+            while process.poll() is None and not waiting.exists():
+                time.sleep(0.002)
+            if whole:
+                shutil.rmtree(self.results)
+            else:
+                for name in ("scene.rattle", *(path.name for path in self.results.glob("scene.rattle.*"))):
+                    (self.results / name).unlink(missing_ok=True)
+            waiting.unlink(missing_ok=True)
+            words = process.stderr.read().decode()
+            code = process.wait(120)
+            process.stderr.close()
+            there = all((self.results / name).exists() for name in task.expected)
+            faults = [] if code in (2, 3) or (code == 0 and there) else [f"exit code {code}"]
+            # After the last rename a run has nothing more to lose.
+            if code == 0 and not there and line in ("close scene.log", "write scene.log"):
+                faults = []
+            faults += [] if code == 0 or "scene" in words else [f"it says {words[:200]}"]
+            self.results.mkdir(exist_ok=True)
+            for name, content in FOREIGN.items():
+                (self.results / name).write_bytes(content)
+            if self.call("--resume").returncode != 0 and self.call("--overwrite").returncode != 0:
+                faults.append("neither --resume nor --overwrite mends it")
+            self.score("taken away", task, faults + self.complete(task) + self.belongs(), f"{line}, {code}")
+
+    def links(self, task: Task) -> None:
+        """A link at a name that the run would write, to nothing, a file of any kind, a folder."""
+        names = [*task.expected, "scene.log", "scene.lock"]
+        for number in range(self.tries):
+            self.lay_out(task)
+            name = names[number % len(names)]
+            elsewhere = self.folder / "elsewhere"
+            if elsewhere.is_dir():
+                shutil.rmtree(elsewhere)
+            elsewhere.unlink(missing_ok=True)
+            kind = self.random.choice(("nothing", "same", "foreign", "folder"))
+            if kind == "folder":
+                elsewhere.mkdir()
+            elif kind != "nothing":
+                elsewhere.write_bytes(task.expected.get(name, b"rattle log") if kind == "same" else b"mine\n")
+            before = elsewhere.read_bytes() if elsewhere.is_file() else None
+            (self.results / name).unlink(missing_ok=True)
+            (self.results / name).symlink_to(elsewhere)
+            ended = self.told(*self.random.choice(([], ["--resume"], ["--overwrite"])))
+            faults = [] if ended.returncode == 2 else [f"exit code {ended.returncode}"]
+            faults += [] if "is a link" in ended.stderr else [f"it says {ended.stderr[:200]}"]
+            after = elsewhere.read_bytes() if elsewhere.is_file() else None
+            faults += (
+                [] if after == before and elsewhere.exists() == (kind != "nothing") else ["it was followed"]
+            )
+            faults += [] if (self.results / name).is_symlink() else ["the link has changed"]
+            self.score("link in the way", task, faults + self.kept_foreign(), f"{name} to {kind}")
+
+    def no_locks(self, task: Task) -> None:
+        """Two runs at a time where the file system knows no locks; every second time of two inputs."""
+        unlocked = {"LD_PRELOAD": str(self.shim), "FAULT_FLOCK": str(errno.ENOLCK)}
+        for number in range(self.tries):
+            self.lay_out(task)
+            processes = [self.call(*task.command, wait=False, **unlocked)]
+            time.sleep(self.random.uniform(0.0, 1.1 * task.seconds))
+            if number % 2:
+                self.edit(task)
+            processes.append(self.call("--overwrite" if number % 2 else "--resume", wait=False, **unlocked))
+            codes = []
+            for process in processes:
+                codes.append(process.wait(120))
+                process.stderr.close()
+            faults = [f"exit codes {codes}"] if 0 not in codes or set(codes) - {0, 2, 3} else []
+            faults += self.belongs() + self.kept_foreign()
+            try:
+                closed = rattle.read(self.results / "scene.rattle").closed
+            except rattle.ResultError as fault:
+                faults.append(str(fault))
+            else:
+                faults += [] if closed else ["the result is not closed"]
+            if self.call("--overwrite").returncode != 0:
+                faults.append("--overwrite does not mend it")
+            self.score("two runs without locks", task, faults + self.belongs() + self.litter(), str(codes))
+
+    def signals(self, task: Task) -> None:
+        """SIGHUP, SIGXCPU or SIGTERM at a random call; --resume goes on to the undisturbed bytes."""
+        for _ in range(self.tries):
+            self.lay_out(task)
+            number = self.random.choice((signal.SIGHUP, signal.SIGXCPU, signal.SIGTERM))
+            at = self.random.randrange(1, task.calls + 1)
+            code = self.call(
+                *task.command, **self.fault("signal", at), FAULT_SIGNAL=str(int(number))
+            ).returncode
+            faults = [] if code in (0, 128 + number) else [f"exit code {code}"]
+            faults += self.belongs() + self.kept_foreign() + self.litter()
+            if self.call("--resume").returncode != 0:
+                faults.append("--resume does not go on")
+            faults += self.complete(task) + self.belongs()
+            self.score("signal of a batch system", task, faults, f"{number.name} at call {at}")
+
+    def scripts(self, task: Task) -> None:
+        """Scripts that would write over a file of somebody else beside the result, its input among them."""
+        calls = (("export.py", "scene.csv"), ("report.py", "report.html"), ("export.py", "scene.nc"))
+        for _ in range(self.tries):
+            self.finished(task)
+            script, name = self.random.choice(calls[:1] if self.random.random() < 0.8 else calls)
+            mine = self.random.randbytes(self.random.randrange(1, 400))
+            (self.results / name).write_bytes(mine)
+            before = {path.name for path in self.results.iterdir()}
+            given = ["--output", str(self.results / name)] if script == "report.py" else []
+            given += ["--to", "netcdf"] if name.endswith(".nc") else []
+            code = script_here(script, str(self.results / "scene.rattle"), *given)
+            faults = [] if code == 2 else [f"exit code {code}"]
+            faults += [] if (self.results / name).read_bytes() == mine else [f"{name} has changed"]
+            names = {path.name for path in self.results.iterdir()}
+            faults += [] if names == before else [f"it left {sorted(names - before)}"]
+            self.score("script over a file", task, faults + self.kept_foreign(), name)
+
+    def merges(self, task: Task) -> None:
+        """A part is missing, another input's, cut short or damaged when parts are joined."""
+        if not (task.is_campaign or task.name == "threshold"):
+            return
+        self.lay_out(task)
+        parts = 3
+        for part in range(1, parts + 1):
+            given = ("--set", f"campaign.part={part}", "--set", f"campaign.parts={parts}")
+            assert self.call(*given).returncode == 0
+        self.edit(task)
+        # Some scenes of the edited input may fail.
+        assert self.call("--output", "other", "--overwrite", *given).returncode in (0, 1)
+        (self.folder / "scene.nml").write_text(task.text)
+        names = [f"scene.part-{part}-of-{parts}.rattle" for part in range(1, parts + 1)]
+        sound = {name: (self.results / name).read_bytes() for name in names}
+        other = (self.folder / "other" / names[-1]).read_bytes()
+        for _ in range(self.tries):
+            for name, content in sound.items():
+                (self.results / name).write_bytes(content)
+            output = self.results / "scene.rattle"
+            kind, chosen = self.random.choice(("missing", "another", "short", "damaged")), list(names)
+            if kind == "missing":
+                chosen.pop(self.random.randrange(parts))
+            elif kind == "another":
+                (self.results / names[-1]).write_bytes(other)
+            else:
+                name = self.random.choice(names)
+                content = bytearray(sound[name])
+                if kind == "short":
+                    content = content[: self.random.randrange(1, len(content))]
+                else:
+                    content[self.random.randrange(128)] ^= 1 << self.random.randrange(8)
+                (self.results / name).write_bytes(content)
+            self.random.shuffle(chosen)
+            faults = []
+            try:
+                merge([self.results / name for name in chosen], output)
+            except (CommandError, rattle.ResultError):
+                faults += ["a file is left"] if output.exists() else []
+            else:
+                # Bits that nothing hangs on may be damaged; all else is told.
+                same = output.read_bytes() == task.expected["scene.rattle"]
+                faults += [] if kind == "damaged" and same else ["they were joined"]
+                output.unlink()
+            faults += self.litter()
+            self.score("part missing at merge", task, faults, kind)
+
     def table(self) -> Iterator[str]:
         tasks = [task.name for task in TASKS]
         yield "| fault | " + " | ".join(tasks) + " | tried | failed |"
@@ -394,6 +662,21 @@ class Study:
             failed = sum(self.failed[what, task] for task in tasks)
             yield f"| {what} | {' | '.join(cells)} | {tried} | {failed} |"
         yield f"| **all** | {' | ' * (len(tasks) - 1)} | {self.tried.total()} | **{self.failed.total()}** |"
+
+
+def script_here(script: str, *arguments: str) -> int:
+    """Run a script of the package within this Python; its exit code."""
+    own, handler = sys.argv, signal.getsignal(signal.SIGTERM)
+    sys.argv = [script, *arguments]
+    try:
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            runpy.run_path(str(HERE.parents[1] / "scripts" / script), run_name="__main__")
+    except SystemExit as left:
+        return int(left.code or 0)
+    finally:
+        sys.argv = own
+        signal.signal(signal.SIGTERM, handler)
+    return 0
 
 
 def timeless(content: bytes, task: Task) -> bytes:
@@ -436,6 +719,14 @@ FAULTS: dict[str, Callable[[Study, Task], None]] = {
     "pairs": Study.two_at_a_time,
     "flips": Study.flips,
     "foreign": Study.foreign_files,
+    "edited": Study.edited_inputs,
+    "renames": Study.renames,
+    "taken": Study.taken_away,
+    "links": Study.links,
+    "unlocked": Study.no_locks,
+    "signals": Study.signals,
+    "scripts": Study.scripts,
+    "merges": Study.merges,
 }
 
 

@@ -16,6 +16,8 @@ from result_writer import resealed
 import rattle as package
 
 KINDS = ("log", "rattle", "state", "summary.nml")
+# What a run that was killed has left beside the place of a file.
+LEFT = "0123456789abcdef.new"
 
 
 def limited(rattle: Path, folder: Path, blocks: int, *arguments: str) -> subprocess.CompletedProcess[str]:
@@ -120,7 +122,7 @@ def test_failed_task_leaves_the_earlier_files(
 @pytest.mark.parametrize(
     "command", [[], ["--resume"], ["--overwrite"]], ids=lambda words: "".join(words) or "plain"
 )
-@pytest.mark.parametrize("kind", [*KINDS, *(f"{kind}.new" for kind in KINDS[1:]), "lock"])
+@pytest.mark.parametrize("kind", [*KINDS, *(f"{kind}.{LEFT}" for kind in KINDS[1:]), "lock"])
 def test_empty_file_is_ours(kind: str, command: list[str], run, scene_text, tmp_path: Path) -> None:
     """A crash between the making of a file and its first bytes stops nobody."""
     (tmp_path / "scene.nml").write_text(scene_text())
@@ -134,7 +136,7 @@ def test_empty_file_is_ours(kind: str, command: list[str], run, scene_text, tmp_
 
 
 @pytest.mark.parametrize(
-    "kind", ["log", "rattle", "summary.nml", "progress.nml", "rattle.new", "summary.nml.new"]
+    "kind", ["log", "rattle", "summary.nml", "progress.nml", f"rattle.{LEFT}", f"summary.nml.{LEFT}"]
 )
 def test_empty_file_of_a_campaign_is_ours(kind: str, run, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(grid(scene_text, 5, 5))
@@ -150,10 +152,10 @@ def test_zeros_beside_the_place_of_a_file_are_ours(kind: str, run, scene_text, t
     """A crash of the machine leaves zeros where bytes were on their way to the disk."""
     (tmp_path / "scene.nml").write_text(grid(scene_text, 5, 5))
     (tmp_path / "results").mkdir()
-    (tmp_path / "results" / f"scene.{kind}.new").write_bytes(bytes(4096))
+    (tmp_path / "results" / f"scene.{kind}.{LEFT}").write_bytes(bytes(4096))
     ended = run("--resume", "scene.nml", cwd=tmp_path)
     assert (ended.returncode, ended.stderr) == (0, "")
-    assert not (tmp_path / "results" / f"scene.{kind}.new").exists()
+    assert not (tmp_path / "results" / f"scene.{kind}.{LEFT}").exists()
 
 
 @pytest.mark.parametrize("kind", ["rattle", "state", "summary.nml"])
@@ -162,7 +164,7 @@ def test_half_of_a_new_file_is_replaced(kind: str, run, scene_text, tmp_path: Pa
     (tmp_path / "scene.nml").write_text(scene_text())
     assert run("scene.nml", cwd=tmp_path).returncode == 0
     path = tmp_path / "results" / f"scene.{kind}"
-    half = path.with_name(path.name + ".new")
+    half = path.with_name(f"{path.name}.{LEFT}")
     half.write_bytes(path.read_bytes()[:50])
     assert run("--resume", "--set", "solver.periods=9", "scene.nml", cwd=tmp_path).returncode == 0
     assert not half.exists()
@@ -322,7 +324,7 @@ def test_table_written_in_other_words_is_the_same(run, scene_text, tmp_path: Pat
 @pytest.mark.parametrize(
     "options", [[], ["--resume"], ["--overwrite"]], ids=lambda words: "".join(words) or "plain"
 )
-@pytest.mark.parametrize("kind", ["rattle", "log", "summary.nml", "progress.nml", "rattle.new", "lock"])
+@pytest.mark.parametrize("kind", ["rattle", "log", "summary.nml", "progress.nml", "lock"])
 def test_campaign_leaves_foreign_files(
     kind: str, options: list[str], refused, scene_text, tmp_path: Path
 ) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -47,7 +48,7 @@ def test_failure_of_every_call_is_told(meet, tmp_path: Path) -> None:
     whole, calls = meet("whole")
     assert whole.returncode == 0
     names = {call.split()[0] for call in calls}
-    assert names >= {"creat", "write", "pwrite", "fsync", "close", "rename"}
+    assert names >= {"open", "write", "pwrite", "fsync", "close", "rename"}
     tried = 0
     for number, call in enumerate(calls, 1):
         file = call.split()[1].removesuffix(".new")
@@ -76,9 +77,9 @@ def test_failure_of_every_call_of_a_campaign_is_told(meet, tmp_path: Path) -> No
     for number in numbers:
         folder, call = f"call_{number}", calls[number - 1]
         ended, _ = meet(folder, "map", FAULT_KIND="error", FAULT_AT=number)
-        assert ended.returncode == 3, call
-        told = ended.stderr.replace(".new", "")
-        assert f"{folder}/map.rattle cannot be written: " in told, call
+        # Before anything has run, a place that cannot be written is bad input.
+        assert ended.returncode == (2 if call.startswith("open") else 3), call
+        assert re.search(rf"{folder}/map\.rattle(\.\w+\.new)? cannot be written: ", ended.stderr), call
         summary = tmp_path / folder / "map.summary.nml"
         assert not summary.exists() or "'complete'" not in summary.read_text(), call
 

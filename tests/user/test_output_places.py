@@ -101,7 +101,7 @@ def test_link_to_a_file_of_another_kind_is_never_followed(refused, scene_text, t
     (tmp_path / "results" / "scene.rattle").symlink_to(tmp_path / "mine")
     faults = refused("scene.nml", "--overwrite")
     assert len(faults) == 1
-    assert "results/scene.rattle exists and was not written by rattle" in faults[0]
+    assert "results/scene.rattle is a link, which rattle did not make" in faults[0]
 
 
 def test_pipe_in_place_of_a_file(refused, scene_text, tmp_path: Path) -> None:
