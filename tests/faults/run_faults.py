@@ -3,8 +3,8 @@
 edited inputs, links, signals, missing locks, and files that are taken away.
 
 A try fails if data are lost or silently wrong, if a summary stands beside the result of another run, if a run
-ends with exit code 0 and without all its rows, if neither --resume nor --overwrite mends what it left, or if a
-file that is not the program's has changed.
+ends with exit code 0 and without all its rows, if neither --resume nor --overwrite mends what it left, or if
+a file that is not the program's has changed.
 """
 
 from __future__ import annotations
