@@ -2,7 +2,7 @@
 module log_file
    use, intrinsic :: iso_c_binding, only: c_int
    use errors, only: error_t, error_words, exit_system, last_error, raise
-   use file_descriptor, only: close_descriptor, open_new
+   use file_descriptor, only: close_descriptor, open_existing, open_new, read_and_write
    use file_system, only: delete_file, file_state_t, stands_at, state_of_path
    use text_output, only: lost_text, note_lost_text, put_line, write_line
    implicit none(type, external)
@@ -34,12 +34,19 @@ contains
       logical, intent(in) :: quiet
       !> Set if the log cannot be written
       type(error_t), allocatable, intent(out) :: error
+      type(file_state_t) :: state
 
       self%to_terminal = .not. quiet
       self%path = path
-      ! One that stands there is not written into: it could bear another name elsewhere.
-      call delete_file(path)
-      self%descriptor = open_new(path)
+      state = state_of_path(path)
+      if (state%exists .and. .not. state%is_file) then
+         ! A log that is led to a device: the device stays.
+         self%descriptor = open_existing(path, read_and_write)
+      else
+         ! One that stands there is not written into: it could bear another name elsewhere.
+         call delete_file(path)
+         self%descriptor = open_new(path)
+      end if
       if (self%descriptor < 0_c_int) call raise(error, exit_system, path//' cannot be written: '//error_words(last_error()))
    end subroutine open_log
 

@@ -125,12 +125,14 @@ contains
       character(*), intent(in) :: stem
       !> Set if one has
       type(error_t), allocatable, intent(out) :: error
-      character(len(lock_magic) + len(own_word())) :: content
+      character(:), allocatable :: own
+      character(len(lock_magic) + 16) :: content
       integer :: got
 
+      own = lock_magic//own_word()
       call first_bytes(lock_path(stem), content, got)
       ! Where there are no locks, one that is gone may have gone with a later run.
-      if (got == len(content) .and. content == lock_magic//own_word()) return
+      if (got == len(content) .and. content == own) return
       if (got < len(content) .and. .not. without_locks) return
       call raise(error, exit_system, stem//' is being written by another run, which began later; what this run has computed is '// &
                  'not kept')

@@ -496,7 +496,9 @@ class Study:
             while process.poll() is None and not waiting.exists():
                 time.sleep(0.002)
             if whole:
-                shutil.rmtree(self.results)
+                gone = self.folder / "gone"
+                shutil.rmtree(gone, ignore_errors=True)
+                self.results.rename(gone)
             else:
                 for name in ("scene.rattle", *(path.name for path in self.results.glob("scene.rattle.*"))):
                     (self.results / name).unlink(missing_ok=True)
