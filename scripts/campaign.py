@@ -212,6 +212,7 @@ def percent(count: int, whole: int) -> str:
 def opened(path: Path) -> Campaign:
     """A campaign, with a word if it is not finished."""
     campaign = rattle.read_campaign(path)
+    command.note_summary(campaign)
     if not campaign.closed:
         done = int(campaign.done.sum())
         command.note(f"{path} is not finished; {done} of {campaign.row_count} scenes are done and used.")

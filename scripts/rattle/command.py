@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from rattle.result import Result, ResultError
+from rattle.result_file import ResultFile
 from rattle.summary import SummaryError, read_summary
 
 COMPLETE = 0
@@ -91,6 +92,11 @@ def note_open(result: Result) -> None:
     """Tell the user that a result is not closed, or that the summary beside it is of another run."""
     if not result.closed:
         note(f"{result.path} is not closed; its {result.row_count} complete rows are used.")
+    note_summary(result)
+
+
+def note_summary(result: ResultFile) -> None:
+    """Tell the user that the summary beside a result is of another run, if it is."""
     try:
         if result.summary_path.exists():
             read_summary(result.summary_path)

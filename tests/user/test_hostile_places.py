@@ -85,7 +85,9 @@ def test_files_that_are_taken_away_are_missed(
 def test_pairs_that_are_taken_away_are_missed(begun, run, shim: Path, tmp_path: Path) -> None:
     """The first pair is complete when the folder goes; the second says so."""
     text = GEARBOX + "&scene name = 'scene' /\n"
-    ended = begun(text, shim, "fsync scene.4th.state.new", lambda: (tmp_path / "results").rename(tmp_path / "gone"))
+    ended = begun(
+        text, shim, "fsync scene.4th.state.new", lambda: (tmp_path / "results").rename(tmp_path / "gone")
+    )
     assert ended.returncode == 3
     assert "results/scene.4th" in ended.stderr and "cannot be written" in ended.stderr
 

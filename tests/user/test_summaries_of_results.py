@@ -99,6 +99,27 @@ def test_every_script_says_so(script: list[str], two_runs, tmp_path: Path) -> No
     assert ended.returncode == 2 or not needs_it
 
 
+def test_scripts_of_campaigns_say_so(two_runs, tmp_path: Path) -> None:
+    one, two = two_runs("campaign")
+    exchange(one, two, "scene.summary.nml")
+    for script in (
+        ["campaign.py", "export", one / "scene.rattle", "--to", "csv", "--output", "rows.csv"],
+        ["plot.py", "campaign", one / "scene.rattle"],
+    ):
+        ended = call_script(*script, cwd=tmp_path)
+        assert "scene.summary.nml does not belong to " in ended.stderr
+
+
+def test_profiles_beside_another_table_are_refused(two_runs, tmp_path: Path) -> None:
+    """Also where a kill has left no summary."""
+    one, two = two_runs("film")
+    exchange(one, two, "scene.profiles.rattle")
+    (one / "scene.summary.nml").unlink()
+    ended = call_script("plot.py", "film", one / "scene.rattle", cwd=tmp_path)
+    assert ended.returncode == 2
+    assert "scene.profiles.rattle does not belong to" in ended.stderr
+
+
 def test_a_table_of_other_pairs_is_refused(run, tmp_path: Path) -> None:
     (tmp_path / "box.nml").write_text(GEARBOX)
     for folder, setting in (("one", "shaft.speed_rpm=800"), ("two", "shaft.speed_rpm=820")):

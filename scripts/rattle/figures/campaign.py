@@ -78,6 +78,7 @@ def run(options: Namespace) -> None:
     options.worst = options.worst or 10
     options.by = options.by or "acceleration_maximum"
     campaign = rattle.read_campaign(options.campaign)
+    command.note_summary(campaign)
     if not campaign.closed:
         done = int(campaign.done.sum())
         command.note(f"{campaign.path} is not finished; {done} of {campaign.row_count} scenes are done.")
