@@ -7,7 +7,7 @@ module byte_file
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc
    use errors, only: error_t, error_words, exit_system, last_error, raise
    use file_descriptor, only: close_descriptor, open_new, synchronise_descriptor, write_bytes
-   use file_system, only: delete_file, random_word, rename_file, stands_at
+   use file_system, only: delete_file, random_word, rename_file, rename_new, stands_at
    use kinds, only: dp, int64
    use text_output, only: lock_texts, unlock_texts
    implicit none(type, external)
@@ -37,7 +37,7 @@ module byte_file
       generic :: put => put_text, put_numbers
       procedure :: put_at
       procedure :: flush => flush_buffer
-      procedure :: place => place_file
+      procedure :: show
       procedure :: close => close_file
       procedure, private :: put_text
       procedure, private :: put_numbers
@@ -183,17 +183,16 @@ contains
       if (used > 0) call self%write_on(self%buffer(:used), error)
    end subroutine flush_buffer
 
-   !> Put the file in its place, if it is not there. What is written into an open file afterwards goes there.
-   subroutine place_file(self, error)
+   !> Put the file in its place already, if nothing stands there: what is written into it afterwards goes there. Where another run
+   !> was faster it stays beside its place.
+   subroutine show(self, error)
       class(byte_file_t), intent(inout) :: self
-      !> Set if it cannot be done
+      !> Set if the disk is full, say
       type(error_t), allocatable, intent(out) :: error
 
-      if (self%placed) return
-      if (self%is_open()) call self%flush(error)
-      if (.not. allocated(error)) call put_in_place(self%path, error)
-      self%placed = .not. allocated(error)
-   end subroutine place_file
+      call self%flush(error)
+      if (.not. allocated(error)) call rename_new(new_path(self%path), self%path, self%placed)
+   end subroutine show
 
    !> Close the file, which stands on the disk itself then. After a failed write nothing more is written, and no
    !> second error is raised; a file beside its place is taken away.

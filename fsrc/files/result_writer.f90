@@ -79,7 +79,7 @@ contains
       if (.not. allocated(error)) then
          stands = path_exists(path)
          if (show_at_once .and. .not. stands) then
-            call self%file%place(error)
+            call self%file%show(error)
          else
             call self%file%flush(error)
          end if

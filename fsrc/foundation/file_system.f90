@@ -10,7 +10,7 @@ module file_system
    private
 
    public :: read_whole_file, first_bytes, path_exists, file_state_t, state_of_path, state_of_descriptor, &
-             is_directory, is_writable, make_directory, rename_file, &
+             is_directory, is_writable, make_directory, rename_file, rename_new, &
              delete_file, is_terminal, lies_inside, is_link, stands_at, found_files, random_word
 
    !> What stands at a path.
@@ -46,6 +46,7 @@ module file_system
    end type glob_t
 
    integer(c_int), parameter :: from_working_directory = -100, path_is_empty = 4096, link_itself = 256, basic_facts = 2047
+   integer(c_int), parameter :: replace_nothing = 1
    integer, parameter :: type_bits = int(o'170000'), regular_file = int(o'100000'), folder = int(o'040000'), link = int(o'120000')
    integer(c_int), parameter :: test_exists = 0, test_write_and_enter = 3
 
@@ -80,6 +81,16 @@ module file_system
          character(kind=c_char), intent(in) :: to(*)
          integer(c_int) :: stat
       end function c_rename
+
+      function c_renameat2(from_folder, from, to_folder, to, flags) bind(c, name='renameat2') result(stat)
+         import :: c_char, c_int
+         integer(c_int), value :: from_folder
+         character(kind=c_char), intent(in) :: from(*)
+         integer(c_int), value :: to_folder
+         character(kind=c_char), intent(in) :: to(*)
+         integer(c_int), value :: flags
+         integer(c_int) :: stat
+      end function c_renameat2
 
       function c_unlink(path) bind(c, name='unlink') result(stat)
          import :: c_char, c_int
@@ -377,6 +388,24 @@ contains
 
       moved = c_rename(trim(from)//c_null_char, trim(to)//c_null_char) == 0
    end subroutine rename_file
+
+   !> Move a file to a path where nothing stands, in one step.
+   subroutine rename_new(from, to, moved)
+      !> Present path
+      character(*), intent(in) :: from
+      !> New path
+      character(*), intent(in) :: to
+      !> Whether it worked; .false. if something stands there
+      logical, intent(out) :: moved
+      logical :: stands
+
+      moved = c_renameat2(from_working_directory, trim(from)//c_null_char, from_working_directory, trim(to)//c_null_char, &
+                          replace_nothing) == 0
+      if (moved) return
+      ! Some file systems cannot look and move in one step.
+      stands = path_exists(to)
+      if (.not. stands) call rename_file(from, to, moved)
+   end subroutine rename_new
 
    !> Delete a file, if it is there.
    subroutine delete_file(path)

@@ -557,11 +557,11 @@ class Study:
             if number % 2:
                 self.edit(task)
             processes.append(self.call("--overwrite" if number % 2 else "--resume", wait=False, **unlocked))
-            codes = []
+            codes, words = [], ""
             for process in processes:
-                codes.append(process.wait(120))
-                process.stderr.close()
-            faults = [f"exit codes {codes}"] if 0 not in codes or set(codes) - {0, 2, 3} else []
+                words += process.communicate(timeout=120)[1].decode()
+                codes.append(process.returncode)
+            faults = [f"exit codes {codes}: {words}"] if 0 not in codes or set(codes) - {0, 2, 3} else []
             faults += self.belongs() + self.kept_foreign()
             try:
                 closed = rattle.read(self.results / "scene.rattle").closed

@@ -61,7 +61,7 @@ def read_profiles(points: Path) -> Result:
         raise ResultError(f"{path} does not exist: the film task was not asked for 'profile'.")
     result = rattle.read(path)
     _check_task(result)
-    if result.input_text != rattle.read(points).input_text:
+    if points.exists() and result.input_text != rattle.read(points).input_text:
         raise ResultError(f"{path} does not belong to {points} beside it: the two are of different inputs.")
     return result
 
