@@ -22,7 +22,7 @@ MOST_THREADS = 4
 FEWEST_CHUNKS = 4
 # Chunks of a few rows that are verified at a time.
 SHORT_CHUNKS = 4096
-DERIVED = re.compile(r"^! derived: (\w+)\.(\w+) = ([-+.\dE]+(?:, [-+.\dE]+)*)", re.MULTILINE)
+DERIVED = re.compile(r"^! derived: (\w+)\.(\w+) = ([-+.\dE]+(?:, [-+.\dE]+)*) ?(\S*)", re.MULTILINE)
 # Tasks whose results plot.py draws, with a command of that name.
 DRAWN = ("motion", "film", "sweep", "campaign", "threshold")
 
@@ -63,12 +63,18 @@ class ResultFile:
             groups = parse(self.input_text)
             # What follows from &gear, &shaft and &oil; a sweep or campaign may vary what it follows from.
             if groups.get("scene", {}).get("task") == "motion":
-                for group, key, value in DERIVED.findall(self.input_text):
+                for group, key, value, _ in DERIVED.findall(self.input_text):
                     numbers = [float(number) for number in value.split(",")]
-                    groups.setdefault(group, {})[key] = numbers if key.startswith("force_") else numbers[0]
+                    several = len(numbers) > 1 or key.startswith("force_")
+                    groups.setdefault(group, {})[key] = numbers if several else numbers[0]
             return groups
         except NamelistError as fault:
             raise ResultError(f"The resolved input in {self.path} cannot be read: {fault}") from None
+
+    @property
+    def derived_units(self) -> dict[tuple[str, str], str]:
+        """The unit of each value, by group and key, that follows from &gear, &shaft and &oil."""
+        return {(group, key): unit for group, key, _, unit in DERIVED.findall(self.input_text)}
 
     def value(self, group: str, key: str) -> Any:
         """One value of the resolved input."""

@@ -22,6 +22,8 @@ class Page:
     numbers: list[tuple[str, str]] = field(default_factory=list)  # all digits, and what is shown
     headings: list[str] = field(default_factory=list)
     anchors: list[str] = field(default_factory=list)
+    tables: list[list[list[str]]] = field(default_factory=list)  # the heads and the rows of each
+    paragraphs: list[str] = field(default_factory=list)  # and captions, in their order
 
     def shown(self, name: str) -> str:
         """The second cell of the row that begins with this name."""
@@ -67,6 +69,11 @@ class _Reader(HTMLParser):
         self.open.append((tag, kind))
         if tag == "tr":
             self.page.rows.append([])
+            self.page.tables[-1].append(self.page.rows[-1])
+        elif tag == "table":
+            self.page.tables.append([])
+        elif tag in ("p", "figcaption"):
+            self.page.paragraphs.append("")
         elif tag in ("td", "th"):
             self.page.rows[-1].append("")
         elif tag == "span" and kind.startswith("badge"):
@@ -89,6 +96,8 @@ class _Reader(HTMLParser):
     def handle_data(self, data):
         tags = [tag for tag, _ in self.open]
         self.page.words += data
+        if "p" in tags or "figcaption" in tags:
+            self.page.paragraphs[-1] += data
         if "td" in tags or "th" in tags:
             self.page.rows[-1][-1] += data
         if any(kind.startswith("badge") for _, kind in self.open):

@@ -15,6 +15,9 @@ from told import ANY, assert_told, counted, short
 
 import rattle
 
+# What resists a loose gear, and what the shaft does against that.
+DRAG = {f"drag_{part}": " N m" for part in ("torque", "bearing", "synchroniser", "churning")}
+DRAG["inertia_ratio"] = ""
 SUCCESSES = ("complete", "steady")
 LAWS = {
     ("reynolds", "iso-viscous"): "exact iso-viscous film of the Reynolds equation",
@@ -51,6 +54,9 @@ def start_of_motion(told: Mapping[str, Any]) -> str:
     if "natural_frequency" in told:
         words += f", natural frequency {short(told['natural_frequency'], 5)} Hz"
         words += f", damping ratio {short(told['damping_ratio'], 4)}"
+    for name, unit in DRAG.items():
+        if name in told:
+            words += f", {name.replace('_', ' ')} {short(told[name], 4)}{unit}"
     return words
 
 

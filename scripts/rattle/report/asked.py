@@ -77,8 +77,8 @@ def inputs(result: ResultFile) -> list[str]:
         rows.append([page.code(f"&{group}")])
         for name, given in keys.items():
             key = known.get((group.partition("(")[0], name))
-            unit = key.unit if key else ""
-            meaning = key.meaning.replace("`", "") if key else ""
+            unit = key.unit if key else result.derived_units.get((group, name), "")
+            meaning = key.meaning.replace("`", "") if key else "Follows from gears, shaft and oil."
             meaning = meaning.partition(" Only with ")[0].partition(" Follows from ")[0]
             rows.append([page.code(name), page.value(given, unit), meaning])
     return [

@@ -12,7 +12,7 @@ from rattle.keys import unit_of
 from rattle.report import page
 from rattle.result import Result
 from rattle.result_file import ResultFile
-from rattle.summary import Summary, read_summary
+from rattle.summary import RESULTS, Summary, read_summary
 from rattle.verdict import forced
 
 SHOWN_PERIODS = 4
@@ -327,6 +327,7 @@ def computed(result: ResultFile, summary: Summary | None) -> list[str]:
             "status_text",
             "certificate",
             "certificate_text",
+            *RESULTS,
         ):
             rows.append([name.replace("_", " "), page.value(given, unit_of(name))])
     return [page.table(("", ""), rows, kinds=("", "number"))]
