@@ -45,7 +45,7 @@ contains
       call summary%add('model', choice_word('film', 'model', scene%film%model))
       call summary%add('speed_used', judged%resolved%problem%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))
-      if (scene%gear%given) call summary%add('acceleration_meaning', adjustl(acceleration_words(scene)))
+      if (scene%gear%given) call summary%add('acceleration_meaning', trim(adjustl(acceleration_words(scene))))
       call add_derived(summary, scene)
       call add_part(summary, judged, part_scene)
       if (judged%judged) then
