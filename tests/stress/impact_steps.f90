@@ -18,7 +18,7 @@ module impact_steps
    use film_law, only: film_load, film_t, never_pulls, overflow_load, squeeze_velocity
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t, nodes, solve_linear
-   use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity, problem_t
+   use problem, only: of_drive_compression, of_film, of_velocity, problem_t
    use squeeze_of_load, only: load_carried
    implicit none(type, external)
    private
@@ -69,11 +69,11 @@ contains
       type(tooth_t) :: tooth
       integer :: n
 
-      tooth%film = lane%film
+      tooth%film = lane%contact%film
       tooth%mass = lane%mass
       tooth%static_load = lane%force%steady + lane%weight
       tooth%backlash = lane%backlash
-      tooth%compliance = lane%compliance
+      tooth%compliance = lane%contact%compliance
       allocate (tooth%amplitudes(lane%force%highest), tooth%phases(lane%force%highest))
       call set_order(1, lane%force%cosine, lane%force%sine)
       do n = 2, lane%force%highest
@@ -108,7 +108,8 @@ contains
 
       state%film = start%numbers(of_film)*(1.0_dp + offset)
       state%velocity = start%numbers(of_velocity)
-      state%compression = start%numbers(of_drive_compression:of_coast_compression)
+      state%compression = 0.0_dp
+      state%compression(:size(start%numbers) - of_velocity) = start%numbers(of_drive_compression:)
       if (lane%backlash < huge(1.0_dp)) state%coast = lane%backlash - state%film + sum(state%compression)
    end function start_of_tooth
 

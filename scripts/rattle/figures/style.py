@@ -228,6 +228,6 @@ def _repeated(labels: Sequence[str]) -> list[bool]:
 
 
 def of_acceleration(label: str, results: Sequence[Result]) -> str:
-    """The label of an axis: with a &gear accelerations are relative to the shaft, along the line of action."""
+    """The label of an axis: that of a gear is relative to the shaft, along the line of action."""
     on_a_shaft = any(result.shaft_speed is not None for result in results)
     return label.replace(" [", f" relative\n{TO_THE_SHAFT} [") if on_a_shaft else label
