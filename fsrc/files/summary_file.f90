@@ -1,6 +1,7 @@
 !> NAME.summary.nml: one group &summary, readable by Fortran and f90nml. Unknown values are left out. A comment behind
 !> the group holds the checksum of all bytes before it.
 module summary_file
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use byte_file, only: byte_file_t, put_in_place
    use checksum, only: checksum_of
    use errors, only: error_t
@@ -43,10 +44,9 @@ contains
    subroutine add_real(self, name, value)
       class(summary_t), intent(inout) :: self
       character(*), intent(in) :: name
-      !> Finite value
       real(dp), intent(in) :: value
 
-      if (abs(value) < huge(1.0_dp)) call self%add_line(name, real_text(value))
+      if (ieee_is_finite(value)) call self%add_line(name, real_text(value))
    end subroutine add_real
 
    !> Add a list of real values, four to a line.

@@ -205,8 +205,10 @@ contains
          associate (numbers => rows(i)%numbers)
             class = status_name(rows(i)%status)
             if (.not. ieee_is_nan(numbers(1))) class = quantity_word(told(1), nint(numbers(1)))
-            if (numbers(2) > 0.0_dp) class = class//', certified'
-            peak = max(abs(numbers(place_minimum)), abs(numbers(place_maximum)))
+            peak = numbers(place_maximum)
+            ! What is unknown is compared with nothing.
+            if (.not. ieee_is_nan(numbers(2))) class = class//trim(merge(', certified', '           ', numbers(2) > 0.0_dp))
+            if (.not. ieee_is_nan(peak)) peak = max(abs(numbers(place_minimum)), abs(peak))
             call log%line('  '//cell(trim(rows(i)%name), width)//cell(class, 24)//cell(flag_cell(numbers(3)), 13)// &
                           cell(number_cell(1.0e6_dp*numbers(4)), 12)//cell(number_cell(peak), 12)// &
                           cell(number_cell(numbers(place_rms)), 12)//cell(number_cell(numbers(place_force)), 12)// &

@@ -131,11 +131,10 @@ contains
       type(scene_t), intent(in) :: scene
       type(word_t), allocatable :: paths(:)
 
-      if (scene%points%compute(compute_profile)) then
-         paths = [word_t(result_path(scene)), word_t(profiles_path(scene))]
-      else
-         paths = [word_t(result_path(scene))]
-      end if
+      ! One by one: gfortran 12 loses the texts of a list that is built of function results.
+      allocate (paths(merge(2, 1, scene%points%compute(compute_profile))))
+      paths(1)%text = result_path(scene)
+      if (size(paths) > 1) paths(2)%text = profiles_path(scene)
    end function result_files
 
    !> u* as given, or of the speeds.

@@ -116,6 +116,7 @@ def reader_of_computed(given: Mapping[str, Mapping[str, Any]], told: Told) -> Ca
         "Film model: published, the formulas of the paper; reynolds, exact": (told.get("model"), ""),
         "Speed that the film was computed with": (told.get("speed_used"), "m/s"),
         "That speed is": (told.get("speed_meaning"), ""),
+        "Accelerations are": (told.get("acceleration_meaning"), ""),
         "Time at which the run ended": (told.get("status_time"), "s"),
         "Film at that time": (told.get("film_at_status_time"), "m"),
         "Time that the computation took": (told.get("wall_seconds"), "s"),
@@ -344,6 +345,8 @@ def assert_motion(path: Path) -> None:
     sentences.append(f"Save as {path.stem}.nml")
     if told["film_regime"] == "elastohydrodynamic":
         sentences.append("flatten by more than a tenth of the film")
+    odd = np.atleast_1d(told.get("input_warnings", [])).tolist()
+    sentences += [f"{words[:1].upper()}{words[1:]}." for words in odd]
     assert_numbers(page, sentences, silent)
     assert page.paragraphs[2] == told["rattle_class"] + told.get("certificate", "not examined")
     assert page.badges == [told.get("certificate", "not examined")]
