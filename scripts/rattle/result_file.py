@@ -136,7 +136,9 @@ class CheckedRows:
     def _verify_short_chunks(self, chunks: range) -> None:
         """Chunks of a few rows, many at a time; one that is not what its checksum says is left."""
         table, columns = self._header.chunks, self.mapped.shape[1]
-        whole = range(chunks.start, min(chunks.stop, self._covered // table.chunk_rows))
+        # A campaign in progress may end before the rows of all its chunks.
+        held = min(self._covered, self.mapped.shape[0]) // table.chunk_rows
+        whole = range(chunks.start, min(chunks.stop, held))
         if table.kind == SERIES or table.chunk_rows * columns > LANES:
             return
         for start in range(whole.start, whole.stop, SHORT_CHUNKS):

@@ -78,6 +78,20 @@ def test_unfinished_campaign_of_whole_chunks_knows_its_scenes(tmp_path):
         rattle.read_campaign(path)
 
 
+def test_unfinished_campaign_of_short_chunks_may_end_before_all_of_them(tmp_path):
+    made = grid(FORCES, SPEEDS, chunk_rows=1)
+    path = made.write(tmp_path / "map.rattle", undone=[7, *range(60, 300)], closed=False)
+    path.write_bytes(path.read_bytes()[: -240 * 8 * len(made.columns)])
+    campaign = rattle.read_campaign(path)
+    assert campaign.done.sum() == 59
+    np.testing.assert_array_equal(campaign["scene"][campaign.done], np.delete(np.arange(1, 61), 7))
+    damaged = bytearray(path.read_bytes())
+    damaged[-1] ^= 1
+    path.write_bytes(damaged)
+    with pytest.raises(rattle.ResultError, match="rows 60 to 60 .* are not what their checksum says"):
+        rattle.read_campaign(path).frame()
+
+
 def test_campaign_that_has_just_begun(made, tmp_path):
     campaign = rattle.read_campaign(made.write(tmp_path / "a.rattle", undone=range(5), closed=False))
     assert campaign.done.sum() == 0
