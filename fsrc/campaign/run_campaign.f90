@@ -320,9 +320,9 @@ contains
       if (progress%undersampled > 0) call log%line('  warning: the lines of '//counted(progress%undersampled, 'scene')// &
          ' are not resolved (column sampling_sufficient); raise campaign.samples_per_period')
       if (progress%tested > 0) call log%line('  '//integer_text(progress%uncertain)//' of '//integer_text(progress%tested)// &
-         ' scenes are not certified: solved again, tighter, their class is another or close to a limit (column certified)')
+         ' scenes not certified: solved again, tighter, the class is another or close to a limit (column certified)')
       if (progress%irregular_so_far > 0) call log%line('  '//counted(progress%irregular_so_far, 'scene')// &
-         ' irregular so far: they did not repeat, and neighbouring motions do not part for good (rattle_class)')
+         ' irregular so far: without repetition, and no neighbouring motion parts for good (rattle_class)')
       call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
       call log%close()

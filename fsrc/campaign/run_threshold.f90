@@ -218,13 +218,13 @@ contains
       type(outcome_t), intent(in) :: outcome
       character(:), allocatable :: line
 
-      line = '  '//integer_text(outcome%crossings)//' crossings; '//integer_text(outcome%uncrossed)//' of '// &
-             integer_text(threshold%lines%layout%scene_count)//' lines have none'
-      if (scene%spectrum%certify) line = line//'; at '//integer_text(outcome%uncertain)// &
-                                         ' crossings a class beside it is not certified'
+      line = '  '//counted(outcome%crossings, 'crossing')//'; '//integer_text(outcome%uncrossed)//' of '// &
+             counted(threshold%lines%layout%scene_count, 'line')//' without any'
+      if (scene%spectrum%certify) line = line//'; at '//counted(outcome%uncertain, 'crossing')// &
+                                         ' a class beside it is not certified'
       call log%line(line)
-      if (outcome%wide > 0_int64) call log%line('  the ends of '//integer_text(outcome%wide)//' crossings are certified only '// &
-                                                'farther apart than asked for: their width is how sure they are (column width)')
+      if (outcome%wide > 0_int64) call log%line('  the ends of '//counted(outcome%wide, 'crossing')//' are certified only '// &
+                                                'farther apart than asked for: the width tells how sure that is (column width)')
       if (outcome%failed > 0_int64) call log%line('  scenes that failed are a kind of their own: where they begin is a '// &
                                                   'crossing (columns status_below, status_above)')
       ! Where there are more parts than lines, some have none.

@@ -30,6 +30,8 @@ module batch
    type :: outcome_t
       logical :: is_over = .false.
       integer :: status = status_complete
+      !> Motions that failed: the scene itself, or values of a sweep
+      integer :: failed = 0
       !> Of the table, where the scene is a pair of a gearbox
       type(pair_row_t) :: row
       !> Faults of the place of its files, trouble with them
@@ -133,7 +135,7 @@ contains
       call check_output_place(scene, scene%source, .false., outcome%faults)
       if (outcome%faults%count() == 0 .and. command%resume .and. scene%task /= task_motion) &
          call check_earlier_run(scene, outcome%error)
-      if (.not. has_trouble(outcome)) call run_task(warned, command, judged, outcome%status, outcome%error)
+      if (.not. has_trouble(outcome)) call run_task(warned, command, judged, outcome%status, outcome%failed, outcome%error)
       call lock%release()
       if (is_pair(scene) .and. .not. has_trouble(outcome)) outcome%row = row_of_pair(scene, judged)
    end subroutine run_place
@@ -190,7 +192,7 @@ contains
          else if (outcome%status == status_interrupted .or. &
                   (is_last_begun .and. place < size(scenes) .and. caught_signal() /= 0)) then
             exit_code = 128 + caught_signal()
-         else if (exit_code == exit_complete .and. .not. is_success(outcome%status)) then
+         else if (exit_code == exit_complete .and. outcome%failed > 0) then
             exit_code = exit_scene_failed
          end if
       end associate
@@ -220,21 +222,25 @@ contains
    end function is_last_pair
 
    !> Run a scene, a film task or a sweep.
-   subroutine run_task(scene, command, judged, status, error)
+   subroutine run_task(scene, command, judged, status, failed, error)
       type(scene_t), intent(in) :: scene
       type(command_t), intent(in) :: command
       !> Result of a motion
       type(judged_scene_t), intent(out) :: judged
       integer, intent(out) :: status
+      !> How many motions failed
+      integer, intent(out) :: failed
       type(error_t), allocatable, intent(out) :: error
 
+      failed = 0
       select case (scene%task)
       case (task_film)
          call run_film_task(scene, command%quiet, status, error)
       case (task_sweep)
-         call run_sweep_task(scene, command%quiet, command%resume, status, error)
+         call run_sweep_task(scene, command%quiet, command%resume, status, failed, error)
       case default
          call run_one_scene(scene, command%quiet, command%resume, judged, status, error)
+         if (.not. is_success(status)) failed = 1
       end select
    end subroutine run_task
 

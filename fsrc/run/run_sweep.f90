@@ -57,7 +57,7 @@ module run_sweep
 contains
 
    !> Run a sweep and write its files.
-   subroutine run_sweep_task(scene, quiet, carry_on, status, error)
+   subroutine run_sweep_task(scene, quiet, carry_on, status, failed, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> Nothing to the terminal
@@ -66,6 +66,8 @@ contains
       logical, intent(in) :: carry_on
       !> Status of scene_status
       integer, intent(out) :: status
+      !> How many of its motions failed
+      integer, intent(out) :: failed
       !> Set if a file could not be written
       type(error_t), allocatable, intent(out) :: error
       type(log_t), target :: log
@@ -77,9 +79,10 @@ contains
       character(column_unit_bytes), allocatable :: units(:)
       type(carried_state_t) :: state
       real(dp) :: started
-      integer :: i, failed, beyond_model
+      integer :: i, beyond_model
 
       status = status_complete
+      failed = 0
       started = wall_seconds()
       call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return
@@ -88,7 +91,6 @@ contains
       call sweep_columns(scene, names, units)
       call writer%open(result_path(scene), scene%resolved_input, names, units, size(scene%sweep%values, kind=int64), .true., error)
       call watcher%start(log, 'motions', quiet)
-      failed = 0
       beyond_model = 0
       do i = 1, size(scene%sweep%values)
          if (allocated(error)) exit
@@ -118,8 +120,8 @@ contains
       else
          if (beyond_model > 0) call log%line('  warning: '//counted(beyond_model, 'motion')//' beyond what the model can '// &
             'mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
-         call log%line('  '//counted(failed, 'motion')//' failed; '//short_text(wall_seconds() - started, 3)//' s: '// &
-                       status_sentence(status))
+         call log%line('  '//counted(size(scene%sweep%values), 'motion')//' in '//short_text(wall_seconds() - started, 3)// &
+                       ' s: '//ending_sentence(scene, failed, status))
          call log%line('  '//result_path(scene))
          call log%line('  '//summary_path(scene))
       end if
@@ -256,6 +258,24 @@ contains
       judged%impacts = impacts_of_record(window%record, scene%excitation%frequency)
    end subroutine solve_value
 
+   !> How the sweep ended, whose motions may have failed.
+   pure function ending_sentence(scene, failed, status) result(sentence)
+      type(scene_t), intent(in) :: scene
+      integer, intent(in) :: failed
+      !> Status of the sweep
+      integer, intent(in) :: status
+      character(:), allocatable :: sentence
+
+      sentence = status_sentence(status)
+      if (failed == 0) return
+      if (status /= status_complete) then
+         sentence = sentence//' '//counted(failed, 'motion')//' failed (column status).'
+      else
+         sentence = integer_text(failed)//' of '//counted(size(scene%sweep%values), 'motion')//' failed (column status).'
+         if (failed < size(scene%sweep%values)) sentence = sentence//' The others were solved.'
+      end if
+   end function ending_sentence
+
    !> What the sweep did.
    subroutine write_sweep_summary(scene, failed, seconds, status, error)
       type(scene_t), intent(in) :: scene
@@ -265,7 +285,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(summary_t) :: summary
 
-      call add_head(summary, scene, status)
+      call add_head(summary, scene, status, sentence=ending_sentence(scene, failed, status))
       call add_results(summary, [word_t(result_path(scene))], status)
       call summary%add('motions', size(scene%sweep%values))
       call summary%add('motions_failed', failed)

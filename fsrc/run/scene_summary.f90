@@ -130,7 +130,7 @@ contains
    end subroutine add_part
 
    !> What every summary of a scene begins with.
-   subroutine add_head(summary, scene, status, time)
+   subroutine add_head(summary, scene, status, time, sentence)
       !> An empty summary
       type(summary_t), intent(inout) :: summary
       !> Checked scene
@@ -139,13 +139,19 @@ contains
       integer, intent(in) :: status
       !> When a motion got it [s]
       real(dp), intent(in), optional :: time
+      !> What it means, where the status alone does not say it
+      character(*), intent(in), optional :: sentence
 
       call summary%add('name', trim(scene%name))
       if (scene%gear%name /= '') call summary%add('gear', trim(scene%gear%name))
       call summary%add('program_version', program_version)
       call summary%add('status', status_name(status))
       if (present(time)) call summary%add('status_time', time)
-      call summary%add('status_text', status_sentence(status))
+      if (present(sentence)) then
+         call summary%add('status_text', sentence)
+      else
+         call summary%add('status_text', status_sentence(status))
+      end if
       if (allocated(scene%warnings)) call summary%add('input_warnings', scene%warnings)
    end subroutine add_head
 

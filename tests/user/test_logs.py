@@ -345,21 +345,39 @@ def test_the_log_of_a_film_task_is_its_summary(solve, repository):
     )
 
 
-@pytest.mark.parametrize(("last", "code"), (("900.0", 0), ("1e9", 0)))
-def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, last, code):
-    """Of a force that grows without end motions leave what the model can mean."""
+@pytest.mark.parametrize(
+    ("key", "first", "last", "failed"),
+    (
+        ("force_amplitude", "100.0", "900.0", 0),
+        ("force_amplitude", "100.0", "1e9", 1),
+        # No film of rigid flanks carries such loads.
+        ("steady_force", "3e4", "4e4", 7),
+    ),
+)
+def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, failed):
+    """Of a force that grows without end motions leave what the model can mean, or fail: by the exit code."""
     sweep = {
-        "key": "'force_amplitude'",
-        "first": "100.0",
+        "key": f"'{key}'",
+        "first": first,
         "last": last,
         "count": "4",
         "spacing": "'logarithmic'",
     }
-    text = scene_text(scene={"task": "'sweep'"}, solver={**TAYLOR, "until": None}, sweep=sweep)
-    name = f"sweep_{last[0]}"
-    path = solve(name, text, "--set", f"scene.name={name}", code=code)
+    exact = key == "steady_force"
+    film = {"law": "'piezo-viscous'", "model": "'reynolds'"} if exact else {}
+    text = scene_text(scene={"task": "'sweep'"}, film=film, solver={**TAYLOR, "until": None}, sweep=sweep)
+    name = f"sweep_{first[0]}_{last[0]}"
+    path = solve(name, text, "--set", f"scene.name={name}", code=int(failed > 0))
     result, told = rattle.read(path), rattle.read_summary(path.with_suffix(".summary.nml"))
-    failed = int((~np.isin(result["status"], (0, 1))).sum())
+    assert failed == int((~np.isin(result["status"], (0, 1))).sum())
+    assert (
+        told["status_text"]
+        == {
+            0: "All that was asked for was solved.",
+            1: "1 of 7 motions failed (column status). The others were solved.",
+            7: "7 of 7 motions failed (column status).",
+        }[failed]
+    )
     beyond = int((result["model_limit"] > 0).sum()) if "model_limit" in result else None
     assert (told["motions"], told["motions_failed"]) == (result.row_count, failed)
     warning = (
@@ -371,9 +389,13 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, last, code):
         found,
         [
             f"rattle 0.1.0, scene {name}: sweep of {result.row_count} motions, "
-            "published iso-viscous film (35), rupture angle pi/2",
+            + (
+                "exact piezo-viscous film of the Reynolds equation"
+                if exact
+                else "published iso-viscous film (35), rupture angle pi/2"
+            ),
             warning if "beyond what" in found[1] else None,
-            f"  {counted(failed, 'motion')} failed; {ANY} s: {told['status_text']}",
+            f"  {result.row_count} motions in {ANY} s: {told['status_text']}",
             *files(path),
         ],
     )
@@ -423,10 +445,10 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
             "sampling_sufficient); raise campaign.samples_per_period"
             if coarse
             else None,
-            f"  {doubts} of {tested} scenes are not certified: solved again, tighter, their class is another "
+            f"  {doubts} of {tested} scenes not certified: solved again, tighter, the class is another "
             "or close to a limit (column certified)",
-            f"  {counted(open_ended, 'scene')} irregular so far: they did not repeat, and neighbouring "
-            "motions do not part for good (rattle_class)"
+            f"  {counted(open_ended, 'scene')} irregular so far: without repetition, and no neighbouring "
+            "motion parts for good (rattle_class)"
             if open_ended
             else None,
             *files(path),
@@ -464,10 +486,10 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             "them",
             "  the ends of a crossing go apart again until both are certified",
             f"  {told['scenes']} of {told['scenes']} scenes, {ANY} a second, {told['scenes_failed']} failed",
-            f"  {told['crossings']} crossings; {without} of {lines} lines have none; at {doubts} crossings a "
-            "class beside it is not certified",
-            f"  the ends of {wide} crossings are certified only farther apart than asked for: their width is "
-            "how sure they are (column width)"
+            f"  {counted(told['crossings'], 'crossing')}; {without} of {counted(lines, 'line')} without any; "
+            f"at {counted(doubts, 'crossing')} a class beside it is not certified",
+            f"  the ends of {counted(wide, 'crossing')} are certified only farther apart than asked for: the "
+            "width tells how sure that is (column width)"
             if wide
             else None,
             f"  {told['scenes']} scenes; a grid as fine has {int(grid)}, {short(grid / told['scenes'], 3)} "
