@@ -1,0 +1,157 @@
+!> Tests of the certificate of rows: motions that repeat after several periods whose windows begin elsewhere, and motions that are
+!> irregular in their window and settle behind it.
+module test_campaign_certificate
+   use campaign_certificate, only: certify_group
+   use canonical_scenes, only: canonical_scene
+   use certificate, only: doubt_behind, windows_behind
+   use checks, only: check_list_t
+   use engine, only: request_t, start_of
+   use kinds, only: dp
+   use node_extremes, only: seen_quantities
+   use rattle_class, only: class_creep, class_idle, class_irregular, class_irregular_so_far, class_quiet, class_subharmonic, &
+                           rattle_verdict_t
+   use resolved_scene, only: resolve, resolved_scene_t
+   use scene_group, only: classify_group, find_orbits, scene_group_t, solve_group
+   use scene_status, only: status_complete, status_film_lost, status_steady
+   use scene_types, only: law_iso_viscous, scene_t, spectrum_choice_t
+   implicit none(type, external)
+   private
+
+   integer, parameter :: samples_per_period = 64
+   logical, parameter :: wants(seen_quantities) = .true.
+
+   public :: run_campaign_certificate_tests
+
+contains
+
+   !> Runs every test of this topic.
+   subroutine run_campaign_certificate_tests(checks)
+      class(check_list_t), intent(inout) :: checks  !> Collects the results
+
+      call checks%start('campaign_certificate')
+      call test_windows_behind(checks)
+      call test_doubt_behind(checks)
+      call test_phase_of_an_orbit(checks)
+      call test_behind_the_window(checks)
+   end subroutine run_campaign_certificate_tests
+
+   !> Four windows at least, and 32 periods of them.
+   subroutine test_windows_behind(checks)
+      class(check_list_t), intent(inout) :: checks
+
+      call checks%check(windows_behind(1) == 32, '32 windows of a period')
+      call checks%check(windows_behind(3) == 11, '11 windows of three periods are 33')
+      call checks%check(windows_behind(7) == 5, 'five windows of seven')
+      call checks%check(windows_behind(8) == 4, 'four windows of eight')
+      call checks%check(windows_behind(31) == 4 .and. windows_behind(400) == 4, 'four windows at least')
+   end subroutine test_windows_behind
+
+   !> A motion that ends, or is any other than irregular, gives reason to doubt.
+   subroutine test_doubt_behind(checks)
+      class(check_list_t), intent(inout) :: checks
+      integer, parameter :: regular(4) = [class_quiet, class_creep, class_idle, class_subharmonic]
+      character(*), parameter :: words(4) = [character(11) :: 'quiet', 'creep', 'idle', 'subharmonic']
+      type(rattle_verdict_t) :: verdict
+      integer :: i
+
+      verdict%class = class_irregular
+      call checks%check(doubt_behind(1, status_complete, verdict) == '', 'irregular still')
+      verdict%class = class_irregular_so_far
+      call checks%check(doubt_behind(1, status_steady, verdict) == '', 'off the harmonics still')
+      call checks%check(doubt_behind(1, status_film_lost, verdict) == 'Behind the window the motion ends as film_lost.', &
+                        'a motion that ends')
+      do i = 1, size(regular)
+         verdict%class = regular(i)
+         call checks%check(doubt_behind(i, status_complete, verdict) == 'The class is that of this window: '// &
+                           trim(merge('1 window ', achar(48 + i)//' windows', i == 1))//' later the motion is '// &
+                           trim(words(i))//'.', 'no more irregular: '//trim(words(i)))
+      end do
+   end subroutine test_doubt_behind
+
+   !> Solve and classify a scene alone.
+   subroutine solve(speed, amplitude, request, resolved, choices, group)
+      real(dp), intent(in) :: speed
+      real(dp), intent(in) :: amplitude
+      type(request_t), intent(in) :: request
+      type(resolved_scene_t), intent(out) :: resolved(1)
+      type(spectrum_choice_t), intent(out) :: choices(1)
+      type(scene_group_t), intent(inout) :: group
+      type(scene_t) :: scene
+
+      scene = canonical_scene(law_iso_viscous, samples_per_period)
+      scene%kinematics%entrainment_speed = speed
+      scene%excitation%force_amplitude = amplitude
+      resolved(1) = resolve(scene)
+      choices(1) = scene%spectrum
+      choices%periods = request%sampled_periods
+      call solve_group(resolved%problem, start_of(resolved%problem), request, wants, group)
+      call classify_group(resolved%problem, choices, resolved%noise_floor, request, group)
+   end subroutine solve
+
+   !> A motion that repeats after two periods stands, with whichever of them its window begins, and whether it is known to
+   !> repeat from its own solution or from the tighter one.
+   subroutine test_phase_of_an_orbit(checks)
+      class(check_list_t), intent(inout) :: checks
+      type(resolved_scene_t) :: resolved(1)
+      type(spectrum_choice_t) :: choices(1)
+      type(scene_group_t) :: group, tight
+      type(request_t) :: request
+      real(dp), allocatable :: states(:, :)
+      logical :: stands(1)
+
+      request = request_t(accuracy=1.0e-6_dp, periods=400, samples_per_period=samples_per_period, sampled_periods=8, &
+                          until_steady=.true.)
+      call solve(12.0_dp, 290.0_dp, request, resolved, choices, group)
+      call find_orbits(resolved%problem, group)
+      associate (samples => group%endings(1)%samples)
+         call checks%check(samples == 2*samples_per_period .and. group%verdicts(1)%class == class_subharmonic, &
+                           'an orbit of two periods')
+         call certify_group(resolved, choices, request, group, tight, stands)
+         call checks%check(stands(1), 'as it was solved')
+         states = group%states(:samples, :, 1)
+         group%states(:samples, :, 1) = cshift(states, samples_per_period)
+         call certify_group(resolved, choices, request, group, tight, stands)
+         call checks%check(stands(1), 'beginning with the other period')
+         group%endings(1)%status = status_complete
+         call certify_group(resolved, choices, request, group, tight, stands)
+         call checks%check(stands(1), 'known to repeat by the tighter solution alone')
+         group%states(:samples, :, 1) = cshift(states, samples_per_period/2)
+         call certify_group(resolved, choices, request, group, tight, stands)
+         call checks%check(.not. stands(1), 'half a period late it is another motion')
+      end associate
+   end subroutine test_phase_of_an_orbit
+
+   !> An irregular motion stays irregular behind its window; one that settles there does not stand, however it looks in its window.
+   subroutine test_behind_the_window(checks)
+      class(check_list_t), intent(inout) :: checks
+
+      call behind('irregular for good', 12.0_dp, 1200.0_dp, 60, .true.)
+      call behind('settles behind its window', 1.905_dp, 400.0_dp, 8, .false.)
+
+   contains
+
+      subroutine behind(what, speed, amplitude, periods, expected)
+         character(*), intent(in) :: what
+         real(dp), intent(in) :: speed
+         real(dp), intent(in) :: amplitude
+         integer, intent(in) :: periods
+         logical, intent(in) :: expected
+         type(resolved_scene_t) :: resolved(1)
+         type(spectrum_choice_t) :: choices(1)
+         type(scene_group_t) :: group, tight
+         type(request_t) :: request
+         logical :: stands(1)
+
+         request = request_t(accuracy=1.0e-6_dp, periods=periods, samples_per_period=samples_per_period, sampled_periods=8)
+         call solve(speed, amplitude, request, resolved, choices, group)
+         call checks%check(group%verdicts(1)%class == class_irregular_so_far, what//': off its harmonics')
+         ! What is known of how neighbouring motions part is not what is asked here.
+         group%verdicts%class = class_irregular
+         group%verdicts%parting%for_good = .true.
+         call certify_group(resolved, choices, request, group, tight, stands)
+         call checks%check(stands(1) .eqv. expected, what)
+      end subroutine behind
+
+   end subroutine test_behind_the_window
+
+end module test_campaign_certificate
