@@ -192,7 +192,7 @@ contains
          unit = unit(index(unit//' ', ' ') + 1:)
          expected = ''
          do i = 1, size(others)
-            if (index(others(i), name//' ') == 1) expected = others(i)(len(name) + 2:)
+            if (index(others(i), name//' ') == 1) expected = others(i) (len(name) + 2:)
          end do
          dot = index(name, '.')
          if (find_key(name(:dot - 1), name(dot + 1:)) > 0) then
