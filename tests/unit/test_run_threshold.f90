@@ -13,7 +13,7 @@ module test_run_threshold
    use run_threshold, only: grid_scenes, run_one_threshold
    use scene_texts, only: input_path
    use scene_types, only: scene_t
-   use text, only: integer_text
+   use text, only: counted, integer_text
    use threshold_cases, only: crossings, failed, grid, lines, new_outcome, prepare, solved, uncertain, uncrossed, wide
    use threshold_outcome, only: add_lines, outcome_t, save_outcome
    implicit none(type, external)
@@ -81,9 +81,9 @@ contains
       call expect('carried on after '//integer_text(lines - 1_int64)//' lines of the earlier run and 5 values of those under way')
       call expect('5 values a line, then halves down to 33 places;')
       call expect(integer_text(solved)//' of '//integer_text(solved)//' scenes,')
-      call expect('  '//integer_text(crossings)//' crossings; '//integer_text(uncrossed)//' of '//integer_text(lines)// &
-                  ' lines have none; at '//integer_text(uncertain)//' crossings a class beside it is not certified'//line_feed)
-      call expect('the ends of '//integer_text(wide)//' crossings are certified only farther apart than asked for')
+      call expect('  '//counted(crossings, 'crossing')//'; '//integer_text(uncrossed)//' of '//counted(lines, 'line')// &
+                  ' without any; at '//counted(uncertain, 'crossing')//' a class beside it is not certified'//line_feed)
+      call expect('the ends of '//counted(wide, 'crossing')//' are certified only farther apart than asked for')
       call expect('scenes that failed are a kind of their own')
       call expect('  '//integer_text(solved)//' scenes; a grid as fine has '//integer_text(nint(grid, int64))// &
                   ', 3.00 times as many'//line_feed)
