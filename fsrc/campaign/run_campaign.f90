@@ -94,7 +94,7 @@ contains
       end if
       call share_number(exit_code)
       if (exit_code /= exit_complete) then
-         call lock%release()
+         call lock%release(.true.)
          return
       end if
       ! Memory may lack on the machine of this rank alone.
@@ -137,7 +137,7 @@ contains
          if (allocated(error)) exit_code = error%exit_code
          if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
       end if
-      call lock%release()
+      call lock%release(allocated(error))
       call share_number(exit_code)
    end subroutine run_one_campaign
 

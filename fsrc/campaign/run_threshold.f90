@@ -77,7 +77,7 @@ contains
       end if
       call share_number(exit_code)
       if (exit_code /= exit_complete) then
-         call lock%release()
+         call lock%release(.true.)
          return
       end if
       ! Memory may lack on the machine of this rank alone.
@@ -107,7 +107,7 @@ contains
       progress%done = sum_over_ranks(progress%done)
       progress%failed = sum_over_ranks(progress%failed)
       if (this_rank() == 0) call close_threshold(scene, threshold, started, progress, log, outcome, exit_code, error)
-      call lock%release()
+      call lock%release(allocated(error))
       call share_number(exit_code)
    end subroutine run_one_threshold
 

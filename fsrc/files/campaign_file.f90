@@ -11,6 +11,7 @@ module campaign_file
    use errors, only: error_t, error_words, exit_bad_input, exit_system, last_error, raise
    use file_system, only: delete_file, file_state_t, first_bytes, path_exists, rename_file, state_of_path
    use kinds, only: dp, int64
+   use output_lock, only: expect_own_lock
    use random_access_file, only: lock_failed, lock_held, lock_refused, random_access_file_t
    use result_format, only: result_magic, row_count_offset, rows_unknown
    use result_header, only: header_text, result_header_t
@@ -99,7 +100,7 @@ contains
       end if
       if (.not. allocated(error)) call self%take_lock(new_path, error)
       overtaken = .false.
-      if (.not. stood) overtaken = path_exists(path)
+      if (self%locked .and. .not. stood) overtaken = path_exists(path)
       if (overtaken .and. .not. allocated(error)) &
          call raise(error, exit_system, path//' is being written by another run')
       if (allocated(error)) then
@@ -118,6 +119,7 @@ contains
       if (.not. allocated(error)) call self%file%write_at(0_int64, header_text(self%header), error)
       if (.not. allocated(error)) call self%file%set_size(self%header%header_bytes, error)
       if (.not. allocated(error)) call self%file%synchronise(error)
+      if (.not. allocated(error)) call expect_own_lock(path(:index(path, '.rattle', back=.true.) - 1), error)
       if (.not. allocated(error)) then
          call rename_file(new_path, path, moved)
          if (.not. moved) call raise(error, exit_system, path//' cannot be written: '//new_path// &

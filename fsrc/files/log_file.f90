@@ -1,9 +1,11 @@
 !> Log of a scene: every line goes to the terminal and to NAME.log alike.
 module log_file
    use, intrinsic :: iso_c_binding, only: c_int
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use errors, only: error_t, error_words, exit_system, last_error, raise
    use file_descriptor, only: close_descriptor, open_existing, open_new, read_and_write
    use file_system, only: delete_file, file_state_t, stands_at, state_of_path
+   use output_lock, only: expect_own_lock, runs_without_locks
    use text_output, only: lost_text, note_lost_text, put_line, write_line
    implicit none(type, external)
    private
@@ -38,6 +40,9 @@ contains
 
       self%to_terminal = .not. quiet
       self%path = path
+      ! Where there are no locks the log that stands there may be that of a run that began later.
+      call expect_own_lock(path(:index(path, '.log', back=.true.) - 1), error)
+      if (allocated(error)) return
       state = state_of_path(path)
       if (state%exists .and. .not. state%is_file) then
          ! A log that is led to a device: the device stays.
@@ -64,15 +69,21 @@ contains
    subroutine close_log(self)
       class(log_t), intent(inout) :: self
       type(file_state_t) :: state
-      logical :: closed
+      logical :: closed, stands
 
       if (self%descriptor < 0_c_int) return
-      if (.not. stands_at(self%descriptor, self%path)) call note_lost_text(self%path)
+      stands = stands_at(self%descriptor, self%path)
+      state = state_of_path(self%path)
+      if (.not. stands .and. state%exists .and. runs_without_locks()) then
+         ! A run that loses may have begun its log a moment after that of the winner: the results are sound all the same.
+         write (error_unit, '(a)') 'warning: '//self%path//' was replaced by that of another run'
+      else if (.not. stands) then
+         call note_lost_text(self%path)
+      end if
       call close_descriptor(self%descriptor, closed)
       if (.not. closed) call note_lost_text(self%path)
       self%descriptor = -1_c_int
-      state = state_of_path(self%path)
-      if (state%is_file .and. state%bytes < len(log_magic)) call delete_file(self%path)
+      if (stands .and. state%is_file .and. state%bytes < len(log_magic)) call delete_file(self%path)
    end subroutine close_log
 
 end module log_file

@@ -2,7 +2,8 @@
 !> the run and tells by which word the run calls what it puts beside its files. One that a killed run has left stops nobody, and
 !> what that run has left beside its files is taken away.
 !>
-!> Where the file system knows no locks, the file tells which run began last: it wins, and the others keep nothing.
+!> Where the file system knows no locks, the file tells which run began last: it wins, and the others keep nothing. A run that
+!> gives up hands the lock back to the one before, which may be at work still.
 module output_lock
    use byte_file, only: own_word
    use errors, only: error_t, exit_system, raise
@@ -15,8 +16,9 @@ module output_lock
    implicit none(type, external)
    private
 
-   !> What a lock begins with, by which it is known.
+   !> What a lock begins with, by which it is known; the word of its run follows.
    character(*), parameter, public :: lock_magic = 'rattle lock '
+   integer, parameter :: lock_bytes = len(lock_magic) + 16
 
    !> The lock of the files of a scene.
    type, public :: output_lock_t
@@ -25,6 +27,8 @@ module output_lock
       type(random_access_file_t), private :: file
       character(:), allocatable, private :: stem
       logical, private :: held = .false.
+      !> Where the file system knows no locks: the lock of the run before, empty: there was none
+      character(:), allocatable, private :: before
    contains
       procedure :: take
       procedure :: release
@@ -33,7 +37,7 @@ module output_lock
    !> Whether a lock could not be had in this run; module state, for whoever puts files in their places asks.
    logical :: without_locks = .false.
 
-   public :: lock_path, expect_own_lock
+   public :: lock_path, expect_own_lock, runs_without_locks
 
 contains
 
@@ -60,6 +64,7 @@ contains
 
       self%stem = stem
       self%warning = ''
+      self%before = ''
       do
          call self%file%open(lock_path(stem), .true., error)
          if (allocated(error)) return
@@ -79,17 +84,28 @@ contains
       end do
       if (self%held) then
          call remove_leftovers(stem)
+         call self%file%set_size(0_int64, error)
       else
          without_locks = .true.
+         call keep_before(self)
          self%warning = 'warning: this file system knows no locks ('//why//'); see that no other run writes here'
          if (self%file%bytes() > 0_int64) self%warning = self%warning//': '//lock_path(stem)//' is there, so another run does, '// &
                                                          'or was killed'
       end if
-      call self%file%set_size(0_int64, error)
       if (.not. allocated(error)) call self%file%write_at(0_int64, lock_magic//own_word(), error)
       ! A full disk is no reason not to run: only where there are no locks the word is needed.
       if (self%held .and. allocated(error)) deallocate (error)
    end subroutine take
+
+   !> Keep what a lock held before it becomes that of this run.
+   subroutine keep_before(self)
+      class(output_lock_t), intent(inout) :: self
+      character(lock_bytes) :: content
+      logical :: complete
+
+      call self%file%read_at(0_int64, content, complete)
+      if (complete) self%before = content
+   end subroutine keep_before
 
    !> Take away what killed runs have left beside the files of this run. While it holds the lock no other run is at work.
    subroutine remove_leftovers(stem)
@@ -126,7 +142,7 @@ contains
       !> Set if one has
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: own
-      character(len(lock_magic) + 16) :: content
+      character(lock_bytes) :: content
       integer :: got
 
       own = lock_magic//own_word()
@@ -138,14 +154,27 @@ contains
                  'not kept')
    end subroutine expect_own_lock
 
+   !> Whether a lock could not be had in this run: another run may write the same files then.
+   logical function runs_without_locks()
+      runs_without_locks = without_locks
+   end function runs_without_locks
+
    !> Give the lock back; where there are no locks it may be that of another run by now.
-   subroutine release(self)
+   subroutine release(self, gave_up)
       class(output_lock_t), intent(inout) :: self
+      !> Whether this run keeps nothing, so that one before it may
+      logical, intent(in) :: gave_up
       type(error_t), allocatable :: ignored, of_another
 
       if (.not. self%file%is_open()) return
       if (.not. self%held) call expect_own_lock(self%stem, of_another)
-      if (.not. allocated(of_another)) call delete_file(lock_path(self%stem))
+      if (allocated(of_another)) then
+         continue
+      else if (gave_up .and. len(self%before) > 0) then
+         call self%file%write_at(0_int64, self%before, ignored)
+      else
+         call delete_file(lock_path(self%stem))
+      end if
       call self%file%close(ignored)
       self%held = .false.
    end subroutine release

@@ -9,7 +9,7 @@ module batch
    use judged_scene, only: judged_scene_t
    use memory_need, only: expect_scene_memory, scenes_that_fit
    use output_lock, only: output_lock_t
-   use output_place, only: check_output_place, stem
+   use output_place, only: check_output_place, claim_output_place, stem
    use resolved_scene, only: resolve
    use resume, only: load_state
    use run_film, only: run_film_task
@@ -127,16 +127,15 @@ contains
       type(output_lock_t) :: lock
       type(scene_t) :: warned
 
-      call lock%take(stem(scene), outcome%error)
-      if (allocated(outcome%error)) return
+      call claim_output_place(scene, scene%source, lock, outcome%faults, outcome%error)
       warned = scene
-      if (len(lock%warning) > 0) call warn(warned, lock%warning)
-      ! Another run may have written these files since they were looked at.
-      call check_output_place(scene, scene%source, .false., outcome%faults)
-      if (outcome%faults%count() == 0 .and. command%resume .and. scene%task /= task_motion) &
+      if (allocated(lock%warning)) then
+         if (len(lock%warning) > 0) call warn(warned, lock%warning)
+      end if
+      if (.not. has_trouble(outcome) .and. command%resume .and. scene%task /= task_motion) &
          call check_earlier_run(scene, outcome%error)
       if (.not. has_trouble(outcome)) call run_task(warned, command, judged, outcome%status, outcome%failed, outcome%error)
-      call lock%release()
+      call lock%release(has_trouble(outcome))
       if (is_pair(scene) .and. .not. has_trouble(outcome)) outcome%row = row_of_pair(scene, judged)
    end subroutine run_place
 
@@ -179,7 +178,7 @@ contains
             if (.not. allocated(outcome%error)) &
                call write_table(whole_gearbox(scenes(place)), count(scenes%gearbox == scenes(place)%gearbox), rows, command%quiet, &
                                 outcome%error)
-            call lock%release()
+            call lock%release(allocated(outcome%error))
             rows = rows(:0)
          end if
          in_trouble = has_trouble(outcome)

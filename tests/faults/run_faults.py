@@ -140,7 +140,6 @@ class Study:
         self.random = random.Random(options.seed)
         self.tried: Counter[tuple[str, str]] = Counter()
         self.failed: Counter[tuple[str, str]] = Counter()
-        self.complaints: list[str] = []
 
     # --- runs ------------------------------------------------------------------------------------------
 
@@ -208,7 +207,8 @@ class Study:
         self.tried[what, task.name] += 1
         if faults:
             self.failed[what, task.name] += 1
-            self.complaints.append(f"{what}, {task.name}{', ' + note if note else ''}: {'; '.join(faults)}")
+            words = f"{what}, {task.name}{', ' + note if note else ''}: {'; '.join(faults)}"
+            print(words, file=sys.stderr, flush=True)
 
     def complete(self, task: Task) -> list[str]:
         """Whether everything is there, to the last bit; of the summary what does not hang on the moment."""
@@ -750,8 +750,6 @@ def main() -> None:
             FAULTS[name](study, task)
             print(f"{task.name}: {name}, {study.failed.total()} failed so far", file=sys.stderr, flush=True)
     print("\n".join(study.table()))
-    for complaint in study.complaints[:40]:
-        print(complaint, file=sys.stderr)
     sys.exit(study.failed.total() > 0)
 
 

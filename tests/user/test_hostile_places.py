@@ -277,6 +277,110 @@ def test_of_two_runs_without_locks_the_later_one_wins(
     assert "viscosity = 0.25" in package.read(results / "scene.rattle").input_text
 
 
+@pytest.fixture
+def stopped(rattle: Path, shim: Path, tmp_path: Path):
+    """Begin a run without locks that stops before the first of some calls, until SIGCONT comes."""
+    begun_here: list[subprocess.Popen] = []
+
+    def call(text: str, at: str) -> subprocess.Popen:
+        (tmp_path / "scene.nml").write_text(text)
+        command = [rattle, "--quiet", "--threads", "1", "scene.nml"]
+        trace = tmp_path / "trace"
+        known = {**os.environ, "LD_PRELOAD": str(shim), "FAULT_FOLDER": "results/"}
+        known |= {"FAULT_FLOCK": str(errno.ENOLCK), "FAULT_TRACE": str(trace), "FAULT_KIND": "none"}
+        subprocess.run(command, cwd=tmp_path, env=known, check=True)
+        shutil.rmtree(tmp_path / "results")
+        known |= {"FAULT_KIND": "signal", "FAULT_SIGNAL": str(int(signal.SIGSTOP))}
+        known["FAULT_AT"] = str(trace.read_text().splitlines().index(at) + 1)
+        process = subprocess.Popen(command, cwd=tmp_path, env=known, stderr=subprocess.PIPE, text=True)
+        begun_here.append(process)
+        assert os.WIFSTOPPED(os.waitpid(process.pid, os.WUNTRACED)[1])
+        return process
+
+    yield call
+    for process in begun_here:
+        process.kill()
+        process.communicate()
+
+
+def test_the_run_that_loses_leaves_the_log_of_the_later_one(
+    stopped, begun, shim: Path, scene_text, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It ends at the moment at which the later one has made its log and written nothing there."""
+    first = stopped(scene_text(), "fsync scene.state.new")
+    monkeypatch.setenv("FAULT_FLOCK", str(errno.ENOLCK))
+
+    def meanwhile() -> None:
+        first.send_signal(signal.SIGCONT)
+        assert "which began later" in first.communicate(timeout=60)[1]
+        assert first.returncode == 3
+
+    ended = begun(scene_text(), shim, "write scene.log", meanwhile, "--overwrite")
+    assert ended.returncode == 0, ended.stderr
+    assert (tmp_path / "results" / "scene.log").read_text().startswith("rattle ")
+
+
+def test_the_log_of_another_run_is_no_loss_of_a_result(
+    begun, shim: Path, scene_text, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without locks one that loses may make its log a moment after that of the winner."""
+    monkeypatch.setenv("FAULT_FLOCK", str(errno.ENOLCK))
+    log = tmp_path / "results" / "scene.log"
+
+    def meanwhile() -> None:
+        log.unlink()
+        log.write_text("rattle, the log of another run\n")
+
+    ended = begun(scene_text(), shim, "fsync scene.state.new", meanwhile)
+    assert ended.returncode == 0
+    assert ended.stderr == "warning: results/scene.log was replaced by that of another run\n"
+    assert log.read_text() == "rattle, the log of another run\n"
+
+
+def test_a_later_run_that_gives_up_leaves_the_first_one_at_work(
+    stopped, begun, shim: Path, scene_text, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The later one finds a file in its way once the lock is its own, and hands the lock back."""
+    first = stopped(scene_text(), "open scene.log")
+    monkeypatch.setenv("FAULT_FLOCK", str(errno.ENOLCK))
+    results = tmp_path / "results"
+    ended = begun(
+        scene_text(),
+        shim,
+        "pwrite scene.lock",
+        lambda: (results / "scene.summary.nml").write_text("&summary\n/\n"),
+    )
+    assert ended.returncode == 2
+    assert "scene.summary.nml exists; --overwrite replaces it" in ended.stderr
+    first.send_signal(signal.SIGCONT)
+    words = first.communicate(timeout=60)[1]
+    assert first.returncode == 0, words
+    assert package.read_summary(results / "scene.summary.nml")["status"] == "complete"
+    assert package.read(results / "scene.rattle").closed
+    assert not (results / "scene.lock").exists()
+
+
+def test_a_campaign_that_loses_at_once_replaces_nothing(
+    begun, shim: Path, rattle: Path, scene_text, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A later one comes to its end while the first one makes its file."""
+    command = [rattle, "--quiet", "--overwrite", "--set", "lubricant.viscosity=0.25", "scene.nml"]
+    unlocked = {**os.environ, "LD_PRELOAD": str(shim), "FAULT_FLOCK": str(errno.ENOLCK)}
+    monkeypatch.setenv("FAULT_FLOCK", str(errno.ENOLCK))
+    ended = begun(
+        TASKS["campaign"](scene_text),
+        shim,
+        "fsync scene.rattle.new",
+        lambda: subprocess.run(command, cwd=tmp_path, env=unlocked, check=True),
+    )
+    assert ended.returncode == 3
+    assert "which began later" in ended.stderr
+    results = tmp_path / "results"
+    assert package.read_summary(results / "scene.summary.nml")["status"] == "complete"
+    assert "viscosity = 0.25" in package.read(results / "scene.rattle").input_text
+    assert package.read(results / "scene.rattle").closed
+
+
 # --- signals ---------------------------------------------------------------------------------------------
 
 
