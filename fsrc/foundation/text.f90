@@ -4,8 +4,8 @@ module text
    implicit none(type, external)
    private
 
-   public :: counted, integer_text, real_text, short_text, logical_text, lower, quoted, quoted_words, edit_distance, &
-             is_word_character, printable
+   public :: counted, integer_text, real_text, short_text, error_text, stated_error, logical_text, lower, quoted, quoted_words, &
+             edit_distance, is_word_character, printable
 
    interface counted
       module procedure counted_default
@@ -18,6 +18,9 @@ module text
    end interface integer_text
 
    character(*), parameter :: hexadecimal = '0123456789ABCDEF'
+   !> Significant digits of an error, and the share of a unit of the last one that is rounding of binary numbers
+   integer, parameter :: error_digits = 2
+   real(dp), parameter :: rounding_share = 1.0e-9_dp
 
 contains
 
@@ -109,7 +112,7 @@ contains
       if (.not. abs(number) > 0.0_dp) then
          text = '0'
       else if (is_plain(number)) then
-         decimals = max(0, digits - 1 - floor(log10(abs(number))))
+         decimals = decimals_of(number, digits)
          write (buffer, '(f40.'//integer_text(decimals)//')') number
          text = trim(adjustl(buffer))
          if (decimals == 0) text = text(:len(text) - 1)
@@ -118,6 +121,54 @@ contains
          text = plain_exponent(trim(adjustl(buffer)))
       end if
    end function short_text
+
+   !> Decimals that short_text gives a number; negative where its last digit stands before the point.
+   pure integer function decimals_of(number, digits)
+      !> Any number but 0
+      real(dp), intent(in) :: number
+      !> Significant digits
+      integer, intent(in) :: digits
+
+      decimals_of = digits - 1 - floor(log10(abs(number)))
+      if (is_plain(number)) decimals_of = max(0, decimals_of)
+   end function decimals_of
+
+   !> The error of a number that short_text tells with so many digits: never below half a unit of the last of these digits.
+   pure function error_text(error, number, digits) result(text)
+      !> Bound of the error, not negative
+      real(dp), intent(in) :: error
+      !> The number; of a relative error 1
+      real(dp), intent(in) :: number
+      !> Significant digits of the number as it is told, 1 to 17
+      integer, intent(in) :: digits
+      character(:), allocatable :: text
+      real(dp) :: rounding
+
+      rounding = 0.0_dp
+      if (abs(number) > 0.0_dp) rounding = 0.5_dp*10.0_dp**(-decimals_of(number, digits))
+      text = short_text(stated_error(error, rounding), error_digits)
+   end function error_text
+
+   !> An error with two digits: the bound rounded up, and not below the rounding of the number that it belongs to.
+   elemental real(dp) function stated_error(error, rounding)
+      !> Bound of the error, not negative
+      real(dp), intent(in) :: error
+      !> Largest rounding of the number, in the same unit
+      real(dp), intent(in) :: rounding
+      real(dp) :: bound, unit
+      character(16) :: text
+      integer :: exponent, stat
+
+      bound = max(error, rounding)
+      stated_error = bound
+      ! What is hardly a number at all has no two digits.
+      if (.not. (bound > 1000.0_dp*tiny(1.0_dp) .and. bound < huge(1.0_dp)/1000.0_dp)) return
+      exponent = floor(log10(bound)) - error_digits + 1
+      unit = 10.0_dp**exponent
+      text = integer_text(ceiling(bound/unit - rounding_share))//'E'//integer_text(exponent)
+      read (text, *, iostat=stat) stated_error
+      if (stat /= 0) stated_error = bound
+   end function stated_error
 
    !> Whether a number is written without an exponent.
    pure logical function is_plain(number)

@@ -18,10 +18,13 @@ module scene_report
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: drag_computed, method_newmark, model_reynolds, scene_t, speed_mean, task_film
-   use text, only: integer_text, short_text
+   use text, only: error_text, integer_text, short_text
    use version, only: program_version
    implicit none(type, external)
    private
+
+   !> Significant digits of films and accelerations
+   integer, parameter :: digits_of_extremes = 5
 
    public :: acceleration_words, report_head, report_start, report_ending, law_sentence, resolved_lines, speed_meaning
 
@@ -271,8 +274,9 @@ contains
 
       associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
          call log%line('  film '//micrometres(lowest(seen_film)%value)//' to '//micrometres(highest(seen_film)%value)// &
-                       ' um, acceleration '//short_text(lowest(seen_acceleration)%value, 5)//' to '// &
-                       short_text(highest(seen_acceleration)%value, 5)//' m/s2'//acceleration_words(scene))
+                       ' um, acceleration '// &
+                       short_text(lowest(seen_acceleration)%value, digits_of_extremes)//' to '// &
+                       short_text(highest(seen_acceleration)%value, digits_of_extremes)//' m/s2'//acceleration_words(scene))
       end associate
       associate (rattle => judged%rattle, lines => judged%rattle%lines)
          if (lines%moving) then
@@ -372,9 +376,12 @@ contains
       if (.not. judged%certificate%exists) return
       call log%line('  '//judged%certificate%reason)
       if (size(judged%certificate%harmonic_errors) > 0) &
-         call log%line('  error of the film '//short_text(judged%certificate%film_error, 2)// &
-                       ', of the extremes of the acceleration '//short_text(judged%certificate%acceleration_minimum_error, 2)// &
-                       ' and '//short_text(judged%certificate%acceleration_maximum_error, 2)//' m/s2')
+         call log%line('  error of the film at most '//error_text(judged%certificate%film_error, 1.0_dp, digits_of_extremes)// &
+                       ' of it, of the extremes of the acceleration '// &
+                       error_text(judged%certificate%acceleration_minimum_error, &
+                                  judged%extremes%lowest(seen_acceleration)%value, digits_of_extremes)//' and '// &
+                       error_text(judged%certificate%acceleration_maximum_error, &
+                                  judged%extremes%highest(seen_acceleration)%value, digits_of_extremes)//' m/s2')
       associate (orbit => judged%orbit)
          if (orbit%period > 0) call log%line('  the motion repeats after '//integer_text(orbit%period)// &
             trim(merge(' period ', ' periods', orbit%period == 1))//': '//quantity_word(quantity_orbit_stability, &
@@ -388,7 +395,7 @@ contains
       real(dp), intent(in) :: length
       character(:), allocatable :: words
 
-      words = short_text(1.0e6_dp*length, 5)
+      words = short_text(1.0e6_dp*length, digits_of_extremes)
    end function micrometres
 
 end module scene_report

@@ -7,13 +7,14 @@ module scene_summary
    use key_table, only: choice_word
    use kinds, only: dp, int64
    use quantities, only: a_code, a_count, a_flag, a_list, part_class, part_cost, part_errors, part_lines, part_orbit, part_regime, &
-                         part_scene, part_window, quantity_film_regime, quantity_law_contradicted, quantity_orbit_period, &
-                         quantity_t, quantity_table, quantity_word
+                      part_scene, part_window, quantity_code, quantity_film_regime, quantity_harmonics, quantity_law_contradicted, &
+                         quantity_orbit_period, quantity_t, quantity_table, quantity_word
    use result_checksum, only: checksum_of_new_result
    use scene_report, only: acceleration_words, speed_meaning
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_not_written, status_sentence
    use scene_types, only: scene_t
    use summary_file, only: summary_t
+   use text, only: stated_error
    use version, only: program_version
    use word_list, only: word_t
    implicit none(type, external)
@@ -111,7 +112,11 @@ contains
          if (quantity%part /= part .or. index(quantity%told_in, 'summary') == 0) cycle
          name = trim(quantity%name)
          if (quantity%kind == a_list) then
-            call summary%add(name, quantity_list(i, judged))
+            if (part == part_errors) then
+               call summary%add(name, stated_errors(i, judged))
+            else
+               call summary%add(name, quantity_list(i, judged))
+            end if
             cycle
          end if
          value = quantity_value(i, judged)
@@ -124,10 +129,36 @@ contains
          case (a_code)
             call summary%add(name, quantity_word(i, nint(value)))
          case default
+            if (part == part_errors) value = stated_error(value, 0.5_dp*spacing(number_of_error(name, judged)))
             call summary%add(name, value)
          end select
       end do
    end subroutine add_part
+
+   !> The number that an error belongs to; 1 for a relative error, which is that of several numbers.
+   pure real(dp) function number_of_error(name, judged) result(number)
+      !> Name of the error: that of the quantity with _error behind it, where it is that of one quantity
+      character(*), intent(in) :: name
+      type(judged_scene_t), intent(in) :: judged
+      integer :: quantity
+
+      number = 1.0_dp
+      quantity = quantity_code(name(:len(name) - len('_error')))
+      if (quantity > 0) number = quantity_value(quantity, judged)
+   end function number_of_error
+
+   !> The errors of the harmonics, none below the rounding of its harmonic.
+   pure function stated_errors(quantity, judged) result(errors)
+      !> Code of the list of errors
+      integer, intent(in) :: quantity
+      type(judged_scene_t), intent(in) :: judged
+      real(dp), allocatable :: errors(:)
+
+      errors = quantity_list(quantity, judged)
+      associate (numbers => quantity_list(quantity_harmonics, judged))
+         errors = stated_error(errors, 0.5_dp*spacing(numbers(:size(errors))))
+      end associate
+   end function stated_errors
 
    !> What every summary of a scene begins with.
    subroutine add_head(summary, scene, status, time, sentence)

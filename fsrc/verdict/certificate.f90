@@ -9,7 +9,7 @@ module certificate
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
    use scene_status, only: is_success, status_name
    use scene_types, only: spectrum_choice_t
-   use text, only: counted, integer_text, short_text
+   use text, only: counted, error_text, integer_text, short_text
    use window_extremes, only: window_extremes_t
    use window_impacts, only: impact_agreement_t
    use window_record, only: energy_gap, momentum_gap, window_record_t
@@ -320,7 +320,7 @@ contains
       character(:), allocatable :: sentence
 
       sentence = 'Neighbouring motions part with a Lyapunov exponent of '//short_text(parting%exponent, 2)//' +- '// &
-                 short_text(parting%standard_error, 1)//' a period, over '//counted(parting%periods, 'period')//'.'
+                error_text(parting%standard_error, parting%exponent, 2)//' a period, over '//counted(parting%periods, 'period')//'.'
    end function parting_sentence
 
    !> Whether a limit of the classes lies within the errors of the lines.

@@ -10,11 +10,13 @@ from rattle.checksums import checksum
 from rattle.codes import QUANTITIES
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import checksum_of_head
+from rattle.rounding import stated_error
 
 Summary = Mapping[str, Any]
 # Words, with the unit, and what shows the number of a summary.
 Row = tuple[str, Callable[[Summary], str]]
 ABSENT = "-"
+FILM_DIGITS = 5
 CHECKSUM_MARK = b"! checksum "
 ENDING = ".summary.nml"
 # Keys that hold the checksum of a result, and how the name of that result ends.
@@ -125,8 +127,8 @@ _ROWS: tuple[Row, ...] = (
     _text("status", "status"),
     _text("film law", "law"),
     _text("film model", "model"),
-    _range("film thickness", "film", ".4f"),
-    _range("coast film", "coast_film", ".4f"),
+    _range("film thickness", "film", f"#.{FILM_DIGITS}g"),
+    _range("coast film", "coast_film", f"#.{FILM_DIGITS}g"),
     _range("acceleration", "acceleration", ".3f"),
     _number("acceleration rms", "acceleration_rms", ".3f"),
     _number("film force rms", "film_force_rms", ".4g"),
@@ -138,7 +140,10 @@ _ROWS: tuple[Row, ...] = (
     _text("rattle class", "rattle_class"),
     _flag("both flanks struck", "double_sided", "yes", "no"),
     _text("class stands", "certificate"),
-    _number("error of the film", "film_error", ".1e"),
+    (
+        "error of the film",
+        lambda summary: f"{stated_error(float(summary['film_error']), 1.0, FILM_DIGITS):.1e}",
+    ),
     _text("motion", "orbit_stability"),
     _text("film regime", "film_regime"),
     _flag("law fits", "law_contradicted", "no", "yes"),

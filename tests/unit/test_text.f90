@@ -3,9 +3,8 @@ module test_text
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_is_finite, ieee_overflow
    use checks, only: check_list_t
    use kinds, only: dp, int64
-   use text, only: counted, edit_distance, integer_text, is_word_character, logical_text, lower, quoted, &
-      quoted_words, real_text, &
-      short_text
+   use text, only: counted, edit_distance, error_text, integer_text, is_word_character, logical_text, lower, quoted, &
+      quoted_words, real_text, short_text, stated_error
    implicit none(type, external)
    private
 
@@ -21,6 +20,7 @@ contains
       call test_real_text(checks)
       call test_random_reals(checks)
       call test_short_text(checks)
+      call test_errors_of_numbers(checks)
       call test_words(checks)
       call test_edit_distance(checks)
    end subroutine run_text_tests
@@ -49,6 +49,74 @@ contains
       call spelt(checks, logical_text(.true.), '.true.')
       call spelt(checks, logical_text(.false.), '.false.')
    end subroutine test_real_text
+
+   !> Errors have two digits, are rounded up, and are not below the rounding of their number as it is told.
+   subroutine test_errors_of_numbers(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      integer, parameter :: count_ = 2000
+      real(dp) :: number, error, told, number_told, rounding
+      character(:), allocatable :: text
+      integer :: i, digits, stat, low, long, other
+
+      call spelt(checks, error_text(1.7e-16_dp, 0.08_dp, 5), '5.0E-7')
+      call spelt(checks, error_text(0.00631_dp, 14.737_dp, 5), '0.0064')
+      call spelt(checks, error_text(0.33_dp, 202.62_dp, 5), '0.33')
+      call spelt(checks, error_text(23.4_dp, 20.691_dp, 5), '24')
+      call spelt(checks, error_text(0.0995_dp, 20.691_dp, 5), '0.10')
+      call spelt(checks, error_text(1.0e-12_dp, -1.0_dp, 5), '5.0E-5')
+      call spelt(checks, error_text(3.0_dp, 123456.0_dp, 3), '3.0')
+      call spelt(checks, error_text(0.1_dp, 123456.0_dp, 3), '0.50')
+      call spelt(checks, error_text(1.0_dp, 1.5e9_dp, 3), '5.0E6')
+      call spelt(checks, error_text(0.0_dp, 0.0_dp, 5), '0')
+      call spelt(checks, error_text(3.21e-9_dp, 0.0_dp, 5), '3.3E-9')
+      call checks%check(.not. abs(stated_error(0.0_dp, 0.0_dp)) > 0.0_dp, 'no error')
+      call checks%check(stated_error(huge(1.0_dp), 0.0_dp) >= huge(1.0_dp), 'the largest error')
+      call checks%check(stated_error(tiny(1.0_dp), 0.0_dp) >= tiny(1.0_dp), 'the smallest error')
+      low = 0
+      long = 0
+      other = 0
+      do i = 1, count_
+         number = 10.0_dp**(-12.0_dp + 20.0_dp*fraction_of(i, 0.61803398875_dp))
+         error = number*10.0_dp**(-18.0_dp + 19.0_dp*fraction_of(i, 0.75487766625_dp))
+         digits = 3 + mod(i, 4)
+         text = short_text(number, digits)
+         read (text, *, iostat=stat) number_told
+         text = error_text(error, number, digits)
+         read (text, *, iostat=stat) told
+         rounding = abs(number_told - number)
+         if (told < max(error, rounding)*(1.0_dp - 1.0e-10_dp)) low = low + 1
+         if (short_text(told, 2) /= error_text(error, number, digits)) long = long + 1
+         if (told > 1.1_dp*max(error, 0.5_dp*10.0_dp**(-decimals(short_text(number, digits))))*(1.0_dp + 1.0e-9_dp)) &
+            other = other + 1
+         ! What is told may be told again.
+         if (error_text(told, number, digits) /= error_text(error, number, digits)) other = other + 1
+      end do
+      call checks%check(low == 0, 'no error is below the bound or the rounding of its number')
+      call checks%check(long == 0, 'no error has more than two digits')
+      call checks%check(other == 0, 'no error is told larger than bound and rounding ask for')
+   end subroutine test_errors_of_numbers
+
+   !> A number between 0 and 1, another one for each place.
+   pure real(dp) function fraction_of(place, step)
+      integer, intent(in) :: place
+      real(dp), intent(in) :: step
+
+      fraction_of = modulo(real(place, dp)*step, 1.0_dp)
+   end function fraction_of
+
+   !> Decimals of a number in text, its exponent taken in.
+   pure integer function decimals(number)
+      character(*), intent(in) :: number
+      integer :: point, mark, exponent, stat
+
+      mark = index(number, 'E')
+      exponent = 0
+      if (mark > 0) read (number(mark + 1:), *, iostat=stat) exponent
+      if (mark == 0) mark = len(number) + 1
+      point = index(number(:mark - 1), '.')
+      decimals = -exponent
+      if (point > 0) decimals = mark - 1 - point - exponent
+   end function decimals
 
    !> Text as expected, length included.
    subroutine spelt(checks, actual, expected)

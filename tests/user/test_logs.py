@@ -11,7 +11,7 @@ import campaign_runs
 import numpy as np
 import pytest
 from test_thresholds import threshold_text
-from told import ANY, assert_told, counted, short
+from told import ANY, assert_told, counted, short, stated_error
 
 import rattle
 
@@ -136,15 +136,15 @@ def coarse_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str:
 
 def lines_of_certificate(told: Mapping[str, Any]) -> list[str | None]:
     errors = [
-        short(told[name], 2)
-        for name in ("film_error", "acceleration_minimum_error", "acceleration_maximum_error")
-        if name in told
+        short(stated_error(told[f"{name}_error"], told.get(name, 1.0), 5), 2)
+        for name in ("film", "acceleration_minimum", "acceleration_maximum")
+        if f"{name}_error" in told
     ]
     multiplier = np.atleast_1d(told.get("floquet_multipliers", [0.0]))
     return [
         f"  {told['certificate_text']}",
-        f"  error of the film {errors[0]}, of the extremes of the acceleration {errors[1]} and {errors[2]} "
-        "m/s2"
+        f"  error of the film at most {errors[0]} of it, of the extremes of the acceleration {errors[1]} and "
+        f"{errors[2]} m/s2"
         if len(errors) == 3
         else None,
         f"  the motion repeats after {counted(told['orbit_period'], 'period')}: {told['orbit_stability']}, "

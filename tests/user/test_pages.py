@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from report_reader import FACTORS, Page, number, read_page
 from test_report import CALM, report, with_summary
+from told import stated_error
 
 import rattle
 from rattle import codes
@@ -172,7 +173,8 @@ def reader_of_errors(told: Told) -> Callable[[Rows], None]:
             name = names[row[0]]
             assert_shows(row[1], told[name], codes.QUANTITIES[name].unit)
             if f"{name}_error" in told:
-                assert_shows(row[2], told[f"{name}_error"], codes.QUANTITIES[name].unit, 2)
+                error = stated_error(told[f"{name}_error"], told[name], 6)
+                assert_shows(row[2], error, codes.QUANTITIES[name].unit)
             else:
                 assert row[2] == "not known"
 
@@ -182,7 +184,10 @@ def reader_of_errors(told: Told) -> Callable[[Rows], None]:
 def reader_of_quantities(told: Told) -> Callable[[Rows], None]:
     def read(rows: Rows) -> None:
         for row in rows:
-            assert_shows(row[1], told[row[0]], codes.QUANTITIES[row[0]].unit)
+            value = told[row[0]]
+            if row[0].endswith("_error"):
+                value = stated_error(value, told.get(row[0].removesuffix("_error"), 1.0), 6)
+            assert_shows(row[1], value, codes.QUANTITIES[row[0]].unit)
             assert row[2] == codes.QUANTITIES[row[0]].meaning
 
     return read
@@ -197,7 +202,8 @@ def reader_of_lines(told: Told, order: float | None) -> Callable[[Rows], None]:
             assert row[0] == str(place + 1)
             assert_shows(row[-2], told["harmonics"][place], "m/s2")
             if "harmonic_errors" in told:
-                assert_shows(row[-1], told["harmonic_errors"][place], "m/s2")
+                error = stated_error(told["harmonic_errors"][place], told["harmonics"][place], 6)
+                assert_shows(row[-1], error, "m/s2")
             if order is not None:
                 assert_shows(row[1], order * (place + 1))
 

@@ -47,7 +47,7 @@ SHOWN = {
     "status": "complete",
     "film law": "iso-viscous",
     "film model": "published",
-    "film thickness [um]": "0.5123 to 1.5000",
+    "film thickness [um]": "0.51230 to 1.5000",
     "acceleration [m/s2]": "-52.124 to 290.750",
     "acceleration rms [m/s2]": "44.107",
     "film force rms [N]": "212.4",
@@ -60,7 +60,7 @@ SHOWN = {
     "reversals a period": "4.5",
     "rattle class": "idle",
     "class stands": "certified",
-    "error of the film": "2.5e-09",
+    "error of the film": "5.0e-05",
     "motion": "stable",
     "film regime": "piezo-viscous",
     "law fits": "no",
@@ -97,7 +97,7 @@ def test_scenes_stand_side_by_side_and_what_is_unknown_is_a_dash(tmp_path):
     lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines()]
     cells = {words: pair for words, *pair in lines}
     assert cells[""] == ["a", "b"]
-    assert cells["film thickness [um]"] == ["0.5123 to 1.5000", "-"]
+    assert cells["film thickness [um]"] == ["0.51230 to 1.5000", "-"]
     assert cells["steady film [um]"] == ["0.8889", "-"]
     assert cells["motion"] == ["stable", "-"]
     assert cells["law fits"] == ["no", "yes"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import ROUND_CEILING, Decimal
 
 SMALLEST_PLAIN, LARGEST_PLAIN = 1e-3, 1e6  # between which a log writes no exponent
 ANY = "*"  # in an expected text: what no file tells, as the time that something took
@@ -18,6 +19,16 @@ def short(number: float, digits: int) -> str:
         return f"{number:.{decimals}f}"
     mantissa, exponent = f"{number:.{digits - 1}E}".split("E")
     return f"{mantissa}{'' if '.' in mantissa else '.0'}E{int(exponent)}"
+
+
+def stated_error(error: float, number: float, digits: int) -> float:
+    """An error of two digits, rounded up, and not below half a unit of the last digit of its number."""
+    bound = Decimal(repr(float(error)))
+    if number:
+        bound = max(bound, Decimal(5).scaleb(Decimal(repr(abs(float(number)))).adjusted() - digits))
+    if not bound:
+        return 0.0
+    return float(bound.quantize(Decimal(1).scaleb(bound.adjusted() - 1), rounding=ROUND_CEILING))
 
 
 def counted(number: int, noun: str) -> str:

@@ -249,7 +249,7 @@ def key_figures(summary: Summary) -> str:
     for name, error in ERRORS.items():
         if name in summary:
             unit = QUANTITIES[name].unit
-            known = page.value(summary[error], unit, 2) if error in summary else "not known"
+            known = page.error(summary[error], summary[name], unit) if error in summary else "not known"
             rows.append([_meaning(name).rstrip("."), page.value(summary[name], unit), known])
     extremes = page.table(("", "Value", "Error at most"), rows, kinds=("", "number", "number"))
     window = (
@@ -268,12 +268,19 @@ def quantities(result: Result, summary: Summary) -> list[str]:
 
 def explained(summary: Summary, names: list[str]) -> str:
     """A table of quantities of the summary with their meanings."""
-    rows = [
-        [page.code(name), page.value(summary[name], QUANTITIES[name].unit), _meaning(name)] for name in names
-    ]
+    rows = [[page.code(name), quantity(summary, name), _meaning(name)] for name in names]
     return page.table(
         ("Quantity", "Value", "Meaning"), rows, kinds=("", "number", "meaning"), kind="explained"
     )
+
+
+def quantity(summary: Summary, name: str) -> page.Cell:
+    """A quantity of the summary; an error as it belongs to its number, a relative one to 1."""
+    unit = QUANTITIES[name].unit
+    number, mark, _ = name.rpartition("_error")
+    if mark:
+        return page.error(summary[name], summary.get(number, 1.0), unit)
+    return page.value(summary[name], unit)
 
 
 def harmonics(result: Result, summary: Summary) -> list[str]:
@@ -285,7 +292,7 @@ def harmonics(result: Result, summary: Summary) -> list[str]:
     unit = QUANTITIES["harmonics"].unit
     rows = []
     for place, line in enumerate(lines[:HARMONICS_SHOWN].tolist()):
-        error = page.value(errors.tolist()[place], unit) if place < errors.size else "not known"
+        error = page.error(errors[place], line, unit) if place < errors.size else "not known"
         number = place + 1
         order = [page.value(spectra.engine_order(result, number))] if result.shaft_speed else []
         rows.append([str(number), *order, page.value(line, unit), error])

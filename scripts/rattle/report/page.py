@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from rattle.command import CommandError
 from rattle.figures import style
 from rattle.result import ResultError
+from rattle.rounding import ERROR_DIGITS, stated_error
 
 # Units in which numbers are read more easily: from which size on, factor and name, the largest first.
 STEPS = {
@@ -176,9 +177,14 @@ def value(given: Any, unit: str = "", digits: int = DIGITS) -> Cell:
     return Cell(f'<span data-value="{exact}" title="{exact} {escape(unit)}">{words}{_behind(name)}</span>')
 
 
-def plain(given: float, unit: str) -> str:
+def error(given: float, number: float, unit: str = "") -> Cell:
+    """The error of a number that is told with all digits; a relative error belongs to 1."""
+    return value(stated_error(float(given), float(number), DIGITS), unit, ERROR_DIGITS)
+
+
+def plain(given: float, unit: str, digits: int = DIGITS) -> str:
     """The same as text for a sentence."""
-    words, name = number_words(given, unit)
+    words, name = number_words(given, unit, digits)
     return re.sub(r"&times;10<sup>(.*?)</sup>", r"e\1", words) + (f" {name}" if name else "")
 
 

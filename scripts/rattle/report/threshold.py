@@ -14,6 +14,7 @@ from rattle.figures.campaign_look import capital
 from rattle.figures.threshold import Thresholds
 from rattle.report import motion, page
 from rattle.result import Result
+from rattle.rounding import stated_error
 from rattle.summary import Summary
 
 MOST_ROWS = 100
@@ -62,7 +63,9 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
             "farther apart, and the distance between them is how well the threshold is known."
         )
     count = found.result.value("threshold", "count")
-    width = float(np.max(found.column("width"), where=crossed, initial=0.0))
+    widths = np.where(crossed, found.column("width"), 0.0)
+    widest = int(np.argmax(widths))
+    width = stated_error(float(widths[widest]), float(found.column("upper")[widest]), page.DIGITS)
     yield (
         f"{'Each line' if lines > 1 else 'The line'} was solved in {count} places; between neighbours that "
         f"differ the gap was halved again and again; the widest that is left "
@@ -91,7 +94,8 @@ def tables(result: Result) -> list[str]:
     lines = []
     for row in range(min(result.row_count, MOST_ROWS)):
         axes = [found.words_of_value(key, float(found.column(key)[row])) for key in found.varied]
-        ends = [page.value(float(found.column(name)[row]), unit) for name in ("lower", "upper", "width")]
+        lower, upper, width = (float(found.column(name)[row]) for name in ("lower", "upper", "width"))
+        ends = [page.value(lower, unit), page.value(upper, unit), page.error(width, upper, unit)]
         kind = found.kinds[row] if crossed[row] else f"{found.kinds[row]} throughout"
         sure = (
             "no" if found.uncertain[row] else "yes" if crossed[row] and "certified_below" in result else "-"
