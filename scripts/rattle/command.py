@@ -47,10 +47,17 @@ def run(main: Callable[[], int | None]) -> None:
         words = fault.object if isinstance(fault.object, str) else repr(fault.object)
         code = complain(f"'{readable(words)[:200]}' cannot be read or written as text ({fault.reason}).")
     except ImportError as fault:
-        code = complain(f"A Python module cannot be loaded ({fault}); 'make python' builds and installs all.")
+        code = complain(f"{words_of_import(fault)}; 'make python' builds and installs all.")
     except KeyboardInterrupt:
         code = INTERRUPTED
     sys.exit(code)
+
+
+def words_of_import(fault: ImportError) -> str:
+    """What cannot be loaded, as the beginning of a sentence."""
+    if fault.name == "rattle" and "_kernels" in str(fault):
+        return "The kernels of the package, which are compiled, are not built here"
+    return f"A Python module cannot be loaded ({fault})"
 
 
 def _leave(number: int, _: object) -> None:

@@ -57,15 +57,16 @@ WORKING = {
     "motion": MOTION | {"classify"},
     "failed": SERIES | COMPARED | {"plot regime-map"},
     "steady_failed": SERIES | COMPARED | {"plot regime-map"},
+    "never_begun": SERIES | COMPARED | {"plot regime-map"},
     "interrupted": MOTION | {"classify"},
     "unclosed": (MOTION - COMPARED) | {"classify"},
     "film": ALWAYS | COMPARED | {"plot film"},
     "sweep": ALWAYS | COMPARED | {"plot sweep"},
     "map": CAMPAIGN | COMPARED | {"campaign merge"},
     "unfinished_map": CAMPAIGN,
-    "empty_map": ALWAYS | {"campaign status", "campaign export", "campaign as Parquet"},
+    "empty_map": ALWAYS | COMPARED | {"campaign status", "campaign export", "campaign as Parquet"},
     "crossings": ALWAYS | COMPARED | {"plot threshold", "campaign merge"},
-    "empty_crossings": ALWAYS,
+    "empty_crossings": ALWAYS | COMPARED,
     "unfinished_crossings": ALWAYS | {"plot threshold"},
     "no_motion": SERIES | {"plot regime-map"},
     "no_sweep": ALWAYS,
@@ -97,6 +98,8 @@ def results(tmp_path_factory, rattle, run, repository, scene_text) -> Path:
     late = {**STEADY, "load": {"force_amplitude": "2000.0"}}
     late["film"] = {"law": "'piezo-viscous'", "model": "'reynolds'"}
     solve("steady_failed", scene_text(**late), codes=(1,))
+    heavy = {**late, "load": {"steady_force": "2e5"}, "solver": STEADY["solver"]}
+    solve("never_begun", scene_text(**heavy), codes=(1,))
     film = (repository / "input" / "film.nml").read_text()
     solve("film", film, "--set", "scene.name=film")
     sweep = (repository / "input" / "sweep.nml").read_text()
@@ -107,7 +110,8 @@ def results(tmp_path_factory, rattle, run, repository, scene_text) -> Path:
     solve("empty_map", campaign_runs.grid(scene_text, 2, 2), *parts)
     solve("empty_crossings", threshold_text(scene_text, threshold={"tolerance": "1e-2"}), *parts)
     for name in ("empty_map", "empty_crossings"):
-        (folder / f"{name}.part-1-of-9.rattle").rename(folder / f"{name}.rattle")
+        for ending in (".rattle", ".summary.nml"):
+            (folder / f"{name}.part-1-of-9{ending}").rename(folder / f"{name}{ending}")
     one = campaign_writer.grid(campaign_writer.FORCES, campaign_writer.SPEEDS, name="unfinished_map")
     one.write(folder / "unfinished_map.rattle", undone=[2], closed=False)
     gears = (repository / "input" / "gearbox.nml").read_text()
@@ -174,20 +178,29 @@ def test_without_kernels_scripts_work_or_name_what_is_missing(results, tmp_path)
     """In a copy of the scripts that nobody built the kernels for."""
     copy = tmp_path / "scripts"
     shutil.copytree(SCRIPTS, copy, ignore=shutil.ignore_patterns("*.so", "__pycache__", "generate"))
-    (tmp_path / "o").mkdir()
-    for name, code in (
-        ("export", 0),
-        ("compare", 0),
-        ("report", 2),
-        ("classify", 2),
-        ("plot motion", 2),
-        ("plot regime-map", 2),
-        ("plot film", 2),
+    for name, kind, code in (
+        ("export", "motion", 0),
+        ("compare", "motion", 0),
+        ("report", "motion", 2),
+        ("report", "failed", 2),
+        ("report", "crossings", 2),
+        ("report", "empty_crossings", 2),
+        ("classify", "motion", 2),
+        ("plot motion", "motion", 2),
+        ("plot regime-map", "motion", 2),
+        ("plot film", "film", 2),
+        ("plot threshold", "crossings", 0),
+        ("plot campaign", "map", 0),
+        ("export", "empty_crossings", 0),
+        ("export", "failed", 0),
     ):
         script, before, behind = CALLS[name]
-        place = results / ("film.rattle" if name == "plot film" else "motion.rattle")
-        command = [sys.executable, copy / script, *before, place, *behind]
+        (tmp_path / "o").mkdir()
+        command = [sys.executable, copy / script, *before, results / f"{kind}.rattle", *behind]
         ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-        assert ended.returncode == code, (name, ended.stderr)
+        assert ended.returncode == code, (name, kind, ended.stderr)
+        missing = "The kernels of the package, which are compiled, are not built here; 'make python' builds"
+        assert (missing in ended.stderr) == (code == 2), (name, kind, ended.stderr)
         assert "Traceback" not in ended.stderr
-        assert ("'make python' builds" in ended.stderr) == (code == 2), (name, ended.stderr)
+        assert (name == "compare" or any((tmp_path / "o").iterdir())) == (code == 0), (name, kind)
+        shutil.rmtree(tmp_path / "o")

@@ -109,6 +109,18 @@ def test_several_thresholds_on_a_line(found, scene_text) -> None:
         np.testing.assert_allclose(ours["upper"] - ours["lower"], 450.0 / 16384)
 
 
+def test_every_column_has_the_unit_of_what_it_holds(found, scene_text, tmp_path: Path) -> None:
+    threshold = {"key": "'load.mass'", "first": "1.0", "last": "5.0", "count": "3", "tolerance": "0.5"}
+    found(threshold_text(scene_text, threshold={**threshold, **LOUD}))
+    units = {"kinematics.entrainment_speed": "m/s", "lower": "kg", "upper": "kg", "width": "kg"}
+    units |= {"film_force_rms_below": "N", "film_force_rms_above": "N"}
+    told = package.read(tmp_path / "results" / "scene.rattle").units
+    assert {name: unit for name, unit in told.items() if unit != "-"} == units
+    assert set(told) - set(units) == {
+        *("line", "crossing", "status_below", "status_above", "certified_below", "certified_above")
+    }
+
+
 def test_rows_of_a_campaign_know_which_side_is_certified(found, run, scene_text, tmp_path: Path) -> None:
     rows = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}))
     for _, row in rows.iterrows():

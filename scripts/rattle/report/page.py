@@ -13,7 +13,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from rattle.command import CommandError
+from rattle.command import CommandError, words_of_import
 from rattle.figures import style
 from rattle.result import ResultError
 from rattle.rounding import ERROR_DIGITS, stated_error
@@ -230,7 +230,7 @@ def drawing(draw: Callable[[], Figure], caption: str, salt: str) -> str:
     except (ResultError, CommandError) as fault:
         return paragraph(f"No figure here: {fault}", "note")
     except ImportError as fault:
-        return paragraph(f"No figure here: a Python module cannot be loaded ({fault}).", "note")
+        return paragraph(f"No figure here. {words_of_import(fault)}.", "note")
     picture = stream.getvalue()
     picture = picture[picture.index("<svg") :]
     picture = re.sub(r"<metadata>.*?</metadata>", "", picture, count=1, flags=re.DOTALL)
