@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 from outcomes import assert_no_crash, contents
+from waiting import PATIENCE
 
 # No test is timed: an example that takes long on a busy machine is not a fault.
 settings.register_profile("untimed", deadline=None)
@@ -68,7 +69,7 @@ def run(rattle: Path) -> Run:
         *arguments: object,
         cwd: Path,
         stdin: str | bytes = b"",
-        timeout: float = 600.0,
+        timeout: float = PATIENCE,
         program: Path | str = rattle,
         **identity: object,
     ) -> subprocess.CompletedProcess[str]:

@@ -6,7 +6,6 @@ import os
 import re
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +13,7 @@ import pytest
 from campaign_runs import BASE, grid, solve
 from outcomes import digest, summary_of
 from script_calls import call_script
+from waiting import let_work, until
 
 import rattle as package
 from rattle.codes import CLASSES
@@ -319,7 +319,7 @@ def test_stopped_campaign_resumes_to_the_same_bytes(
     codes = []
     for wait in (0.02, 0.05, 0.08, 0.12):
         process = subprocess.Popen(command, cwd=tmp_path)
-        time.sleep(wait)
+        let_work(process, wait)
         process.send_signal(number)
         codes.append(process.wait(600))
     assert codes[0] in (-number, 128 + number)
@@ -353,10 +353,8 @@ def test_a_signal_ends_a_campaign_inside_a_chunk(
     result = tmp_path / "results" / "scene.rattle"
     process = subprocess.Popen([rattle, "--quiet", "scene.nml"], cwd=tmp_path)
     try:
-        while not result.exists():
-            assert process.poll() is None
-            time.sleep(0.01)
-        time.sleep(0.3)
+        until(result.exists, process)
+        let_work(process, 0.3)
         process.send_signal(number)
         assert process.wait(600) == 128 + number
     finally:
@@ -377,9 +375,7 @@ def test_scenes_before_a_slow_one_are_kept(rattle: Path, scene_text, tmp_path: P
     result = tmp_path / "results" / "scene.rattle"
     process = subprocess.Popen([rattle, "--quiet", "--threads", "1", "scene.nml"], cwd=tmp_path)
     try:
-        while not result.exists() or package.read_campaign(result).done.sum() < 9:
-            assert process.poll() is None
-            time.sleep(0.05)
+        until(lambda: result.exists() and package.read_campaign(result).done.sum() >= 9, process)
     finally:
         process.kill()
         process.wait()
@@ -390,7 +386,7 @@ def test_scenes_before_a_slow_one_are_kept(rattle: Path, scene_text, tmp_path: P
 def test_a_signal_ends_the_check_of_a_campaign(rattle: Path, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(grid(scene_text, 8, 1, **ENDLESS))
     process = subprocess.Popen([rattle, "--check", "scene.nml"], cwd=tmp_path, stdout=subprocess.PIPE)
-    time.sleep(0.3)
+    let_work(process, 0.05)
     process.send_signal(signal.SIGTERM)
     stdout, _ = process.communicate(timeout=600.0)
     assert (process.returncode, stdout) == (128 + signal.SIGTERM, b"")
@@ -464,8 +460,7 @@ def test_second_run_refuses(rattle: Path, run, scene_text, tmp_path: Path) -> No
     (tmp_path / "scene.nml").write_text(grid(scene_text, 300, 300))
     first = subprocess.Popen([rattle, "--quiet", "--output", "whole", "scene.nml"], cwd=tmp_path)
     try:
-        while not (tmp_path / "whole" / "scene.rattle").exists():
-            time.sleep(0.01)
+        until((tmp_path / "whole" / "scene.rattle").exists, first)
         ended = run("--resume", "--output", "whole", "scene.nml", cwd=tmp_path)
         assert ended.returncode == 3
         assert "whole/scene is being written by another run" in ended.stderr

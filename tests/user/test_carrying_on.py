@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from outcomes import contents, digest, summary_of
 from result_writer import write_result
+from waiting import let_work, until
 
 import rattle as package
 
@@ -93,11 +93,10 @@ def carry_on(run, folder: Path, *options: str, output: str = "chained", code: in
 
 
 def terminated(rattle: Path, folder: Path, *options: str, after: float) -> dict:
-    """Summary of a run that a signal ends some time after its start [s]."""
+    """Summary of a run that a signal ends after so much processor time [s]."""
     process = subprocess.Popen([rattle, *options, "--quiet", "--output", "cut", "scene.nml"], cwd=folder)
-    while process.poll() is None and not (folder / "cut" / "scene.log").exists():
-        time.sleep(0.01)
-    time.sleep(after)
+    until((folder / "cut" / "scene.log").exists, process)
+    let_work(process, after)
     process.send_signal(signal.SIGTERM)
     assert process.wait(600) == 128 + signal.SIGTERM
     return summary(folder / "cut")

@@ -6,7 +6,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import campaign_runs
@@ -15,6 +14,7 @@ import pytest
 from result_writer import result_bytes
 from script_calls import SCRIPTS, called_here
 from test_thresholds import threshold_text
+from waiting import until
 
 import rattle as package
 
@@ -147,8 +147,7 @@ def interrupt(rattle: Path, folder: Path, scene_text) -> None:
     (folder / "interrupted.nml").write_text(text)
     process = subprocess.Popen([rattle, "--quiet", "--output", ".", "interrupted.nml"], cwd=folder)
     path = folder / "interrupted.rattle"
-    while process.poll() is None and not (path.exists() and path.stat().st_size > 20_000):
-        time.sleep(0.005)
+    until(lambda: path.exists() and path.stat().st_size > 20_000, process)
     process.send_signal(signal.SIGTERM)
     assert process.wait(600) == 128 + signal.SIGTERM
 

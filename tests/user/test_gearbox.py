@@ -6,7 +6,6 @@ import fcntl
 import re
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +13,7 @@ import pytest
 from outcomes import assert_faults, summary_of
 from report_reader import read_page
 from script_calls import call_script
+from waiting import until
 
 import rattle as package
 from rattle import rerun
@@ -206,9 +206,7 @@ def test_a_signal_ends_all_pairs_that_have_begun(rattle: Path, run, tmp_path: Pa
     call = [rattle, "--quiet", "--threads", "2", "box.nml"]
     process = subprocess.Popen(call, cwd=tmp_path)
     logs = [tmp_path / "results" / f"box.{gear}.log" for gear in ("1st", "4th")]
-    started = time.monotonic()
-    while not all(log.exists() and log.read_text() for log in logs) and time.monotonic() - started < 600.0:
-        time.sleep(0.01)
+    until(lambda: all(log.exists() and log.read_text() for log in logs), process)
     process.send_signal(signal.SIGTERM)
     assert process.wait(600) == 128 + signal.SIGTERM
     table = package.read_summary(tmp_path / "results" / "box.summary.nml")

@@ -8,13 +8,13 @@ import resource
 import shutil
 import signal
 import subprocess
-import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from outcomes import contents, summary_of
 from test_edited_inputs import GEARBOX, TASKS
+from waiting import PATIENCE, until
 
 import rattle as package
 
@@ -33,12 +33,10 @@ def begun(rattle: Path, tmp_path: Path):
             command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
         waiting = tmp_path / "results" / "waiting"
-        while process.poll() is None and not waiting.exists():
-            time.sleep(0.01)
-        assert process.poll() is None, process.communicate()
+        until(waiting.exists, process)
         meanwhile()
         waiting.unlink(missing_ok=True)
-        out, words = process.communicate(timeout=60)
+        out, words = process.communicate(timeout=PATIENCE)
         return subprocess.CompletedProcess(command, process.returncode, out, words)
 
     return call

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from script_calls import SCRIPTS
 from test_python_runs import SCENE
+from waiting import until
 
 import rattle
 from rattle.solve import literal, text_of
@@ -158,11 +159,7 @@ def caller(tmp_path: Path, folder: str | None = "out", code: str = CALLER, **opt
         stderr=subprocess.PIPE,
         start_new_session=True,
     )
-    deadline = time.monotonic() + 600.0
-    while bytes_of(tmp_path) < before + 20_000:
-        assert process.poll() is None, process.stderr.read()
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+    until(lambda: bytes_of(tmp_path) >= before + 20_000, process)
     return process
 
 

@@ -9,13 +9,13 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 from outcomes import assert_no_crash, summary_of
+from waiting import let_work, until
 
 from rattle import read
 
@@ -91,12 +91,9 @@ def start(rattle: Path, cwd: Path, *arguments: str) -> subprocess.Popen[str]:
     )
 
 
-def wait_for_rows(path: Path, size: int = 100_000) -> None:
+def wait_for_rows(path: Path, process: subprocess.Popen, size: int = 100_000) -> None:
     """Until the program has written rows."""
-    deadline = time.monotonic() + 600.0
-    while not path.exists() or path.stat().st_size < size:
-        assert time.monotonic() < deadline, f"{path} does not grow"
-        time.sleep(0.005)
+    until(lambda: path.exists() and path.stat().st_size >= size, process)
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1], ids=lambda n: n.name)
@@ -109,7 +106,7 @@ def test_interruption_keeps_what_was_computed(
     # On one thread the second scene waits for the first.
     process = start(rattle, tmp_path, "--threads", "1", "long.nml", "next.nml")
     try:
-        wait_for_rows(path)
+        wait_for_rows(path, process)
         process.send_signal(number)
         stdout, stderr = process.communicate(timeout=600.0)
     finally:
@@ -139,7 +136,7 @@ def test_kill_leaves_a_readable_result(rattle: Path, scene_text, tmp_path: Path)
     path = tmp_path / "results" / "long.rattle"
     process = start(rattle, tmp_path, "long.nml")
     try:
-        wait_for_rows(path)
+        wait_for_rows(path, process)
     finally:
         process.kill()
         process.communicate(timeout=600.0)
@@ -234,7 +231,8 @@ def test_a_signal_ends_a_long_period(rattle: Path, scene_text, tmp_path: Path) -
     (tmp_path / "scene.nml").write_text(text)
     process = start(rattle, tmp_path, "scene.nml")
     try:
-        time.sleep(1.0)
+        until((tmp_path / "results" / "scene.log").exists, process)
+        let_work(process, 0.5)
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=600.0)
     finally:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from campaign_runs import BASE
 from outcomes import assert_faults, contents, digest, summary_of
+from waiting import let_work, until
 
 import rattle as package
 from rattle.campaign_plan import read_plan
@@ -258,9 +258,7 @@ def test_a_signal_ends_it_without_a_result(number, rattle, run, scene_text, tmp_
     many = ["--set", "threshold.count=100000", "--set", "threshold.tolerance=1e-6"]
     process = subprocess.Popen([rattle, "--overwrite", "--quiet", *many, "scene.nml"], cwd=tmp_path)
     log = tmp_path / "results" / "scene.log"
-    started = time.monotonic()
-    while "100000 values a line" not in log.read_text() and time.monotonic() - started < 600.0:
-        time.sleep(0.01)
+    until(lambda: "100000 values a line" in log.read_text(), process)
     process.send_signal(number)
     assert process.wait(600) == 128 + number
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "interrupted"
@@ -287,15 +285,13 @@ def state_path(folder: Path) -> Path:
 def cut_short(
     rattle: Path, folder: Path, number: int, seconds: float, *options: str, name: str = "scene"
 ) -> int:
-    """Ends a run by a signal some time after its log is begun; its exit code."""
+    """Ends a run by a signal after so much processor time, once its log is begun; its exit code."""
     call = [rattle, "--quiet", "--threads", "1", "--overwrite", *options, "scene.nml"]
     log = folder / "results" / f"{name}.log"
     log.unlink(missing_ok=True)
     process = subprocess.Popen(call, cwd=folder)
-    started = time.monotonic()
-    while not log.exists() and time.monotonic() - started < 600.0:
-        time.sleep(0.01)
-    time.sleep(seconds)
+    until(log.exists, process)
+    let_work(process, seconds)
     process.send_signal(number)
     return process.wait(600)
 
@@ -342,7 +338,7 @@ def test_cut_in_its_first_lines_it_goes_on_where_it_was(rattle, run, scene_text,
     while len(cuts) < 60:
         options = ["--resume"] if cuts else ["--overwrite"]
         process = subprocess.Popen([rattle, "--quiet", "--threads", "1", *options, "scene.nml"], cwd=tmp_path)
-        time.sleep(seconds)
+        let_work(process, seconds)
         process.send_signal(signal.SIGTERM)
         if process.wait(600) == 0:
             break
@@ -354,7 +350,7 @@ def test_cut_in_its_first_lines_it_goes_on_where_it_was(rattle, run, scene_text,
             continue
         cuts.append(int(told[1]))
         assert cuts[-1] >= values
-        # On a loaded machine the time for one scene more may be longer.
+        # One scene more may take longer.
         seconds *= 1.5 if cuts[-1] == values else 1.0
         values = cuts[-1]
     else:
