@@ -87,6 +87,7 @@ NEAREST_TESTS = {
     "fsrc/run/scene_summary": ("logs", "gear_inputs", "tasks", "rows_and_summaries"),
     "fsrc/run/run_sweep": ("logs", "tasks", "carrying_on", "run_endings"),
     "fsrc/run/judged_scene": ("logs", "impacts", "separation", "rows_and_summaries", "tasks"),
+    "fsrc/campaign/threshold": ("thresholds", "logs"),
     "fsrc/campaign/run_campaign": ("logs", "campaigns", "carrying_on"),
     "fsrc/campaign/check_campaign": ("check_and_template", "campaigns", "commands", "thresholds"),
     "fsrc/campaign/campaign_progress": ("logs", "campaigns", "carrying_on", "run_endings"),
