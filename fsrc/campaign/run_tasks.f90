@@ -4,7 +4,7 @@ module run_tasks
    use check_campaign, only: check_one_campaign, check_one_threshold
    use batch, only: print_faults, run_batch
    use command_line, only: command_t, most_threads
-   use derived_scene, only: complete_scene
+   use completed_scene, only: complete_scene
    use errors, only: error_t, exit_bad_input, exit_complete, fault_list_t
    use gearbox, only: base_of_pairs
    use key_table, only: choice_word

@@ -1,6 +1,6 @@
 !> Scenes of inputs that stand in a test as texts.
 module scene_texts
-   use derived_scene, only: complete_scene
+   use completed_scene, only: complete_scene
    use errors, only: fault_list_t
    use file_system, only: delete_file
    use scene_reader, only: override_t, read_scenes

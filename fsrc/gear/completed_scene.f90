@@ -1,0 +1,192 @@
+!> What an input is told of the scene that follows from it: faults, warnings, and the numbers that follow as comments of the resolved
+!> input.
+module completed_scene
+   use derived_scene, only: accelerations_of, derive, derived_rules, pair_of
+   use errors, only: fault_list_t
+   use gear_contact, only: find_contact, gear_contact_t
+   use input_entry, only: numbers_text
+   use key_table, only: find_key, keys
+   use kinds, only: dp
+   use loose_gear_drag, only: gap_is_turbulent
+   use oil_data, only: kinematic_viscosity, least_viscosity_meant
+   use scene_rules, only: rule_t
+   use scene_types, only: drag_computed, drag_given, scene_t, set_number, task_sweep
+   use text, only: short_text
+   use word_list, only: word_t
+   implicit none(type, external)
+   private
+
+   !> A temperature farther from those of the data sheet than these are apart deserves a warning [K].
+   real(dp), parameter :: farthest_beyond_data = 60.0_dp
+
+   public :: complete_scene
+
+contains
+
+   !> Derive the scene of an input, tell what is wrong with it or odd about it, and put what follows into its resolved input as
+   !> comments.
+   subroutine complete_scene(scene, faults)
+      !> Without a fault of its own
+      type(scene_t), intent(inout) :: scene
+      !> Faults are appended
+      type(fault_list_t), intent(inout) :: faults
+      type(rule_t), allocatable :: broken(:)
+      integer :: i, dot
+
+      if (.not. (scene%gear%given .or. scene%oil%given)) return
+      call derive(scene)
+      allocate (broken, source=derived_rules(scene))
+      do i = 1, size(broken)
+         associate (key => broken(i)%keys)
+            dot = index(key, '.')
+            call faults%add(scene%source, scene%lines(find_key(key(:dot - 1), key(dot + 1:))), key(:dot - 1), trim(key(dot + 1:)), &
+                            trim(broken(i)%sentence))
+         end associate
+      end do
+      if (size(broken) > 0) return
+      if (scene%task == task_sweep) call check_sweep(scene, faults)
+      if (scene%oil%given) call tell_oil(scene)
+      if (scene%gear%given) call tell_gear(scene)
+   end subroutine complete_scene
+
+   !> The scenes at all values of a sweep can be derived.
+   subroutine check_sweep(scene, faults)
+      type(scene_t), intent(in) :: scene
+      type(fault_list_t), intent(inout) :: faults
+      type(rule_t), allocatable :: broken(:)
+      type(scene_t) :: swept
+      integer :: i
+
+      swept = scene
+      associate (sweep => scene%sweep)
+         do i = 1, sweep%outward
+            call set_number(swept, keys(sweep%key)%group, keys(sweep%key)%name, sweep%values(i))
+            call derive(swept)
+            if (allocated(broken)) deallocate (broken)
+            allocate (broken, source=derived_rules(swept))
+            if (size(broken) == 0) cycle
+            call faults%add(scene%source, 0, 'sweep', trim(merge('last ', 'first', i == sweep%outward)), &
+                            'at '//short_text(sweep%values(i), 7)//': '//trim(broken(1)%sentence))
+            exit
+         end do
+      end associate
+   end subroutine check_sweep
+
+   !> What follows from &oil.
+   subroutine tell_oil(scene)
+      type(scene_t), intent(inout) :: scene
+      real(dp) :: thin, ends(2)
+      real(dp), parameter :: low = 40.0_dp, high = 100.0_dp
+
+      ends = temperatures(scene)
+      if (ends(1) < low - farthest_beyond_data) &
+         call warn(ends(1), low - ends(1), ', and near its pour point an oil leaves that line')
+      if (ends(2) > high + farthest_beyond_data) call warn(ends(2), ends(2) - high, '')
+      thin = kinematic_viscosity(scene%oil%viscosity_40_cst, scene%oil%viscosity_100_cst, ends(2))
+      if (thin < least_viscosity_meant) scene%warnings = [scene%warnings, word_t('warning: the oil has '// &
+         short_text(thin, 3)//' mm2/s at '//short_text(ends(2), 3)// &
+         ' degC; the line through both viscosities (ASTM D341) is meant for 2 and more')]
+      call tell(scene, 'lubricant.viscosity', [scene%lubricant%viscosity], 'Pa s')
+      call tell(scene, 'lubricant.pressure_viscosity', [scene%lubricant%pressure_viscosity], '1/Pa')
+
+   contains
+
+      !> Say that a temperature lies far beyond the data.
+      subroutine warn(temperature, beyond, words)
+         real(dp), intent(in) :: temperature
+         !> By how much [K]
+         real(dp), intent(in) :: beyond
+         !> What else there is to say
+         character(*), intent(in) :: words
+
+         scene%warnings = [scene%warnings, word_t('warning: at '//short_text(temperature, 3)// &
+            ' degC the viscosity is extrapolated by '//short_text(beyond, 2)// &
+            ' K from the 40 and 100 degC of the data sheet, farther than these are apart'//words)]
+      end subroutine warn
+
+   end subroutine tell_oil
+
+   !> Lowest and highest temperature of the oil in what an input asks for [degC].
+   pure function temperatures(scene) result(ends)
+      type(scene_t), intent(in) :: scene
+      real(dp) :: ends(2)
+      integer :: i, key
+
+      ends = scene%oil%temperature_celsius
+      key = find_key('oil', 'temperature_celsius')
+      if (scene%task == task_sweep) then
+         if (scene%sweep%key == key) ends = [minval(scene%sweep%values), maxval(scene%sweep%values)]
+      end if
+      if (.not. allocated(scene%campaign%vary)) return
+      do i = 1, size(scene%campaign%vary)
+         if (scene%campaign%vary(i)%text /= 'oil.temperature_celsius') cycle
+         associate (campaign => scene%campaign)
+            if (i <= min(size(campaign%first), size(campaign%last))) &
+               ends = [min(campaign%first(i), campaign%last(i)), max(campaign%first(i), campaign%last(i))]
+            if (i > size(campaign%values)) cycle
+            if (size(campaign%values(i)%numbers) > 0) &
+               ends = [minval(campaign%values(i)%numbers), maxval(campaign%values(i)%numbers)]
+         end associate
+      end do
+   end function temperatures
+
+   !> What follows from &gear and &shaft.
+   subroutine tell_gear(scene)
+      type(scene_t), intent(inout) :: scene
+      type(gear_contact_t) :: contact
+      character(:), allocatable :: wrong, message
+
+      call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
+      associate (excitation => scene%excitation)
+         if (excitation%steady_force >= excitation%force_scale*sum(excitation%force_amplitudes)) scene%warnings = [scene%warnings, &
+            word_t('warning: the drag of '//short_text(excitation%steady_force, 4)//' N is larger than the inertia force of '// &
+                   short_text(excitation%force_scale*sum(excitation%force_amplitudes), 4)// &
+                   ' N at most: nothing drives the teeth apart')]
+         if (allocated(scene%shaft%speed_amplitudes) .or. allocated(scene%shaft%table)) &
+            call tell(scene, 'shaft.accelerations', accelerations_of(scene%shaft), 'rad/s2')
+         if (allocated(scene%shaft%table)) call tell(scene, 'shaft.orders', scene%shaft%orders, '')
+         if (allocated(scene%shaft%table)) call tell(scene, 'shaft.phases', scene%shaft%phases, 'rad')
+         call tell(scene, 'gear.base_radius_1', [contact%base_radius_1], 'm')
+         call tell(scene, 'gear.base_radius_2', [contact%base_radius_2], 'm')
+         call tell(scene, 'gear.centre_distance', [contact%centre_distance], 'm')
+         call tell(scene, 'gear.working_pressure_angle', [contact%working_pressure_angle], 'deg')
+         call tell(scene, 'gear.base_helix_angle', [contact%base_helix_angle], 'deg')
+         call tell(scene, 'gear.contact_ratio', [contact%contact_ratio], '')
+         call tell(scene, 'gear.overlap_ratio', [contact%overlap_ratio], '')
+         if (scene%gear%tip_diameter_1 > 0.0_dp) call tell(scene, 'gear.contact_lines', [contact%contact_lines], '')
+         if (scene%drag%known_by /= drag_given) call tell(scene, 'gear.drag_torque', [scene%drag%torque], 'N m')
+         if (scene%drag%known_by == drag_computed) then
+            call tell(scene, 'gear.drag_bearing', [scene%drag%bearing], 'N m')
+            call tell(scene, 'gear.drag_synchroniser', [scene%drag%synchroniser], 'N m')
+            call tell(scene, 'gear.drag_churning', [scene%drag%churning], 'N m')
+            if (gap_is_turbulent(scene%gear, scene%shaft%speed_rpm, scene%oil)) scene%warnings = [scene%warnings, &
+               word_t('warning: oil whirls in the gap of the synchroniser or of the plain bearing at this speed, where it is '// &
+                      'computed as laminar: it brakes more')]
+         end if
+         call tell(scene, 'contact.radius', [scene%contact%radius], 'm')
+         call tell(scene, 'contact.length', [scene%contact%length], 'm')
+         if (scene%contact%backlash > 0.0_dp) call tell(scene, 'contact.backlash', [scene%contact%backlash], 'm')
+         if (scene%contact%stiffness > 0.0_dp) call tell(scene, 'contact.stiffness', [scene%contact%stiffness], 'N/m')
+         call tell(scene, 'kinematics.entrainment_speed', [scene%kinematics%entrainment_speed], 'm/s')
+         call tell(scene, 'load.mass', [excitation%mass], 'kg')
+         call tell(scene, 'load.steady_force', [excitation%steady_force], 'N')
+         call tell(scene, 'load.force_orders', real(excitation%force_orders, dp), '')
+         call tell(scene, 'load.force_amplitudes', excitation%force_amplitudes, 'N')
+         call tell(scene, 'load.force_phases', excitation%force_phases, 'rad')
+         call tell(scene, 'load.frequency', [excitation%frequency], 'Hz')
+         call tell(scene, 'load.gravity', [excitation%gravity], 'm/s2')
+      end associate
+   end subroutine tell_gear
+
+   !> Put a derived key into the resolved input.
+   subroutine tell(scene, name, numbers, unit)
+      type(scene_t), intent(inout) :: scene
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: numbers(:)
+      character(*), intent(in) :: unit
+
+      scene%resolved_input = scene%resolved_input//'! derived: '//name//' = '//trim(numbers_text(numbers)//' '//unit)// &
+                             new_line('a')
+   end subroutine tell
+
+end module completed_scene
