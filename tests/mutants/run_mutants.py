@@ -108,7 +108,7 @@ NEAREST_TESTS = {
     "scripts/rattle/job_script.py": ("campaign_scripts",),
     "scripts/rattle/rerun.py": ("report_words", "campaign_scripts"),
     "scripts/rattle/exports.py": ("campaign_scripts", "export*"),
-    "scripts/rattle/report": ("report_words", "drawn_thresholds", "report", "summaries_of_results"),
+    "scripts/rattle/report": ("report_words", "report", "drawn_thresholds", "summaries_of_results"),
     "scripts/rattle/campaign_section.py": ("drawn_campaigns", "campaign_map"),
     "scripts/rattle/verdict.py": ("classify_script",),
     "scripts/rattle": ("result_reader", "campaign_reader", "summaries", "drawn_campaigns"),

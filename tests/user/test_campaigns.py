@@ -408,6 +408,18 @@ def test_check_of_a_campaign_tells_what_it_had_no_time_for(run, scene_text, tmp_
     assert re.search(r"core time, estimated \S+ s, from \d+ scenes\n", ended.stdout)
 
 
+def test_check_of_a_campaign_tells_how_large_it_becomes(run, scene_text, tmp_path: Path) -> None:
+    """A last chunk that is not full counts, and a number has eight bytes."""
+    scenes = {"sample": "'sobol'", "count": None, "size": "20201"}
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 2, 2, campaign=scenes))
+    told = run("--check", "scene.nml", cwd=tmp_path).stdout
+    small = package.read_campaign(solve(run, tmp_path, "--set", "campaign.size=3"))
+    assert "! scenes              20201 (0 invalid" in told
+    assert "! chunks              10101 of at most 2 scenes\n" in told
+    size = float(re.search(r"! result size +(\S+) MB\n", told)[1])
+    assert size == pytest.approx(20201 * 8 * len(small.names) / 1e6, rel=5e-3)
+
+
 def test_override_of_one_element_keeps_the_others(run, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(grid(scene_text, 5, 7))
     counts = ("--set", "campaign.count(1)=3", "--set", "campaign.vary(2)=load.mass")

@@ -11,6 +11,7 @@ import pytest
 from campaign_runs import BASE
 from outcomes import summary_of
 from script_calls import call_script
+from told import counted
 
 import rattle as package
 from rattle.figures import histories, spectra, style
@@ -241,3 +242,18 @@ def test_campaigns_and_sweeps_count_what_the_model_cannot_mean(run, scene_text, 
     assert "motions beyond what the model can mean" in told.stdout
     swept = package.read(tmp_path / "results" / "sweep.rattle")
     assert swept["acceleration_maximum"][0] == pytest.approx(9.082065e10, rel=1e-6)
+
+
+def test_a_film_that_grows_too_wide_and_never_too_thin_counts(run, scene_text, tmp_path: Path) -> None:
+    sweep = {"key": "'frequency'", "first": "80", "last": "200", "count": "4"}
+    changes = {"load": {"force_amplitude": "700"}, "lubricant": {"viscosity": "3.0"}}
+    solver = {"steps_per_period": None, "method": None, "periods": "100"}
+    text = scene_text(scene={"task": "'sweep'"}, solver=solver, sweep=sweep, **changes)
+    (tmp_path / "sweep.nml").write_text(text)
+    told = run("sweep.nml", cwd=tmp_path)
+    assert told.returncode == 0, told.stderr
+    swept = package.read(tmp_path / "results" / "sweep.rattle")
+    wide = swept["film_maximum"] > 0.1 * 0.0127
+    assert (swept["film_minimum"] > 1e-9).all() and 0 < wide.sum() < wide.size
+    assert f"warning: {counted(int(wide.sum()), 'motion')} beyond what the model can mean" in told.stdout
+    assert summary_of(tmp_path / "results" / "sweep.summary.nml")["motions_failed"] == 0
