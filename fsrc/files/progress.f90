@@ -27,6 +27,8 @@ module progress
       procedure :: clear => clear_progress
    end type progress_t
 
+   public :: progress_words
+
 contains
 
    !> Begin to watch.
@@ -61,9 +63,7 @@ contains
       if (now - self%last < merge(terminal_interval, line_interval, self%on_terminal)) return
       self%last = now
       call lock_texts()
-      line = '  '//integer_text(done)//' of '//integer_text(all)//' '//self%unit//' after '// &
-             short_text(now - self%started, 3)//' s, '// &
-             short_text((now - self%started)*real(all - done, dp)/real(done, dp), 2)//' s left'
+      line = '  '//progress_words(self%unit, done, all, now - self%started)
       if (.not. self%on_terminal) then
          call self%log%line(line)
       else if (.not. self%quiet .and. has_turn()) then
@@ -73,6 +73,20 @@ contains
       end if
       call unlock_texts()
    end subroutine period_done
+
+   !> How far a run is, and how long it takes still.
+   pure function progress_words(unit, done, all, seconds) result(words)
+      !> What is counted
+      character(*), intent(in) :: unit
+      integer, intent(in) :: done
+      integer, intent(in) :: all
+      !> Since the run began [s]
+      real(dp), intent(in) :: seconds
+      character(:), allocatable :: words
+
+      words = integer_text(done)//' of '//integer_text(all)//' '//unit//' after '//short_text(seconds, 3)//' s, '// &
+              short_text(seconds*real(all - done, dp)/real(done, dp), 2)//' s left'
+   end function progress_words
 
    !> Wipe the line on the terminal.
    subroutine clear_progress(self)

@@ -6,7 +6,8 @@ module test_impacts
    use force, only: cosine_force, force_t, largest_size
    use kinds, only: dp
    use problem, only: of_drive_compression, of_velocity, problem_t
-   use window_impacts, only: impacts_of_samples, window_impacts_t
+   use window_extremes, only: window_extremes_t
+   use window_impacts, only: agreement_of, impact_agreement_t, impacts_of_samples, window_impacts_t
    implicit none(type, external)
    private
 
@@ -35,6 +36,7 @@ contains
       call test_held(checks)
       call test_unloaded(checks)
       call test_largest_force(checks)
+      call test_agreement(checks)
 
    contains
 
@@ -146,5 +148,32 @@ contains
       end do
       call checks%check_close(largest_size(cosine_force(-3.0_dp, 2.0_dp), 0.5_dp), 4.5_dp, 1.0e-15_dp, 'largest force: one order')
    end subroutine test_largest_force
+
+   !> Windows of unlike length agree where impacts are as many a period.
+   subroutine test_agreement(checks)
+      type(check_list_t), intent(inout) :: checks
+
+      call checks%check(agree(3, 2, 6, 4), 'three impacts in two periods, six in four')
+      call checks%check(.not. agree(3, 2, 3, 4), 'three impacts in two periods, three in four')
+      call checks%check(agree(3, 2, 3, 2) .and. .not. agree(3, 2, 4, 2), 'windows of one length')
+
+   contains
+
+      !> Whether the numbers of two windows agree.
+      logical function agree(count, periods, other_count, other_periods)
+         integer, intent(in) :: count, periods, other_count, other_periods
+         type(window_impacts_t) :: impacts, others
+         type(window_extremes_t) :: extremes
+         type(impact_agreement_t) :: agreement
+
+         impacts%periods = periods
+         impacts%flanks(1)%count = count
+         others%periods = other_periods
+         others%flanks(1)%count = other_count
+         agreement = agreement_of(pressed(0.0_dp), extremes, impacts, extremes, others)
+         agree = agreement%numbers
+      end function agree
+
+   end subroutine test_agreement
 
 end module test_impacts

@@ -8,6 +8,7 @@ import signal
 import subprocess
 from pathlib import Path
 
+import f90nml
 import numpy as np
 import pytest
 from campaign_runs import BASE, grid, solve
@@ -448,6 +449,8 @@ def test_finished_scenes_are_not_solved_again(run, folder: Path) -> None:
     ended = run("--resume", "--output", "whole", "scene.nml", cwd=folder)
     assert ended.returncode == 0
     assert "900 of 900 scenes, 0 a second" in ended.stdout
+    told = f90nml.read(folder / "whole" / "scene.progress.nml")["summary"]
+    assert (told["scenes"], told["scenes_done"], told["scenes_failed"]) == (900, 900, 0)
 
 
 def test_damaged_chunk_is_solved_again(run, folder: Path) -> None:

@@ -6,6 +6,7 @@ import math
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from outcomes import assert_faults, summary_of
 
@@ -84,6 +85,24 @@ def test_check_tells_the_contact_of_a_pair(check) -> None:
         assert told[key] == pytest.approx(
             value, rel=2e-9 if key != "lubricant.pressure_viscosity" else 3e-8
         ), key
+
+
+def test_the_summary_tells_what_follows_as_check_does(check, run, tmp_path: Path) -> None:
+    """Number by number, by the names of the keys."""
+    orders = "orders = 2.0, 3.5, accelerations = 600.0, 150.0, phases = 0.4, -1.1"
+    text = PAIR.replace("orders = 2.0, accelerations = 600.0", orders)
+    checked = check(text.replace("backlash = 1e-4", "backlash = 1e-4, tooth_stiffness = 14e9"))
+    assert run("pair.nml", cwd=tmp_path).returncode == 0
+    told = summary_of(tmp_path / "results" / "pair.summary.nml")
+    found = re.findall(
+        r"^! derived: (?:contact|kinematics|load|lubricant)\.(\S+) = ((?:[-+.\dE]+(?:, )?)+)",
+        checked.stdout,
+        re.M,
+    )
+    assert len(found) > 10
+    for key, numbers in found:
+        if key != "gravity":
+            assert np.atleast_1d(told[key]).tolist() == [float(number) for number in numbers.split(", ")], key
 
 
 def test_check_tells_a_shifted_pair_off_the_pitch_point(check) -> None:
