@@ -48,7 +48,7 @@ module byte_file
    !> How a run calls what it puts beside its files; module state, for all files of a run are known by it.
    character(16) :: word_of_run = ''
 
-   public :: new_path, old_path, own_word, put_in_place
+   public :: new_path, old_path, own_word, put_in_place, raise_taken_away
 
 contains
 
@@ -231,8 +231,17 @@ contains
       end if
       if (stands) return
       self%broken = .true.
-      call raise(error, exit_system, self%path//' cannot be written: it was taken away or replaced while the run wrote it')
+      call raise_taken_away(self%path, error)
    end subroutine expect_at_place
+
+   !> Say that a file was taken away under the run that writes it.
+   subroutine raise_taken_away(path, error)
+      character(*), intent(in) :: path
+      !> Set
+      type(error_t), allocatable, intent(out) :: error
+
+      call raise(error, exit_system, path//' cannot be written: it was taken away or replaced while the run wrote it')
+   end subroutine raise_taken_away
 
    !> Write bytes behind those that the file has.
    subroutine write_on(self, bytes, error)

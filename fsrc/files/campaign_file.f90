@@ -5,7 +5,7 @@
 !> at any moment leaves chunks that are whole or count as not done. The bytes of the finished file depend
 !> neither on the order of the chunks nor on the number of runs that it took.
 module campaign_file
-   use byte_file, only: beside => new_path
+   use byte_file, only: beside => new_path, raise_taken_away
    use campaign_header, only: campaign_layout_t, check_same_campaign, header_for
    use checksum, only: checksum_of
    use errors, only: error_t, error_words, exit_bad_input, exit_system, last_error, raise
@@ -385,8 +385,7 @@ contains
       logical :: stands
 
       stands = self%file%stands_at(self%path)
-      if (.not. stands) call raise(error, exit_system, self%path//' cannot be written: it was taken away or replaced while the '// &
-                                   'run wrote it')
+      if (.not. stands) call raise_taken_away(self%path, error)
    end subroutine expect_at_place
 
    !> Close the file after a failure that is an error already.

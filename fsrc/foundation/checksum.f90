@@ -49,7 +49,8 @@ contains
       real(dp), contiguous, intent(in) :: numbers(:)
       type(checksum_t) :: sum_of_all
 
-      call add_words(sum_of_all, size(numbers, kind=int64), numbers)
+      ! gfortran 12 loads the first of no numbers where it hands them on with their count.
+      if (size(numbers) > 0) call add_words(sum_of_all, size(numbers, kind=int64), numbers)
       checksum_of_list = sum_of_all%value()
    end function checksum_of_list
 

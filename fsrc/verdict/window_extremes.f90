@@ -89,7 +89,9 @@ contains
          real(dp), intent(in) :: value
          type(extreme_t), intent(inout) :: extreme
 
-         extreme = extreme_t(value=value, state=states(first + sample - 1, :), exists=.true.)
+         extreme = extreme_t(value=value, exists=.true.)
+         ! gfortran 12 takes the numbers behind the first for the row where it stands in the constructor.
+         extreme%state = states(first + sample - 1, :)
       end subroutine place
 
    end function extremes_of_samples

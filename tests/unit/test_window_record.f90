@@ -220,6 +220,9 @@ contains
          call checks%check(records(1)%lowest(quantity)%value <= extremes%lowest(quantity)%value + 1.0e-8_dp*size_of .and. &
             records(1)%lowest(quantity)%value >= extremes%lowest(quantity)%value - 1.0e-6_dp*size_of, name//': lowest')
       end do
+      associate (fastest => extremes%highest(seen_velocity))
+         call checks%check(abs(fastest%state(of_velocity) - fastest%value) <= 0.0_dp, name//': the state is that of the sample')
+      end associate
       call checks%check(momentum_gap(records(1), lane%frequency) < 1.0e-8_dp, name//': momentum closes')
       call checks%check(energy_gap(records(1), lane%mass) < 1.0e-8_dp, name//': energy closes')
       call checks%check_close(records(1)%acceleration_square/real(window, dp)*real(size(accelerations), dp) &
