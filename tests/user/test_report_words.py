@@ -139,3 +139,35 @@ def test_every_sentence_on_thresholds_is_that_of_the_rows(tmp_path: Path) -> Non
         ["quiet to creep", "3", 21.5, 41.0, "0"],
         ["creep to idle", "1", 71.0, 71.0, "1"],
     ]
+
+
+def test_where_no_scene_has_a_motion_nothing_is_said_of_motions(run, scene_text, tmp_path: Path) -> None:
+    """No film of rigid flanks carries these loads: every scene fails before it begins."""
+    film = {"law": "'piezo-viscous'", "model": "'reynolds'"}
+    base = {"film": film, "solver": CALM, "load": {"steady_force": "3e4"}}
+    loads = {"first": "3e4", "last": "4e4", "count": "3"}
+    record = "'rattle_class', 'certified', 'acceleration_maximum'"
+    tasks = {
+        "sweep": {"sweep": {"key": "'steady_force'", **loads}, "solver": {**CALM, "until": None}},
+        "campaign": {"campaign": {"vary": "'load.steady_force'", **loads, "record": record}},
+        "threshold": {
+            "threshold": {"key": "'load.force_amplitude'", "first": "5", "last": "50", "count": "3"}
+        },
+    }
+    said = {}
+    for task, changes in tasks.items():
+        text = scene_text(**{**base, "scene": {"task": f"'{task}'"}, **changes})
+        (tmp_path / f"{task}.nml").write_text(text)
+        assert run("--output", ".", f"{task}.nml", cwd=tmp_path).returncode == 1
+        said[task] = read_page(report(tmp_path / f"{task}.rattle"))
+    words = {task: " ".join(page.verdicts[0].split()) for task, page in said.items()}
+    assert words["sweep"].startswith("no class") and "5 failed" in words["sweep"]
+    assert "way back" not in words["sweep"]
+    cells = [row for row in said["sweep"].rows if row[:1] in (["there"], ["back"])]
+    assert [row[4:] for row in cells] == [["-", "-"], ["-", "-"]]
+    assert "3 of 3 scenes are solved; 3 of them failed. No scene has a class." in words["campaign"]
+    assert "Scenes with the largest acceleration" not in said["campaign"].headings
+    assert "certified" not in words["threshold"] and "widest" not in words["threshold"]
+    assert (
+        "The line has no threshold in this range. The line was solved in 3 places. Two" in words["threshold"]
+    )

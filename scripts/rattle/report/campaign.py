@@ -48,6 +48,8 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
     if counts:
         shares = [f"{name} in {count} ({look.share(count, done)})" for name, count in counts.most_common()]
         yield f"Class of the motion: {', '.join(shares)}."
+    elif "rattle_class" in campaign:
+        yield "No scene has a class."
     else:
         yield "The class was not recorded."
     if "certified" in campaign:
@@ -154,7 +156,7 @@ def keys_table(campaign: Campaign) -> str:
 def tables(campaign: Campaign) -> list[str]:
     """The worst scenes, and the range of every quantity."""
     parts = []
-    if WORST_BY in campaign:
+    if WORST_BY in campaign and np.isfinite(campaign[WORST_BY][campaign.done & ~campaign.failed]).any():
         parts += [page.heading(3, "Scenes with the largest acceleration"), worst(campaign)]
     kept = campaign.done & ~campaign.failed
     rows = [

@@ -78,13 +78,20 @@ def sentences_on(result: Result) -> Iterator[str]:
                 f"{both.max():.6g} {unit}: there are two motions, and which one comes depends on the one "
                 "before."
             )
-        else:
+        elif known_both_ways(result):
             yield "The way back has the motions of the way there."
     if "orbit_period" in result:
         longest = int(np.nanmax(result["orbit_period"], initial=0.0))
         if longest > 1:
             yield f"Some motions repeat only after several periods of the force, at most {longest}."
     yield "A sweep gives no certificate of its classes; the single scene at a value of interest does."
+
+
+def known_both_ways(result: Result) -> bool:
+    """Whether any value of the key has a motion on the way there and one on the way back."""
+    kept = np.isin(result["status"], SUCCESSES)
+    there, back = (result[result.names[0]][kept & (result["direction"] == way)] for _, way in WAYS)
+    return bool(np.isin(back, there).any())
 
 
 def differing(result: Result) -> np.ndarray:
@@ -115,9 +122,11 @@ def tables(result: Result) -> list[str]:
     rows = []
     for part in stretches(result):
         span = page.Cell(f"{page.value(part.first, unit)} to {page.value(part.last, unit)}")
-        peak = peaks(result)[part.rows].max()
-        least = result["film_minimum"][part.rows].min()
-        extremes = (page.value(least, "m"), page.value(peak, "m/s2"))
+        extremes = ("-", "-")
+        if np.isin(result["status"][part.rows[0]], SUCCESSES):
+            peak = peaks(result)[part.rows].max()
+            least = result["film_minimum"][part.rows].min()
+            extremes = (page.value(least, "m"), page.value(peak, "m/s2"))
         rows.append([part.way, part.word, span, str(part.rows.size), *extremes])
     heads = ("Way", "Class", "Values", "Motions", "Thinnest film", "Largest acceleration")
     return [page.table(heads, rows, kinds=("", "", "", "number", "number", "number"))]

@@ -50,12 +50,12 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
         yield f"From {kind}: {where}."
     if lines > 1 or not crossed.any():
         none = int((~crossed).sum())
-        yield (
-            f"{none} of {lines} lines have no threshold in this range."
-            if none
-            else "Every line has a threshold in this range."
-        )
-    if "certified_below" in found.result:
+        if none:
+            many = f"{none} of {lines} lines have no" if lines > 1 else "The line has no"
+            yield f"{many} threshold in this range."
+        else:
+            yield "Every line has a threshold in this range."
+    if "certified_below" in found.result and crossed.any():
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
             f"At {sure} of {int(crossed.sum())} thresholds the classes at both ends are certified: solved "
@@ -63,13 +63,18 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
             "farther apart, and the distance between them is how well the threshold is known."
         )
     count = found.result.value("threshold", "count")
-    widths = np.where(crossed, found.column("width"), 0.0)
-    widest = int(np.argmax(widths))
-    width = stated_error(float(widths[widest]), float(found.column("upper")[widest]), page.DIGITS)
+    halved = ""
+    if crossed.any():
+        widths = np.where(crossed, found.column("width"), 0.0)
+        widest = int(np.argmax(widths))
+        width = stated_error(float(widths[widest]), float(found.column("upper")[widest]), page.DIGITS)
+        halved = (
+            "; between neighbours that differ the gap was halved again and again; the widest that is left is "
+            f"{page.plain(width, unit)}"
+        )
     yield (
-        f"{'Each line' if lines > 1 else 'The line'} was solved in {count} places; between neighbours that "
-        f"differ the gap was halved again and again; the widest that is left "
-        f"is {page.plain(width, unit)}. Two changes between neighbours that cancel each other are not seen."
+        f"{'Each line' if lines > 1 else 'The line'} was solved in {count} places{halved}. Two changes "
+        "between neighbours that cancel each other are not seen."
     )
     if summary and "scenes" in summary:
         times = float(summary["scenes_of_a_grid"]) / float(summary["scenes"])
