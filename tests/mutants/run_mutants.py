@@ -48,6 +48,8 @@ NEAREST_TESTS = {
         "commands",
     ),
     "fsrc/scene/signal": ("signal_axes", "force_signal"),
+    "fsrc/scene/mistaken_units": ("mistaken_units",),
+    "fsrc/scene/odd_numbers": ("mistaken_units", "sensible_numbers"),
     "fsrc/film": ("columns", "kernels*", "tasks", "scenes_at_rest"),
     "fsrc/gear": ("gear_inputs", "force_signal", "varied_keys"),
     "fsrc/problem": ("two_flanks", "elastic_teeth", "tooth_stiffness", "force_orders", "scenes_at_rest"),
@@ -63,6 +65,7 @@ NEAREST_TESTS = {
     "fsrc/orbit": ("columns", "tasks", "scenes_at_rest"),
     "fsrc/spectrum": ("kernels_spectrum", "classify_script", "tasks"),
     "fsrc/verdict": ("kernels*", "tasks", "classify_script", "scenes_at_rest"),
+    "fsrc/files/input_difference": ("edited_inputs", "drag", "carrying_on"),
     "fsrc/files/summary_file": ("mistaken_units", "tasks", "logs"),
     "fsrc/files": (
         "output_calls",
