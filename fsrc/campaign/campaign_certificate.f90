@@ -193,7 +193,7 @@ contains
       do k = 1, windows_behind(window%periods)
          starts%periods = 0
          call solve_group(problems(left), starts, window, wants, group)
-         call classify_group(problems(left), choices(left), noise_floors(left), window, group)
+         call classify_group(problems(left), choices(left), noise_floors(left), window, group, class_alone=.true.)
          if (must_stop()) return
          !$omp critical (sentences)
          do i = 1, size(left)

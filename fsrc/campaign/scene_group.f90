@@ -2,7 +2,8 @@
 module scene_group
    use certify_scene, only: nearby_orbit
    use engine, only: ending_t, motion_state_t, request_t, reserved_periods
-   use fine_window, only: classify_window, integral_record
+   use fine_window, only: classify_window
+   use finer_windows, only: classify_finer
    use irregular_motion, only: follow_irregular
    use kinds, only: dp
    use many_motions, only: solve_motions
@@ -10,7 +11,7 @@ module scene_group
    use carried_loads, only: accelerations_of_samples
    use periodic_orbit, only: periodic_orbit_t
    use problem, only: problem_t, state_size
-   use rattle_class, only: classify_steps, note_orbit, rattle_verdict_t
+   use rattle_class, only: note_orbit, rattle_verdict_t
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
    use signals, only: must_stop
@@ -77,9 +78,9 @@ contains
       group%repeat_after(:n) = group%endings(:n)%orbit
    end subroutine solve_group
 
-   !> Classes of the windows, by their samples, and where these are too few by integrals over the steps. After a signal to stop
+   !> Classes of the windows, by as many samples as they need, or by integrals over the steps. After a signal to stop
    !> they are of no use.
-   subroutine classify_group(problems, choices, noise_floors, request, group)
+   subroutine classify_group(problems, choices, noise_floors, request, group, class_alone)
       !> What moves
       type(problem_t), intent(in) :: problems(:)
       !> Limits of the classes, scene by scene
@@ -90,11 +91,15 @@ contains
       type(request_t), intent(in) :: request
       !> The solved scenes; their classes are added
       type(scene_group_t), intent(inout) :: group
-      type(window_record_t), allocatable :: windows(:)
+      !> Whether nothing but the classes is asked for
+      logical, intent(in), optional :: class_alone
+      type(rattle_verdict_t), allocatable :: finer(:)
       integer, allocatable :: number(:)
-      logical :: coarse(size(problems))
+      logical :: coarse(size(problems)), only_class
       integer :: i
 
+      only_class = .false.
+      if (present(class_alone)) only_class = class_alone
       coarse = .false.
       do i = 1, size(problems)
          if (must_stop()) return
@@ -109,12 +114,10 @@ contains
       end do
       if (any(coarse)) then
          number = pack([(i, i=1, size(problems))], coarse)
-         windows = integral_windows(choices(number), problems(number), group%endings(number), group%records(number), request)
-         do i = 1, size(number)
-            if (windows(i)%periods > 0) &
-               call classify_steps(windows(i), problems(number(i))%frequency, choices(number(i)), noise_floors(number(i)), &
-                                   group%verdicts(number(i)))
-         end do
+         finer = group%verdicts(number)
+         call classify_finer(problems(number), choices(number), noise_floors(number), request, &
+                             group%endings(number)%samples/request%samples_per_period, group%records(number), finer, only_class)
+         group%verdicts(number) = finer
       end if
       do i = 1, size(problems)
          if (is_success(group%endings(i)%status)) call note_orbit(group%verdicts(i), group%endings(i)%orbit)
@@ -150,41 +153,5 @@ contains
          call follow_irregular(problems, group%endings(:n), group%verdicts(:n), group%repeat_after(:n))
       end associate
    end subroutine follow_group
-
-   !> Records of some windows with Fourier integrals. The windows are solved again from where they begin, side by side; a window
-   !> that cannot be has no periods in its record.
-   function integral_windows(choices, problems, endings, records, asked) result(windows)
-      !> Limits of the classes
-      type(spectrum_choice_t), intent(in) :: choices(:)
-      !> The motions, how they ended and what the steps of their windows told
-      type(problem_t), intent(in) :: problems(:)
-      type(ending_t), intent(in) :: endings(:)
-      type(window_record_t), intent(in) :: records(:)
-      !> What was asked of the engine
-      type(request_t), intent(in) :: asked
-      type(window_record_t) :: windows(size(problems))
-      type(motion_state_t) :: starts(size(problems))
-      type(request_t) :: request
-      type(ending_t) :: ended(size(problems))
-      integer :: periods(size(problems)), i
-      real(dp), allocatable :: states(:, :, :)
-
-      periods = endings%samples/asked%samples_per_period
-      request%accuracy = asked%accuracy
-      request%periods = maxval(periods)
-      request%sampled_periods = request%periods
-      request%samples_per_period = 1
-      request%every_period = .true.
-      do i = 1, size(problems)
-         starts(i) = records(i)%start
-         starts(i)%periods = request%periods - periods(i)
-         windows(i) = integral_record(choices(i))
-      end do
-      allocate (states(request%periods, maxval(state_size(problems)), size(problems)), source=0.0_dp)
-      call solve_motions(problems, starts, request, states, ended, records=windows)
-      do i = 1, size(problems)
-         if (.not. is_success(ended(i)%status)) windows(i)%periods = 0
-      end do
-   end function integral_windows
 
 end module scene_group

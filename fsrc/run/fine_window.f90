@@ -40,7 +40,7 @@ module fine_window
       logical :: by_integrals = .false.
    end type window_t
 
-   public :: solve_whole_window, judge_window, integral_record, classify_window
+   public :: solve_whole_window, judge_window, may_be_finer, integral_record, classify_window
 
 contains
 
@@ -94,8 +94,7 @@ contains
       type(ending_t) :: ending
 
       call classify_window(scene%spectrum, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
-      do while (.not. verdict%lines%sampling_sufficient .and. window%record%shortest_piece > least_piece)
-         if (2*window%samples_per_period > most_samples_per_period .or. 2*size(window%accelerations) > most_samples) exit
+      do while (may_be_finer(verdict, window%record, window%periods, window%samples_per_period))
          call expect_window_memory(2*size(window%accelerations), error)
          if (allocated(error)) return
          finer%periods = window%periods
@@ -111,6 +110,20 @@ contains
       window%by_integrals = .not. verdict%lines%sampling_sufficient
       if (window%by_integrals) call judge_by_integrals(scene, problem, accuracy, noise_floor, window, verdict)
    end subroutine judge_window
+
+   !> Whether the samples of a window are too few, and twice as many may be enough.
+   elemental logical function may_be_finer(verdict, record, periods, samples_per_period)
+      !> Verdict by the samples there are
+      type(rattle_verdict_t), intent(in) :: verdict
+      !> What the steps of the window tell
+      type(window_record_t), intent(in) :: record
+      !> Its periods, and the samples of each
+      integer, intent(in) :: periods
+      integer, intent(in) :: samples_per_period
+
+      may_be_finer = .not. verdict%lines%sampling_sufficient .and. record%shortest_piece > least_piece .and. &
+                     2*samples_per_period <= most_samples_per_period .and. 2*samples_per_period <= most_samples/periods
+   end function may_be_finer
 
    !> Judge a window by integrals over the steps of its motion.
    subroutine judge_by_integrals(scene, problem, accuracy, noise_floor, window, verdict)
@@ -159,8 +172,9 @@ contains
       integer :: order
 
       common_divisor = 1
-      do order = 2, size(forced)
-         if (count(forced(order::order)) == count(forced) .and. any(forced)) common_divisor = order
+      ! It is no larger than the lowest of them.
+      do order = 2, findloc(forced, .true., dim=1)
+         if (count(forced(order::order)) == count(forced)) common_divisor = order
       end do
    end function common_divisor
 

@@ -208,21 +208,21 @@ contains
          case (quantity_reversals_per_period)
             value = judged%rattle%reversals_per_period
          case (quantity_first_harmonic)
-            value = lines%harmonics(1)
+            if (lines%moving) value = lines%harmonics(1)
          case (quantity_line_count)
             if (lines%moving) value = real(lines%line_count, dp)
          case (quantity_line_count_is_bound)
-            value = flag(lines%count_is_bound)
+            if (lines%moving) value = flag(lines%count_is_bound)
          case (quantity_harmonic_distortion)
             if (lines%moving) value = lines%harmonic_distortion
          case (quantity_harmonic_distortion_is_bound)
-            value = flag(lines%distortion_is_bound)
+            if (lines%moving) value = flag(lines%distortion_is_bound)
          case (quantity_irregular_fraction)
             if (lines%moving) value = lines%irregular_fraction
          case (quantity_irregular_fraction_is_bound)
-            value = flag(lines%irregular_is_bound)
+            if (lines%moving) value = flag(lines%irregular_is_bound)
          case (quantity_sampling_sufficient)
-            value = flag(lines%sampling_sufficient)
+            if (lines%moving) value = flag(lines%sampling_sufficient)
          case (quantity_rattle_class)
             value = real(judged%rattle%class, dp)
          case (quantity_lyapunov_exponent)
@@ -377,7 +377,7 @@ contains
       if (.not. judged%judged) return
       select case (quantity)
       case (quantity_harmonics)
-         list = judged%rattle%lines%harmonics(:min(most, size(judged%rattle%lines%harmonics)))
+         if (judged%rattle%lines%moving) list = judged%rattle%lines%harmonics(:min(most, size(judged%rattle%lines%harmonics)))
       case (quantity_harmonic_errors)
          if (allocated(judged%certificate%harmonic_errors)) &
             list = judged%certificate%harmonic_errors(:min(most, size(judged%certificate%harmonic_errors)))

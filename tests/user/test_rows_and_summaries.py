@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
 from outcomes import summary_of
 
 import rattle as package
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
+
+import gear_rows
 
 QUANTITIES = (
     "film_minimum",
@@ -78,3 +83,18 @@ def test_a_row_without_a_rigid_film_knows_its_regime(run, scene_text, tmp_path: 
     rows = package.read_campaign(tmp_path / "results" / "many.rattle")
     assert list(rows["status"]) == [4.0, 4.0]
     assert list(rows["film_regime"]) == [3.0, 3.0] and list(rows["law_contradicted"]) == [1.0, 1.0]
+
+
+@pytest.mark.parametrize(
+    "number",
+    (
+        11,  # idle for irregular so far, by integrals that tell too little off the harmonics
+        13,  # and too little of the harmonic distortion
+        18,  # twice the samples are enough
+        31,  # no motion but rounding, of which lines tell nothing
+    ),
+)
+def test_gear_inputs_of_the_study(number: int, rattle: Path, tmp_path: Path) -> None:
+    """All quantities of random gear inputs, one of each kind whose rows once differed from single scenes."""
+    case = gear_rows.draw(number, gear_rows.numeric_keys(rattle))
+    assert list(gear_rows.faults_of(rattle, case, gear_rows.recordable(rattle), tmp_path)) == []
