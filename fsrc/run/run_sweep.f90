@@ -165,7 +165,7 @@ contains
       units = [character(column_unit_bytes) :: keys(scene%sweep%key)%unit, '-', quantity_table(told_quantities(scene))%unit]
    end subroutine sweep_columns
 
-   !> Codes of the quantities that this sweep tells.
+   !> Codes of the quantities that this sweep tells; what is swept has its column already.
    pure function told_quantities(scene) result(codes)
       type(scene_t), intent(in) :: scene
       integer, allocatable :: codes(:)
@@ -173,6 +173,7 @@ contains
       codes = quantities_told_in('sweep')
       if (scene%contact%backlash > 0.0_dp) codes = [codes, quantities_told_in('flanks')]
       if (scene%gear%given) codes = [codes, quantities_told_in('gears')]
+      codes = pack(codes, quantity_table(codes)%name /= keys(scene%sweep%key)%name)
    end function told_quantities
 
    !> Row of a value; what is unknown is 0.
