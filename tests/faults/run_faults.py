@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Lets runs meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files,
-edited inputs, links, signals, missing locks, and files that are taken away.
+edited inputs, links, signals, missing locks, files that are taken away or may not be read.
 
 A try fails if data are lost or silently wrong, if a summary stands beside the result of another run, if a run
 ends with exit code 0 and without all its rows, if neither --resume nor --overwrite mends what it left, or if
@@ -80,11 +80,37 @@ THRESHOLD = """&scene task = 'threshold' /
    first = 20.0 last = 200.0 count = 5 tolerance = 0.01 /
 &campaign vary = 'load.mass' first = 2.0 last = 3.0 count = 6 /
 """
+GEARBOX = """&scene name = 'scene' /
+&gear name = '1st', teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96
+   face_width = 0.016, loose_inertia = 1.715e-3, drag_torque = 0.1, backlash = 1e-4 /
+&gear name = '4th', teeth_1 = 33, teeth_2 = 32, normal_module = 1.85e-3, helix_angle_deg = 30.8
+   face_width = 0.016, loose_inertia = 2.8e-4, drag_torque = 0.05, backlash = 8e-5 /
+&shaft speed_rpm = 800.0, orders = 2.0, 4.0, accelerations = 600.0, 100.0 /
+&oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 0.0 /
+&film law = 'iso-viscous', model = 'reynolds' /
+&solver periods = 40, accuracy = 1e-6 /
+&spectrum periods = 2 certify = .false. /
+&output directory = 'results' /
+"""
 # Values of an input that an engineer may edit.
 EDITS = ("viscosity = 0.3", "length = 0.010", "radius = 0.0127", "mass = 3.0", "entrainment_speed = 1.905")
+EDITS += ("speed_rpm = 800.0", "loose_inertia = 1.715e-3", "drag_torque = 0.05", "backlash = 8e-5")
 # Address space of a try: with less the libraries are not loaded, with more every task here is solved [bytes].
 LEAST_MEMORY, MOST_MEMORY = 22e6, 200e6
-FOREIGN = {"notes.txt": b"my notes\n", "scene.part": b"RATTLE, my own\n"}
+FOREIGN = {
+    "notes.txt": b"my notes\n",
+    "scene.part": b"RATTLE, my own\n",
+    "scene.rattle.unfinished": b"mine\n",
+}
+# Errors of a lock that say neither that another run has it nor that there are none.
+LOCK_ERRORS = (errno.EIO, errno.EINVAL, errno.EACCES, errno.EBADF, errno.EPERM)
+NOBODY = 65534
+# A script of somebody who calls the solver.
+CALLER = """import sys
+sys.path.insert(0, sys.argv[1])
+import rattle
+rattle.run('scene.nml', folder='results', resume=len(sys.argv) > 2)
+"""
 
 
 @dataclass
@@ -95,6 +121,8 @@ class Task:
     text: str
     earlier: str | None = None
     files: tuple[str, ...] = ("scene.rattle",)
+    # Names of its scenes; several are the pairs of a gearbox, of which there is a table.
+    stems: tuple[str, ...] = ("scene",)
     expected: dict[str, bytes] = field(default_factory=dict)
     start: dict[str, bytes] = field(default_factory=dict)
     seconds: float = 0.0
@@ -103,6 +131,14 @@ class Task:
     @property
     def is_campaign(self) -> bool:
         return self.name in ("campaign", "table")
+
+    @property
+    def summaries(self) -> tuple[str, ...]:
+        return tuple(f"{stem}.summary.nml" for stem in dict.fromkeys((*self.stems, "scene")))
+
+    @property
+    def results(self) -> tuple[str, ...]:
+        return tuple(f"{stem}.rattle" for stem in self.stems)
 
     @property
     def calls(self) -> int:
@@ -127,6 +163,12 @@ TASKS = (
     Task("campaign", BASE + CAMPAIGN),
     Task("table", BASE + TABLE),
     Task("threshold", BASE + THRESHOLD),
+    Task(
+        "gearbox",
+        GEARBOX,
+        files=("scene.1st.rattle", "scene.1st.state", "scene.4th.rattle", "scene.4th.state"),
+        stems=("scene.1st", "scene.4th"),
+    ),
 )
 
 
@@ -184,9 +226,7 @@ class Study:
         begun = time.perf_counter()
         assert self.call(*task.command).returncode == 0, task.name
         task.seconds = time.perf_counter() - begun
-        task.expected = {
-            name: (self.results / name).read_bytes() for name in (*task.files, "scene.summary.nml")
-        }
+        task.expected = {name: (self.results / name).read_bytes() for name in (*task.files, *task.summaries)}
         self.lay_out(task)
         trace = self.folder / "trace"
         trace.unlink(missing_ok=True)
@@ -236,14 +276,17 @@ class Study:
 
     def readable(self, task: Task) -> list[str]:
         """Whether what can be read of a result is part of what should be there."""
-        path = self.results / "scene.rattle"
+        return [fault for name in task.results for fault in self.readable_rows(task, name)]
+
+    def readable_rows(self, task: Task, name: str) -> list[str]:
+        path = self.results / name
         if not path.exists() or path.stat().st_size == 0:
             return []
         try:
             found, done = rows_of(path, task.is_campaign)
         except rattle.ResultError:
             return ["the result cannot be read"]
-        candidates = [task.expected["scene.rattle"], task.start.get("scene.rattle", b"")]
+        candidates = [task.expected[name], task.start.get(name, b"")]
         for content in filter(None, candidates):
             beside = self.folder / "expected.rattle"
             beside.write_bytes(content)
@@ -256,14 +299,26 @@ class Study:
         return ["rows that can be read are wrong"]
 
     def belongs(self) -> list[str]:
-        """Whether a summary beside a result is the one of that result."""
-        if not (self.results / "scene.rattle").exists() or not (self.results / "scene.summary.nml").exists():
-            return []
-        try:
-            rattle.read_summary(self.results / "scene.summary.nml")
-        except rattle.SummaryError as fault:
-            return [str(fault)]
-        return []
+        """Whether a summary beside a result is the one of that result, and a table that of its pairs."""
+        faults = []
+        for path in self.results.glob("scene*.summary.nml"):
+            try:
+                rattle.read_summary(path)
+            except rattle.SummaryError as fault:
+                faults.append(str(fault))
+        return faults
+
+    def read_closed(self, task: Task) -> list[str]:
+        """Whether every result is that of a run that has come to its end."""
+        faults = []
+        for name in task.results:
+            try:
+                closed = rattle.read(self.results / name).closed
+            except rattle.ResultError as fault:
+                faults.append(str(fault))
+            else:
+                faults += [] if closed else [f"{name} is not closed"]
+        return faults
 
     def mended(self, task: Task) -> list[str]:
         """Whether the run can be carried on or begun anew, to the undisturbed result."""
@@ -364,10 +419,11 @@ class Study:
 
     def flips(self, task: Task) -> None:
         """One flipped bit in a file: told, or nothing that is read has changed."""
-        for name in (*task.files, "scene.summary.nml"):
+        written = Counter(kind_of(name) for other in TASKS for name in (*other.files, *other.summaries))
+        for name in (*task.files, *task.summaries):
             # Kinds of files that few tasks write are tried as often as the others.
-            writers = sum(name in (*other.files, "scene.summary.nml") for other in TASKS)
-            for _ in range(-(-self.tries * len(TASKS) // writers)):
+            kind = kind_of(name)
+            for _ in range(-(-self.tries * len(TASKS) // written[kind])):
                 self.lay_out(task)
                 for other, content in task.expected.items():
                     (self.results / other).write_bytes(content)
@@ -378,9 +434,9 @@ class Study:
                 content[place] ^= 1 << self.random.randrange(8)
                 (self.results / name).write_bytes(content)
                 faults = self.read_after_flip(task, name)
-                if task.name.endswith("motion") and not name.endswith("nml"):
+                if name.removesuffix("rattle") + "state" in task.files or name.endswith("state"):
                     faults += self.resume_after_flip(task)
-                self.score(f"flipped bit, {name.removeprefix('scene.')}", task, faults, f"byte {place}")
+                self.score(f"flipped bit, {kind}", task, faults, f"byte {place} of {name}")
 
     def read_after_flip(self, task: Task, name: str) -> list[str]:
         path = self.results / name
@@ -408,7 +464,7 @@ class Study:
 
     def foreign_files(self, task: Task) -> None:
         """A file of somebody else at a name that the run would write."""
-        names = [*task.expected, "scene.log", "scene.lock"]
+        names = [*task.expected, *(f"{stem}.{kind}" for stem in task.stems for kind in ("log", "lock"))]
         names += ["scene.progress.nml"] if task.is_campaign else []
         for number in range(self.tries):
             self.lay_out(task)
@@ -440,7 +496,7 @@ class Study:
         for _ in range(self.tries):
             self.finished(task)
             lost = self.random.choice(
-                ([], ["scene.state"], ["scene.summary.nml"], ["scene.state", "scene.summary.nml"])
+                ([], states(task), list(task.summaries), [*states(task), *task.summaries])
             )
             for name in lost:
                 (self.results / name).unlink(missing_ok=True)
@@ -476,10 +532,11 @@ class Study:
             code = self.call("--overwrite", **self.fault("kill", number)).returncode
             faults = [] if code in (-signal.SIGKILL, 0) else [f"exit code {code}"]
             faults += self.belongs() + self.kept_foreign()
-            try:
-                rows_of(self.results / "scene.rattle", task.is_campaign)
-            except rattle.ResultError as fault:
-                faults.append(str(fault))
+            for name in task.results:
+                try:
+                    rows_of(self.results / name, task.is_campaign)
+                except rattle.ResultError as fault:
+                    faults.append(str(fault))
             if self.call("--overwrite").returncode != 0:
                 faults.append("--overwrite does not mend it")
             faults += self.belongs() + self.litter()
@@ -491,6 +548,9 @@ class Study:
         for _ in range(self.tries):
             self.lay_out(task)
             line, whole = self.random.choice(lines), self.random.random() < 0.5
+            # Of a gearbox the pair goes that the call is about: another may have come to its end.
+            at = [stem for stem in task.stems if f" {stem}." in line]
+            whole = whole or not at
             process = self.call(*task.command, wait=False, **self.fault("none", 0), FAULT_WAIT=line)
             waiting = self.results / "waiting"
             while process.poll() is None and not waiting.exists():
@@ -500,8 +560,9 @@ class Study:
                 shutil.rmtree(gone, ignore_errors=True)
                 self.results.rename(gone)
             else:
-                for name in ("scene.rattle", *(path.name for path in self.results.glob("scene.rattle.*"))):
-                    (self.results / name).unlink(missing_ok=True)
+                for path in self.results.glob(f"{at[0]}.rattle*"):
+                    if path.name not in FOREIGN:
+                        path.unlink()
             waiting.unlink(missing_ok=True)
             words = process.stderr.read().decode()
             code = process.wait(120)
@@ -509,7 +570,7 @@ class Study:
             there = all((self.results / name).exists() for name in task.expected)
             faults = [] if code in (2, 3) or (code == 0 and there) else [f"exit code {code}"]
             # After the last rename a run has nothing more to lose.
-            if code == 0 and not there and line in ("close scene.log", "write scene.log"):
+            if code == 0 and not there and line.endswith(".log"):
                 faults = []
             faults += [] if code == 0 or "scene" in words else [f"it says {words[:200]}"]
             self.results.mkdir(exist_ok=True)
@@ -521,7 +582,7 @@ class Study:
 
     def links(self, task: Task) -> None:
         """A link at a name that the run would write, to nothing, a file of any kind, a folder."""
-        names = [*task.expected, "scene.log", "scene.lock"]
+        names = [*task.expected, *(f"{stem}.{kind}" for stem in task.stems for kind in ("log", "lock"))]
         for number in range(self.tries):
             self.lay_out(task)
             name = names[number % len(names)]
@@ -562,13 +623,7 @@ class Study:
                 words += process.communicate(timeout=120)[1].decode()
                 codes.append(process.returncode)
             faults = [f"exit codes {codes}: {words}"] if 0 not in codes or set(codes) - {0, 2, 3} else []
-            faults += self.belongs() + self.kept_foreign()
-            try:
-                closed = rattle.read(self.results / "scene.rattle").closed
-            except rattle.ResultError as fault:
-                faults.append(str(fault))
-            else:
-                faults += [] if closed else ["the result is not closed"]
+            faults += self.belongs() + self.kept_foreign() + self.read_closed(task)
             if self.call("--overwrite").returncode != 0:
                 faults.append("--overwrite does not mend it")
             self.score("two runs without locks", task, faults + self.belongs() + self.litter(), str(codes))
@@ -584,6 +639,14 @@ class Study:
             ).returncode
             faults = [] if code in (0, 128 + number) else [f"exit code {code}"]
             faults += self.belongs() + self.kept_foreign() + self.litter()
+            # A queue may end a job again and again.
+            for _ in range(self.random.choice((0, 0, 4))):
+                at = self.random.randrange(1, task.calls + 1)
+                again = self.call("--resume", **self.fault("signal", at), FAULT_SIGNAL=str(int(number)))
+                faults += (
+                    [] if again.returncode in (0, 128 + number) else [f"then exit code {again.returncode}"]
+                )
+                faults += self.belongs()
             if self.call("--resume").returncode != 0:
                 faults.append("--resume does not go on")
             faults += self.complete(task) + self.belongs()
@@ -591,7 +654,8 @@ class Study:
 
     def scripts(self, task: Task) -> None:
         """Scripts that would write over a file of somebody else beside the result, its input among them."""
-        calls = (("export.py", "scene.csv"), ("report.py", "report.html"), ("export.py", "scene.nc"))
+        stem = task.stems[0]
+        calls = (("export.py", f"{stem}.csv"), ("report.py", "report.html"), ("export.py", f"{stem}.nc"))
         for _ in range(self.tries):
             self.finished(task)
             script, name = self.random.choice(calls[:1] if self.random.random() < 0.8 else calls)
@@ -600,12 +664,99 @@ class Study:
             before = {path.name for path in self.results.iterdir()}
             given = ["--output", str(self.results / name)] if script == "report.py" else []
             given += ["--to", "netcdf"] if name.endswith(".nc") else []
-            code = script_here(script, str(self.results / "scene.rattle"), *given)
+            code = script_here(script, str(self.results / task.results[0]), *given)
             faults = [] if code == 2 else [f"exit code {code}"]
             faults += [] if (self.results / name).read_bytes() == mine else [f"{name} has changed"]
             names = {path.name for path in self.results.iterdir()}
             faults += [] if names == before else [f"it left {sorted(names - before)}"]
             self.score("script over a file", task, faults + self.kept_foreign(), name)
+
+    def failing_locks(self, task: Task) -> None:
+        """A lock fails for a reason of its own: nothing runs, and the reason is named."""
+        for _ in range(self.tries):
+            self.random.choice((self.lay_out, self.finished))(task)
+            before = {path.name: path.read_bytes() for path in self.results.iterdir()}
+            cause = self.random.choice(LOCK_ERRORS)
+            ended = self.told("--overwrite", LD_PRELOAD=str(self.shim), FAULT_FLOCK=str(cause))
+            faults = [] if ended.returncode == 3 else [f"exit code {ended.returncode}"]
+            told = f"cannot be locked: {os.strerror(cause)}" in ended.stderr
+            faults += [] if told else [f"it says {ended.stderr[:200]}"]
+            after = {path.name: path.read_bytes() for path in self.results.iterdir()}
+            faults += (
+                [] if all(after.get(name) == content for name, content in before.items()) else ["it wrote"]
+            )
+            if self.call("--overwrite").returncode != 0:
+                faults.append("--overwrite does not mend it")
+            self.score("a lock fails", task, faults + self.complete(task) + self.litter(), os.strerror(cause))
+
+    def unreadable(self, task: Task) -> None:
+        """A file of an earlier run may not be read: it is told as such. Root, who may all, is nobody here."""
+        program = self.folder / "rattle"
+        shutil.copy(self.program, program)
+        as_nobody = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
+        for _ in range(self.tries):
+            self.finished(task)
+            self.results.chmod(0o777)
+            name = self.random.choice([*task.expected])
+            (self.results / name).chmod(0)
+            ended = subprocess.run(
+                [program, "--quiet", self.random.choice(("--resume", "--overwrite")), "scene.nml"],
+                cwd=self.folder,
+                capture_output=True,
+                text=True,
+                check=False,
+                **as_nobody,
+            )
+            faults = [] if ended.returncode == 2 else [f"exit code {ended.returncode}"]
+            faults += (
+                []
+                if f"{name} exists and may not be read" in ended.stderr
+                else [f"it says {ended.stderr[:200]}"]
+            )
+            (self.results / name).chmod(0o644)
+            self.score("may not be read", task, faults + self.complete(task) + self.belongs(), name)
+
+    def callers(self, task: Task) -> None:
+        """A script that calls the solver is interrupted: the solver ends with it, and --resume goes on."""
+        environment = {**os.environ, "RATTLE_PROGRAM": str(self.program)}
+        command = [sys.executable, "-c", CALLER, str(HERE.parents[1] / "scripts"), *task.command]
+        for _ in range(self.tries):
+            self.lay_out(task)
+            number = self.random.choice((signal.SIGINT, signal.SIGTERM))
+            process = subprocess.Popen(command, cwd=self.folder, env=environment, stderr=subprocess.DEVNULL)
+            lock = self.results / f"{task.stems[0]}.lock"
+            while process.poll() is None and not lock.exists():
+                time.sleep(0.002)
+            time.sleep(self.random.uniform(0.0, task.seconds))
+            process.send_signal(number)
+            process.wait(120)
+            faults = self.belongs() + self.kept_foreign()
+            ended = self.told("--resume")
+            faults += [] if ended.returncode == 0 else [f"--resume: {ended.stderr[:200]}"]
+            self.score(
+                "a script is interrupted", task, faults + self.complete(task) + self.litter(), number.name
+            )
+
+    def leavings(self, task: Task) -> None:
+        """What a killed run has left is read by every script: each does its work or says why not."""
+        for _ in range(self.tries):
+            self.lay_out(task)
+            at = self.random.randrange(1, task.calls + 1)
+            self.call(*task.command, **self.fault("kill", at))
+            place = self.folder / "made"
+            shutil.rmtree(place, ignore_errors=True)
+            faults = []
+            for path in sorted(self.results.glob("scene*.rattle")):
+                script = self.random.choice(("export.py", "report.py"))
+                file = place / ("made.csv" if script == "export.py" else "made.html")
+                place.mkdir(exist_ok=True)
+                try:
+                    code = script_here(script, str(path), "--overwrite", "--output", str(file))
+                except Exception as fault:
+                    faults.append(f"{script} of {path.name} breaks: {fault!r}")
+                else:
+                    faults += [] if code in (0, 1, 2) else [f"exit code {code} of {script}"]
+            self.score("scripts on what is left", task, faults + self.mended(task), f"kill at call {at}")
 
     def merges(self, task: Task) -> None:
         """A part is missing, another input's, cut short or damaged when parts are joined."""
@@ -664,6 +815,16 @@ class Study:
             failed = sum(self.failed[what, task] for task in tasks)
             yield f"| {what} | {' | '.join(cells)} | {tried} | {failed} |"
         yield f"| **all** | {' | ' * (len(tasks) - 1)} | {self.tried.total()} | **{self.failed.total()}** |"
+
+
+def states(task: Task) -> list[str]:
+    """Names of the states that a task keeps, or may keep."""
+    return [f"{stem}.state" for stem in task.stems]
+
+
+def kind_of(name: str) -> str:
+    """What kind of file it is, of whatever scene: the name without that of the scene."""
+    return re.sub(r"^scene\.(\d\w\w\.)?", "", name)
 
 
 def script_here(script: str, *arguments: str) -> int:
@@ -729,6 +890,10 @@ FAULTS: dict[str, Callable[[Study, Task], None]] = {
     "signals": Study.signals,
     "scripts": Study.scripts,
     "merges": Study.merges,
+    "locks": Study.failing_locks,
+    "unreadable": Study.unreadable,
+    "callers": Study.callers,
+    "leavings": Study.leavings,
 }
 
 
@@ -742,13 +907,18 @@ def main() -> None:
         ["gcc", "-O1", "-shared", "-fPIC", "-o", shim, HERE / "inject_faults.c", "-ldl"], check=True
     )
     study = Study(options.program.resolve(), folder, shim, options)
-    for task in TASKS:
-        if task.name not in options.tasks:
-            continue
-        study.prepare(task)
-        for name in options.only:
-            FAULTS[name](study, task)
-            print(f"{task.name}: {name}, {study.failed.total()} failed so far", file=sys.stderr, flush=True)
+    try:
+        for task in TASKS:
+            if task.name not in options.tasks:
+                continue
+            study.prepare(task)
+            for name in options.only:
+                FAULTS[name](study, task)
+                print(
+                    f"{task.name}: {name}, {study.failed.total()} failed so far", file=sys.stderr, flush=True
+                )
+    except KeyboardInterrupt:
+        print("cut short: what was tried so far", file=sys.stderr)
     print("\n".join(study.table()))
     sys.exit(study.failed.total() > 0)
 

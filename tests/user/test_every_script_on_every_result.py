@@ -65,6 +65,7 @@ WORKING = {
     "map": CAMPAIGN | COMPARED | {"campaign merge"},
     "unfinished_map": CAMPAIGN,
     "empty_map": ALWAYS | COMPARED | {"campaign status", "campaign export", "campaign as Parquet"},
+    "unbegun_list": ALWAYS | {"campaign status", "campaign export", "campaign as Parquet"},
     "crossings": ALWAYS | COMPARED | {"plot threshold", "campaign merge"},
     "empty_crossings": ALWAYS | COMPARED,
     "unfinished_crossings": ALWAYS | {"plot threshold"},
@@ -114,6 +115,9 @@ def results(tmp_path_factory, rattle, run, repository, scene_text) -> Path:
             (folder / f"{name}.part-1-of-9{ending}").rename(folder / f"{name}{ending}")
     one = campaign_writer.grid(campaign_writer.FORCES, campaign_writer.SPEEDS, name="unfinished_map")
     one.write(folder / "unfinished_map.rattle", undone=[2], closed=False)
+    listed = campaign_writer.csv_table(name="unbegun_list")
+    chunks = range(-(-len(listed.rows) // listed.chunk_rows))
+    listed.write(folder / "unbegun_list.rattle", undone=chunks, closed=False)
     gears = (repository / "input" / "gearbox.nml").read_text()
     solve("box", gears, "--set", "scene.name=box", "--set", "solver.periods=20", codes=(0, 1))
     first = next(path for path in sorted(folder.glob("box.*.rattle")))

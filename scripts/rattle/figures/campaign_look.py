@@ -205,9 +205,12 @@ def _widened(axis: Axis) -> np.ndarray:
 
 def set_axis(axes: Axes, which: str, axis: Axis, *, to_edges: bool) -> None:
     """Scale, limits and label of the x or the y axis."""
+    getattr(axes, f"set_{which}label")(axis_label(axis))
+    if not axis.values.size:
+        # Of a table of scenes no row is known before the first of them is solved.
+        return
     edges = cell_edges(axis) if to_edges else _widened(axis)
     getattr(axes, f"set_{which}scale")("log" if is_logarithmic(axis) else "linear")
-    getattr(axes, f"set_{which}label")(axis_label(axis))
     if edges[0] < edges[-1]:
         getattr(axes, f"set_{which}lim")(edges[0], edges[-1])
     target = axes.xaxis if which == "x" else axes.yaxis
