@@ -55,10 +55,10 @@ WIDE_REGISTERS := $(shell $(FC) $(ARCHITECTURE) -Q --help=target 2>/dev/null | a
   $$1 == "-mavx512f" && $$2 == "[enabled]" { wide = 1 } \
   $$1 == "-mprefer-vector-width=" && $$2 ~ /^(128|256)$$/ { narrow = 1 } \
   END { print wide && !narrow ? ".true." : ".false." }')
-ROOMS := $(filter-out bindings,$(shell cut -d' ' -f1 fsrc/ROOMS))
-# Folders of rooms that this build takes.
+MODULES := $(filter-out bindings,$(shell cut -d' ' -f1 fsrc/MODULES))
+# Folders within folders that this build takes.
 PARTS := film/coefficients campaign/$(if $(MPI),mpi,serial)
-FOLDERS := $(foreach room,$(ROOMS),$(room) $(filter $(room)/%,$(PARTS)))
+FOLDERS := $(foreach room,$(MODULES),$(room) $(filter $(room)/%,$(PARTS)))
 SOURCES := $(foreach folder,$(FOLDERS),$(sort $(wildcard fsrc/$(folder)/*.f90)))
 OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(SOURCES)))
 UNIT_SOURCES := $(sort $(wildcard tests/unit/*.f90)) $(BUILD)/unit_suites.f90
@@ -82,7 +82,7 @@ help:
 	@echo 'make run          solve the two scenes of the paper, draw its figures, compare idle with creep'
 	@echo 'make test         unit tests (release and debug build) and user tests: at most five minutes'
 	@echo 'make test-long    user tests that take long, samples of the studies of stress and faults'
-	@echo 'make lint         compiler warnings, house rules, style of Fortran and Python'
+	@echo 'make lint         compiler warnings, rules of the layout, style of Fortran and Python'
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
 	@echo 'make python       Python environment and the module of the Fortran kernels'
 	@echo 'make bench        speed of the program beside that of others, as tables; make bench-changed: its last'
@@ -129,8 +129,8 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 	@echo 'compile $<'
 	@$(FC) $(FFLAGS) -J$(BUILD) -c $< -o $@
 
-# The rooms that compute may not even widen a kind unseen. (Elsewhere gfortran 12 warns of text positions.)
-COMPUTING := $(foreach room,$(filter-out foundation scene files run campaign,$(ROOMS)),$(wildcard fsrc/$(room)/*.f90))
+# The folders that compute may not even widen a kind unseen. (Elsewhere gfortran 12 warns of text positions.)
+COMPUTING := $(foreach room,$(filter-out foundation scene files run campaign,$(MODULES)),$(wildcard fsrc/$(room)/*.f90))
 $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),$(WIDENING))
 
 $(BUILD)/film_series.o $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o $(BUILD)/step_nodes.o: private FFLAGS += $(LANE_FLAGS)
@@ -206,7 +206,7 @@ user-long: $(BUILD)/rattle $(BUILD)/unit_tests $(BUILD)/kernels/built
 
 # For this very processor, beside the portable build. The other solvers live in an environment of their own; one that
 # cannot be had is named and left out. ROUNDS and LIMIT [s] say how much patience the comparison has. bench-changed is its part
-# with several orders, two flanks and teeth that give.
+# with several orders, two flanks and elastic teeth.
 NATIVE_BUILD := $(BUILD)/native
 NATIVE_BENCHES := bench_motion bench_film bench_engine
 PEER_ENV := .venv-bench
@@ -270,7 +270,7 @@ SANITIZED_RUN = $(call sanitized,rattle) --quiet --overwrite --output $(SANITIZE
 sanitize:
 	@$(MAKE) --no-print-directory BUILD=$(SANITIZED) SANITIZE=1 $(SANITIZED)/unit_tests $(SANITIZED)/rattle
 	@$(call sanitized,unit_tests)
-	@$(SANITIZED_RUN) $(foreach name,idle creep creep_forged_line creep_period_two loose_gear loose_pair engine_cycle gearbox film,input/$(name).nml)
+	@$(SANITIZED_RUN) $(foreach name,idle creep creep_false_harmonic creep_period_two loose_gear loose_pair engine_cycle gearbox film,input/$(name).nml)
 	@$(SANITIZED_RUN) --set sweep.count=5 input/sweep.nml
 	@$(SANITIZED_RUN) --set sweep.count=3 input/stiff_or_not.nml
 	@$(SANITIZED_RUN) --set campaign.count=4,4 input/map.nml
@@ -291,9 +291,9 @@ PICTURE_RUNS := $(BUILD)/picture_runs
 LOOSE_IDLE := --set solver.iteration=successive --set solver.steps_per_period=64
 pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@mkdir -p $(PICTURES)
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/idle.nml input/creep.nml input/creep_forged_line.nml
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/idle.nml input/creep.nml input/creep_false_harmonic.nml
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set solver.tolerance=1e-12 --set scene.name=no_line \
-	  input/creep_forged_line.nml
+	  input/creep_false_harmonic.nml
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) $(LOOSE_IDLE) --set solver.tolerance=1e-7 \
 	  --set scene.name=idle_loose input/idle.nml
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) $(LOOSE_IDLE) --set solver.tolerance=1e-12 \
@@ -301,7 +301,7 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(PYTHON) scripts/plot.py motion --overwrite --overlay --figures 8,9 --output $(PICTURE_RUNS) \
 	  $(PICTURE_RUNS)/idle.rattle $(PICTURE_RUNS)/creep.rattle
 	@$(PYTHON) scripts/plot.py tolerance --overwrite --output $(PICTURE_RUNS) \
-	  --forged-line $(PICTURE_RUNS)/creep_forged_line.rattle $(PICTURE_RUNS)/no_line.rattle \
+	  --false-harmonic $(PICTURE_RUNS)/creep_false_harmonic.rattle $(PICTURE_RUNS)/no_line.rattle \
 	  --false-reversals $(PICTURE_RUNS)/idle_loose.rattle $(PICTURE_RUNS)/idle_tight.rattle
 	@cp $(PICTURE_RUNS)/figure_08_09_overlay.png $(PICTURES)/idle_and_creep.png
 	@cp $(PICTURE_RUNS)/tolerance.png $(PICTURES)/tolerance.png
@@ -333,7 +333,7 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@$(PYTHON) scripts/plot.py motion --overwrite --figures flanks --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle
 	@cp $(PICTURE_RUNS)/flanks_loose_gear.png $(PICTURES)/loose_gear.png
 	@$(MAKE) --no-print-directory $(BUILD)/newmark_outcomes
-	@$(BUILD)/newmark_outcomes input/idle.nml input/creep.nml input/creep_forged_line.nml > $(PICTURE_RUNS)/newmark_outcomes.csv
+	@$(BUILD)/newmark_outcomes input/idle.nml input/creep.nml input/creep_false_harmonic.nml > $(PICTURE_RUNS)/newmark_outcomes.csv
 	@$(PYTHON) tests/stress/newmark_outcome_map.py $(PICTURE_RUNS)/newmark_outcomes.csv $(PICTURES)/newmark_outcomes.png
 	@$(PYTHON) scripts/plot.py film-fit --overwrite --output $(PICTURE_RUNS) > $(PICTURE_RUNS)/film_fit.txt
 	@cp $(PICTURE_RUNS)/film_fit.png $(PICTURES)/film_fit.png

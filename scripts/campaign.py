@@ -182,9 +182,9 @@ def state_rows(campaign: Campaign) -> list[list[str]]:
     if "status" in campaign:
         failures = int(campaign.failed.sum())
         rows.append(["failed", f"{failures}{percent(failures, done)}"])
-    if "certified" in campaign:
-        lacking = int((campaign["certified"][campaign.done] == 0.0).sum())
-        rows.append(["not certified", f"{lacking}{percent(lacking, done)}"])
+    if "verified" in campaign:
+        lacking = int((campaign["verified"][campaign.done] == 0.0).sum())
+        rows.append(["not verified", f"{lacking}{percent(lacking, done)}"])
     return rows + progress_rows(campaign.path.with_suffix(".progress.nml"))
 
 

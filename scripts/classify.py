@@ -15,7 +15,7 @@ from rattle.verdict import THRESHOLDS, classify
 
 MEASURES = (
     ("rattle_class", "class", "s"),
-    ("line_count", "lines", "d"),
+    ("harmonic_count", "harmonics", "d"),
     ("harmonic_distortion", "distortion", ".4f"),
     ("irregular_fraction", "irregular", ".2e"),
     ("reversals_per_period", "reversals a period", ".4g"),
@@ -74,13 +74,13 @@ def parse_options() -> argparse.Namespace:
         "--periods", type=command.positive, metavar="N", help="whole periods at the end that are judged"
     )
     parser.add_argument(
-        "--line-threshold",
+        "--harmonic-threshold",
         type=command.finite,
         metavar="X",
-        help="a line counts above X times the first harmonic, or of several forced ones the largest",
+        help="a harmonic counts above X times the first harmonic, or of several forced ones the largest",
     )
     parser.add_argument(
-        "--idle-lines", type=command.positive, metavar="N", help="idle from this many lines on"
+        "--idle-harmonics", type=command.positive, metavar="N", help="idle from this many harmonics on"
     )
     parser.add_argument(
         "--quiet-limit", type=command.finite, metavar="X", help="quiet below this harmonic distortion"

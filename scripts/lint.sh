@@ -29,11 +29,11 @@ formatted() {
 
 tools=$(cd "$tools" && pwd)
 check 'compiler warnings' make --no-print-directory BUILD="$build/lint" STRICT=1 "$build/lint/rattle" "$build/lint/unit_tests"
-check 'house: rooms, names, imports, size' "$tools/python" scripts/check_house.py
+check 'layout: folders, names, imports, size' "$tools/python" scripts/check_layout.py
 check 'style of Fortran' "$tools/fortitude" check --config .fortitude.toml fsrc tests
 check 'format of Fortran and Python' formatted
 check 'style of Python' "$tools/ruff" check scripts tests
 check 'page of all keys' sh -c "'$build/lint/rattle' --keys | diff - input/README.md"
 check 'table of quantities' sh -c "'$build/lint/rattle' --quantities | diff - scripts/rattle/quantities.csv"
-"$tools/python" scripts/check_house.py --counts
+"$tools/python" scripts/check_layout.py --counts
 exit $failed

@@ -18,7 +18,7 @@ COMMANDS = {
     "campaign": "maps, slices and a one-page summary of a campaign",
     "threshold": "where along a key a motion changes, over one or two others, or over a map",
     "tolerance": "what a loose tolerance of the iteration does to a motion",
-    "film-fit": "the film-thickness law (32), fitted to exact films",
+    "film-fit": "the film-thickness law (32), fitted to Reynolds films",
     "regime-map": "Johnson's map of lubrication regimes with scenes on it",
 }
 FORMATS = ("png", "pdf", "svg")

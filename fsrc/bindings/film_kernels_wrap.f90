@@ -1,4 +1,4 @@
-! Thin layer between the kernels of the exact film and f2py: plain arguments, explicit sizes, no derived
+! Thin layer between the kernels of the Reynolds film and f2py: plain arguments, explicit sizes, no derived
 ! types. The Python package checks shapes and types before it calls; nothing here repeats a formula.
 
 ! t_e(A) of (18); by_substitution /= 0: the paper's successive substitution.
@@ -83,7 +83,7 @@ subroutine wrap_critical_pressure_group(n, a, critical)
    critical = critical_pressure_group(a)
 end subroutine wrap_critical_pressure_group
 
-! Load of the exact iso-viscous film in SI units and its total slopes.
+! Load of the Reynolds iso-viscous film in SI units and its total slopes.
 subroutine wrap_reynolds_iso_viscous_load( &
    n, film, velocity, radius, length, speed, viscosity, load, load_by_film, load_by_velocity)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
@@ -105,7 +105,7 @@ subroutine wrap_reynolds_iso_viscous_load( &
       load, load_by_film, load_by_velocity)
 end subroutine wrap_reynolds_iso_viscous_load
 
-! Load of the exact piezo-viscous film in SI units and its total slopes. The kernel marks the absence of a
+! Load of the Reynolds piezo-viscous film in SI units and its total slopes. The kernel marks the absence of a
 ! rigid film by a load without slopes, NaN marks it here.
 subroutine wrap_reynolds_piezo_viscous_load( &
    n, film, velocity, radius, length, speed, viscosity, pressure_viscosity, load, load_by_film, load_by_velocity)

@@ -71,7 +71,7 @@ subroutine wrap_fit_film_law( &
    conditioning = [fit%singular_values, fit%condition]
 end subroutine wrap_fit_film_law
 
-! Exact films of a window, n = product of the three counts. ranges: h*, w*, alpha p, each least and largest;
+! Reynolds films of a window, n = product of the three counts. ranges: h*, w*, alpha p, each least and largest;
 ! factors: of the pressure and of the load group. valid = 0: no window, and no points.
 subroutine wrap_sample_film_window( &
    ranges, counts, factors, n, speed_group, load_group, squeeze_ratio, film_ratio, valid)

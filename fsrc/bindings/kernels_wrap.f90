@@ -17,8 +17,10 @@ subroutine wrap_amplitude_spectrum(n, samples, m, amplitudes)
 end subroutine wrap_amplitude_spectrum
 
 ! Class of n samples of `periods` whole periods; m = (n/periods - 1)/2 harmonics. ratios: distortion,
-! irregular fraction, reversals a period; orders and amplitudes: those of the force; orbit: periods after which the motion is known to repeat, or 0; counts: class, lines, 1 if there is motion, 1 if the samples suffice.
-subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, k, orders, amplitudes, m, harmonics, ratios, counts)
+! irregular fraction, reversals a period; orders and amplitudes: those of the force; orbit: periods after which the motion is known
+! to repeat, or 0; counts: class, harmonics, 1 if there is motion, 1 if the samples suffice.
+subroutine wrap_classify(n, acceleration, periods, limits, idle_harmonics, orbit, k, orders, amplitudes, m, harmonics, &
+   ratios, counts)
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use rattle_class, only: classify, note_orbit, rattle_verdict_t
    use scene_types, only: forced_orders, spectrum_choice_t
@@ -27,7 +29,7 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, k,
    real(c_double), intent(in) :: acceleration(n)
    integer(c_int), intent(in) :: periods
    real(c_double), intent(in) :: limits(4)
-   integer(c_int), intent(in) :: idle_lines
+   integer(c_int), intent(in) :: idle_harmonics
    integer(c_int), intent(in) :: orbit
    integer(c_int), intent(in) :: k
    integer(c_int), intent(in) :: orders(k)
@@ -40,15 +42,15 @@ subroutine wrap_classify(n, acceleration, periods, limits, idle_lines, orbit, k,
    type(spectrum_choice_t) :: choice
 
    choice%periods = periods
-   choice%line_threshold = limits(1)
+   choice%harmonic_threshold = limits(1)
    choice%quiet_limit = limits(2)
    choice%irregular_limit = limits(3)
-   choice%idle_lines = idle_lines
+   choice%idle_harmonics = idle_harmonics
    choice%forced = forced_orders(orders, amplitudes)
    call classify(acceleration, choice, limits(4), verdict)
    call note_orbit(verdict, orbit)
-   harmonics = verdict%lines%harmonics
-   ratios = [verdict%lines%harmonic_distortion, verdict%lines%irregular_fraction, verdict%reversals_per_period]
-   counts = [verdict%class, verdict%lines%line_count, merge(1, 0, verdict%lines%moving), &
-             merge(1, 0, verdict%lines%sampling_sufficient), verdict%lines%largest_forced]
+   harmonics = verdict%spectrum%harmonics
+   ratios = [verdict%spectrum%harmonic_distortion, verdict%spectrum%irregular_fraction, verdict%reversals_per_period]
+   counts = [verdict%class, verdict%spectrum%harmonic_count, merge(1, 0, verdict%spectrum%moving), &
+             merge(1, 0, verdict%spectrum%sampling_sufficient), verdict%spectrum%largest_forced]
 end subroutine wrap_classify

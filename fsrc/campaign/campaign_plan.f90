@@ -67,7 +67,7 @@ contains
          call plan_table(samples%positions, samples%values, plan)
          plan%known = samples%read
       else if (size(scene%campaign%vary) == 0) then
-         ! A threshold without axes has one line.
+         ! A threshold without axes has one trace.
          allocate (samples%positions(0), samples%values(0, 1))
          call plan_table(samples%positions, samples%values, plan)
       else

@@ -19,7 +19,7 @@ module campaign_progress
       integer(int64) :: scenes = 0_int64, done_before = 0_int64, done = 0_int64, failed = 0_int64
       !> Scenes that other ranks have solved
       integer(int64), private :: done_elsewhere = 0_int64
-      !> Scenes whose motion leaves what the model can mean, and whose lines no samples follow and no integrals could be had for
+      !> Scenes whose motion leaves what the model can mean, and whose harmonics no samples follow and no integrals could be had for
       integer(int64) :: beyond_model = 0_int64, undersampled = 0_int64
       !> Scenes whose class was put to the test, and those of them whose class does not stand
       integer(int64) :: tested = 0_int64, uncertain = 0_int64, irregular_so_far = 0_int64
@@ -64,7 +64,7 @@ contains
       !> Scenes solved, and those of them that failed
       integer(int64), intent(in) :: done
       integer(int64), intent(in) :: failed
-      !> Scenes that leave what the model can mean, and scenes whose lines are not resolved
+      !> Scenes that leave what the model can mean, and scenes whose harmonics are not resolved
       integer(int64), intent(in) :: beyond_model
       integer(int64), intent(in) :: undersampled
       !> Scenes whose class was put to the test, and those of them whose class does not stand
@@ -165,7 +165,7 @@ contains
       if (done > 0 .and. self%done_before + done < self%scenes) line = line//', '// &
          short_text(real(self%scenes - self%done_before - done, dp)/rate, 2)//' s left'
       line = line//', '//integer_text(self%failed)//' failed'
-      if (self%tested > 0) line = line//', '//integer_text(self%uncertain)//' not certified'
+      if (self%tested > 0) line = line//', '//integer_text(self%uncertain)//' not verified'
    end function words
 
    !> File for watchers; trouble with it is no trouble of the campaign.

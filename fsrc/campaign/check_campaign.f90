@@ -46,7 +46,7 @@ contains
       do i = 1, size(campaign%warnings)
          lines = lines//'! '//campaign%warnings(i)%text//new_line('a')
       end do
-      ! Where a table is so long that its lines could not even be counted, none of its scenes was looked at.
+      ! Where a table is so long that its traces could not even be counted, none of its scenes was looked at.
       lines = lines//'! scenes             '//trim(merge(' at least', '         ', &
                                                            campaign%seen == 0_int64 .and. chunks > 0_int64))// &
               ' '//integer_text(campaign%layout%scene_count)//' ('//integer_text(campaign%invalid)// &
@@ -58,7 +58,7 @@ contains
               '! core time, '//core_time_sentence(scene, campaign)
    end subroutine check_one_campaign
 
-   !> --check of a threshold: how many lines and scenes, and how long the scan may take.
+   !> --check of a threshold: how many traces and scenes, and how long the scan may take.
    subroutine check_one_threshold(scene, file, lines, faults)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
@@ -70,26 +70,26 @@ contains
       type(fault_list_t), intent(inout) :: faults
       type(prepared_threshold_t) :: threshold
       type(campaign_t) :: scan
-      integer(int64) :: line_count, looked_at, line
+      integer(int64) :: trace_count, looked_at, trace
       integer :: i, scanned
 
       lines = ''
       call prepare_threshold(scene, file, .true., threshold, faults)
       if (faults%count() > 0) return
-      line_count = threshold%lines%layout%scene_count
+      trace_count = threshold%traces%layout%scene_count
       scanned = size(threshold%scan)
-      do i = 1, size(threshold%lines%warnings)
-         lines = lines//'! '//threshold%lines%warnings(i)%text//new_line('a')
+      do i = 1, size(threshold%traces%warnings)
+         lines = lines//'! '//threshold%traces%warnings(i)%text//new_line('a')
       end do
-      scan = threshold%lines
-      looked_at = min(line_count, max(1_int64, 512_int64/scanned))
+      scan = threshold%traces
+      looked_at = min(trace_count, max(1_int64, 512_int64/scanned))
       scan%first = 1_int64
       scan%seen = looked_at*scanned
-      call points_plan(threshold, threshold%lines%first + [((line, i=1, scanned), line=0_int64, looked_at - 1_int64)], &
-                       [((threshold%scan(i), i=1, scanned), line=1_int64, looked_at)], scan%plan)
-      scan%layout%scene_count = line_count*scanned
+      call points_plan(threshold, threshold%traces%first + [((trace, i=1, scanned), trace=0_int64, looked_at - 1_int64)], &
+                       [((threshold%scan(i), i=1, scanned), trace=1_int64, looked_at)], scan%plan)
+      scan%layout%scene_count = trace_count*scanned
       scan%layout%names = [scan%layout%names, scan%layout%names(1)]
-      lines = lines//'! lines               '//integer_text(line_count)//new_line('a')// &
+      lines = lines//'! traces              '//integer_text(trace_count)//new_line('a')// &
               '! scenes of the scan  '//integer_text(scan%layout%scene_count)//new_line('a')// &
               '! a grid as fine has  '//integer_text(nint(grid_scenes(scene, threshold), int64))//' scenes'//new_line('a')// &
               '! core time of the scan, '//core_time_sentence(scene, scan)

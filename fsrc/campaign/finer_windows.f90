@@ -1,5 +1,5 @@
-!> Windows of scenes whose samples are too few for their lines. Integrals over the steps tell most of what samples do, for much
-!> less. Where they leave more open than the count of many lines, windows are solved again from where they begin, as those of
+!> Windows of scenes whose samples are too few for their harmonics. Integrals over the steps tell most of what samples do, for much
+!> less. Where they leave more open than the count of many harmonics, windows are solved again from where they begin, as those of
 !> single scenes are: with twice as many samples until these are enough, but side by side.
 module finer_windows
    use carried_loads, only: accelerations_of_samples
@@ -56,12 +56,12 @@ contains
          if (windows(i)%periods > 0) &
             call classify_steps(windows(i), problems(i)%frequency, choices(i), noise_floors(i), verdicts(i))
       end do
-      associate (lines => verdicts%lines)
+      associate (spectrum => verdicts%spectrum)
          if (class_alone) then
-            left = pack([(i, i=1, size(problems))], lines%irregular_is_bound .and. .not. is_off_harmonics(verdicts%class))
+            left = pack([(i, i=1, size(problems))], spectrum%irregular_is_bound .and. .not. is_off_harmonics(verdicts%class))
          else
-            left = pack([(i, i=1, size(problems))], lines%irregular_is_bound .or. lines%distortion_is_bound .or. &
-                                                    .not. lines%count_is_bound)
+            left = pack([(i, i=1, size(problems))], spectrum%irregular_is_bound .or. spectrum%distortion_is_bound .or. &
+                                                    .not. spectrum%count_is_bound)
          end if
       end associate
       samples_per_period = asked%samples_per_period
@@ -109,7 +109,7 @@ contains
                call accelerations_of_samples(problems(own), samples_per_period, states(:, :, k), accelerations)
                call classify_window(choices(own), problems(own), count, accelerations, found(k), noise_floors(own), &
                                     by_samples(own))
-               if (by_samples(own)%lines%sampling_sufficient) verdicts(own) = by_samples(own)
+               if (by_samples(own)%spectrum%sampling_sufficient) verdicts(own) = by_samples(own)
             end associate
          end do
       end subroutine classify_alike

@@ -39,7 +39,7 @@ module prepared_campaign
 contains
 
    !> What is known before anything is solved; the scenes are cut by the whole campaign, whatever part of it this is. Those of a
-   !> threshold are its lines. After a fault only the faults are of use.
+   !> threshold are its traces. After a fault only the faults are of use.
    subroutine prepare_campaign(scene, file, hurried, campaign, faults)
       !> Checked base scene
       type(scene_t), intent(in) :: scene
@@ -95,7 +95,7 @@ contains
       if (allocated(error)) call faults%add_error(file, 0, '', '', error)
    end subroutine expect_campaign_memory
 
-   !> Scenes of the whole campaign that this part solves, cut at the borders of chunks; lines of a threshold one by one.
+   !> Scenes of the whole campaign that this part solves, cut at the borders of chunks; traces of a threshold one by one.
    pure subroutine share_of_part(scene, scenes, chunk, first, last)
       type(scene_t), intent(in) :: scene
       !> Scenes of the campaign, and how many are not divided

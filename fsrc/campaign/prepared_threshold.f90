@@ -1,4 +1,4 @@
-!> What is known of a threshold before anything is solved: its lines, the range of its key, its scan.
+!> What is known of a threshold before anything is solved: its traces, the range of its key, its scan.
 module prepared_threshold
    use campaign_axis, only: campaign_axis_t, check_axis, grid_value
    use campaign_plan, only: check_size, count_invalid
@@ -17,13 +17,13 @@ module prepared_threshold
    implicit none(type, external)
    private
 
-   !> What --check may take to look at the lines with the last value of the key [s]
+   !> What --check may take to look at the traces with the last value of the key [s]
    integer, parameter :: looking_limit = 1
 
-   !> Lines, each a scene of &campaign, along which the key is varied.
+   !> Traces, each a scene of &campaign, along which the key is varied.
    type, public :: prepared_threshold_t
-      !> Its scenes are the lines
-      type(campaign_t) :: lines
+      !> Its scenes are the traces
+      type(campaign_t) :: traces
       !> Range of the key, as finely divided as the brackets become
       type(campaign_axis_t) :: axis
       !> Places of the scan
@@ -40,7 +40,7 @@ contains
       type(scene_t), intent(in) :: scene
       !> Its input, for the faults
       character(*), intent(in) :: file
-      !> Whether to look at no more lines than there is time for
+      !> Whether to look at no more traces than there is time for
       logical, intent(in) :: hurried
       type(prepared_threshold_t), intent(out) :: threshold
       !> Faults are appended
@@ -52,21 +52,21 @@ contains
       call check_key(scene, file, threshold%axis, faults)
       if (faults%count() > before) then
          ! The faults of the axes are told with those of the key.
-         call prepare_campaign(scene, file, hurried, threshold%lines, faults)
+         call prepare_campaign(scene, file, hurried, threshold%traces, faults)
          return
       end if
-      call prepare_campaign(scene_at(scene, threshold%axis, 0), file, hurried, threshold%lines, faults)
+      call prepare_campaign(scene_at(scene, threshold%axis, 0), file, hurried, threshold%traces, faults)
       if (faults%count() > before) return
-      associate (lines => threshold%lines, axis => threshold%axis)
-         if (any(lines%plan%positions == axis%position)) &
+      associate (traces => threshold%traces, axis => threshold%axis)
+         if (any(traces%plan%positions == axis%position)) &
             call add(scene, file, 'key', '&campaign varies '//key_name(axis%position)//' already; a threshold needs a key of '// &
                      'its own', faults)
          threshold%scan = scan_places(scene%threshold, axis)
-         call check_size(scene, file, lines%plan%size*size(threshold%scan, kind=int64), faults)
+         call check_size(scene, file, traces%plan%size*size(threshold%scan, kind=int64), faults)
          if (faults%count() > before) return
-         last = lines%first + lines%layout%scene_count - 1_int64
+         last = traces%first + traces%layout%scene_count - 1_int64
          if (hurried) call limit_time(looking_limit)
-         call count_invalid(scene_at(scene, axis, axis%count - 1), file, lines%plan, lines%first, last, seen, invalid, faults)
+         call count_invalid(scene_at(scene, axis, axis%count - 1), file, traces%plan, traces%first, last, seen, invalid, faults)
          if (hurried) call lift_time_limit()
       end associate
    end subroutine prepare_threshold
@@ -147,23 +147,23 @@ contains
       call derive(at)
    end function scene_at
 
-   !> The scenes at some places of some lines.
-   subroutine points_plan(threshold, lines, places, plan)
+   !> The scenes at some places of some traces.
+   subroutine points_plan(threshold, traces, places, plan)
       type(prepared_threshold_t), intent(in) :: threshold
-      !> Line of each scene, and its place there
-      integer(int64), intent(in) :: lines(:)
+      !> Trace of each scene, and its place there
+      integer(int64), intent(in) :: traces(:)
       integer, intent(in) :: places(:)
       type(sample_plan_t), intent(out) :: plan
       real(dp), allocatable :: values(:, :)
       integer :: i, axes
 
-      axes = size(threshold%lines%plan%positions)
-      allocate (values(axes + 1, size(lines)))
-      do i = 1, size(lines)
-         call scene_values(threshold%lines%plan, lines(i), values(:axes, i))
+      axes = size(threshold%traces%plan%positions)
+      allocate (values(axes + 1, size(traces)))
+      do i = 1, size(traces)
+         call scene_values(threshold%traces%plan, traces(i), values(:axes, i))
          values(axes + 1, i) = grid_value(threshold%axis, places(i))
       end do
-      call plan_table([threshold%lines%plan%positions, threshold%axis%position], values, plan)
+      call plan_table([threshold%traces%plan%positions, threshold%axis%position], values, plan)
    end subroutine points_plan
 
 end module prepared_threshold

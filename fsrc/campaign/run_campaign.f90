@@ -244,8 +244,8 @@ contains
                            count(.not. is_success(nint(rows(status_column, :))), kind=int64), &
                            flagged(campaign%layout%names == 'model_limit', rows, 1.0_dp), &
                            flagged(campaign%layout%names == 'sampling_sufficient', -rows, 0.0_dp), &
-                           flagged(campaign%layout%names == 'certified', rows, 0.0_dp), &
-                           flagged(campaign%layout%names == 'certified', -rows, 0.0_dp), &
+                           flagged(campaign%layout%names == 'verified', rows, 0.0_dp), &
+                           flagged(campaign%layout%names == 'verified', -rows, 0.0_dp), &
                            flagged(campaign%layout%names == 'rattle_class', rows, real(class_irregular_so_far, dp)))
          scenes = scenes + last_row - first_row + 1_int64
          deallocate (rows)
@@ -302,8 +302,8 @@ contains
       call summary%add('scenes_failed_in_this_run', progress%failed)
       call summary%add('scenes_beyond_model_in_this_run', progress%beyond_model)
       call summary%add('scenes_undersampled_in_this_run', progress%undersampled)
-      if (any(campaign%layout%names == 'certified')) &
-         call summary%add('scenes_not_certified_in_this_run', progress%uncertain)
+      if (any(campaign%layout%names == 'verified')) &
+         call summary%add('scenes_not_verified_in_this_run', progress%uncertain)
       if (any(campaign%layout%names == 'rattle_class')) &
          call summary%add('scenes_irregular_so_far_in_this_run', progress%irregular_so_far)
       call summary%add('wall_seconds', wall_seconds() - started)
@@ -320,7 +320,7 @@ contains
       if (progress%undersampled > 0) call log%line('  warning: the lines of '//counted(progress%undersampled, 'scene')// &
          ' are not resolved (column sampling_sufficient); raise campaign.samples_per_period')
       if (progress%tested > 0) call log%line('  '//integer_text(progress%uncertain)//' of '//integer_text(progress%tested)// &
-         ' scenes not certified: solved again, tighter, the class is another or close to a limit (column certified)')
+         ' scenes not verified: solved again, tighter, the class is another or close to a limit (column verified)')
       if (progress%irregular_so_far > 0) call log%line('  '//counted(progress%irregular_so_far, 'scene')// &
          ' irregular so far: without repetition, and no neighbouring motion parts for good (rattle_class)')
       call log%line('  '//result_path(scene))

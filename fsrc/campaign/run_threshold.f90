@@ -1,5 +1,5 @@
-!> Thresholds from input to file: a scan of every line, then passes over all lines together, each the middles of all brackets
-!> that are still wide, then the certificates of their ends, all solved as the scenes of a campaign are. Some lines are searched
+!> Thresholds from input to file: a scan of every trace, then passes over all traces together, each the middles of all brackets
+!> that are still wide, then the verifications of their ends, all solved as the scenes of a campaign are. Some traces are searched
 !> at a time; NAME.state keeps what was found, for --resume.
 module run_threshold
    use campaign_progress, only: campaign_progress_t
@@ -30,7 +30,7 @@ module run_threshold
    implicit none(type, external)
    private
 
-   !> Scenes of a scan for each thread that are solved at a time: lines beyond them wait for those before
+   !> Scenes of a scan for each thread that are solved at a time: traces beyond them wait for those before
    integer(int64), parameter :: scanned_together = 4096_int64
 
    public :: run_one_threshold, grid_scenes
@@ -59,8 +59,8 @@ contains
       type(log_t) :: log
       type(output_lock_t) :: lock
       real(dp) :: started
-      integer(int64) :: first, last, last_line, together
-      integer :: lines_before
+      integer(int64) :: first, last, last_trace, together
+      integer :: traces_before
 
       started = wall_seconds()
       call prepare_threshold(scene, file, .false., threshold, faults)
@@ -93,13 +93,13 @@ contains
          if (len(lock%warning) > 0) call log%line('  '//lock%warning)
       end if
       if (this_rank() == 0 .and. .not. carry_on) call delete_file(state_path(scene))
-      lines_before = int(outcome%lines)
-      call share_number(lines_before)
-      last_line = threshold%lines%first + threshold%lines%layout%scene_count - 1_int64
+      traces_before = int(outcome%traces)
+      call share_number(traces_before)
+      last_trace = threshold%traces%first + threshold%traces%layout%scene_count - 1_int64
       call progress%start(progress_path(scene), solved_scenes(outcome), solved_scenes(outcome), quiet)
       together = max(1_int64, scanned_together*rank_count()*omp_get_max_threads()/size(threshold%scan, kind=int64))
-      do first = threshold%lines%first + lines_before, last_line, together
-         last = min(last_line, first + together - 1_int64)
+      do first = threshold%traces%first + traces_before, last_trace, together
+         last = min(last_trace, first + together - 1_int64)
          call search_lines(scene, threshold, first, last, progress, log, outcome)
          if (outcome%cut) exit
       end do
@@ -122,24 +122,24 @@ contains
       integer :: i
 
       call log%line(log_magic//program_version//', threshold '//trim(scene%name)//': '// &
-                    counted(int(threshold%lines%layout%scene_count), 'line')//' of '//key_name(threshold%axis%position)//', '// &
+                    counted(int(threshold%traces%layout%scene_count), 'trace')//' of '//key_name(threshold%axis%position)//', '// &
                     law_sentence(scene)//'; '//counted(rank_count(), 'rank')//' of '//counted(omp_get_max_threads(), 'thread'))
       do i = 1, size(scene%warnings)
          call log%line('  '//scene%warnings(i)%text)
       end do
-      do i = 1, size(threshold%lines%warnings)
-         call log%line('  '//threshold%lines%warnings(i)%text)
+      do i = 1, size(threshold%traces%warnings)
+         call log%line('  '//threshold%traces%warnings(i)%text)
       end do
       if (solved_scenes(outcome) > 0_int64) then
-         call log%line('  carried on after '//integer_text(outcome%lines)//' lines of the earlier run and '// &
+         call log%line('  carried on after '//integer_text(outcome%traces)//' traces of the earlier run and '// &
                        integer_text(size(outcome%points))//' values of those under way')
       else if (carry_on) then
          call log%line('  there is no state of an earlier run; all is solved from the start')
       end if
-      call log%line('  '//integer_text(size(threshold%scan))//' values a line, then halves down to '// &
+      call log%line('  '//integer_text(size(threshold%scan))//' values a trace, then halves down to '// &
                     integer_text(threshold%axis%count)//' places; two changes between neighbours of the scan that cancel each '// &
                     'other stay unseen: more &threshold count sees them')
-      if (scene%spectrum%certify) call log%line('  the ends of a crossing go apart again until both are certified')
+      if (scene%spectrum%verify) call log%line('  the ends of a crossing go apart again until both are verified')
    end subroutine report_start
 
    !> Scenes of a grid that finds brackets as narrow.
@@ -149,7 +149,7 @@ contains
 
       grid_scenes = real(threshold%axis%count, dp)
       if (.not. threshold%axis%whole) grid_scenes = max(real(scene%threshold%count, dp), 1.0_dp/scene%threshold%tolerance + 1.0_dp)
-      grid_scenes = grid_scenes*real(threshold%lines%layout%scene_count, dp)
+      grid_scenes = grid_scenes*real(threshold%traces%layout%scene_count, dp)
    end function grid_scenes
 
    !> Write the files and say what became of the thresholds. What was cut short leaves no result.
@@ -180,11 +180,11 @@ contains
       if (allocated(error)) status = status_not_written
       call add_head(summary, scene, status)
       call add_results(summary, results, status)
-      call summary%add('lines', threshold%lines%layout%scene_count)
+      call summary%add('traces', threshold%traces%layout%scene_count)
       call summary%add('crossings', outcome%crossings)
-      call summary%add('lines_without_crossing', outcome%uncrossed)
-      if (scene%spectrum%certify) call summary%add('crossings_uncertain', outcome%uncertain)
-      if (scene%spectrum%certify) call summary%add('crossings_wide', outcome%wide)
+      call summary%add('traces_without_crossing', outcome%uncrossed)
+      if (scene%spectrum%verify) call summary%add('crossings_uncertain', outcome%uncertain)
+      if (scene%spectrum%verify) call summary%add('crossings_wide', outcome%wide)
       call summary%add('scenes', solved_scenes(outcome))
       call summary%add('scenes_failed', failed_scenes(outcome))
       call summary%add('scenes_of_a_grid', grid_scenes(scene, threshold))
@@ -195,8 +195,8 @@ contains
       if (allocated(error)) then
          call log%line('  '//error%message)
       else if (outcome%cut) then
-         call log%line('  cut short after '//integer_text(outcome%lines)//' of '// &
-                       counted(int(threshold%lines%layout%scene_count), 'line')//'; --resume goes on with these and '// &
+         call log%line('  cut short after '//integer_text(outcome%traces)//' of '// &
+                       counted(int(threshold%traces%layout%scene_count), 'trace')//'; --resume goes on with these and '// &
                        counted(size(outcome%points), 'value')//' of the next, no result is written before')
          call log%line('  '//summary_path(scene))
       else
@@ -219,15 +219,15 @@ contains
       character(:), allocatable :: line
 
       line = '  '//counted(outcome%crossings, 'crossing')//'; '//integer_text(outcome%uncrossed)//' of '// &
-             counted(threshold%lines%layout%scene_count, 'line')//' without any'
-      if (scene%spectrum%certify) line = line//'; at '//counted(outcome%uncertain, 'crossing')// &
-                                         ' a class beside it is not certified'
+             counted(threshold%traces%layout%scene_count, 'trace')//' without any'
+      if (scene%spectrum%verify) line = line//'; at '//counted(outcome%uncertain, 'crossing')// &
+                                         ' a class beside it is not verified'
       call log%line(line)
-      if (outcome%wide > 0_int64) call log%line('  the ends of '//counted(outcome%wide, 'crossing')//' are certified only '// &
+      if (outcome%wide > 0_int64) call log%line('  the ends of '//counted(outcome%wide, 'crossing')//' are verified only '// &
                                                 'farther apart than asked for: the width tells how sure that is (column width)')
       if (outcome%failed > 0_int64) call log%line('  scenes that failed are a kind of their own: where they begin is a '// &
                                                   'crossing (columns status_below, status_above)')
-      ! Where there are more parts than lines, some have none.
+      ! Where there are more parts than traces, some have none.
       if (outcome%solved > 0_int64) &
          call log%line('  '//integer_text(outcome%solved)//' scenes; a grid as fine has '// &
                        integer_text(nint(grid_scenes(scene, threshold), int64))//', '// &

@@ -1,6 +1,6 @@
 !> Scenes that are solved side by side: the samples of their windows, what the steps tell of them, and their classes.
 module scene_group
-   use certify_scene, only: nearby_orbit
+   use verify_scene, only: nearby_orbit
    use engine, only: ending_t, motion_state_t, request_t, reserved_periods
    use fine_window, only: classify_window
    use finer_windows, only: classify_finer
@@ -109,7 +109,7 @@ contains
                                           group%accelerations(:samples))
             call classify_window(choices(i), problems(i), samples/request%samples_per_period, group%accelerations(:samples), &
                                  group%records(i), noise_floors(i), verdict)
-            coarse(i) = .not. verdict%lines%sampling_sufficient
+            coarse(i) = .not. verdict%spectrum%sampling_sufficient
          end associate
       end do
       if (any(coarse)) then

@@ -1,18 +1,18 @@
 !> Solves and judges the scenes of a chunk: the kernels of the single scene, eight scenes to a register.
 module solve_chunk
-   use campaign_certificate, only: certify_group, compared
+   use campaign_verification, only: verify_group, compared
    use campaign_record, only: record_row
    use engine, only: ending_t, request_t, reserved_periods, start_of
    use judged_scene, only: judged_scene_t
    use key_table, only: find_key
    use force, only: force_of, largest_oscillation
    use kinds, only: dp, int64
-   use loudness, only: loudness_of_record
+   use vibration_severity, only: severity_of_record
    use memory_need, only: window_bytes
    use node_extremes, only: seen_pressure, seen_quantities
    use carried_loads, only: thinnest_film
    use periodic_orbit, only: periodic_orbit_t
-   use quantities, only: is_verified, need_count, needs_certificate, needs_impacts, needs_of, needs_orbit, needs_regime, &
+   use quantities, only: asks_to_verify, need_count, needs_verification, needs_impacts, needs_of, needs_orbit, needs_regime, &
       needs_spectrum, needs_verified_impacts
    use regime_check, only: check_regime
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
@@ -73,8 +73,8 @@ contains
       allocate (values(size(plan%positions), min(batch, size(rows, 2))))
       needed = needs_of(base%campaign%record)
       ! A single scene looks for its orbit while it is put to the test.
-      needed(needs_orbit) = needed(needs_orbit) .and. base%spectrum%certify
-      if (needed(needs_certificate)) needed(compared) = .true.
+      needed(needs_orbit) = needed(needs_orbit) .and. base%spectrum%verify
+      if (needed(needs_verification)) needed(compared) = .true.
       scene = base
       scene%resolved_input = ''
       do start = 1, size(rows, 2), batch
@@ -96,7 +96,7 @@ contains
       scene_bytes = fixed_bytes + window_periods(base, plan)*(period_bytes + sample_bytes* &
                                                               real(base%campaign%samples_per_period, dp))
       ! The tighter solution stands beside it.
-      if (is_verified(base%campaign%record)) scene_bytes = 2.0_dp*scene_bytes
+      if (asks_to_verify(base%campaign%record)) scene_bytes = 2.0_dp*scene_bytes
    end function scene_bytes
 
    !> Most periods of a window.
@@ -199,16 +199,16 @@ contains
             call solve_group(problems, start_of(problems), request, needed(:seen_quantities), space%group)
          end if
          if (needed(needs_orbit)) call find_orbits(problems, space%group)
-         if (any(needed([needs_spectrum, needs_certificate]))) then
+         if (any(needed([needs_spectrum, needs_verification]))) then
             call classify_group(problems, choices, resolved%noise_floor, request, space%group)
             call follow_group(problems, space%group)
          end if
       end associate
       if (must_stop()) return
       if (needed(needs_verified_impacts)) then
-         call certify_group(resolved, choices, request, space%group, space%tight, space%stands, space%agree)
-      else if (needed(needs_certificate)) then
-         call certify_group(resolved, choices, request, space%group, space%tight, space%stands)
+         call verify_group(resolved, choices, request, space%group, space%tight, space%stands, space%agree)
+      else if (needed(needs_verification)) then
+         call verify_group(resolved, choices, request, space%group, space%tight, space%stands)
       end if
    end subroutine solve_side_by_side
 
@@ -232,7 +232,7 @@ contains
 
       request = engine_request(scene)
       request%samples_per_period = 1
-      if (any(needed([needs_spectrum, needs_certificate]))) request%samples_per_period = scene%campaign%samples_per_period
+      if (any(needed([needs_spectrum, needs_verification]))) request%samples_per_period = scene%campaign%samples_per_period
       request%forecast = request%until_steady
    end function request_of
 
@@ -277,7 +277,7 @@ contains
       type(resolved_scene_t), intent(in) :: resolved
       !> What the columns need
       logical, intent(in) :: needed(:)
-      !> Whether its class stands, if that is needed
+      !> Whether its class is verified, if that is needed
       logical, intent(in) :: stands
       !> And whether its impacts are the same
       type(impact_agreement_t), intent(in) :: agree
@@ -286,17 +286,17 @@ contains
       call note_ending(resolved, group%endings(place), judged)
       judged%repeats_after = group%repeat_after(place)
       if (.not. judged%judged) return
-      if (any(needed([needs_spectrum, needs_certificate]))) judged%rattle = group%verdicts(place)
+      if (any(needed([needs_spectrum, needs_verification]))) judged%rattle = group%verdicts(place)
       associate (record => group%records(place), pressure => group%records(place)%highest(seen_pressure))
          judged%extremes = extremes_of_record(record)
-         judged%loudness = loudness_of_record(record, resolved%problem%frequency)
+         judged%severity = severity_of_record(record, resolved%problem%frequency)
          judged%impacts = impacts_of_record(record, resolved%problem%frequency)
          if (needed(needs_regime)) judged%regime = check_regime(resolved%problem%film, pressure%value, &
                                                                 thinnest_film(resolved%problem, pressure%state))
       end associate
-      judged%certificate%exists = needed(needs_certificate)
-      judged%certificate%certified = stands
-      judged%certificate%impacts = agree
+      judged%verification%exists = needed(needs_verification)
+      judged%verification%verified = stands
+      judged%verification%impacts = agree
    end subroutine judge_scene_of
 
 end module solve_chunk

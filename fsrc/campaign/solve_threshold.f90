@@ -5,7 +5,7 @@ module solve_threshold
    use kinds, only: dp, int64
    use log_file, only: log_t
    use prepared_threshold, only: points_plan, prepared_threshold_t
-   use quantities, only: quantity_certified
+   use quantities, only: quantity_verified
    use ranks, only: add_over_ranks, next_tickets, rank_count, renew_tickets, sum_over_ranks, this_rank, wait_for_ranks
    use sampling, only: sample_plan_t
    use scene_status, only: is_success
@@ -13,7 +13,7 @@ module solve_threshold
    use schedule, only: pace_t
    use signals, only: caught_signal
    use solve_chunk, only: chunk_space_t, solve_scenes
-   use threshold_outcome, only: add_lines, outcome_t, save_outcome, solved_scenes
+   use threshold_outcome, only: add_traces, outcome_t, save_outcome, solved_scenes
    use threshold_search, only: merged_points, missing_middles, missing_scan, new_point, point_t, untested_ends
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
    implicit none(type, external)
@@ -22,18 +22,18 @@ module solve_threshold
    !> How old the state may become [s]. Several ranks have to wait for each other to keep it, and do so less often; a signal
    !> makes them keep all that they have.
    real(dp), parameter :: state_interval = 5.0_dp, shared_interval = 30.0_dp
-   !> Rows of a table of answers: whether the scene is solved, its status, its quantity, whether its class stands
-   integer, parameter :: is_solved = 1, of_status = 2, of_quantity = 3, of_certificate = 4
+   !> Rows of a table of answers: whether the scene is solved, its status, its quantity, whether its class is verified
+   integer, parameter :: is_solved = 1, of_status = 2, of_quantity = 3, of_verification = 4
 
    public :: search_lines
 
 contains
 
-   !> All thresholds of some lines; all ranks find the same. What is known of them already is not solved again.
+   !> All thresholds of some traces; all ranks find the same. What is known of them already is not solved again.
    subroutine search_lines(scene, threshold, first, last, progress, log, outcome)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
-      !> First and last line
+      !> First and last trace
       integer(int64), intent(in) :: first
       integer(int64), intent(in) :: last
       type(campaign_progress_t), intent(inout) :: progress
@@ -49,28 +49,28 @@ contains
          call solve_points(scene, threshold, wanted, testing, pace, progress, log, outcome)
          if (outcome%cut) return
       end do
-      call add_lines(scene, threshold, first, last, outcome)
+      call add_traces(scene, threshold, first, last, outcome)
    end subroutine search_lines
 
-   !> What is to be solved next: the scan, then the middles of brackets that are still wide, then the certificates of their ends.
+   !> What is to be solved next: the scan, then the middles of brackets that are still wide, then the verifications of their ends.
    subroutine next_points(scene, threshold, first, last, points, wanted, testing)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
-      !> First and last line
+      !> First and last trace
       integer(int64), intent(in) :: first
       integer(int64), intent(in) :: last
       !> All points that are known
       type(point_t), intent(in) :: points(:)
       type(point_t), allocatable, intent(out) :: wanted(:)
-      !> Whether certificates are asked for
+      !> Whether verifications are asked for
       logical, intent(out) :: testing
       type(point_t), allocatable :: known(:)
 
       testing = .false.
-      known = pack(points, points%line >= first .and. points%line <= last)
+      known = pack(points, points%trace >= first .and. points%trace <= last)
       wanted = missing_scan(known, threshold%scan, first, last)
       if (size(wanted) == 0) wanted = missing_middles(known)
-      if (size(wanted) > 0 .or. .not. scene%spectrum%certify) return
+      if (size(wanted) > 0 .or. .not. scene%spectrum%verify) return
       testing = .true.
       wanted = untested_ends(known)
    end subroutine next_points
@@ -81,7 +81,7 @@ contains
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       type(point_t), intent(in) :: wanted(:)
-      !> Whether their certificates are asked for
+      !> Whether their verifications are asked for
       logical, intent(in) :: testing
       !> What the scenes before have taken
       type(pace_t), intent(inout) :: known_pace
@@ -99,10 +99,10 @@ contains
       logical :: out_of_time
 
       recorded = scene
-      if (testing) recorded%campaign%record = [scene%threshold%quantity, quantity_certified]
-      call points_plan(threshold, wanted%line, wanted%place, plan)
+      if (testing) recorded%campaign%record = [scene%threshold%quantity, quantity_verified]
+      call points_plan(threshold, wanted%trace, wanted%place, plan)
       status = 2 + size(plan%positions)
-      allocate (answers(of_certificate, size(wanted)), source=0.0_dp)
+      allocate (answers(of_verification, size(wanted)), source=0.0_dp)
       progress%scenes = solved_scenes(outcome) + plan%size
       round_started = wall_seconds()
       call renew_tickets()
@@ -129,7 +129,7 @@ contains
          !$omp critical (threshold_answers)
          answers(of_status, first:last) = rows(status, :)
          answers(of_quantity, first:last) = rows(status + 1, :)
-         if (testing) answers(of_certificate, first:last) = rows(status + 2, :)
+         if (testing) answers(of_verification, first:last) = rows(status + 2, :)
          answers(is_solved, first:last) = 1.0_dp
          !$omp end critical (threshold_answers)
          call progress%add(last - first + 1_int64, count(.not. is_success(nint(rows(status, :))), kind=int64), &
@@ -195,7 +195,7 @@ contains
          if (testing) then
             points(count) = wanted(i)
             points(count)%tested = .true.
-            points(count)%certified = answers(of_certificate, i)
+            points(count)%verified = answers(of_verification, i)
          else
             points(count) = new_point(scene%threshold, wanted(i), nint(answers(of_status, i)), answers(of_quantity, i))
          end if

@@ -1,4 +1,4 @@
-!> What a threshold has found so far: the rows of its result with their counts, and all points of the lines under way, kept as
+!> What a threshold has found so far: the rows of its result with their counts, and all points of the traces under way, kept as
 !> NAME.state for --resume.
 module threshold_outcome
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
@@ -21,7 +21,7 @@ module threshold_outcome
    use sampling, only: scene_values
    use scene_status, only: is_success
    use scene_types, only: scene_t
-   use threshold_search, only: bracket_t, brackets_of, is_certified, new_point, point_t
+   use threshold_search, only: bracket_t, brackets_of, is_verified, new_point, point_t
    use varied_keys, only: varied_name
    implicit none(type, external)
    private
@@ -33,12 +33,12 @@ module threshold_outcome
    type, public :: outcome_t
       !> Rows of the result, one column of this array each
       real(dp), allocatable :: rows(:, :)
-      !> Lines that are done, scenes that were solved for them and those of them that failed, and their crossings; lines without
-      !> one, crossings with an end that is not certified, and crossings whose ends were certified only farther apart than asked for
-      integer(int64) :: lines = 0_int64
+      !> Traces that are done, scenes that were solved for them and those of them that failed, and their crossings; traces without
+      !> one, crossings with an end that is not verified, and crossings whose ends were verified only farther apart than asked for
+      integer(int64) :: traces = 0_int64
       integer(int64) :: solved = 0_int64, failed = 0_int64, crossings = 0_int64, uncrossed = 0_int64, uncertain = 0_int64, &
                         wide = 0_int64
-      !> What is known of the lines under way, by rising lines and places
+      !> What is known of the traces under way, by rising traces and places
       type(point_t), allocatable :: points(:)
       !> Whether a signal asked to stop
       logical :: cut = .false.
@@ -48,7 +48,7 @@ module threshold_outcome
       procedure :: age
    end type outcome_t
 
-   public :: start_outcome, share_points, add_lines, solved_scenes, failed_scenes, write_rows_of, save_outcome, load_outcome, &
+   public :: start_outcome, share_points, add_traces, solved_scenes, failed_scenes, write_rows_of, save_outcome, load_outcome, &
              check_earlier_threshold
 
 contains
@@ -71,39 +71,39 @@ contains
       age = wall_seconds() - self%kept_at
    end function age
 
-   !> Enter some lines of which all is known: a row for each bracket, and one for a line that has none, from end to end of its
+   !> Enter some traces of which all is known: a row for each bracket, and one for a trace that has none, from end to end of its
    !> range. Their points are not needed any more.
-   subroutine add_lines(scene, threshold, first, last, outcome)
+   subroutine add_traces(scene, threshold, first, last, outcome)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
-      !> First and last of the lines
+      !> First and last of the traces
       integer(int64), intent(in) :: first
       integer(int64), intent(in) :: last
       type(outcome_t), intent(inout) :: outcome
       type(point_t), allocatable :: points(:)
       type(bracket_t), allocatable :: brackets(:)
       real(dp), allocatable :: rows(:, :)
-      integer(int64) :: line
+      integer(int64) :: trace
       integer :: i, k, start, end, crossing
 
-      points = pack(outcome%points, outcome%points%line <= last)
-      outcome%points = pack(outcome%points, outcome%points%line > last)
+      points = pack(outcome%points, outcome%points%trace <= last)
+      outcome%points = pack(outcome%points, outcome%points%trace > last)
       allocate (brackets, source=brackets_of(points))
       allocate (rows(size(outcome%rows, 1), size(brackets) + last - first + 1_int64))
       i = 0
       k = 0
       end = 0
-      do line = first, last
+      do trace = first, last
          start = end + 1
-         end = start + count(points(start:)%line == line) - 1
+         end = start + count(points(start:)%trace == trace) - 1
          crossing = 0
          do while (i < size(brackets))
-            if (brackets(i + 1)%lower%line /= line) exit
+            if (brackets(i + 1)%lower%trace /= trace) exit
             i = i + 1
             k = k + 1
             crossing = crossing + 1
             rows(:, k) = row_of(scene, threshold, crossing, brackets(i)%lower, brackets(i)%upper)
-            if (.not. all(is_certified([brackets(i)%lower, brackets(i)%upper]))) outcome%uncertain = outcome%uncertain + 1_int64
+            if (.not. all(is_verified([brackets(i)%lower, brackets(i)%upper]))) outcome%uncertain = outcome%uncertain + 1_int64
             if (brackets(i)%upper%place - brackets(i)%lower%place > 1) outcome%wide = outcome%wide + 1_int64
          end do
          if (crossing > 0) cycle
@@ -114,30 +114,30 @@ contains
       outcome%crossings = outcome%crossings + size(brackets, kind=int64)
       outcome%solved = outcome%solved + scenes_of(points)
       outcome%failed = outcome%failed + count(.not. is_success(points%status), kind=int64)
-      outcome%lines = last - threshold%lines%first + 1_int64
+      outcome%traces = last - threshold%traces%first + 1_int64
       outcome%rows = reshape([outcome%rows, rows(:, :k)], [size(rows, 1), size(outcome%rows, 2) + k])
-   end subroutine add_lines
+   end subroutine add_traces
 
-   !> Row of a bracket, or of a line without one.
+   !> Row of a bracket, or of a trace without one.
    function row_of(scene, threshold, crossing, lower, upper) result(row)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
-      !> Which one of its line; 0: the line has none
+      !> Which one of its trace; 0: the trace has none
       integer, intent(in) :: crossing
       type(point_t), intent(in) :: lower
       type(point_t), intent(in) :: upper
       real(dp), allocatable :: row(:)
-      real(dp) :: axes(size(threshold%lines%plan%positions)), ends(2), width, certified(2)
+      real(dp) :: axes(size(threshold%traces%plan%positions)), ends(2), width, verified(2)
 
-      call scene_values(threshold%lines%plan, lower%line, axes)
+      call scene_values(threshold%traces%plan, lower%trace, axes)
       ends = [grid_value(threshold%axis, lower%place), grid_value(threshold%axis, upper%place)]
       width = ends(2) - ends(1)
-      certified = [lower%certified, upper%certified]
+      verified = [lower%verified, upper%verified]
       if (crossing == 0) width = ieee_value(0.0_dp, ieee_quiet_nan)
-      if (crossing == 0) certified = ieee_value(0.0_dp, ieee_quiet_nan)
-      row = [real(lower%line, dp), axes, real(crossing, dp), ends, width, lower%quantity, upper%quantity, &
+      if (crossing == 0) verified = ieee_value(0.0_dp, ieee_quiet_nan)
+      row = [real(lower%trace, dp), axes, real(crossing, dp), ends, width, lower%quantity, upper%quantity, &
              real(lower%status, dp), real(upper%status, dp)]
-      if (scene%spectrum%certify) row = [row, certified]
+      if (scene%spectrum%verify) row = [row, verified]
    end function row_of
 
    !> Scenes that were solved for some points: those put to the test were solved for that once more.
@@ -147,7 +147,7 @@ contains
       scenes_of = size(points, kind=int64) + count(points%tested, kind=int64)
    end function scenes_of
 
-   !> Scenes that were solved so far, and those of them that failed: of the lines that are done and of those under way.
+   !> Scenes that were solved so far, and those of them that failed: of the traces that are done and of those under way.
    pure integer(int64) function solved_scenes(outcome)
       type(outcome_t), intent(in) :: outcome
 
@@ -165,18 +165,18 @@ contains
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       character(column_name_bytes), allocatable :: names(:)
-      character(column_name_bytes), parameter :: sides(2) = [character(column_name_bytes) :: 'certified_below', 'certified_above']
-      character(column_name_bytes) :: axes(size(threshold%lines%plan%positions))
+      character(column_name_bytes), parameter :: sides(2) = [character(column_name_bytes) :: 'verified_below', 'verified_above']
+      character(column_name_bytes) :: axes(size(threshold%traces%plan%positions))
       character(:), allocatable :: quantity
       integer :: i
 
       do i = 1, size(axes)
-         axes(i) = varied_name(threshold%lines%plan%positions(i))
+         axes(i) = varied_name(threshold%traces%plan%positions(i))
       end do
       quantity = trim(quantity_table(scene%threshold%quantity)%name)
-      names = [character(column_name_bytes) :: 'line', axes, 'crossing', 'lower', 'upper', 'width', quantity//'_below', &
+      names = [character(column_name_bytes) :: 'trace', axes, 'crossing', 'lower', 'upper', 'width', quantity//'_below', &
                quantity//'_above', 'status_below', 'status_above']
-      if (scene%spectrum%certify) names = [names, sides]
+      if (scene%spectrum%verify) names = [names, sides]
    end function column_names
 
    !> Units of the columns.
@@ -187,10 +187,10 @@ contains
       integer :: i
 
       associate (key => keys(threshold%axis%position)%unit, quantity => quantity_table(scene%threshold%quantity)%unit)
-         units = [character(column_unit_bytes) :: '-', keys(threshold%lines%plan%positions)%unit, '-', key, key, key, quantity, &
+         units = [character(column_unit_bytes) :: '-', keys(threshold%traces%plan%positions)%unit, '-', key, key, key, quantity, &
                   quantity]
          where (units == '') units = '-'
-         units = [units, [(units(1), i=1, merge(4, 2, scene%spectrum%certify))]]
+         units = [units, [(units(1), i=1, merge(4, 2, scene%spectrum%verify))]]
       end associate
    end function column_units
 
@@ -205,13 +205,13 @@ contains
       type(error_t), allocatable :: close_error
 
       call writer%open(path, scene%resolved_input, column_names(scene, threshold), column_units(scene, threshold), &
-                       size(rows, 2, kind=int64), .false., error, threshold%lines%layout%source_checksum)
+                       size(rows, 2, kind=int64), .false., error, threshold%traces%layout%source_checksum)
       if (.not. allocated(error)) call writer%write_rows(rows, error)
       call writer%close(close_error)
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
    end subroutine write_rows_of
 
-   !> Keep the outcome as NAME.state: its counts as the first row, the rows of the lines that are done, then the points of those
+   !> Keep the outcome as NAME.state: its counts as the first row, the rows of the traces that are done, then the points of those
    !> under way. Trouble with it ends nothing: only a run that is cut or killed needs it.
    subroutine save_outcome(scene, threshold, outcome, log)
       type(scene_t), intent(in) :: scene
@@ -224,7 +224,7 @@ contains
 
       done = size(outcome%rows, 2)
       allocate (table(size(outcome%rows, 1), 1 + done + size(outcome%points)), source=0.0_dp)
-      table(:counted_numbers, 1) = real([int(done, int64), outcome%lines, outcome%solved, outcome%failed, outcome%crossings, &
+      table(:counted_numbers, 1) = real([int(done, int64), outcome%traces, outcome%solved, outcome%failed, outcome%crossings, &
                                          outcome%uncrossed, outcome%uncertain, outcome%wide], dp)
       table(:, 2:1 + done) = outcome%rows
       table(:point_numbers, 2 + done:) = table_of(outcome%points)
@@ -241,8 +241,8 @@ contains
       integer :: i
 
       do i = 1, size(points)
-         table(:, i) = [real(points(i)%line, dp), real(points(i)%place, dp), real(points(i)%status, dp), points(i)%quantity, &
-                        merge(1.0_dp, 0.0_dp, points(i)%tested), points(i)%certified]
+         table(:, i) = [real(points(i)%trace, dp), real(points(i)%place, dp), real(points(i)%status, dp), points(i)%quantity, &
+                        merge(1.0_dp, 0.0_dp, points(i)%tested), points(i)%verified]
       end do
    end function table_of
 
@@ -256,10 +256,10 @@ contains
 
       do i = 1, size(points)
          place = nint(table(2, i))
-         points(i) = new_point(scene%threshold, point_t(line=nint(table(1, i), int64), place=place, &
+         points(i) = new_point(scene%threshold, point_t(trace=nint(table(1, i), int64), place=place, &
                                                         scanned=any(threshold%scan == place)), nint(table(3, i)), table(4, i))
          points(i)%tested = table(5, i) > 0.0_dp
-         points(i)%certified = table(6, i)
+         points(i)%verified = table(6, i)
       end do
    end function points_of
 
@@ -314,7 +314,7 @@ contains
       if (allocated(error)) return
       associate (numbers => nint(rows(:counted_numbers, 1), int64))
          done = int(numbers(1))
-         outcome%lines = numbers(2)
+         outcome%traces = numbers(2)
          outcome%solved = numbers(3)
          outcome%failed = numbers(4)
          outcome%crossings = numbers(5)
@@ -342,18 +342,18 @@ contains
       if (.not. allocated(error)) call check_lone_summary(scene, error)
    end subroutine check_earlier_threshold
 
-   !> Open a file of an earlier run of this scene with the same lines.
+   !> Open a file of an earlier run of this scene with the same traces.
    subroutine open_of_same_lines(path, scene, threshold, reader, error)
       character(*), intent(in) :: path
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       type(result_reader_t), intent(inout) :: reader
-      !> Set if it cannot be read, or belongs to another scene or other lines
+      !> Set if it cannot be read, or belongs to another scene or other traces
       type(error_t), allocatable, intent(out) :: error
 
       call open_earlier(scene, path, [character(1) ::], reader, error)
-      if (.not. allocated(error) .and. reader%source_checksum /= threshold%lines%layout%source_checksum) &
-         call raise(error, exit_bad_input, path//' belongs to other lines: their CSV file has changed since'//begin_anew)
+      if (.not. allocated(error) .and. reader%source_checksum /= threshold%traces%layout%source_checksum) &
+         call raise(error, exit_bad_input, path//' belongs to other traces: their CSV file has changed since'//begin_anew)
    end subroutine open_of_same_lines
 
 end module threshold_outcome

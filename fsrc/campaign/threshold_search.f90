@@ -1,5 +1,5 @@
-!> Where a criterion changes along a range: a scan of every line, then the middles of neighbours that differ, until they stand as
-!> close together as asked for; then the ends of each change go apart again until both are certified. Values stand at places,
+!> Where a criterion changes along a range: a scan of every trace, then the middles of neighbours that differ, until they stand as
+!> close together as asked for; then the ends of each change go apart again until both are verified. Values stand at places,
 !> whole numbers from 0 on, so that every half is exact. All that is known is one list of points: what is to be solved next
 !> follows from that list alone, so that a search may be cut anywhere and go on.
 module threshold_search
@@ -17,8 +17,8 @@ module threshold_search
 
    !> A value of the key and what was found there.
    type, public :: point_t
-      !> Line along which it stands, from 1, and its place there, from 0
-      integer(int64) :: line = 0_int64
+      !> Trace along which it stands, from 1, and its place there, from 0
+      integer(int64) :: trace = 0_int64
       integer :: place = 0
       !> Whether the scan has this place
       logical :: scanned = .false.
@@ -29,17 +29,17 @@ module threshold_search
       integer :: side = 0
       !> Whether its class was put to the test, and what came out: 1 it stands, 0 it does not, NaN there is no test of it
       logical :: tested = .false.
-      real(dp) :: certified = 0.0_dp
+      real(dp) :: verified = 0.0_dp
    end type point_t
 
-   !> Two points of a line that differ.
+   !> Two points of a trace that differ.
    type, public :: bracket_t
       type(point_t) :: lower
       type(point_t) :: upper
    end type bracket_t
 
    public :: finest_axis, scan_places, new_point, merged_points, missing_scan, missing_middles, untested_ends, brackets_of, &
-             is_certified
+             is_verified
 
 contains
 
@@ -104,7 +104,7 @@ contains
       ! The sum leaves no zero below zero.
       point%quantity = quantity + 0.0_dp
       point%side = side_unknown
-      point%certified = ieee_value(0.0_dp, ieee_quiet_nan)
+      point%verified = ieee_value(0.0_dp, ieee_quiet_nan)
       if (.not. is_success(status)) then
          point%side = -status
       else if (ieee_is_nan(quantity)) then
@@ -118,9 +118,9 @@ contains
       end if
    end function new_point
 
-   !> Two lists of points as one, by rising lines and places. Of two points of one place the second list has the newer one.
+   !> Two lists of points as one, by rising traces and places. Of two points of one place the second list has the newer one.
    pure function merged_points(points, newer) result(both)
-      !> By rising lines and places
+      !> By rising traces and places
       type(point_t), intent(in) :: points(:)
       type(point_t), intent(in) :: newer(:)
       type(point_t), allocatable :: both(:)
@@ -156,29 +156,29 @@ contains
       type(point_t), intent(in) :: one
       type(point_t), intent(in) :: other
 
-      stands_before = one%line < other%line .or. (one%line == other%line .and. one%place < other%place)
+      stands_before = one%trace < other%trace .or. (one%trace == other%trace .and. one%place < other%place)
    end function stands_before
 
-   !> Points of the scan of some lines that are not known yet.
+   !> Points of the scan of some traces that are not known yet.
    pure function missing_scan(points, scan, first, last) result(wanted)
-      !> By rising lines and places
+      !> By rising traces and places
       type(point_t), intent(in) :: points(:)
       !> Places of the scan
       integer, intent(in) :: scan(:)
-      !> First and last line
+      !> First and last trace
       integer(int64), intent(in) :: first
       integer(int64), intent(in) :: last
       type(point_t), allocatable :: wanted(:)
       type(point_t) :: point
-      integer(int64) :: line
+      integer(int64) :: trace
       integer :: i, k, count
 
       allocate (wanted(size(scan)*(last - first + 1_int64)))
       count = 0
       k = 1
-      do line = first, last
+      do trace = first, last
          do i = 1, size(scan)
-            point = point_t(line=line, place=scan(i), scanned=.true.)
+            point = point_t(trace=trace, place=scan(i), scanned=.true.)
             do while (k <= size(points))
                if (.not. stands_before(points(k), point)) exit
                k = k + 1
@@ -195,7 +195,7 @@ contains
 
    !> Points in the middle between neighbours that differ and are not next to each other.
    pure function missing_middles(points) result(wanted)
-      !> By rising lines and places
+      !> By rising traces and places
       type(point_t), intent(in) :: points(:)
       type(point_t), allocatable :: wanted(:)
       integer :: i, count
@@ -205,30 +205,30 @@ contains
       do i = 2, size(points)
          if (.not. differ(points(i - 1), points(i)) .or. points(i)%place - points(i - 1)%place < 2) cycle
          count = count + 1
-         wanted(count) = point_t(line=points(i)%line, place=points(i - 1)%place + (points(i)%place - points(i - 1)%place)/2)
+         wanted(count) = point_t(trace=points(i)%trace, place=points(i - 1)%place + (points(i)%place - points(i - 1)%place)/2)
       end do
       wanted = wanted(:count)
    end function missing_middles
 
-   !> Whether neighbours stand on one line and on different sides.
+   !> Whether neighbours stand on one trace and on different sides.
    elemental logical function differ(one, other)
       type(point_t), intent(in) :: one
       type(point_t), intent(in) :: other
 
-      differ = one%line == other%line .and. one%side /= other%side
+      differ = one%trace == other%trace .and. one%side /= other%side
    end function differ
 
    !> Whether the class of a point was put to the test and stands.
-   elemental logical function is_certified(point)
+   elemental logical function is_verified(point)
       type(point_t), intent(in) :: point
 
       ! No number is above zero that is none.
-      is_certified = point%tested .and. point%certified > 0.0_dp
-   end function is_certified
+      is_verified = point%tested .and. point%verified > 0.0_dp
+   end function is_verified
 
    !> Ends of brackets whose classes are still to be put to the test.
    pure function untested_ends(points) result(wanted)
-      !> By rising lines and places
+      !> By rising traces and places
       type(point_t), intent(in) :: points(:)
       type(point_t), allocatable :: wanted(:)
       type(point_t), allocatable :: standing(:)
@@ -245,7 +245,7 @@ contains
       wanted = pack(standing, chosen .and. .not. standing%tested .and. is_success(standing%status))
    end function untested_ends
 
-   !> Where the end of a bracket is: at the nearest point, from the change outwards, whose class stands, as long as the points
+   !> Where the end of a bracket is: at the nearest point, from the change outwards, whose class is verified, as long as the points
    !> are alike; or at one that is still to be tested. Where none of them stands, and where scenes fail, it is the point beside
    !> the change.
    pure integer function end_of(points, beside, step)
@@ -260,18 +260,18 @@ contains
       if (.not. is_success(points(beside)%status)) return
       i = beside
       do
-         if (.not. points(i)%tested .or. is_certified(points(i))) then
+         if (.not. points(i)%tested .or. is_verified(points(i))) then
             end_of = i
             return
          end if
          i = i + step
          if (i < 1 .or. i > size(points)) return
-         if (points(i)%line /= points(beside)%line .or. points(i)%side /= points(beside)%side) return
+         if (points(i)%trace /= points(beside)%trace .or. points(i)%side /= points(beside)%side) return
       end do
    end function end_of
 
    !> The points without those that only narrower brackets have led to and of which none stands: a kind of motion that no
-   !> certified point shows begins and ends nowhere. A bracket then ends where its ends were certified before.
+   !> verified point shows begins and ends nowhere. A bracket then ends where its ends were verified before.
    pure function standing_points(points) result(standing)
       type(point_t), intent(in) :: points(:)
       type(point_t), allocatable :: standing(:)
@@ -284,19 +284,19 @@ contains
          first = last + 1
          last = first
          do while (last < size(points))
-            if (points(last + 1)%line /= points(first)%line .or. points(last + 1)%side /= points(first)%side) exit
+            if (points(last + 1)%trace /= points(first)%trace .or. points(last + 1)%side /= points(first)%side) exit
             last = last + 1
          end do
          associate (alike => points(first:last))
-            kept(first:last) = any(alike%scanned .or. .not. alike%tested .or. is_certified(alike))
+            kept(first:last) = any(alike%scanned .or. .not. alike%tested .or. is_verified(alike))
          end associate
       end do
       standing = pack(points, kept)
    end function standing_points
 
-   !> All brackets, by rising lines and places: neighbours that differ, each end where it stands certified.
+   !> All brackets, by rising traces and places: neighbours that differ, each end where it stands verified.
    pure function brackets_of(points) result(brackets)
-      !> By rising lines and places
+      !> By rising traces and places
       type(point_t), intent(in) :: points(:)
       type(bracket_t), allocatable :: brackets(:)
       type(point_t), allocatable :: standing(:)

@@ -11,7 +11,7 @@
 !> has the exponents 11/4, 7/4, -7/2 and the constants 12 * 0.787^2.5 = 6.59 and 5/2 * 281.2 = 703 of eq (37).
 !> A group without h0, W/(E' R l) or W/(l u eta0), would give h0^(-5/2).
 !>
-!> Points to be fitted are films of the exact piezo-viscous law over a window of alpha p. The load Psi depends on
+!> Points to be fitted are films of the Reynolds piezo-viscous law over a window of alpha p. The load Psi depends on
 !> A = 4 w*/sqrt(2 h*) and B = f 6 sqrt(2) u*/h*^(3/2) alone, and alpha p_max = B/B_crit(A) with the p of eq (31). So a window is
 !> sampled in h* (evenly in the logarithm), w* and alpha p (centres of equal parts, its ends are singular), and u* follows
 !> without iteration: u* = alpha p B_crit(A) h*^(3/2)/(6 sqrt(2) f).
@@ -93,7 +93,7 @@ module film_fit
       end subroutine dgelsd
    end interface
 
-   !> Range of exact films.
+   !> Range of Reynolds films.
    type :: film_window_t
       !> h* [-], least and largest, and number of values
       real(dp) :: film_ratio(2) = [5.0e-5_dp, 2.0e-4_dp]

@@ -33,7 +33,7 @@ module film_law
       integer :: kernel = 0
       !> Whether pressure thickens the oil, by (29)
       logical :: pressure_thickens = .false.
-      !> Whether this is the film of the Reynolds equation, which knows no lower limit of alpha p
+      !> Whether this is the film of rigid flanks, which knows no lower limit of alpha p
       logical :: exact = .false.
       !> Whether an evaluation costs much more than the arithmetic around it
       logical :: costly = .false.
@@ -55,7 +55,7 @@ module film_law
       real(dp) :: piezo = 0.0_dp
       !> (37): 703/u [s/m]
       real(dp) :: rate = 0.0_dp
-      !> Exact films: 12 l u eta0 R [N m]
+      !> Reynolds films: 12 l u eta0 R [N m]
       real(dp) :: scale = 0.0_dp
       !> Films that rupture by (18): A sqrt(h)/w [s m^(-1/2)]
       real(dp) :: squeeze_rate = 0.0_dp
@@ -125,7 +125,7 @@ contains
       end associate
    end function new_film
 
-   !> The same scene with the exact iso-viscous film.
+   !> The same scene with the Reynolds iso-viscous film.
    pure type(scene_t) function with_exact_film(scene)
       type(scene_t), intent(in) :: scene
 
@@ -242,8 +242,8 @@ contains
       end select
    end subroutine film_loads
 
-   !> Loads and slopes of states of many films. The exact piezo-viscous ones go together: their kernel is dear, and much faster
-   !> for many films than for one at a time.
+   !> Loads and slopes of states of many films. The Reynolds piezo-viscous ones go together: their kernel is expensive, and much
+   !> faster for many films than for one at a time.
    pure subroutine mixed_film_loads(films, film_of, thicknesses, velocities, loads, loads_by_film, loads_by_velocity)
       type(film_t), intent(in) :: films(:)
       !> Which of the films each state is of
@@ -390,9 +390,9 @@ contains
       case (kernel_piezo)
          words = 'published piezo-viscous film (37)'
       case (kernel_reynolds_iso)
-         words = 'exact iso-viscous film of the Reynolds equation'
+         words = 'Reynolds iso-viscous film of rigid flanks'
       case (kernel_reynolds_piezo)
-         words = 'exact piezo-viscous film of the Reynolds equation'
+         words = 'Reynolds piezo-viscous film of rigid flanks'
       case default
          words = 'unknown film law'
       end select

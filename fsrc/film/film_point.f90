@@ -1,4 +1,4 @@
-!> A single film in the groups of the paper, and everything the film room knows about it.
+!> A single film in the groups of the paper, and everything the film folder knows about it.
 module film_point
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use film_pressure, only: barus_pressure, exact_pressure, limiting_film_ratio, pressure_scale
@@ -163,7 +163,7 @@ contains
       limit_of_point = limiting_film_ratio(point%speed_group, point%squeeze_ratio)*contact%radius
    end function limit_of_point
 
-   !> The referee: load [N], rupture angle [rad] and highest pressure [Pa] of the numerical solution; all NaN
+   !> The Reference solution: load [N], rupture angle [rad] and highest pressure [Pa] of the numerical solution; all NaN
    !> where it finds no film.
    pure subroutine solve_numerically(contact, point, roelands, cells, load, rupture_angle, pressure)
       type(film_contact_t), intent(in) :: contact

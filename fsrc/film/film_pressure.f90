@@ -1,4 +1,4 @@
-!> Pressure of the exact iso-viscous film, the corrected (16), the reduced-pressure relation (31), and the film at which it ends.
+!> Pressure of the Reynolds iso-viscous film, the corrected (16), the reduced-pressure relation (31), and the film at which it ends.
 module film_pressure
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use iso_viscous_sums, only: film_block
@@ -43,7 +43,7 @@ contains
       scale = 6.0_dp*sqrt(2.0_dp*radius)*speed*viscosity/(film*sqrt(film))
    end function pressure_scale
 
-   !> Largest pressure p of the exact iso-viscous film [Pa], wherever in the contact it acts.
+   !> Largest pressure p of the Reynolds iso-viscous film [Pa], wherever in the contact it acts.
    elemental real(dp) function exact_pressure(radius, speed, viscosity, film, velocity) result(pressure)
       !> Equivalent radius R [m]
       real(dp), intent(in) :: radius
@@ -104,8 +104,9 @@ contains
       end if
    end function barus_pressure
 
-   !> Film at which alpha p reaches 1: thinner, and no rigid piezo-viscous film exists (31). It is the h* at which B max p* = 1 for given speed group u* and squeeze-roll ratio w*, by bisection in ln h*;
-   !> NaN where the film separates so fast that alpha p stays below 1 at every thickness, and for a group that is NaN.
+   !> Film at which alpha p reaches 1: thinner, and no rigid piezo-viscous film exists (31). It is the h* at which B max p* = 1 for
+   !> given speed group u* and squeeze-roll ratio w*, by bisection in ln h*; NaN where the film separates so fast that alpha p stays
+   !> below 1 at every thickness, and for a group that is NaN.
    elemental real(dp) function limiting_film_ratio(speed_group, squeeze_ratio) result(limit)
       !> u* = u eta0 alpha/R [-]
       real(dp), intent(in) :: speed_group

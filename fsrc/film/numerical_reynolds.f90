@@ -1,7 +1,7 @@
-!> Finite-volume solution of the Reynolds equation for the parabolic film, a referee for the closed forms.
+!> Finite-volume solution of the Reynolds equation for the parabolic film, a reference solution for the closed forms.
 !>
 !> The equation, its groups r, s and B and its scales v and P stand in module numerical_reynolds_grid. No closed
-!> form of pressure, load or rupture is used, nor the groups of the other modules: a referee that shared a formula
+!> form of pressure, load or rupture is used, nor the groups of the other modules: a reference solution that shared a formula
 !> would share its fault.
 module numerical_reynolds
    use constants, only: half_pi, pi

@@ -8,7 +8,7 @@ module published_iso_viscous
    implicit none(type, external)
    private
 
-   !> Factor of the rolling term as printed in (23); exact film: 12 Phi(0) = 2.447 with u = u1 + u2.
+   !> Factor of the rolling term as printed in (23); Reynolds film: 12 Phi(0) = 2.447 with u = u1 + u2.
    real(dp), parameter :: rolling_factor = 2.8_dp
 
    public :: rolling_coefficient, squeeze_coefficient, half_pi_rupture_load, solved_rupture_load, published_stiffness_damping

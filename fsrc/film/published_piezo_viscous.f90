@@ -1,5 +1,5 @@
 !> The published piezo-viscous film: load (37) with the contact length as a factor and the squeeze velocity
-!> (printed: the acceleration) in the exponent; it is the film-thickness regression (32) turned round.
+!> (printed: the acceleration) in the exponent; it is the film-thickness regression (32) inverted.
 module published_piezo_viscous
    use elementary_functions, only: exponential, largest_exponent
    use kinds, only: dp

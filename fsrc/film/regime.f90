@@ -34,7 +34,7 @@ module regime
    integer, parameter, public :: film_regime_unknown = 0, film_iso_viscous = 1, film_piezo_viscous = 2, &
       film_elastohydrodynamic = 3
 
-   !> alpha p below which a film counts as iso-viscous. At alpha p = 0.1 the exact piezo-viscous load in pure
+   !> alpha p below which a film counts as iso-viscous. At alpha p = 0.1 the Reynolds piezo-viscous load in pure
    !> rolling is 3.2 % above the iso-viscous one.
    real(dp), parameter, public :: iso_viscous_limit = 0.1_dp
    !> alpha p from which no rigid piezo-viscous film exists: the pressure -ln(1 - alpha p)/alpha of eq (31) is

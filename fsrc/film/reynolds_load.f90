@@ -1,4 +1,4 @@
-!> Load and slopes of the exact films in physical units, u = u1 + u2 (the sum, as the Reynolds equation with
+!> Load and slopes of the Reynolds films in physical units, u = u1 + u2 (the sum, as the Reynolds equation with
 !> 6 eta0 u dh/dx asks):
 !>
 !>    W = 12 l u eta0 R/h Phi(A)     iso-viscous,      A = 4 w/(u sqrt(2 h/R))
@@ -21,7 +21,7 @@ module reynolds_load
    public :: load_scale, squeeze_rate, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, &
       reynolds_piezo_viscous_load_array, steady_iso_viscous_film, steady_piezo_viscous_film
 
-   !> Bisection alone needs 60 passes for 53 bits; Newton's steps in between make it about 6.
+   !> Bisection alone needs 60 iterations for 53 bits; Newton's steps in between make it about 6.
    integer, parameter :: most_passes = 200
 
 contains

@@ -1,4 +1,4 @@
-!> Stiffness of the exact films in the groups of modules reynolds_iso_viscous and reynolds_piezo_viscous:
+!> Stiffness of the Reynolds films in the groups of modules reynolds_iso_viscous and reynolds_piezo_viscous:
 !>
 !>    -dW/dh0 = 12 l u eta0 R/h0**2 T,   T = Phi + (A/2) dPhi/dA                      iso-viscous
 !>                                       T = Psi + (A/2) dPsi/dA + (3/2) B dPsi/dB    piezo-viscous

@@ -21,7 +21,7 @@ module rupture
    real(dp), parameter :: series_k(terms) = &
       [((-1.0_dp)**i*(4.0_dp**(2*i + 1)/32.0_dp - 2.0_dp**(2*i + 1)/4.0_dp)/gamma(real(2*i + 2, dp)), i=2, terms + 1)]
 
-   !> Far more passes than rounding leaves room for: 3 to 15 are typical.
+   !> Far more iterations than rounding leaves room for: 3 to 15 are typical.
    integer, parameter :: most_substitutions = 200
 
    public :: pressure_integrals, squeeze_group, rupture_tangent_successive

@@ -1,4 +1,4 @@
-!> Squeeze group A at which a film that ruptures carries a given load: the film laws turned round.
+!> Squeeze group A at which a film that ruptures carries a given load: the film laws inverted.
 !>
 !> At a given thickness the load falls with A. Written in asinh A its logarithm is nearly straight (slope -1 where the film is
 !> squeezed fast, -2 where it separates fast), so Newton's steps need no other start; a bracket guards them. For iso-viscous films
@@ -19,7 +19,7 @@ module squeeze_of_load
 
    public :: iso_viscous_squeeze, piezo_viscous_squeeze, published_squeeze
 
-   !> What falls with A: Phi of the exact film, its max p*, Psi, and 8/3 - A (x_e + pi/2) of the published load (24)
+   !> What falls with A: Phi of the Reynolds film, its max p*, Psi, and 8/3 - A (x_e + pi/2) of the published load (24)
    integer, parameter :: iso_load = 1, peak = 2, piezo_load = 3, published_load = 4
    !> Limits of asinh A and of what falls with A there
    real(dp), parameter :: widest = 110.0_dp, smallest_group = 1.0e-90_dp, largest_group = 1.0e40_dp
@@ -29,7 +29,7 @@ module squeeze_of_load
    real(dp), parameter :: least_load = 2.0_dp**first_load, &
                           first_load_beyond = 2.0_dp**(first_load + (last_load_piece + 1)/octave_pieces)
 
-   !> Bisection alone needs 64 passes; Newton's steps make it about 6, or 3 from a film near by.
+   !> Bisection alone needs 64 iterations; Newton's steps make it about 6, or 3 from a film near by.
    integer, parameter :: most_passes = 200, most_passes_near_by = 8
    !> After a step of asinh A this small Newton's method has all digits.
    real(dp), parameter :: last_step = 1.0e-9_dp
@@ -151,7 +151,7 @@ contains
       a_by_b = -load_by_b/slope
    end subroutine piezo_viscous_squeeze
 
-   !> Newton's method for A of a load group of the exact piezo-viscous film, from a place near by.
+   !> Newton's method for A of a load group of the Reynolds piezo-viscous film, from a place near by.
    elemental subroutine approach_load(psi, b, a, a_by_load, a_by_b, found)
       !> Load group and pressure group [-]
       real(dp), intent(in) :: psi
@@ -188,7 +188,8 @@ contains
    end subroutine approach_load
 
    !> Published film (24) with x_e solved: A of W h = a (1 - c A (x_e + pi/2)), and its slope. Its load never falls to zero, only to
-   !> the share 2/7 of that without squeeze; close to it A depends on the last digits of the load. Tabulated like that of the exact film.
+   !> the share 2/7 of that without squeeze; close to it A depends on the last digits of the load. Tabulated like that of the
+   !> Reynolds film.
    elemental subroutine published_squeeze(load_share, a, a_by_load, outcome)
       !> W h/a, the load over that without squeeze [-]
       real(dp), intent(in) :: load_share

@@ -1,5 +1,5 @@
-!> Memory is asked for at once, before anything is computed whose arrays follow in size from the input: a lack of it is an error with
-!> a sentence then, and not the end of the program somewhere in the middle.
+!> Memory is asked for at once, before anything is computed whose arrays follow in size from the input: a lack of it is an error
+!> with a sentence then, and not the end of the program somewhere in the middle.
 module memory
    use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_loc, c_long, c_ptr
    use errors, only: error_t, exit_bad_input, exit_system, raise

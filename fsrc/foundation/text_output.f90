@@ -81,7 +81,8 @@ contains
       call unlock_texts()
    end subroutine end_turn
 
-   !> Whether what this thread tells goes out at once. Asked between lock_texts and unlock_texts: otherwise the turn may pass meanwhile.
+   !> Whether what this thread tells goes out at once. Asked between lock_texts and unlock_texts: otherwise the turn may pass
+   !> meanwhile.
    logical function has_turn()
       has_turn = own == turn
    end function has_turn

@@ -1,5 +1,5 @@
-!> What an input is told of the scene that follows from it: faults, warnings, and the numbers that follow as comments of the resolved
-!> input.
+!> What an input is told of the scene that follows from it: faults, warnings, and the numbers that follow as comments of the
+!> resolved input.
 module completed_scene
    use derived_scene, only: accelerations_of, derive, derived_rules, pair_of
    use errors, only: fault_list_t

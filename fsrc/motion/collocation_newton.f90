@@ -10,7 +10,7 @@ module collocation_newton
    implicit none(type, external)
    private
 
-   !> Share of the accuracy at which the passes end.
+   !> Share of the accuracy at which the iterations end.
    real(dp), parameter :: pass_share = 1.0e-2_dp
    !> Ratio of two corrections below which Newton's method is sure to converge quadratically.
    real(dp), parameter :: fast = 0.03_dp

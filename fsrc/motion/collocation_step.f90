@@ -33,7 +33,7 @@ module collocation_step
    implicit none(type, external)
    private
 
-   !> Newton passes before the step is given up
+   !> Newton's iterations before the step is given up
    integer, parameter :: most_passes = 10
    !> Share of the accuracy for the last coefficient of the polynomial, and for the first one left out.
    real(dp), parameter :: last_share = 40.0_dp, next_share = 2.0_dp

@@ -1,4 +1,4 @@
-!> Implicit steps by collocation for teeth that give, lane by lane: any film law, any stiffness, one flank or two.
+!> Implicit steps by collocation for elastic teeth, lane by lane: any film law, any stiffness, one flank or two.
 !>
 !> A spring stands between the gear and each film. Within a step of length s the loads W_1 and W_2 are polynomials in c = 0..1
 !> through their values at the seven nodes of Radau. They move the gear, the springs follow them, and the films are what gear and
@@ -25,11 +25,11 @@ module elastic_step
    implicit none(type, external)
    private
 
-   !> Newton passes before the step is given up
+   !> Newton's iterations before the step is given up
    integer, parameter :: most_passes = 12
    !> The second pass takes the slopes of the first, and so do the next ones while corrections fall to less than this in a pass.
    real(dp), parameter :: fast_fall = 1.0e-2_dp
-   !> Share of the accuracy at which the passes end
+   !> Share of the accuracy at which the iterations end
    real(dp), parameter, public :: pass_share = 1.0e-2_dp
    !> and for the last coefficient of a polynomial and the first one left out
    real(dp), parameter :: last_share = 40.0_dp, next_share = 2.0_dp
@@ -37,7 +37,7 @@ module elastic_step
    real(dp), parameter :: slowest_fall = 0.9_dp
 
    !> Step over the one before, least and most, and its share of what the error allows. A rejected step costs as much as an accepted
-   !> one; a step of twice the length before, whose loads cannot be extrapolated, takes twice the passes.
+   !> one; a step of twice the length before, whose loads cannot be extrapolated, takes twice the iterations.
    real(dp), parameter :: least_growth = 0.1_dp, most_growth = 1.99_dp, step_share = 0.7_dp
 
    !> Rows of a matrix, those of zeros included that fill up the last four
@@ -57,8 +57,8 @@ module elastic_step
       real(dp) :: by_film(2*stages) = 0.0_dp, by_velocity(2*stages) = 0.0_dp, by_load(2*stages) = 0.0_dp
    end type slopes_t
 
-   !> Factors of a matrix: multipliers below the diagonal and zeros elsewhere, what stands above the diagonal and zeros elsewhere, the
-   !> inverse pivots, and the row that has come to each place
+   !> Factors of a matrix: multipliers below the diagonal and zeros elsewhere, what stands above the diagonal and zeros elsewhere,
+   !> the inverse pivots, and the row that has come to each place
    type :: factors_t
       real(dp) :: lower(most_rows, 2*stages) = 0.0_dp, upper(most_rows, 2*stages) = 0.0_dp, inverse_pivot(2*stages) = 0.0_dp
       integer :: row(2*stages) = 0
@@ -258,8 +258,8 @@ contains
       end associate
    end subroutine states
 
-   !> By how much the film laws miss at the nodes, and their slopes; none where a film has no load. A film without thickness is to be
-   !> what it was at the start.
+   !> By how much the film laws miss at the nodes, and their slopes; none where a film has no load. A film without thickness is to
+   !> be what it was at the start.
    pure subroutine imbalances(film_law, lane, block, trial, right, slopes, found)
       type(film_t), intent(in) :: film_law
       integer, intent(in) :: lane
@@ -352,9 +352,9 @@ contains
       end associate
    end subroutine newton_matrix
 
-   !> Whether the equation of a film is that of velocities: a short step leaves the load where it is, but not the velocity of the film,
-   !> and where loads hardly tell it an equation of them would be far from linear. Of a film that may pull or holds on to a part of its
-   !> load it is so until that part is all that is left, which tells no velocity.
+   !> Whether the equation of a film is that of velocities: a short step leaves the load where it is, but not the velocity of the
+   !> film, and where loads hardly tell it an equation of them would be far from linear. Of a film that may pull or holds on to a
+   !> part of its load it is so until that part is all that is left, which tells no velocity.
    pure logical function by_velocities(film_law, thickness, velocity_by_load, outcome)
       type(film_t), intent(in) :: film_law
       !> h [m], slope of its velocity at the load [m/(N s)]
@@ -370,7 +370,8 @@ contains
       by_velocities = velocity_by_load < 0.0_dp .and. velocity_by_load*load_by_velocity < flattest
    end function by_velocities
 
-   !> Factors of a matrix, which is spent. Rows are exchanged for the largest pivot; all else goes down columns, four rows at a time.
+   !> Factors of a matrix, which is spent. Rows are exchanged for the largest pivot; all else goes down columns, four rows at a
+   !> time.
    !> LAPACK's way takes twice as long for so few.
    pure subroutine factorise(last, matrix, factors)
       !> How many rows there are, the last ones of zeros not counted

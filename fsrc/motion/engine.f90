@@ -35,8 +35,8 @@ module engine
       real(dp) :: impact_limit = 0.0_dp
       !> Wall time that a single motion may take [s]; 0: no limit
       real(dp) :: time_limit = 0.0_dp
-      !> Of Newmark's method: eps of (36) [m], most passes in a step, Newton's iteration or else the successive one, first iterate
-      !> extrapolated or else the previous state
+      !> Of Newmark's method: eps of (36) [m], most iterations in a step, Newton's iteration or else the successive one, first
+      !> iterate extrapolated or else the previous state
       real(dp) :: tolerance = 0.0_dp
       integer :: iteration_limit = 0
       logical :: by_newton = .true.

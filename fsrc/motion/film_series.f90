@@ -24,7 +24,7 @@ module film_series
    implicit none(type, external)
    private
 
-   !> Best accuracy of a motion by the cells of the exact piezo-viscous film, whose loads are good to 6e-12.
+   !> Best accuracy of a motion by the cells of the Reynolds piezo-viscous film, whose loads are good to 6e-12.
    real(dp), parameter :: best_cell_accuracy = 1.0e-10_dp
 
    !> The series of a film law.
@@ -111,7 +111,7 @@ contains
          case (kernel_half_pi)
             block%strength(lane) = film%rolling/film_scale/force_scale
             block%damping(lane) = 2.0_dp*pi*film%squeeze/sqrt(film_scale)*problem%frequency/force_scale
-            ! Lienard's form, which teeth that give do not take.
+            ! Lienard's form, which elastic teeth do not take.
             if (.not. has_elastic_teeth(problem)) block%slip(lane) = block%damping(lane)
             if (.not. carried_on) &
                block%momentum(lane, 0) = block%momentum(lane, 0) - slip_velocity(block%film(lane, 0), lane, block)
@@ -258,8 +258,8 @@ contains
       end do
    end function load_group
 
-   !> Expand the load of an exact piezo-viscous film about the velocity at which it carries that of its spring: Newton's method from
-   !> a velocity near by, whose first pass is enough for most, and where it does not lead there the film law turned round. A lane
+   !> Expand the load of a Reynolds piezo-viscous film about the velocity at which it carries that of its spring: Newton's method
+   !> from a velocity near by, whose first pass is enough for most, and where it does not lead there the film law inverted. A lane
    !> whose film and load are what they were is left as it is, or its bits would depend on the others.
    pure subroutine expand_pressed_film(series, flank, film, load, near, block)
       type(film_series_t), intent(in) :: series
@@ -305,7 +305,7 @@ contains
       end associate
    end subroutine expand_pressed_film
 
-   !> The velocity of an exact piezo-viscous film by its law turned round.
+   !> The velocity of a Reynolds piezo-viscous film by its law inverted.
    pure subroutine turn_round(load, pressure_group, of_one, near, velocity, inside)
       !> Load group, B, velocity of A = 1, and what the velocity is likely to be [-]
       real(dp), intent(in) :: load
@@ -323,8 +323,8 @@ contains
       inside = merge(1.0_dp, 0.0_dp, outcome == load_carried .and. by_load < 0.0_dp)
    end subroutine turn_round
 
-   !> Whether an exact piezo-viscous film exists all through the steps, 1 or 0. Under a given load its squeeze group goes smoothly on
-   !> where sigma falls through zero and there is no film any more, and may come back before the step ends.
+   !> Whether a Reynolds piezo-viscous film exists all through the steps, 1 or 0. Under a given load its squeeze group goes
+   !> smoothly on where sigma falls through zero and there is no film any more, and may come back before the step ends.
    pure function film_throughout(sigma_series, step) result(exists)
       !> Series of sigma, and the steps
       real(dp), intent(in) :: sigma_series(lanes, 0:highest_time_power)
@@ -344,7 +344,7 @@ contains
       end do
    end function film_throughout
 
-   !> Reject the steps of teeth that give at whose end the series violates the film law. The squeeze group is expanded there, for the
+   !> Reject the steps of elastic teeth at whose end the series violates the film law. The squeeze group is expanded there, for the
    !> next step to begin with. The defect D of a film's velocity is that of the first terms left out, so D x/(n + 1) estimates the
    !> local error of the film: it must not exceed what the step control grants the last term.
    pure subroutine check_springs(series, films, next_films, block)

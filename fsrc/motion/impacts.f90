@@ -106,7 +106,7 @@ contains
       ! Without a low point the window is told from its lowest point on.
       first = 1
       if (.not. watch%settled) then
-         ! A load that never falls to F_max has no interval that begins: a gear held between both flanks strikes none.
+         ! A load that never falls to F_max has no interval that begins: a gear held between both flanks has no impacts.
          if (all(watch%head(:watch%head_size)%load > watch%level)) return
          first = minloc(watch%head(:watch%head_size)%load, dim=1)
          closed%begin = watch%head(first)

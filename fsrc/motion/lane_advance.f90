@@ -53,7 +53,7 @@ contains
       call check_ends(series, next_rise, block)
    end subroutine take_series_step
 
-   !> The same for teeth that give. An error of a spring counts like that of its film, and one of the gear's velocity as where nothing
+   !> The same for elastic teeth. An error of a spring counts like that of its film, and one of the gear's velocity as where nothing
    !> damps it. Where a film never pulls, a load that falls by some powers of ten is rejected as well: it would not stay positive.
    pure subroutine take_springs_step(series, block)
       type(film_series_t), intent(in) :: series

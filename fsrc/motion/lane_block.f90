@@ -38,7 +38,7 @@ module lane_block
       real(dp) :: backlash(lanes)
       !> Film of the drive flank at which that of the coast flank counts as lost; huge where there is none, or where teeth give
       real(dp) :: widest_film(lanes)
-      !> Of teeth that give: compliance, scaled; series of the compressions d_1 and d_2
+      !> Of elastic teeth: compliance, scaled; series of the compressions d_1 and d_2
       real(dp) :: compliance(lanes), compression(lanes, 2, 0:order)
       !> and of collocation, polynomials of both loads in the last step
       real(dp) :: load_polynomial(lanes, stages, 2)
@@ -68,7 +68,7 @@ module lane_block
       type(load_expansion_t) :: expansion(2)
       !> and where teeth give, the squeeze groups
       type(squeeze_expansion_t) :: squeeze(2)
-      !> Of the exact piezo-viscous film: b, where the pressure group is b H^(-3/2), and its load expanded last
+      !> Of the Reynolds piezo-viscous film: b, where the pressure group is b H^(-3/2), and its load expanded last
       real(dp) :: pressing(lanes)
       type(reynolds_piezo_expansion_t) :: piezo_expansion(2)
       !> Force that oscillates, scaled
@@ -135,7 +135,7 @@ contains
    subroutine place_block(room, block)
       !> Memory of the block
       real(dp), allocatable, target, intent(out) :: room(:)
-      !> The block in it; lives as long as `room`, which has to be a target
+      !> The block in it; lives as long as `folder`, which has to be a target
       type(lane_block_t), pointer, intent(out) :: block
       type(c_ptr) :: place
 

@@ -89,8 +89,8 @@ contains
       expansion%load_slope = expansion%terms(:, 1)*expansion%inverse_unit
    end subroutine expand_load
 
-   !> Expand the squeeze group about the loads of films, unless they are what it was last expanded about. There is no expansion where
-   !> a load is none, or beyond the pieces.
+   !> Expand the squeeze group about the loads of films, unless they are what it was last expanded about. There is no expansion
+   !> where a load is none, or beyond the pieces.
    pure subroutine expand_squeeze(law, load, expansion)
       !> Load: exact_load or published_load of module load_pieces, the one of the films before
       integer, intent(in) :: law

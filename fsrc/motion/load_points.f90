@@ -1,5 +1,5 @@
-!> Points of the load W of a film in a piece of a step: its nodes, its ends, where W turns, and where it passes a level. Between the
-!> nodes film and velocity are interpolated, and W follows from them by its own law.
+!> Points of the load W of a film in a piece of a step: its nodes, its ends, where W turns, and where it iterations a level. Between
+!> the nodes film and velocity are interpolated, and W follows from them by its own law.
 module load_points
    use carried_loads, only: coast_loads, drive_loads
    use kinds, only: dp
@@ -154,7 +154,7 @@ contains
 
    end subroutine find_points
 
-   !> Where W passes a level between two points that stand on both sides of it: false position, where one end that stays counts
+   !> Where W iterations a level between two points that stand on both sides of it: false position, where one end that stays counts
    !> half (Illinois).
    pure subroutine find_crossing(problem, flank, states, piece, points, second, level, place, load, velocity)
       type(problem_t), intent(in) :: problem

@@ -64,7 +64,7 @@ contains
          ! The rest of a motion that Taylor series could not finish.
          if (left(i)) rest(i) = motion_state_t(periods=endings(i)%periods, numbers=endings(i)%numbers, implicit=.true.)
       end do
-      ! Teeth that give are followed by steps of their own.
+      ! Elastic teeth are followed by steps of their own.
       do i = 0, 1
          alike(:) = left .and. (has_elastic_teeth(problems) .eqv. i == 1)
          if (any(alike)) &

@@ -4,7 +4,7 @@
 !>    within the accuracy    this module, `note_state`: a run until steady ends, with a bound of what the motion is still away;
 !>    in some periods        module lane_repetition, `forecast_rest`: a campaign jumps to where a slow motion will come to rest,
 !>                           and the motion has to repeat there by itself;
-!>    if it were followed    module periodic_orbit: Newton's method on the period map, for multipliers and for the certificate,
+!>    if it were followed    module periodic_orbit: Newton's method on the period map, for multipliers and for the verification,
 !>                           stable or not.
 !>
 !> To the last bit. Film and momentum at the start of a period decide all that follows (lane_block, start_period). Where both have

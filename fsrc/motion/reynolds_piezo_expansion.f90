@@ -1,4 +1,4 @@
-!> Load of the exact piezo-viscous film about the states of a block of lanes, in powers of the squeeze group A and of
+!> Load of the Reynolds piezo-viscous film about the states of a block of lanes, in powers of the squeeze group A and of
 !> sigma = sqrt(1 - B max p*(A)): what the Taylor series of module taylor_reynolds_piezo starts from.
 !>
 !> The polynomials of module piezo_viscous_cells, moved to where the films are. They end at |A| = 14; beyond, and where no

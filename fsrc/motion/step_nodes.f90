@@ -21,7 +21,7 @@ module step_nodes
    !> Barycentric weights of interpolation, (-1)^i sqrt((1 - x^2) w) (Wang and Xiang 2012).
    real(dp), parameter :: barycentric(nodes_per_piece) = [-1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp] &
                           *sqrt([(1.0_dp - place(4:1:-1)**2)*share(4:1:-1), (1.0_dp - place**2)*share])
-   !> Pieces for which there is room at first.
+   !> Pieces for which there is folder at first.
    integer, parameter :: first_room = 64
 
    !> Nodes of the steps of one period of one motion, piece after piece.

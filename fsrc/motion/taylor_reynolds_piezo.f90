@@ -1,4 +1,4 @@
-!> Taylor series of the motion with the exact piezo-viscous film, for a block of lanes.
+!> Taylor series of the motion with the Reynolds piezo-viscous film, for a block of lanes.
 !>
 !> With x = f_exc t and H = h/h_s, eq (1) reads
 !>

@@ -1,4 +1,4 @@
-!> Taylor series of the motion with an iso-viscous film whose rupture follows from (18), for a block of lanes: the exact film,
+!> Taylor series of the motion with an iso-viscous film whose rupture follows from (18), for a block of lanes: the Reynolds film,
 !> and the published one (24) with x_e solved.
 !>
 !> With x = f_exc t and H = h/h_s, eq (1) reads

@@ -1,5 +1,5 @@
-!> Taylor series of the motion of teeth that give, for a block of lanes: with the published films (35) and (37), with the
-!> iso-viscous films whose rupture follows from (18), the exact one and (24), and with the exact piezo-viscous film.
+!> Taylor series of the motion of elastic teeth, for a block of lanes: with the published films (35) and (37), with the
+!> iso-viscous films whose rupture follows from (18), the exact one and (24), and with the Reynolds piezo-viscous film.
 !>
 !> With x = f_exc t and H = h/h_s, a spring of compliance kappa between the gear and the film carries W = d/kappa and is
 !> compressed as the film law, solved for the velocity of the film, tells:
@@ -14,13 +14,13 @@
 !>     H_k = sum of r_j r_(k-j)                            w_k = ((k+1) d_(k+1) - sum of d_j w_(k-j), j = 1..k)/d_0
 !>                                                         c (k+1) H'_(k+1) = -w_k - 7/2 y_k
 !>
-!> Films with rupture carry W = a Phi(A)/H, A = c H'/sqrt(H). Phi falls with A, so it can be turned round: module load_expansion
+!> Films with rupture carry W = a Phi(A)/H, A = c H'/sqrt(H). Phi falls with A, so it can be inverted: module load_expansion
 !> gives A in powers of z, the deviation of the load group P = W H/a from where it is expanded, over a unit. Even and odd powers are
 !> nested in pairs, as in module taylor_rupture:
 !>
 !>     P = d H/(kappa a) ,   A = T_0 ,   T_i = a_2i + a_(2i+1) z + z**2 T_(i+1) ,   H' = r A/c ,   r = sqrt(H) .
 !>
-!> The exact piezo-viscous film carries W = a Psi(A, B)/H. The series are those of module taylor_reynolds_piezo but that the
+!> The Reynolds piezo-viscous film carries W = a Psi(A, B)/H. The series are those of module taylor_reynolds_piezo but that the
 !> load is known and A is not: at every order Psi is linear in the newest coefficient of z, the deviation of A,
 !>
 !>     P_k = (sums of lower orders) + (dPsi/dA) z_k ,   H' = sqrt(H) A/c .
@@ -301,7 +301,7 @@ contains
       compression(:, :, rupture_order + 1:) = 0.0_dp
    end subroutine rupture_springs
 
-   !> Coefficients 1 to `rupture_order` with the exact piezo-viscous film.
+   !> Coefficients 1 to `rupture_order` with the Reynolds piezo-viscous film.
    pure subroutine reynolds_piezo_springs(flanks, strength, rate, pressing, compliance, load, force, expansion, films, momentum, &
                                           compression)
       !> Flanks: 1 or 2

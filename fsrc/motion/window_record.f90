@@ -11,7 +11,7 @@
 !>
 !>     c_n = 1/T (change of z' + 2 pi i n/T integral of z' exp(-2 pi i n t/T) dt)
 !>
-!> for one period T, by parts: the velocity of an impact is a step, and no integral misses it. The line at n times the frequency
+!> for one period T, by parts: the velocity of an impact is a step, and no integral misses it. The harmonic at n times the frequency
 !> is 2 |mean of c_n over the periods|, and what the c_n vary by from period to period is power off the harmonics.
 module window_record
    use constants, only: two_pi
@@ -67,8 +67,8 @@ module window_record
       real(dp) :: force_work = 0.0_dp
       real(dp) :: work_size = 0.0_dp
       !> Sums over the periods of T c_n and of |T c_n|**2, n from 0 to multiples [m/s], [m2/s2]
-      complex(dp), allocatable :: line_sums(:)
-      real(dp), allocatable :: line_squares(:)
+      complex(dp), allocatable :: harmonic_sums(:)
+      real(dp), allocatable :: harmonic_squares(:)
       !> Integrals of z' exp(-2 pi i n t/T) over the time in periods, of the present period [m/s]
       complex(dp), allocatable :: integrals(:)
       !> Values of z'' at its turns from node to node, where Fourier integrals are wanted [m/s2]
@@ -92,8 +92,8 @@ contains
                                end_velocity=start%numbers(of_velocity))
       if (record%multiples == 0) return
       record%longest_piece = oscillations_per_piece/real(record%multiples, dp)
-      allocate (record%line_sums(0:record%multiples), record%integrals(record%multiples), source=(0.0_dp, 0.0_dp))
-      allocate (record%line_squares(0:record%multiples), source=0.0_dp)
+      allocate (record%harmonic_sums(0:record%multiples), record%integrals(record%multiples), source=(0.0_dp, 0.0_dp))
+      allocate (record%harmonic_squares(0:record%multiples), source=0.0_dp)
    end subroutine start_record
 
    !> Add a period, and forget its nodes.
@@ -126,12 +126,12 @@ contains
       complex(dp) :: coefficient
       integer :: n
 
-      record%line_sums(0) = record%line_sums(0) + cmplx(change, 0.0_dp, dp)
-      record%line_squares(0) = record%line_squares(0) + change*change
+      record%harmonic_sums(0) = record%harmonic_sums(0) + cmplx(change, 0.0_dp, dp)
+      record%harmonic_squares(0) = record%harmonic_squares(0) + change*change
       do n = 1, record%multiples
          coefficient = cmplx(change, 0.0_dp, dp) + cmplx(0.0_dp, two_pi*real(n, dp), dp)*record%integrals(n)
-         record%line_sums(n) = record%line_sums(n) + coefficient
-         record%line_squares(n) = record%line_squares(n) + coefficient%re**2 + coefficient%im**2
+         record%harmonic_sums(n) = record%harmonic_sums(n) + coefficient
+         record%harmonic_squares(n) = record%harmonic_squares(n) + coefficient%re**2 + coefficient%im**2
       end do
       record%integrals = (0.0_dp, 0.0_dp)
    end subroutine add_coefficients

@@ -205,7 +205,7 @@ contains
       sizes = sizes_of(problem, state, scale_of(problem, state))
    end function sizes_of_state
 
-   !> What the numbers of a state count as. The map is known to a share of each number: where a tooth strikes through a thin film, to
+   !> What the numbers of a state count as. The map is known to a share of each number: where a tooth hits through a thin film, to
    !> more than that of the film.
    pure function sizes_of(problem, state, scale) result(sizes)
       type(problem_t), intent(in) :: problem

@@ -226,7 +226,7 @@ contains
       compression(2) = problem%compliance*coast_load
    end subroutine start_springs
 
-   !> Largest pressures of the exact iso-viscous film, on the flank where they are larger.
+   !> Largest pressures of the Reynolds iso-viscous film, on the flank where they are larger.
    pure subroutine largest_pressures(problem, states, pressures)
       type(problem_t), intent(in) :: problem
       !> State, number of it

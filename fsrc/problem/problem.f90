@@ -10,7 +10,7 @@
 !>     W(h_1, h_1') = d_1/kappa ,   d_1 = h_1 - z ,      W(h_2, h_2') = d_2/kappa ,   d_2 = h_2 - (b - z) ,
 !>     m z'' = (d_1 - d_2)/kappa - F(t) - m g .
 !>
-!> The state of a motion is h_1 and z', with teeth that give also d_1, and d_2 where there are two flanks: a compression keeps its
+!> The state of a motion is h_1 and z', with elastic teeth also d_1, and d_2 where there are two flanks: a compression keeps its
 !> digits however stiff the tooth is, a position would not.
 module problem
    use film_law, only: film_load, film_t, new_film, steady_film
@@ -219,7 +219,7 @@ contains
       films = films_at_rest(problem, static_load(problem))
       if (films(1) > 0.0_dp) return
       films = [problem%initial_film, problem%backlash - problem%initial_film]
-      ! Teeth that give let a film grow beyond the backlash.
+      ! Elastic teeth let a film grow beyond the backlash.
       if (.not. films(2) > 0.0_dp) films(2) = films(1)
    end function reference_films
 

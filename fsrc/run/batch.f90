@@ -74,8 +74,8 @@ contains
       end if
    end subroutine run_batch
 
-   !> Run the scenes, side by side where there are threads for it: begun and told in their order, whoever is done first. A failed one
-   !> does not stop the others. After a signal, or trouble with files, no more are begun.
+   !> Run the scenes, side by side where there are threads for it: begun and told in their order, whoever is done first. A failed
+   !> one does not stop the others. After a signal, or trouble with files, no more are begun.
    subroutine run_all(command, scenes, exit_code)
       type(command_t), intent(in) :: command
       type(scene_t), intent(in) :: scenes(:)

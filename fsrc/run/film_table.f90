@@ -110,7 +110,7 @@ contains
       if (scene%points%compute(compute_limits)) call row%put('limiting_film', 'm', limit_of_point(contact, point))
    end subroutine put_peak
 
-   !> The finite-volume referee.
+   !> The finite-volume reference solution.
    pure subroutine put_numerical(scene, contact, point, row)
       type(scene_t), intent(in) :: scene
       type(film_contact_t), intent(in) :: contact

@@ -1,4 +1,4 @@
-!> Last periods of a scene by the error-controlled engine, and the verdict on them by as many samples as their lines need, or
+!> Last periods of a scene by the error-controlled engine, and the verdict on them by as many samples as their harmonics need, or
 !> by integrals over the steps where no number of samples would do.
 module fine_window
    use controlled_engine, only: solve_window
@@ -24,7 +24,7 @@ module fine_window
    !> Highest multiple of the frequency that is integrated for, as many as a summary lists.
    integer, parameter :: usual_multiples = 40
    !> Share of the first harmonic by which the mean of the samples may miss the change of velocity, and of the power by which
-   !> theirs may miss that of the steps: a line may then be off by a tenth of the line threshold at most.
+   !> theirs may miss that of the steps: a harmonic may then be off by a tenth of the harmonic threshold at most.
    real(dp), parameter :: mean_share = 1.0e-5_dp, power_share = 1.0e-6_dp
 
    !> A window.
@@ -36,7 +36,7 @@ module fine_window
       real(dp), allocatable :: states(:, :), accelerations(:)
       !> What the steps of the engine tell of it; no periods: the samples are all that is known
       type(window_record_t) :: record = window_record_t()
-      !> Whether its lines are integrals over the steps
+      !> Whether its harmonics are integrals over the steps
       logical :: by_integrals = .false.
    end type window_t
 
@@ -84,7 +84,7 @@ contains
       real(dp), intent(in) :: accuracy
       !> Amplitude that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
-      !> The window with its record; on return with as many samples as there may be and its lines need
+      !> The window with its record; on return with as many samples as there may be and its harmonics need
       type(window_t), intent(inout) :: window
       !> Verdict on it
       type(rattle_verdict_t), intent(out) :: verdict
@@ -107,7 +107,7 @@ contains
          window = finer
          call classify_window(scene%spectrum, problem, window%periods, window%accelerations, window%record, noise_floor, verdict)
       end do
-      window%by_integrals = .not. verdict%lines%sampling_sufficient
+      window%by_integrals = .not. verdict%spectrum%sampling_sufficient
       if (window%by_integrals) call judge_by_integrals(scene, problem, accuracy, noise_floor, window, verdict)
    end subroutine judge_window
 
@@ -121,7 +121,7 @@ contains
       integer, intent(in) :: periods
       integer, intent(in) :: samples_per_period
 
-      may_be_finer = .not. verdict%lines%sampling_sufficient .and. record%shortest_piece > least_piece .and. &
+      may_be_finer = .not. verdict%spectrum%sampling_sufficient .and. record%shortest_piece > least_piece .and. &
                      2*samples_per_period <= most_samples_per_period .and. 2*samples_per_period <= most_samples/periods
    end function may_be_finer
 
@@ -154,15 +154,15 @@ contains
       call classify_steps(records(1), problem%frequency, scene%spectrum, noise_floor, verdict)
    end subroutine judge_by_integrals
 
-   !> An empty record that asks for Fourier integrals. Where all orders of the force are multiples of one, so may all lines be, and
-   !> as many of them are asked for as of a force whose orders have no common divisor.
+   !> An empty record that asks for Fourier integrals. Where all orders of the force are multiples of one, so may all harmonics be,
+   !> and as many of them are asked for as of a force whose orders have no common divisor.
    pure function integral_record(spectrum) result(record)
       !> Limits of the classes
       type(spectrum_choice_t), intent(in) :: spectrum
       type(window_record_t) :: record
 
       record%wants = .false.
-      record%multiples = max(usual_multiples, 2*spectrum%idle_lines*common_divisor(spectrum%forced), &
+      record%multiples = max(usual_multiples, 2*spectrum%idle_harmonics*common_divisor(spectrum%forced), &
                              2*findloc(spectrum%forced, .true., dim=1, back=.true.))
    end function integral_record
 
@@ -199,18 +199,19 @@ contains
       choice = spectrum
       choice%periods = periods
       call classify(accelerations, choice, noise_floor, verdict)
-      associate (lines => verdict%lines)
-         if (record%periods > 0 .and. lines%sampling_sufficient) lines%sampling_sufficient = &
+      associate (spectrum => verdict%spectrum)
+         if (record%periods > 0 .and. spectrum%sampling_sufficient) spectrum%sampling_sufficient = &
             samples_agree(problem, accelerations(:record%periods*(size(accelerations)/periods)), record, noise_floor, &
-                          lines%harmonics(lines%largest_forced))
-         if (record%periods > 0) lines%resolution_error = lines%resolution_error + error_of_ends(problem, accelerations, record)
-         lines%count_is_bound = .not. lines%sampling_sufficient
-         lines%distortion_is_bound = .not. lines%sampling_sufficient
-         lines%irregular_is_bound = .not. lines%sampling_sufficient
+                          spectrum%harmonics(spectrum%largest_forced))
+         if (record%periods > 0) spectrum%resolution_error = spectrum%resolution_error + error_of_ends(problem, &
+            accelerations, record)
+         spectrum%count_is_bound = .not. spectrum%sampling_sufficient
+         spectrum%distortion_is_bound = .not. spectrum%sampling_sufficient
+         spectrum%irregular_is_bound = .not. spectrum%sampling_sufficient
       end associate
    end subroutine classify_window
 
-   !> Error of the lines of samples of a window that does not return to where it began, by Euler and Maclaurin [m/s2].
+   !> Error of the harmonics of samples of a window that does not return to where it began, by Euler and Maclaurin [m/s2].
    pure real(dp) function error_of_ends(problem, z, record)
       type(problem_t), intent(in) :: problem
       !> z'' of the window [m/s2]
@@ -225,14 +226,14 @@ contains
    end function error_of_ends
 
    !> Whether samples have the mean and the power that the steps have, over the periods that were recorded.
-   pure logical function samples_agree(problem, z, record, noise_floor, forced_line)
+   pure logical function samples_agree(problem, z, record, noise_floor, forced_harmonic)
       type(problem_t), intent(in) :: problem
       !> z'' of the periods recorded [m/s2]
       real(dp), intent(in) :: z(:)
       type(window_record_t), intent(in) :: record
       real(dp), intent(in) :: noise_floor
-      !> Largest line at an order of the force [m/s2]
-      real(dp), intent(in) :: forced_line
+      !> Largest harmonic at an order of the force [m/s2]
+      real(dp), intent(in) :: forced_harmonic
       real(dp) :: start, count, mean, power, true_mean, true_power
       integer :: i
 
@@ -250,7 +251,7 @@ contains
       power = power/count
       true_mean = (record%end_velocity - record%start%numbers(of_velocity))*problem%frequency/real(record%periods, dp)
       true_power = record%acceleration_square/real(record%periods, dp)
-      samples_agree = abs(mean - true_mean) <= mean_share*forced_line + noise_floor .and. &
+      samples_agree = abs(mean - true_mean) <= mean_share*forced_harmonic + noise_floor .and. &
                       abs(power - true_power) <= power_share*true_power + 4.0_dp*noise_floor*sqrt(true_power)
    end function samples_agree
 

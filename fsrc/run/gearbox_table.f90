@@ -10,7 +10,7 @@ module gearbox_table
    use log_file, only: log_magic, log_t
    use output_place, only: log_path, summary_path
    use quantities, only: a_code, a_flag, quantity_acceleration_maximum, quantity_acceleration_minimum, &
-                         quantity_acceleration_rms, quantity_certified, quantity_dissipated_power, quantity_double_sided, &
+                         quantity_acceleration_rms, quantity_verified, quantity_dissipated_power, quantity_double_sided, &
                          quantity_film_force_rms, quantity_film_minimum, quantity_rattle_class, quantity_table, quantity_word
    use scene_report, only: acceleration_words
    use scene_status, only: is_success, status_complete, status_interrupted, status_name
@@ -23,7 +23,7 @@ module gearbox_table
    private
 
    !> What is told of a pair, in the order of the columns.
-   integer, parameter :: told(9) = [quantity_rattle_class, quantity_certified, quantity_double_sided, quantity_film_minimum, &
+   integer, parameter :: told(9) = [quantity_rattle_class, quantity_verified, quantity_double_sided, quantity_film_minimum, &
                                     quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_acceleration_rms, &
                                     quantity_film_force_rms, quantity_dissipated_power]
    integer, parameter :: place_minimum = 5, place_maximum = 6, place_rms = 7, place_force = 8, place_power = 9
@@ -207,7 +207,7 @@ contains
             if (.not. ieee_is_nan(numbers(1))) class = quantity_word(told(1), nint(numbers(1)))
             peak = numbers(place_maximum)
             ! What is unknown is compared with nothing.
-            if (.not. ieee_is_nan(numbers(2))) class = class//trim(merge(', certified', '           ', numbers(2) > 0.0_dp))
+            if (.not. ieee_is_nan(numbers(2))) class = class//trim(merge(', verified', '          ', numbers(2) > 0.0_dp))
             if (.not. ieee_is_nan(peak)) peak = max(abs(numbers(place_minimum)), abs(peak))
             call log%line('  '//cell(trim(rows(i)%name), width)//cell(class, 24)//cell(flag_cell(numbers(3)), 13)// &
                           cell(number_cell(1.0e6_dp*numbers(4)), 12)//cell(number_cell(peak), 12)// &

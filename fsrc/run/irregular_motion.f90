@@ -1,7 +1,7 @@
 !> What becomes of motions that are off their harmonics: they repeat after several periods, they are irregular for good, or
 !> nothing more is known of them than that they are irregular so far. One procedure for single scenes, sweeps and campaigns.
 module irregular_motion
-   use certify_scene, only: nearby_orbit
+   use verify_scene, only: nearby_orbit
    use engine, only: ending_t
    use lyapunov, only: follow_neighbours, parting_t
    use periodic_orbit, only: attracting_period, periodic_orbit_t

@@ -1,13 +1,13 @@
 !> Judges a solved scene: its window, class and regime, and how far they can be trusted.
 module judge_scene
-   use certify_scene, only: certify
+   use verify_scene, only: verify_motion
    use engine, only: ending_t
    use errors, only: error_t
    use force_signal, only: signal_of_window
    use fine_window, only: classify_window, judge_window, window_t
    use irregular_motion, only: follow_irregular
    use judged_scene, only: judged_scene_t
-   use loudness, only: loudness_of_record, loudness_of_samples
+   use vibration_severity, only: severity_of_record, severity_of_samples
    use node_extremes, only: seen_pressure
    use carried_loads, only: thinnest_film
    use problem, only: of_velocity, problem_t
@@ -68,7 +68,7 @@ contains
       ! A signal ends the verdict on a long window here, between two stretches of some seconds.
       judged%judged = .not. must_stop()
       if (.not. judged%judged) return
-      judged%series_coarse = .not. judged%rattle%lines%sampling_sufficient
+      judged%series_coarse = .not. judged%rattle%spectrum%sampling_sufficient
       ! What the error-controlled engine has solved can be solved again, sampled finer, from where the window begins.
       if (judged%series_coarse .and. window%record%periods > 0) &
          call judge_window(scene, judged%resolved%problem, scene%solver%accuracy, judged%resolved%noise_floor, window, &
@@ -81,28 +81,28 @@ contains
       if (.not. judged%judged) return
       judged%window_periods = window%periods
       judged%samples_per_period = window%samples_per_period
-      judged%lines_by_integrals = window%by_integrals
+      judged%harmonics_by_integrals = window%by_integrals
       if (window%record%periods > 0) then
          judged%extremes = extremes_of_record(record)
-         judged%loudness = loudness_of_record(record, scene%excitation%frequency)
+         judged%severity = severity_of_record(record, scene%excitation%frequency)
          judged%impacts = impacts_of_record(record, scene%excitation%frequency)
       else
          judged%extremes = extremes_of_samples(judged%resolved%problem, window%states, &
                                                window%accelerations)
-         judged%loudness = loudness_of_samples(judged%resolved%problem, window%samples_per_period, window%states(:, of_velocity), &
+         judged%severity = severity_of_samples(judged%resolved%problem, window%samples_per_period, window%states(:, of_velocity), &
                                                window%accelerations)
          judged%impacts = impacts_of_samples(judged%resolved%problem, scene%spectrum%impact_limit, window%samples_per_period, &
                                              window%states)
       end if
       if (scene%gearbox /= '') judged%film_force = &
          signal_of_window(judged%resolved%problem, window%accelerations, window%periods, judged%periods, &
-                          judged%status == status_steady, judged%loudness%film_force_rms)
+                          judged%status == status_steady, judged%severity%film_force_rms)
       associate (pressure => judged%extremes%highest(seen_pressure))
          judged%regime = check_regime(judged%resolved%problem%film, pressure%value, &
                                       thinnest_film(judged%resolved%problem, pressure%state))
       end associate
-      if (scene%spectrum%certify) call certify(scene, judged%resolved, judged%periods, window, judged%extremes, &
-                                               judged%loudness, judged%impacts, judged%rattle, judged%certificate, error, &
+      if (scene%spectrum%verify) call verify_motion(scene, judged%resolved, judged%periods, window, judged%extremes, &
+                                               judged%severity, judged%impacts, judged%rattle, judged%verification, error, &
                                                judged%orbit)
       judged%judged = .not. allocated(error)
    end subroutine judge

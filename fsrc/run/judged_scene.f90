@@ -1,20 +1,20 @@
 !> A judged scene, whether a single one, a value of a sweep or a row of a campaign, and the values of all quantities of it.
 module judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use certificate, only: certificate_t
+   use verification, only: verification_t
    use engine, only: motion_count_t
    use force, only: inertia_ratio
    use force_signal, only: force_signal_t
    use impacts, only: impact_count_t
    use kinds, only: dp
    use load_points, only: coast_flank, drive_flank
-   use loudness, only: loudness_t
+   use vibration_severity, only: vibration_severity_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
       seen_position, seen_velocity
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
    use quantities, only: quantity_acceleration_error, quantity_acceleration_kurtosis, quantity_acceleration_maximum, &
       quantity_acceleration_maximum_error, quantity_acceleration_minimum, quantity_acceleration_minimum_error, &
-      quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_certified, quantity_coast_film_maximum, &
+      quantity_acceleration_rms, quantity_alpha_p_maximum, quantity_verified, quantity_coast_film_maximum, &
       quantity_coast_film_minimum, quantity_coast_load_maximum, quantity_crest_factor, quantity_damping_ratio, &
       quantity_deflection, quantity_deflection_share, quantity_dissipated_energy, quantity_dissipated_power, &
       quantity_double_sided, quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
@@ -32,8 +32,8 @@ module judged_scene
       quantity_floquet_multipliers, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
       quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, quantity_iterations_per_step, &
       quantity_irregular_fraction_is_bound, quantity_lyapunov_exponent, &
-      quantity_law_contradicted, quantity_line_count, quantity_line_count_is_bound, quantity_lines_by_integrals, &
-      quantity_load_maximum, quantity_load_minimum, quantity_loudness_error, quantity_model_limit, quantity_natural_frequency, &
+      quantity_law_contradicted, quantity_harmonic_count, quantity_harmonic_count_is_bound, quantity_harmonics_by_integrals, &
+      quantity_load_maximum, quantity_load_minimum, quantity_severity_error, quantity_model_limit, quantity_natural_frequency, &
       quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, quantity_pressure_maximum, &
       quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, quantity_sampling_sufficient, &
       quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, quantity_steps_cut, &
@@ -61,20 +61,20 @@ module judged_scene
       !> Periods solved, and those after which their end was seen to repeat, else 0
       integer :: periods = 0, repeats_after = 0
       type(motion_count_t) :: count
-      !> Whole periods of the window, samples of each, and whether its lines are integrals over the steps
+      !> Whole periods of the window, samples of each, and whether its harmonics are integrals over the steps
       integer :: window_periods = 0, samples_per_period = 0
-      logical :: lines_by_integrals = .false.
+      logical :: harmonics_by_integrals = .false.
       !> Whether the samples of the scene are too few for its motion
       logical :: series_coarse = .false.
       !> Extremes of the window
       type(window_extremes_t) :: extremes
-      type(loudness_t) :: loudness
+      type(vibration_severity_t) :: severity
       !> Of a pair of a gearbox, whose pairs are summed
       type(force_signal_t) :: film_force
       type(window_impacts_t) :: impacts
       type(rattle_verdict_t) :: rattle
       type(regime_verdict_t) :: regime
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       !> The periodic motion behind it, where one was looked for
       type(periodic_orbit_t) :: orbit
    end type judged_scene_t
@@ -150,8 +150,8 @@ contains
       type(judged_scene_t), intent(in) :: judged
 
       value = ieee_value(value, ieee_quiet_nan)
-      associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest, lines => judged%rattle%lines, &
-                 regime => judged%regime, certificate => judged%certificate, problem => judged%resolved%problem)
+      associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest, spectrum => judged%rattle%spectrum, &
+                 regime => judged%regime, verification => judged%verification, problem => judged%resolved%problem)
          select case (quantity)
          case (quantity_window_periods)
             value = real(judged%window_periods, dp)
@@ -159,8 +159,8 @@ contains
             value = real(judged%samples_per_period, dp)
          case (quantity_series_coarse)
             value = flag(judged%series_coarse)
-         case (quantity_lines_by_integrals)
-            value = flag(judged%lines_by_integrals)
+         case (quantity_harmonics_by_integrals)
+            value = flag(judged%harmonics_by_integrals)
          case (quantity_film_minimum)
             value = lowest(seen_film)%value
          case (quantity_film_maximum)
@@ -178,19 +178,19 @@ contains
          case (quantity_load_maximum)
             value = highest(seen_load)%value
          case (quantity_acceleration_rms)
-            value = judged%loudness%acceleration_rms
+            value = judged%severity%acceleration_rms
          case (quantity_crest_factor)
-            if (judged%loudness%acceleration_rms > judged%resolved%noise_floor) &
+            if (judged%severity%acceleration_rms > judged%resolved%noise_floor) &
                value = max(abs(lowest(seen_acceleration)%value), abs(highest(seen_acceleration)%value)) &
-                       /judged%loudness%acceleration_rms
+                       /judged%severity%acceleration_rms
          case (quantity_acceleration_kurtosis)
-            if (judged%loudness%acceleration_rms > judged%resolved%noise_floor) value = judged%loudness%acceleration_kurtosis
+            if (judged%severity%acceleration_rms > judged%resolved%noise_floor) value = judged%severity%acceleration_kurtosis
          case (quantity_film_force_rms)
-            value = judged%loudness%film_force_rms
+            value = judged%severity%film_force_rms
          case (quantity_dissipated_energy)
-            value = judged%loudness%dissipated_energy
+            value = judged%severity%dissipated_energy
          case (quantity_dissipated_power)
-            value = judged%loudness%dissipated_energy*judged%resolved%problem%frequency
+            value = judged%severity%dissipated_energy*judged%resolved%problem%frequency
          case (quantity_model_limit)
             value = lowest(seen_film)%value
             if (has_two_flanks(problem)) value = min(value, lowest(seen_coast_film)%value)
@@ -208,27 +208,27 @@ contains
          case (quantity_reversals_per_period)
             value = judged%rattle%reversals_per_period
          case (quantity_first_harmonic)
-            if (lines%moving) value = lines%harmonics(1)
-         case (quantity_line_count)
-            if (lines%moving) value = real(lines%line_count, dp)
-         case (quantity_line_count_is_bound)
-            if (lines%moving) value = flag(lines%count_is_bound)
+            if (spectrum%moving) value = spectrum%harmonics(1)
+         case (quantity_harmonic_count)
+            if (spectrum%moving) value = real(spectrum%harmonic_count, dp)
+         case (quantity_harmonic_count_is_bound)
+            if (spectrum%moving) value = flag(spectrum%count_is_bound)
          case (quantity_harmonic_distortion)
-            if (lines%moving) value = lines%harmonic_distortion
+            if (spectrum%moving) value = spectrum%harmonic_distortion
          case (quantity_harmonic_distortion_is_bound)
-            if (lines%moving) value = flag(lines%distortion_is_bound)
+            if (spectrum%moving) value = flag(spectrum%distortion_is_bound)
          case (quantity_irregular_fraction)
-            if (lines%moving) value = lines%irregular_fraction
+            if (spectrum%moving) value = spectrum%irregular_fraction
          case (quantity_irregular_fraction_is_bound)
-            if (lines%moving) value = flag(lines%irregular_is_bound)
+            if (spectrum%moving) value = flag(spectrum%irregular_is_bound)
          case (quantity_sampling_sufficient)
-            if (lines%moving) value = flag(lines%sampling_sufficient)
+            if (spectrum%moving) value = flag(spectrum%sampling_sufficient)
          case (quantity_rattle_class)
             value = real(judged%rattle%class, dp)
          case (quantity_lyapunov_exponent)
             if (judged%rattle%parting%periods > 0) value = judged%rattle%parting%exponent
-         case (quantity_certified)
-            if (certificate%exists) value = flag(certificate%certified)
+         case (quantity_verified)
+            if (verification%exists) value = flag(verification%verified)
          case (quantity_orbit_stability)
             if (judged%orbit%period > 0) value = real(orbit_stability(judged%orbit%multipliers), dp)
          case (quantity_floquet_modulus)
@@ -248,14 +248,14 @@ contains
          case (quantity_law_contradicted)
             value = flag(regime%law_contradicted)
          case (quantity_verdict_verified)
-            if (certificate%exists .and. judged%impacts%exists) value = flag(certificate%impacts%verdict)
+            if (verification%exists .and. judged%impacts%exists) value = flag(verification%impacts%verdict)
          case (quantity_impacts_verified)
-            if (certificate%exists .and. judged%impacts%exists) value = flag(certificate%impacts%numbers)
-         case (quantity_loudness_error)
-            if (allocated(certificate%harmonic_errors) .and. lines%moving) value = error_value(quantity, certificate)
+            if (verification%exists .and. judged%impacts%exists) value = flag(verification%impacts%numbers)
+         case (quantity_severity_error)
+            if (allocated(verification%harmonic_errors) .and. spectrum%moving) value = error_value(quantity, verification)
          case (quantity_film_error, quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
                quantity_acceleration_minimum_error, quantity_acceleration_maximum_error)
-            if (allocated(certificate%harmonic_errors)) value = error_value(quantity, certificate)
+            if (allocated(verification%harmonic_errors)) value = error_value(quantity, verification)
          case default
             if (judged%impacts%exists) value = impact_value(quantity, judged)
          end select
@@ -337,27 +337,27 @@ contains
    end function deflection_share
 
    !> An error by the tighter solution, if there is one.
-   pure real(dp) function error_value(quantity, certificate) result(value)
+   pure real(dp) function error_value(quantity, verification) result(value)
       integer, intent(in) :: quantity
-      type(certificate_t), intent(in) :: certificate
+      type(verification_t), intent(in) :: verification
 
       value = ieee_value(value, ieee_quiet_nan)
-      if (size(certificate%harmonic_errors) == 0) return
+      if (size(verification%harmonic_errors) == 0) return
       select case (quantity)
       case (quantity_film_error)
-         value = certificate%film_error
+         value = verification%film_error
       case (quantity_film_minimum_error)
-         value = certificate%film_minimum_error
+         value = verification%film_minimum_error
       case (quantity_film_maximum_error)
-         value = certificate%film_maximum_error
+         value = verification%film_maximum_error
       case (quantity_acceleration_error)
-         value = certificate%acceleration_error
+         value = verification%acceleration_error
       case (quantity_acceleration_minimum_error)
-         value = certificate%acceleration_minimum_error
+         value = verification%acceleration_minimum_error
       case (quantity_acceleration_maximum_error)
-         value = certificate%acceleration_maximum_error
-      case (quantity_loudness_error)
-         value = certificate%loudness_error
+         value = verification%acceleration_maximum_error
+      case (quantity_severity_error)
+         value = verification%severity_error
       case default
          continue
       end select
@@ -377,10 +377,11 @@ contains
       if (.not. judged%judged) return
       select case (quantity)
       case (quantity_harmonics)
-         if (judged%rattle%lines%moving) list = judged%rattle%lines%harmonics(:min(most, size(judged%rattle%lines%harmonics)))
+         if (judged%rattle%spectrum%moving) list = judged%rattle%spectrum%harmonics(:min(most, &
+            size(judged%rattle%spectrum%harmonics)))
       case (quantity_harmonic_errors)
-         if (allocated(judged%certificate%harmonic_errors)) &
-            list = judged%certificate%harmonic_errors(:min(most, size(judged%certificate%harmonic_errors)))
+         if (allocated(judged%verification%harmonic_errors)) &
+            list = judged%verification%harmonic_errors(:min(most, size(judged%verification%harmonic_errors)))
       case (quantity_floquet_multipliers)
          if (judged%orbit%period > 0) list = [(judged%orbit%multipliers(i)%re, judged%orbit%multipliers(i)%im, &
                                                i=1, size(judged%orbit%multipliers))]

@@ -10,7 +10,7 @@ module memory_need
    private
 
    !> Bytes a sample of a window: its motion and its transform, whose length may be a prime; and the tighter solution
-   real(dp), parameter :: judging_bytes = 144.0_dp, certificate_bytes = 36.0_dp
+   real(dp), parameter :: judging_bytes = 144.0_dp, verification_bytes = 36.0_dp
    !> Bytes a sample of a period beside it: the motion, the columns of the series
    real(dp), parameter :: period_bytes = 144.0_dp
    !> Bytes a node of a profile, and a cell of the numerical film
@@ -52,7 +52,7 @@ contains
       else
          samples = real(scene%solver%samples_per_period(), dp)
          bytes = samples*(period_bytes + real(scene%spectrum%periods, dp)*judging_bytes)
-         if (scene%spectrum%certify) bytes = bytes + certificate_bytes*samples*real(scene%spectrum%periods, dp)
+         if (scene%spectrum%verify) bytes = bytes + verification_bytes*samples*real(scene%spectrum%periods, dp)
       end if
    end function scene_bytes
 

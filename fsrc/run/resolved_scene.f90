@@ -71,11 +71,11 @@ contains
          if (has_two_flanks(problem)) force = max(abs(static_load) + largest_oscillation(problem%force), least_static_load)
          resolved%noise_by_accuracy = noise_of_steps(minval(rest), stiffness/mass, damping/mass, &
                                                      force/mass, problem%frequency)
-         ! What is left over of a spring's compression when the passes of an implicit step end
+         ! What is left over of a spring's compression when the iterations of an implicit step end
          if (has_elastic_teeth(problem)) resolved%noise_by_accuracy = &
             max(resolved%noise_by_accuracy, pass_share*minval(rest)/(problem%compliance*mass))
          ! Newmark's steps are not chosen by an accuracy, and at rest they stand still. What a loose tolerance makes of them
-         ! is a motion that the certificate doubts.
+         ! is a motion that the verification doubts.
          if (scene%solver%method /= method_newmark) resolved%noise_floor = resolved%noise_floor_at(scene%solver%accuracy)
          resolved%pressure_group = film%pressure_viscosity* &
                                    pressure_scale(film%radius, film%speed, film%viscosity, minval(rest))

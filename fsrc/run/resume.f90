@@ -30,10 +30,10 @@ module resume
                                                 '-', '-']
 
    !> Keys that may change when a run is carried on: they do not touch what has been solved.
-   character(*), parameter :: free_keys(11) = [character(30) :: 'solver.periods', 'solver.time_limit', 'solver.until', &
-                                               'spectrum.periods', 'spectrum.line_threshold', 'spectrum.idle_lines', &
+   character(*), parameter :: free_keys(11) = [character(31) :: 'solver.periods', 'solver.time_limit', 'solver.until', &
+                                               'spectrum.periods', 'spectrum.harmonic_threshold', 'spectrum.idle_harmonics', &
                                                'spectrum.quiet_limit', 'spectrum.irregular_limit', 'spectrum.impact_limit', &
-                                               'spectrum.certify', 'spectrum.certificate_tolerance']
+                                               'spectrum.verify', 'spectrum.verification_tolerance']
 
    public :: save_state, load_state
 

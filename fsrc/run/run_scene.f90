@@ -89,7 +89,7 @@ contains
          solve_seconds = wall_seconds() - started
          call note_ending(ending, judged)
          if (.not. allocated(error)) call judge(scene, recorder, record, ending, judged, error)
-         ! A signal that came meanwhile has cut the certificate short.
+         ! A signal that came meanwhile has cut the verification short.
          if (is_success(judged%status) .and. caught_signal() /= 0) judged%status = status_interrupted
          if (judged%judged) call recorder%add_extremes(record, judged%periods - judged%window_periods, judged%series_coarse)
          call recorder%close(write_error)

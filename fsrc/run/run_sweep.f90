@@ -1,5 +1,5 @@
 !> A sweep from input to files: steady motions along a key, each carried on from the one before, there and back.
-!> Where two motions are possible, the way there and the way back show different ones: jumps and hysteresis.
+!> Where two motions are possible, the increasing and the decreasing show different ones: jumps and hysteresis.
 module run_sweep
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use clock, only: wall_seconds
@@ -14,7 +14,7 @@ module run_sweep
    use key_table, only: keys
    use kinds, only: dp, int64
    use log_file, only: log_t
-   use loudness, only: loudness_of_record
+   use vibration_severity, only: severity_of_record
    use output_place, only: log_path, result_path, summary_path
    use carried_loads, only: load_springs, spring_loads
    use problem, only: of_film, of_velocity
@@ -255,7 +255,7 @@ contains
       judged%rattle = verdicts(1)
       judged%repeats_after = repeat_after(1)
       judged%extremes = extremes_of_record(window%record)
-      judged%loudness = loudness_of_record(window%record, scene%excitation%frequency)
+      judged%severity = severity_of_record(window%record, scene%excitation%frequency)
       judged%impacts = impacts_of_record(window%record, scene%excitation%frequency)
    end subroutine solve_value
 

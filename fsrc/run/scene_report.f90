@@ -1,7 +1,7 @@
 !> What the terminal and the log tell of a scene.
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use certificate, only: certificate_word
+   use verification, only: verification_word
    use film_law, only: film_load, law_words, with_exact_film
    use force, only: inertia_ratio
    use judged_scene, only: judged_scene_t, quantity_value
@@ -190,7 +190,7 @@ contains
       if (scene%gear%given) lines = lines//drag_advice(resolved)//law_advice(scene)
       warning = stiffness_warning(scene, 'at rest', share)
       if (len(warning) > 0) lines = lines//'! '//warning//end_of_line
-      lines = lines//'! A, B and alpha p are those of the exact film with u = '//short_text(resolved%problem%film%speed, 6)// &
+      lines = lines//'! A, B and alpha p are those of the Reynolds film with u = '//short_text(resolved%problem%film%speed, 6)// &
               ' m/s, '//speed_meaning(scene)
    end function resolved_lines
 
@@ -219,7 +219,7 @@ contains
       type(resolved_scene_t) :: exact
 
       exact = resolve(with_exact_film(scene))
-      line = '! exact film at rest                   '//short_text(exact%steady_film, 4)//' m, alpha p '// &
+      line = '! Reynolds film at rest                '//short_text(exact%steady_film, 4)//' m, alpha p '// &
              short_text(exact%alpha_p, 3)//': '
       if (exact%alpha_p < iso_viscous_limit) then
          line = line//'pressure hardly thickens the oil, iso-viscous with model = reynolds fits'
@@ -248,7 +248,7 @@ contains
       passes = 0.0_dp
       if (judged%count%steps > 0) passes = quantity_value(quantity_iterations_per_step, judged)
       call log%line('  '//integer_text(judged%count%steps)//' steps in '//short_text(solve_seconds, 3)//' s, '// &
-                    short_text(passes, 3)//' passes a step, '//integer_text(judged%count%cuts)// &
+                    short_text(passes, 3)//' iterations a step, '//integer_text(judged%count%cuts)// &
                     ' steps cut where the film law had no value')
       if (.not. is_success(judged%status)) then
          film = ', without a film to start from'
@@ -278,23 +278,24 @@ contains
                        short_text(lowest(seen_acceleration)%value, digits_of_extremes)//' to '// &
                        short_text(highest(seen_acceleration)%value, digits_of_extremes)//' m/s2'//acceleration_words(scene))
       end associate
-      associate (rattle => judged%rattle, lines => judged%rattle%lines)
-         if (lines%moving) then
-            call log%line('  '//at_least(lines%count_is_bound)//integer_text(lines%line_count)//' lines, harmonic distortion '// &
-                          at_least(lines%distortion_is_bound)//short_text(lines%harmonic_distortion, 3)//', '// &
+      associate (rattle => judged%rattle, spectrum => judged%rattle%spectrum)
+         if (spectrum%moving) then
+            call log%line('  '//at_least(spectrum%count_is_bound)//integer_text(spectrum%harmonic_count)//' harmonics, '// &
+               'harmonic distortion '// &
+                          at_least(spectrum%distortion_is_bound)//short_text(spectrum%harmonic_distortion, 3)//', '// &
                           short_text(rattle%reversals_per_period, 3)//' reversals a period: '// &
                           quantity_word(quantity_rattle_class, rattle%class)// &
-                          certified_in_brackets())
+                          verified_in_brackets())
          else
             call log%line('  no motion but rounding: '//quantity_word(quantity_rattle_class, rattle%class))
          end if
-         ! Without a series, samples matter only where the lines are theirs.
-         if (judged%series_coarse .and. (scene%output%series .or. .not. lines%sampling_sufficient)) &
+         ! Without a series, samples matter only where the harmonics are theirs.
+         if (judged%series_coarse .and. (scene%output%series .or. .not. spectrum%sampling_sufficient)) &
             call log%line('  warning: '//coarse_sentence(scene, judged))
       end associate
       limit = nint(quantity_value(quantity_model_limit, judged))
       if (limit /= within_model) call log%line('  warning: '//model_limit_sentence(limit)//' (model_limit)')
-      call report_certificate(log, judged)
+      call report_verification(log, judged)
       call log%line('  '//regime_sentence(judged%regime))
       if (judged%regime%law_contradicted) &
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted)')
@@ -312,13 +313,13 @@ contains
          if (is_bound) words = 'at least '
       end function at_least
 
-      !> Whether the class stands, behind it.
-      pure function certified_in_brackets() result(words)
+      !> Whether the class is verified, behind it.
+      pure function verified_in_brackets() result(words)
          character(:), allocatable :: words
 
          words = ''
-         if (judged%certificate%exists) words = ' ('//certificate_word(judged%certificate)//')'
-      end function certified_in_brackets
+         if (judged%verification%exists) words = ' ('//verification_word(judged%verification)//')'
+      end function verified_in_brackets
 
    end subroutine report_window
 
@@ -336,7 +337,7 @@ contains
       warning = short_text(100.0_dp*share, 2)//' % of'
       if (share > 1.0_dp) warning = short_text(share, 2)//' times'
       warning = 'warning: '//when//' a steel tooth gives way by '//warning//' the film, while these teeth are rigid '// &
-                '(stiffness_matters). Teeth that give may move otherwise, and fall into another class: steel ones have '
+                '(stiffness_matters). Elastic teeth may move otherwise, and fall into another class: steel ones have '
       if (scene%gear%given) then
          warning = warning//'gear.tooth_stiffness = '//short_text(steel_tooth, 2)//' N/m2'
       else
@@ -353,34 +354,34 @@ contains
 
       key = 'solver.samples_per_period'
       if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
-      if (judged%rattle%lines%sampling_sufficient .and. judged%lines_by_integrals) then
+      if (judged%rattle%spectrum%sampling_sufficient .and. judged%harmonics_by_integrals) then
          sentence = 'the motion has impacts that no samples of a series show: take peaks from its rows of the extremes, '// &
-                    'and lines from here, where they are integrals over the steps (series_coarse)'
+                    'and harmonics from here, where they are integrals over the steps (series_coarse)'
          return
       end if
       sentence = 'the samples of the series are too few for its motion; '
-      if (.not. judged%rattle%lines%sampling_sufficient) then
-         sentence = sentence//'the lines are those of the samples: raise '//key
+      if (.not. judged%rattle%spectrum%sampling_sufficient) then
+         sentence = sentence//'the harmonics are those of the samples: raise '//key
       else
-         sentence = sentence//key//' = '//integer_text(judged%samples_per_period)//' would do, as many as gave the lines here'
+         sentence = sentence//key//' = '//integer_text(judged%samples_per_period)//' would do, as many as gave the harmonics here'
       end if
       if (scene%output%series) &
          sentence = sentence//' (series_coarse; the rows of the extremes stand in the series)'
    end function coarse_sentence
 
    !> Errors by the tighter solution, and the periodic motion.
-   subroutine report_certificate(log, judged)
+   subroutine report_verification(log, judged)
       type(log_t), intent(in) :: log
       type(judged_scene_t), intent(in) :: judged
 
-      if (.not. judged%certificate%exists) return
-      call log%line('  '//judged%certificate%reason)
-      if (size(judged%certificate%harmonic_errors) > 0) &
-         call log%line('  error of the film at most '//error_text(judged%certificate%film_error, 1.0_dp, digits_of_extremes)// &
+      if (.not. judged%verification%exists) return
+      call log%line('  '//judged%verification%reason)
+      if (size(judged%verification%harmonic_errors) > 0) &
+         call log%line('  error of the film at most '//error_text(judged%verification%film_error, 1.0_dp, digits_of_extremes)// &
                        ' of it, of the extremes of the acceleration '// &
-                       error_text(judged%certificate%acceleration_minimum_error, &
+                       error_text(judged%verification%acceleration_minimum_error, &
                                   judged%extremes%lowest(seen_acceleration)%value, digits_of_extremes)//' and '// &
-                       error_text(judged%certificate%acceleration_maximum_error, &
+                       error_text(judged%verification%acceleration_maximum_error, &
                                   judged%extremes%highest(seen_acceleration)%value, digits_of_extremes)//' m/s2')
       associate (orbit => judged%orbit)
          if (orbit%period > 0) call log%line('  the motion repeats after '//integer_text(orbit%period)// &
@@ -388,7 +389,7 @@ contains
                nint(quantity_value(quantity_orbit_stability, judged)))// &
                                              ', largest Floquet multiplier '//short_text(abs(orbit%multipliers(1)), 3))
       end associate
-   end subroutine report_certificate
+   end subroutine report_verification
 
    !> A length [m] as a number of micrometres.
    pure function micrometres(length) result(words)

@@ -1,12 +1,13 @@
 !> Result of a scene as the &summary group.
 module scene_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use certificate, only: certificate_word
+   use verification, only: verification_word
    use errors, only: error_t
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: choice_word
    use kinds, only: dp, int64
-   use quantities, only: a_code, a_count, a_flag, a_list, part_class, part_cost, part_errors, part_lines, part_orbit, part_regime, &
+   use quantities, only: a_code, a_count, a_flag, a_list, part_class, part_cost, part_errors, part_spectrum, part_orbit, &
+      part_regime, &
                       part_scene, part_window, quantity_code, quantity_film_regime, quantity_harmonics, quantity_law_contradicted, &
                          quantity_orbit_period, quantity_t, quantity_table, quantity_word
    use result_checksum, only: checksum_of_new_result
@@ -51,11 +52,11 @@ contains
       call add_part(summary, judged, part_scene)
       if (judged%judged) then
          call add_part(summary, judged, part_window)
-         if (judged%rattle%lines%moving) call add_part(summary, judged, part_lines)
+         if (judged%rattle%spectrum%moving) call add_part(summary, judged, part_spectrum)
          call add_part(summary, judged, part_class)
-         if (judged%certificate%exists) then
-            call summary%add('certificate', certificate_word(judged%certificate))
-            call summary%add('certificate_text', judged%certificate%reason)
+         if (judged%verification%exists) then
+            call summary%add('verification', verification_word(judged%verification))
+            call summary%add('verification_text', judged%verification%reason)
          end if
          call add_part(summary, judged, part_errors)
          call add_part(summary, judged, part_orbit)

@@ -1,6 +1,7 @@
 !> Value of one key: taken from an assignment as the key asks, or refused with a fault; and its text.
 module input_entry
    use errors, only: fault_list_t
+   use former_names, only: present_word
    use input_key, only: allowed_text, in_range, integer_kind, is_list, key_t, list_kind, logical_kind, path_limit, &
                         real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
@@ -9,7 +10,7 @@ module input_entry
    use namelist_text, only: assignment_t
    use number_text, only: read_strict_integer, read_strict_real
    use scene_types, only: numbers_t
-   use text, only: integer_text, logical_text, lower, quoted, quoted_words, real_text
+   use text, only: integer_text, logical_text, lower, printable, quoted, quoted_words, real_text
    use word_list, only: split_words, word_count, word_position, word_t
    implicit none(type, external)
    private
@@ -32,13 +33,15 @@ module input_entry
       character(:), allocatable :: word
       !> Blank-separated words of a list
       character(:), allocatable :: words
+      !> Former name by which the key was set, or former name of a key or quantity that it was set to; empty: none
+      character(:), allocatable :: former
       !> Numbers of a list
       real(dp), allocatable :: numbers(:)
       !> Columns of a table
       type(numbers_t), allocatable :: columns(:)
    end type entry_t
 
-   public :: new_entry, set_entry, continues_list, value_text, numbers_text
+   public :: new_entry, set_entry, continues_list, value_text, numbers_text, place_of
 
 contains
 
@@ -56,6 +59,7 @@ contains
       entry%file = file
       entry%word = ''
       entry%words = ''
+      entry%former = ''
       allocate (entry%numbers(0), entry%columns(0))
       entry%present = key%default /= '' .and. key%default /= 'required'
       if (.not. entry%present) return
@@ -94,6 +98,7 @@ contains
       entry%given = .true.
       entry%file = file
       entry%line = assignment%line
+      entry%former = ''
       entry%faulty = .not. assignment%sound
       if (entry%faulty) return
       if (key%kind == table_kind .and. .not. assignment%whole_column) then
@@ -243,7 +248,7 @@ contains
       type(value_t), intent(in) :: value
       type(entry_t), intent(inout) :: entry
       type(fault_list_t), intent(inout) :: faults
-      character(:), allocatable :: allowed
+      character(:), allocatable :: allowed, word
       logical :: sound
 
       sound = .false.
@@ -259,13 +264,14 @@ contains
       case default
          sound = value%quoted .and. len_trim(value%text) > 0 .and. len(value%text) <= path_limit
          if (sound .and. (key%choices /= '' .or. key%kind == list_kind)) sound = scan(trim(value%text), ' ') == 0
-         if (sound .and. key%choices /= '') sound = word_position(trim(key%choices), trim(value%text)) > 0
-         if (sound .and. key%kind == text_kind) then
-            entry%word = value%text
-            ! Every later question compares whole words: a blank behind one must not make it another.
-            if (key%choices /= '') entry%word = trim(value%text)
-         end if
-         if (sound .and. key%kind == list_kind) entry%words = trim(adjustl(entry%words//' '//value%text))
+         word = value%text
+         ! Every later question compares whole words: a blank behind one must not make it another.
+         if (key%choices /= '') word = trim(word)
+         if (names_keys(key)) word = present_word(word)
+         if (word /= value%text) entry%former = value%text
+         if (sound .and. key%choices /= '') sound = word_position(trim(key%choices), word) > 0
+         if (sound .and. key%kind == text_kind) entry%word = word
+         if (sound .and. key%kind == list_kind) entry%words = trim(adjustl(entry%words//' '//word))
       end select
       if (sound) return
       entry%faulty = .true.
@@ -278,6 +284,14 @@ contains
       call faults%add(entry%file, entry%line, trim(key%group), trim(key%name), &
                       shown(value)//' is not allowed; allowed: '//allowed)
    end subroutine read_value
+
+   !> Whether the words of a key are names of keys or quantities.
+   pure logical function names_keys(key)
+      type(key_t), intent(in) :: key
+
+      names_keys = any(key%group == ['campaign ', 'threshold']) .and. &
+                   any(key%name == ['vary     ', 'record   ', 'key      ', 'criterion'])
+   end function names_keys
 
    !> Value as it stands in the input, shortened for a sentence.
    pure function shown(value) result(words)
@@ -349,5 +363,14 @@ contains
       end do
       words = words(:max(0, used - len(', ')))
    end function numbers_text
+
+   !> File and line of an entry.
+   pure function place_of(entry) result(place)
+      type(entry_t), intent(in) :: entry
+      character(:), allocatable :: place
+
+      place = printable(entry%file, .false.)
+      if (entry%line > 0) place = place//':'//integer_text(entry%line)
+   end function place_of
 
 end module input_entry

@@ -224,7 +224,7 @@ contains
          '(published piezo-viscous) and'//end_of_line// &
          '4.89 and 4.90 um (exact, `model = ''reynolds''`, iso- and piezo-viscous). Where alpha p at the steady '// &
          'film, told by `--check`,'//end_of_line// &
-         'is below 0.1, pressure hardly thickens the oil: both exact films are one, and `iso-viscous` with '// &
+         'is below 0.1, pressure hardly thickens the oil: both Reynolds films are one, and `iso-viscous` with '// &
          '`reynolds` is the law. The'//end_of_line// &
          'published piezo-viscous film is no guide where the pressure is low: for this pair it is off by a factor of '// &
          '20. From'//end_of_line// &
@@ -249,16 +249,18 @@ contains
       end_of_line//'   or because a stable motion that does was found at its end. Else it is followed for 100 periods beside a'// &
          end_of_line//'   neighbouring motion. It is irregular if the two part for good: their `lyapunov_exponent` is positive'// &
          end_of_line//'   by two standard errors of its blocks of 5 periods, in both halves and in the last quarter; that'// &
-         end_of_line//'   is certified if the windows behind the one that is judged are off the harmonics, too. It may settle'// &
-         end_of_line//'   later still. Else it is irregular_so_far, never certified: it settles, or no more is known.'// &
+         end_of_line//'   is verified if the windows behind the one that is judged are off the harmonics, too. It may settle'// &
+         end_of_line//'   later still. Else it is irregular_so_far, never verified: it settles, or no more is known.'// &
          end_of_line// &
          '2. quiet, if the harmonic distortion sqrt(a_2^2 + a_3^2 + ...)/a_1 is below `quiet_limit`. With a tenth of'// &
          end_of_line//'   the static load as amplitude the canonical scenes have 0.25 (idle) and 0.12 (creep), with nine'// &
          end_of_line//'   tenths of it 2.8 and 1.9; 0.35 lies between. Under a force of several harmonics all lines at those'// &
          end_of_line//'   of at least a hundredth of its largest are forced, the others held against them.'//end_of_line// &
-         '3. idle, if at least `idle_lines` lines exceed `line_threshold` times the first (of several forced ones the'// &
+         '3. idle, if at least `idle_harmonics` harmonics exceed `harmonic_threshold` times the first (of several forced ones '// &
+            'the'// &
          end_of_line//'   largest, which alone of them is counted). The canonical idle scene'// &
-         end_of_line//'   has 30 such lines, 21 even with the exact film; the canonical creep scene has 12; 20 lies between.'// &
+         end_of_line//'   has 30 such harmonics, 21 even with the Reynolds film; the canonical creep scene has 12; 20 lies '// &
+            'between.'// &
          end_of_line//'4. creep otherwise.'//end_of_line//end_of_line// &
          'A class counts only if it does not change when the time step and the tolerance shrink: see the figure on'// &
          end_of_line//'the tolerance in the README. A scene without motion (below 1e-12 of the load over the mass) is'// &
@@ -267,16 +269,17 @@ contains
          end_of_line//'those of the steps of the solution and of the polynomials between their ends. Where the samples of a'// &
          end_of_line//'motion by the default method miss its lines (their mean or their power is not that of the steps),'// &
          end_of_line//'twice as many are taken, up to 16384 a period, and else the first 40 lines come from integrals over'// &
-         end_of_line//'the steps (`lines_by_integrals`). `line_count_is_bound` and `harmonic_distortion_is_bound` say where'// &
+         end_of_line//'the steps (`harmonics_by_integrals`). `harmonic_count_is_bound` and `harmonic_distortion_is_bound` say '// &
+            'where'// &
          end_of_line//'there may be more. `series_coarse` says that the series is coarser than the motion: its extremes'// &
          end_of_line//'stand in rows behind the others, and its samples carry no class. `sampling_sufficient` is false where'// &
-         end_of_line//'the lines are those of too few samples (Newmark''s method). A class is certified only if the window'// &
+         end_of_line//'the harmonics are those of too few samples (Newmark''s method). A class is verified only if the window'// &
          end_of_line//'closes: the integral of the acceleration is the change of velocity, and the work of the film is that'// &
          end_of_line//'of the forces; a window of one period, which cannot tell what is off the harmonics, only if it ends'// &
          end_of_line//'with the films with which it began. Errors are twice the difference from a tighter solution, and'// &
          end_of_line//'what that may be off by, for a coast film the last digit of the drive film too;'// &
          end_of_line//'relative ones are shares of the smaller number. Where the two solutions part, the error says how far'// &
-         end_of_line//'such motions lie apart, and is no bound: `certificate_text` says by how much the film differs.'// &
+         end_of_line//'such motions lie apart, and is no bound: `verification_text` says by how much the film differs.'// &
          end_of_line//end_of_line// &
          '`model_limit` says where a motion leaves what the model can mean: `too_wide` (the film grows beyond a tenth'// &
          end_of_line//'of the radius, where the parabolic gap of a line contact ends), `too_narrow` (it falls below 1 nm,'// &
@@ -284,7 +287,7 @@ contains
          end_of_line//end_of_line// &
          '## How the regime is found'//end_of_line//end_of_line// &
          'After the motion the exact pressure of the iso-viscous film is taken over the window. Below'// &
-         end_of_line//'alpha p = 0.1 the film is iso-viscous (the exact piezo-viscous load is then 3.2 % higher), below 1'// &
+         end_of_line//'alpha p = 0.1 the film is iso-viscous (the Reynolds piezo-viscous load is then 3.2 % higher), below 1'// &
          end_of_line//'piezo-viscous; from 1 on no piezo-viscous film of rigid flanks exists, and neither does where the'// &
          end_of_line//'flanks give way by more than a tenth of the film (4): elastohydrodynamic. `law_contradicted` is'// &
          end_of_line//'true where the law of the scene is not the one of its regime. `pressure_maximum` is p for an'// &

@@ -49,7 +49,7 @@ module key_table
    character(*), parameter :: of_motions = 'scene.task=motion|sweep|campaign|threshold', &
       of_listed_motions = of_motions//' & without shaft.table', &
       of_campaigns = 'scene.task=campaign|threshold', of_thresholds = 'scene.task=threshold', &
-      certified = 'scene.task=motion|threshold'
+      verified = 'scene.task=motion|threshold'
 
    ! Three parts: a statement has 255 continuation lines at most.
    type(key_t), parameter :: keys_of_gears(*) = [ &
@@ -83,7 +83,8 @@ module key_table
       key_t('contact', 'poisson_ratio', real_kind, '-', '0.3', poisson, '', '', &
             'Poisson ratio of the teeth; E* = E/(1 - nu^2) (3).'), &
       key_t('contact', 'backlash', real_kind, 'm', '', positive, '', of_motions, &
-            'Play between drive and coast flank along their normal, the sum of both gaps; absent: the drive flank alone.', &
+            'Backlash, the play between drive and coast flank along their normal, the sum of both gaps; absent: the drive '// &
+               'flank alone.', &
             sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
             computable=a_play, given_by='gear'), &
       key_t('contact', 'stiffness', real_kind, 'N/m', '', positive, '', of_motions, &
@@ -179,7 +180,7 @@ module key_table
             example='iso-viscous'), &
       key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical', '', &
             'Whose film: published, the formulas of the paper with U as their u; reynolds, exact with u = 2U. Film task: '// &
-            'absent means both, numerical adds the finite-volume referee to the exact film.'), &
+            'absent means both, numerical adds the finite-volume reference solution to the Reynolds film.'), &
       key_t('film', 'rupture', text_kind, '', 'half-pi', any_number, 'half-pi solved', &
             'film.law=iso-viscous & film.model=published', &
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
@@ -301,7 +302,7 @@ module key_table
             sensible=range_t(lower=-10.0_dp, upper=10.0_dp), &
             computable=range_t(-1.0e6_dp, .false., 1.0e6_dp, .false.)), &
       key_t('gear', 'backlash', real_kind, 'm', '', positive, '', of_motions, &
-            'Play between both flanks along their normal; absent: the drive flank alone.', &
+            'Backlash, the play between both flanks along their normal; absent: the drive flank alone.', &
             sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
             computable=a_play), &
       key_t('gear', 'tooth_stiffness', real_kind, 'N/m2', '', positive, '', of_motions, &
@@ -402,28 +403,29 @@ module key_table
             'solver.method=newmark', &
             'First iterate of a step: extrapolated with the present acceleration, or the previous state as it stands.'), &
       key_t('solver', 'tolerance', real_kind, 'm', '1.0e-14', positive, '', 'solver.method=newmark', &
-            'Tolerance eps of (36) on the film between two passes; it lets through an acceleration error of about 4 eps/dt^2.'), &
+            'Tolerance eps of (36) on the film between two iterations; it lets through an acceleration error of about 4 '// &
+               'eps/dt^2.'), &
       key_t('solver', 'iteration_limit', integer_kind, '-', '100', range_t(1.0_dp, .false., 1.0e5_dp, .false.), '', &
             'solver.method=newmark', &
-            'Most passes in a step; a step that needs more ends the scene as not_converged.'), &
+            'Most iterations in a step; a step that needs more ends the scene as not_converged.'), &
       key_t('solver', 'steps_per_period', integer_kind, '-', '512', at_least_8, '', 'solver.method=newmark', &
             'Time steps in one period of the force; every one is a sample.'), &
       key_t('spectrum', 'periods', integer_kind, '-', '16', at_least_1, '', of_motions, &
             'Whole periods at the end of the run that spectrum, extremes and regime are taken from.'), &
-      key_t('spectrum', 'line_threshold', real_kind, '-', '0.01', fraction, '', of_motions, &
-            'A harmonic counts as a line if it exceeds this share of the first (of several forced ones: of the largest).'), &
-      key_t('spectrum', 'idle_lines', integer_kind, '-', '20', at_least_1, '', of_motions, &
-            'From this many lines on the motion is idle rattle.'), &
+      key_t('spectrum', 'harmonic_threshold', real_kind, '-', '0.01', fraction, '', of_motions, &
+            'A harmonic counts if it exceeds this share of the first (of several forced ones: of the largest).'), &
+      key_t('spectrum', 'idle_harmonics', integer_kind, '-', '20', at_least_1, '', of_motions, &
+            'From this many harmonics on the motion is idle rattle.'), &
       key_t('spectrum', 'quiet_limit', real_kind, '-', '0.35', positive, '', of_motions, &
             'Below this harmonic distortion the motion is quiet.'), &
       key_t('spectrum', 'irregular_limit', real_kind, '-', '0.01', fraction, '', of_motions, &
             'Above this share of power off the harmonics the motion is irregular, or subharmonic if it is known to repeat.'), &
       key_t('spectrum', 'impact_limit', real_kind, '-', '1.5', range_t(lower=1.0_dp), '', of_motions, &
             'A largest load of a film above this multiple of the largest force |F + m g| is an impact.'), &
-      key_t('spectrum', 'certify', logical_kind, '', '.true.', any_number, '', certified, &
-            'Whether the scene is solved again tighter, to say how large its errors are and whether its class stands.'), &
-      key_t('spectrum', 'certificate_tolerance', real_kind, '-', '0.01', fraction, '', certified, &
-            'Largest error of the film, relative, with which the class of a regular motion is certified.'), &
+      key_t('spectrum', 'verify', logical_kind, '', '.true.', any_number, '', verified, &
+            'Whether the scene is solved again tighter, to say how large its errors are and whether its class is verified.'), &
+      key_t('spectrum', 'verification_tolerance', real_kind, '-', '0.01', fraction, '', verified, &
+            'Largest error of the film, relative, with which the class of a regular motion is verified.'), &
       key_t('points', 'film_ratios', reals_kind, '-', '', positive, '', 'scene.task=film', &
             'Film ratios h* = h0/R, one or more; give these or film_ratio_range.', &
             example='70.0e-6', &
@@ -494,11 +496,11 @@ module key_table
       key_t('campaign', 'csv', text_kind, '', '', any_number, '', of_campaigns, &
             'Table of scenes instead of vary: a CSV file whose header names group.key, one scene per row.'), &
       key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
-            'natural_frequency damping_ratio line_count line_count_is_bound harmonic_distortion '// &
+            'natural_frequency damping_ratio harmonic_count harmonic_count_is_bound harmonic_distortion '// &
             'harmonic_distortion_is_bound irregular_fraction irregular_fraction_is_bound reversals_per_period '// &
             'rattle_class sampling_sufficient film_regime alpha_p_maximum model_limit harmonics', any_number, recordable, &
             'scene.task=campaign', &
-            'Recorded of every scene beside number, varied keys and status; certified (1 or 0) solves each again, tighter.'), &
+            'Recorded of every scene beside number, varied keys and status; verified (1 or 0) solves each again, tighter.'), &
       key_t('campaign', 'samples_per_period', integer_kind, '-', '256', range_t(32.0_dp, .false., 16384.0_dp, .false.), '', &
             of_campaigns, &
             'Samples of a period that a scene is judged by; where they are too few, its steps are integrated over.'), &
@@ -507,9 +509,9 @@ module key_table
       key_t('campaign', 'confirm_size', logical_kind, '', '.false.', any_number, '', of_campaigns, &
             'Must be true for more than ten million scenes.'), &
       key_t('campaign', 'part', integer_kind, '-', '1', at_least_1, '', of_campaigns, &
-            'Which part of the campaign, or of the lines of thresholds, this run solves, as a job of an array.'), &
+            'Which part of the campaign, or of the traces of thresholds, this run solves, as a job of an array.'), &
       key_t('campaign', 'parts', integer_kind, '-', '1', at_least_1, '', of_campaigns, &
-            'Parts that the campaign, or the lines of thresholds, are divided into.'), &
+            'Parts that the campaign, or the traces of thresholds, are divided into.'), &
       key_t('threshold', 'key', text_kind, '', 'required', any_number, '', of_thresholds, &
             'Key whose thresholds are found, as ''group.key'': any numeric key of a motion but those that &campaign varies.', &
             example='load.force_amplitude'), &

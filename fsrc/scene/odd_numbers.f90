@@ -2,14 +2,14 @@
 !> would be in the unit that was surely meant (module mistaken_units).
 module odd_numbers
    use constants, only: two_pi
-   use input_entry, only: entry_t
+   use input_entry, only: entry_t, place_of
    use input_key, only: real_kind, reals_kind
    use key_table, only: find_key, find_swept_key, keys
    use kinds, only: dp
    use mistaken_units, only: acceleration_meant, is_odd, meant_behind, odd_words, speed_meant
    use scene_input, only: scene_input_t
    use scene_types, only: shaft_t
-   use text, only: integer_text, printable, real_text, short_text
+   use text, only: integer_text, real_text, short_text
    use word_list, only: split_words, word_t
    implicit none(type, external)
    private
@@ -208,14 +208,5 @@ contains
 
       words = ' for '//trim(keys(position)%group)//'.'//trim(keys(position)%name)
    end function whose
-
-   !> File and line of an entry.
-   pure function place_of(entry) result(place)
-      type(entry_t), intent(in) :: entry
-      character(:), allocatable :: place
-
-      place = printable(entry%file, .false.)
-      if (entry%line > 0) place = place//':'//integer_text(entry%line)
-   end function place_of
 
 end module odd_numbers

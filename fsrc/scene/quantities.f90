@@ -14,17 +14,17 @@ module quantities
    integer, parameter :: needs_nothing = 0, needs_film_range = 1, needs_velocity_range = 2, needs_acceleration_range = 3, &
                                  needs_load_range = 4, needs_regime = 5, needs_coast_load_range = 6, needs_net_load_range = 7, &
                                  needs_coast_film_range = 8, needs_position_range = 9, needs_deflection = 10, &
-                                 needs_spectrum = 11, needs_certificate = 12, needs_impacts = 13, needs_verified_impacts = 14, &
+                                 needs_spectrum = 11, needs_verification = 12, needs_impacts = 13, needs_verified_impacts = 14, &
                                  needs_orbit = 15, need_count = 15
 
    !> Parts of the summary, in their order.
-   integer, parameter :: part_scene = 1, part_window = 2, part_lines = 3, part_class = 4, part_errors = 5, &
+   integer, parameter :: part_scene = 1, part_window = 2, part_spectrum = 3, part_class = 4, part_errors = 5, &
                                  part_orbit = 6, part_regime = 7, part_cost = 8
 
    enum, bind(c)
       enumerator :: quantity_status = 1, quantity_steady_film, quantity_natural_frequency, quantity_damping_ratio, &
          quantity_drag_torque, quantity_drag_bearing, quantity_drag_synchroniser, quantity_drag_churning, quantity_inertia_ratio, &
-         quantity_window_periods, quantity_samples_per_period, quantity_series_coarse, quantity_lines_by_integrals, &
+         quantity_window_periods, quantity_samples_per_period, quantity_series_coarse, quantity_harmonics_by_integrals, &
          quantity_film_minimum, quantity_film_maximum, quantity_velocity_minimum, quantity_velocity_maximum, &
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
          quantity_acceleration_rms, quantity_crest_factor, quantity_acceleration_kurtosis, quantity_film_force_rms, &
@@ -41,13 +41,13 @@ module quantities
          quantity_impact_impulses_coast, &
          quantity_gear_position_minimum, quantity_gear_position_maximum, &
          quantity_model_limit, quantity_reversals_per_period, &
-         quantity_harmonics, quantity_first_harmonic, quantity_line_count, quantity_line_count_is_bound, &
+         quantity_harmonics, quantity_first_harmonic, quantity_harmonic_count, quantity_harmonic_count_is_bound, &
          quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, &
          quantity_irregular_fraction_is_bound, quantity_sampling_sufficient, quantity_rattle_class, &
-         quantity_lyapunov_exponent, quantity_certified, &
+         quantity_lyapunov_exponent, quantity_verified, &
          quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
          quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
-         quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_loudness_error, &
+         quantity_acceleration_minimum_error, quantity_acceleration_maximum_error, quantity_severity_error, &
          quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, quantity_floquet_multipliers, &
          quantity_floquet_modulus, quantity_pressure_maximum, quantity_alpha_p_maximum, quantity_deflection, &
          quantity_deflection_share, quantity_stiffness_matters, quantity_film_regime, quantity_law_contradicted, &
@@ -102,13 +102,13 @@ module quantities
       quantity_t(quantity_window_periods, 'window_periods', '-', a_count, part_window, needs_nothing, 'summary', &
          'Periods of the force at the end of the run that are judged.'), &
       quantity_t(quantity_samples_per_period, 'samples_per_period', '-', a_count, part_window, needs_nothing, 'summary', &
-         'Samples of a period that the lines are found from.'), &
+         'Samples of a period that the harmonics are found from.'), &
       quantity_t(quantity_series_coarse, 'series_coarse', '-', a_flag, part_window, needs_nothing, 'summary', &
          'Whether the samples of the time series are too few for its motion.'), &
-      quantity_t(quantity_lines_by_integrals, 'lines_by_integrals', '-', a_flag, part_window, needs_nothing, 'summary', &
-         'Whether the lines are integrals over the steps, since no samples follow the motion.'), &
+      quantity_t(quantity_harmonics_by_integrals, 'harmonics_by_integrals', '-', a_flag, part_window, needs_nothing, 'summary', &
+         'Whether the harmonics are integrals over the steps, since no samples follow the motion.'), &
       quantity_t(quantity_film_minimum, 'film_minimum', 'm', a_number, part_window, needs_film_range, 'summary sweep campaign', &
-         'Smallest film of the window.'), &
+         'Minimum film thickness of the window.'), &
       quantity_t(quantity_film_maximum, 'film_maximum', 'm', a_number, part_window, needs_film_range, 'summary sweep campaign', &
          'Largest film of the window.'), &
       quantity_t(quantity_velocity_minimum, 'velocity_minimum', 'm/s', a_number, part_window, needs_velocity_range, &
@@ -149,7 +149,7 @@ module quantities
          'dissipated_energy times the frequency of the force.', digits=4), &
       quantity_t(quantity_coast_film_minimum, 'coast_film_minimum', 'm', a_number, part_window, needs_coast_film_range, &
          'summary flanks campaign', &
-         'Smallest film of the coast flank over the window, where there is a backlash.'), &
+         'Minimum film thickness of the coast flank over the window, where there is a backlash.'), &
       quantity_t(quantity_coast_film_maximum, 'coast_film_maximum', 'm', a_number, part_window, needs_coast_film_range, &
          'summary campaign', &
          'Largest film of the coast flank over the window.'), &
@@ -247,77 +247,77 @@ module quantities
          'Turns of the acceleration that stand out from the curve, a period of the force.'), &
       quantity_t(quantity_harmonics, 'harmonics', 'm/s2', a_list, part_window, needs_spectrum, 'summary campaign', &
          'Amplitudes of the acceleration at multiples of the frequency of the force: 40 in a summary, harmonic_1 to 8 in a row.'), &
-      quantity_t(quantity_first_harmonic, 'first_harmonic', 'm/s2', a_number, part_lines, needs_spectrum, 'sweep', &
+      quantity_t(quantity_first_harmonic, 'first_harmonic', 'm/s2', a_number, part_spectrum, needs_spectrum, 'sweep', &
          'Amplitude of the acceleration at the frequency of the force.'), &
-      quantity_t(quantity_line_count, 'line_count', '-', a_count, part_lines, needs_spectrum, 'summary sweep campaign', &
-         'Harmonics above the line threshold.'), &
-      quantity_t(quantity_line_count_is_bound, 'line_count_is_bound', '-', a_flag, part_lines, needs_spectrum, &
+      quantity_t(quantity_harmonic_count, 'harmonic_count', '-', a_count, part_spectrum, needs_spectrum, 'summary sweep campaign', &
+         'Harmonics above the harmonic threshold.'), &
+      quantity_t(quantity_harmonic_count_is_bound, 'harmonic_count_is_bound', '-', a_flag, part_spectrum, needs_spectrum, &
          'summary sweep campaign', &
-         'Whether there may be more lines beyond the highest that is resolved.'), &
-      quantity_t(quantity_harmonic_distortion, 'harmonic_distortion', '-', a_number, part_lines, needs_spectrum, &
+         'Whether there may be more harmonics beyond the highest that is resolved.'), &
+      quantity_t(quantity_harmonic_distortion, 'harmonic_distortion', '-', a_number, part_spectrum, needs_spectrum, &
          'summary sweep campaign', &
          'All harmonics from the second on over the first.'), &
-      quantity_t(quantity_harmonic_distortion_is_bound, 'harmonic_distortion_is_bound', '-', a_flag, part_lines, &
+      quantity_t(quantity_harmonic_distortion_is_bound, 'harmonic_distortion_is_bound', '-', a_flag, part_spectrum, &
          needs_spectrum, 'summary sweep campaign', &
-         'Whether lines beyond the highest that is resolved may add to harmonic_distortion.'), &
-      quantity_t(quantity_irregular_fraction, 'irregular_fraction', '-', a_number, part_lines, needs_spectrum, &
+         'Whether harmonics beyond the highest that is resolved may add to harmonic_distortion.'), &
+      quantity_t(quantity_irregular_fraction, 'irregular_fraction', '-', a_number, part_spectrum, needs_spectrum, &
          'summary sweep campaign', &
          'Share of the power that is off the harmonics.'), &
-      quantity_t(quantity_irregular_fraction_is_bound, 'irregular_fraction_is_bound', '-', a_flag, part_lines, &
+      quantity_t(quantity_irregular_fraction_is_bound, 'irregular_fraction_is_bound', '-', a_flag, part_spectrum, &
          needs_spectrum, 'summary sweep campaign', &
          'Whether power beyond the highest harmonic that is resolved may add to irregular_fraction.'), &
-      quantity_t(quantity_sampling_sufficient, 'sampling_sufficient', '-', a_flag, part_lines, needs_spectrum, &
+      quantity_t(quantity_sampling_sufficient, 'sampling_sufficient', '-', a_flag, part_spectrum, needs_spectrum, &
          'summary campaign', &
-         'Whether the lines are those of the motion, not of too few samples.'), &
+         'Whether the harmonics are those of the motion, not of too few samples.'), &
       quantity_t(quantity_rattle_class, 'rattle_class', '-', a_code, part_class, needs_spectrum, 'summary sweep campaign', &
          'Class of the motion by its spectrum.', &
          'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
       quantity_t(quantity_lyapunov_exponent, 'lyapunov_exponent', '-', a_number, part_class, needs_spectrum, &
          'summary sweep campaign', &
          'Mean logarithm by which a neighbouring motion parts, a period of the force; where a motion does not repeat.'), &
-      quantity_t(quantity_certified, 'certified', '-', a_flag, part_class, needs_certificate, 'campaign', &
-         'Whether the class stands when the scene is solved again, tighter.'), &
+      quantity_t(quantity_verified, 'verified', '-', a_flag, part_class, needs_verification, 'campaign', &
+         'Whether the class is verified: a second solution with a tighter tolerance agrees.'), &
       quantity_t(quantity_verdict_verified, 'verdict_verified', '-', a_flag, part_class, needs_verified_impacts, &
          'summary campaign', &
          'Whether the verdict is the same when the scene is solved again, tighter.'), &
       quantity_t(quantity_impacts_verified, 'impacts_verified', '-', a_flag, part_class, needs_verified_impacts, &
          'summary campaign', &
          'Whether each flank has as many impacts a period when the scene is solved again, tighter; irregular motions seldom do.'), &
-      quantity_t(quantity_film_error, 'film_error', '-', a_number, part_errors, needs_certificate, 'summary', &
+      quantity_t(quantity_film_error, 'film_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Largest error of the films of both flanks over the window, relative to the thinner one.'), &
-      quantity_t(quantity_film_minimum_error, 'film_minimum_error', 'm', a_number, part_errors, needs_certificate, 'summary', &
+      quantity_t(quantity_film_minimum_error, 'film_minimum_error', 'm', a_number, part_errors, needs_verification, 'summary', &
          'Error of film_minimum.'), &
-      quantity_t(quantity_film_maximum_error, 'film_maximum_error', 'm', a_number, part_errors, needs_certificate, 'summary', &
+      quantity_t(quantity_film_maximum_error, 'film_maximum_error', 'm', a_number, part_errors, needs_verification, 'summary', &
          'Error of film_maximum.'), &
-      quantity_t(quantity_acceleration_error, 'acceleration_error', '-', a_number, part_errors, needs_certificate, 'summary', &
+      quantity_t(quantity_acceleration_error, 'acceleration_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Larger of both errors below, over the largest size of the acceleration.'), &
       quantity_t(quantity_acceleration_minimum_error, 'acceleration_minimum_error', 'm/s2', a_number, part_errors, &
-         needs_certificate, 'summary', &
+         needs_verification, 'summary', &
          'Error of acceleration_minimum.'), &
       quantity_t(quantity_acceleration_maximum_error, 'acceleration_maximum_error', 'm/s2', a_number, part_errors, &
-         needs_certificate, 'summary', &
+         needs_verification, 'summary', &
          'Error of acceleration_maximum.'), &
-      quantity_t(quantity_loudness_error, 'loudness_error', '-', a_number, part_errors, needs_certificate, 'summary', &
+      quantity_t(quantity_severity_error, 'severity_error', '-', a_number, part_errors, needs_verification, 'summary', &
          'Largest relative error of acceleration_rms, acceleration_kurtosis, film_force_rms and dissipated_energy.'), &
-      quantity_t(quantity_harmonic_errors, 'harmonic_errors', 'm/s2', a_list, part_errors, needs_certificate, 'summary', &
+      quantity_t(quantity_harmonic_errors, 'harmonic_errors', 'm/s2', a_list, part_errors, needs_verification, 'summary', &
          'Errors of the harmonics.'), &
       quantity_t(quantity_orbit_period, 'orbit_period', '-', a_count, part_orbit, needs_orbit, 'summary sweep campaign', &
          'Periods of the force after which the motion repeats; 0 where that is not known.'), &
-      quantity_t(quantity_orbit_stability, 'orbit_stability', '-', a_code, part_orbit, needs_certificate, 'summary sweep', &
+      quantity_t(quantity_orbit_stability, 'orbit_stability', '-', a_code, part_orbit, needs_verification, 'summary sweep', &
          'What the Floquet multipliers say of the periodic motion.', &
          'stable|stable, period doubling near|stable, fold near|stable, torus near|unstable', first_code=1), &
-      quantity_t(quantity_floquet_multipliers, 'floquet_multipliers', '-', a_list, part_orbit, needs_certificate, 'summary', &
+      quantity_t(quantity_floquet_multipliers, 'floquet_multipliers', '-', a_list, part_orbit, needs_verification, 'summary', &
          'What an orbit leaves of a disturbance: real and imaginary part of each, the larger first.'), &
-      quantity_t(quantity_floquet_modulus, 'floquet_modulus', '-', a_number, part_orbit, needs_certificate, 'sweep', &
+      quantity_t(quantity_floquet_modulus, 'floquet_modulus', '-', a_number, part_orbit, needs_verification, 'sweep', &
          'Modulus of the largest Floquet multiplier.'), &
       quantity_t(quantity_pressure_maximum, 'pressure_maximum', 'Pa', a_number, part_regime, needs_regime, 'summary campaign', &
-         'Largest pressure of the exact film over the window, where it exists.'), &
+         'Largest pressure of the Reynolds film over the window, where it exists.'), &
       quantity_t(quantity_alpha_p_maximum, 'alpha_p_maximum', '-', a_number, part_regime, needs_regime, 'summary campaign', &
-         'Largest pressure of the exact iso-viscous film times the pressure-viscosity coefficient.'), &
+         'Largest pressure of the Reynolds iso-viscous film times the pressure-viscosity coefficient.'), &
       quantity_t(quantity_deflection, 'deflection', 'm', a_number, part_regime, needs_regime, 'summary campaign', &
          'Deflection (4) of the teeth at the largest pressure.'), &
       quantity_t(quantity_deflection_share, 'deflection_share', '-', a_number, part_regime, needs_deflection, 'summary campaign', &
-         'Share of the film by which the tooth gives way under the largest load; a rigid one as a steel tooth, 14 N/(um mm).'), &
+         'Compliance under the largest load; a rigid one as a steel tooth, 14 N/(um mm).'), &
       quantity_t(quantity_stiffness_matters, 'stiffness_matters', '-', a_flag, part_regime, needs_deflection, &
          'summary campaign', &
          'Whether deflection_share is above a tenth: rigid teeth are, or of elastic ones would be, no fair assumption.'), &
@@ -387,7 +387,7 @@ contains
 
       needed = [(any(quantity_table(quantities)%need == i), i=1, need_count)]
       needed(needs_impacts) = any(needed([needs_impacts, needs_verified_impacts]))
-      needed(needs_certificate) = any(needed([needs_certificate, needs_verified_impacts]))
+      needed(needs_verification) = any(needed([needs_verification, needs_verified_impacts]))
       needed(needs_load_range) = any(needed([needs_load_range, needs_deflection, needs_impacts]))
       needed(needs_net_load_range) = any(needed([needs_net_load_range, needs_impacts]))
       needed(needs_coast_film_range) = any(needed([needs_film_range, needs_coast_film_range]))
@@ -395,14 +395,14 @@ contains
    end function needs_of
 
    !> Whether some quantities ask for the scene to be solved again, tighter.
-   pure logical function is_verified(quantities)
+   pure logical function asks_to_verify(quantities)
       !> Codes
       integer, intent(in) :: quantities(:)
       logical :: needed(need_count)
 
       needed = needs_of(quantities)
-      is_verified = needed(needs_certificate)
-   end function is_verified
+      asks_to_verify = needed(needs_verification)
+   end function asks_to_verify
 
    !> Codes of the quantities that are told somewhere, in the order of the table.
    pure function quantities_told_in(place) result(codes)

@@ -308,7 +308,7 @@ contains
       end do
    end subroutine check_columns
 
-   !> The referee and Roelands' viscosity are for film tasks: a motion would wait for them at every step.
+   !> The reference solution and Roelands' viscosity are for film tasks: a motion would wait for them at every step.
    subroutine check_film_model(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults

@@ -3,7 +3,8 @@
 module scene_reader
    use errors, only: fault_list_t, last_error, not_permitted
    use file_system, only: read_whole_file
-   use input_entry, only: numbers_text, value_text
+   use former_names, only: present_word, renamed_text
+   use input_entry, only: numbers_text, place_of, value_text
    use input_key, only: name_limit, table_kind
    use key_table, only: keys, starts_group
    use keys_in_use, only: in_use
@@ -17,6 +18,7 @@ module scene_reader
    use table_reader, only: take_drag_table, take_excitation_table
    use task_reader, only: read_campaign, read_points, read_sweep, read_threshold
    use text, only: integer_text, lower, quoted
+   use word_list, only: word_t
    implicit none(type, external)
    private
 
@@ -161,8 +163,26 @@ contains
       scene%output = read_output(input)
       scene%lines = input%entries%line
       scene%resolved_input = resolved_text(input, trim(scene%name))//input%found
-      scene%warnings = [scene%warnings, odd_numbers_of_input(input), odd_swings(input, scene%shaft)]
+      scene%warnings = [scene%warnings, former_names_of_input(input), odd_numbers_of_input(input), odd_swings(input, scene%shaft)]
    end subroutine put_values
+
+   !> What is said of former names of keys and quantities in an input.
+   function former_names_of_input(input) result(lines)
+      type(scene_input_t), intent(in) :: input
+      type(word_t), allocatable :: lines(:)
+      character(:), allocatable :: present
+      integer :: i
+
+      allocate (lines(0))
+      do i = 1, size(keys)
+         associate (entry => input%entries(i))
+            if (len(entry%former) == 0) cycle
+            present = present_word(entry%former)
+            if (present == entry%former) present = trim(keys(i)%name)
+            lines = [lines, word_t('warning: '//place_of(entry)//': '//renamed_text(entry%former, present))]
+         end associate
+      end do
+   end function former_names_of_input
 
    !> How faults call an input.
    pure function input_name(path) result(name)
@@ -286,8 +306,8 @@ contains
          solver%kept_per_period = input%count('solver', 'samples_per_period')
          solver%until = input%choice('solver', 'until')
          solver%time_limit = input%number('solver', 'time_limit')
-         spectrum%certify = input%flag('spectrum', 'certify')
-         spectrum%certificate_tolerance = input%number('spectrum', 'certificate_tolerance')
+         spectrum%verify = input%flag('spectrum', 'verify')
+         spectrum%verification_tolerance = input%number('spectrum', 'verification_tolerance')
       end associate
    end subroutine read_choices
 

@@ -38,7 +38,8 @@ contains
          holds(3) = scene%kinematics%entrainment_speed >= least_entrainment_speed
          rules(4)%keys = 'solver.periods spectrum.periods'
          holds(4) = solver%periods >= spectrum%periods
-         ! Not by integer_text: threads come here, and gfortran keeps the length of a text that a function allocates for all of them.
+         ! Not by integer_text: threads come here, and gfortran keeps the length of a text that a function allocates for all of
+         ! them.
          if (.not. holds(4)) write (rules(4)%sentence, '(a, i0, a)') 'at least &spectrum periods (', spectrum%periods, &
             ') must be solved'
          rules(5) = rule_t('oil.viscosity_100_cst oil.viscosity_40_cst', 'at 100 degC an oil is thinner than at 40 degC')

@@ -56,7 +56,7 @@ module scene_types
       !> Young's modulus E [Pa] and Poisson ratio [-] of the teeth
       real(dp) :: young_modulus = 0.0_dp
       real(dp) :: poisson_ratio = 0.0_dp
-      !> Play between the two flanks along their normal [m]; 0: there is one flank only
+      !> Backlash, the play between the two flanks along their normal [m]; 0: there is one flank only
       real(dp) :: backlash = 0.0_dp
       !> Stiffness of a flank and its tooth, in series with the film [N/m]; 0: rigid
       real(dp) :: stiffness = 0.0_dp
@@ -240,7 +240,7 @@ module scene_types
       integer :: predictor = predictor_extrapolated
       !> eps of (36) [m]
       real(dp) :: tolerance = 0.0_dp
-      !> Most passes in a step
+      !> Most iterations in a step
       integer :: iteration_limit = 0
       !> Steps of Newmark's method, each a sample
       integer :: steps_per_period = 0
@@ -261,21 +261,21 @@ module scene_types
    type, public :: spectrum_choice_t
       !> Whole periods in the window at the end of the run
       integer :: periods = 16
-      !> Orders at which the force makes lines
+      !> Orders at which the force makes harmonics
       logical :: forced(highest_order) = [.true., spread(.false., 1, highest_order - 1)]
-      !> A harmonic above this share of the largest forced one is a line
-      real(dp) :: line_threshold = 0.01_dp
-      !> From this many lines on: idle
-      integer :: idle_lines = 20
+      !> A harmonic above this share of the largest forced one counts
+      real(dp) :: harmonic_threshold = 0.01_dp
+      !> From this many harmonics on: idle
+      integer :: idle_harmonics = 20
       !> Harmonic distortion below this: quiet
       real(dp) :: quiet_limit = 0.35_dp
       !> Irregular fraction above this: irregular, or subharmonic
       real(dp) :: irregular_limit = 0.01_dp
       !> Largest loads of a film above this multiple of the largest force: impacts
       real(dp) :: impact_limit = 1.5_dp
-      !> Whether the scene is solved again tighter, and the film error [-] up to which its class is certified
-      logical :: certify = .true.
-      real(dp) :: certificate_tolerance = 0.01_dp
+      !> Whether the scene is solved again tighter, and the film error [-] up to which its class is verified
+      logical :: verify = .true.
+      real(dp) :: verification_tolerance = 0.01_dp
    end type spectrum_choice_t
 
    !> &points: a film task is the product of these lists
@@ -291,7 +291,7 @@ module scene_types
       integer :: speed_reading = speed_mean
       !> What is computed, by compute code
       logical :: compute(7) = .false.
-      !> Films of the published formulas, of the exact ones, and of the numerical referee
+      !> Films of the published formulas, of the exact ones, and of the numerical reference solution
       logical :: published = .true., exact = .true., numerical = .false.
       !> Nodes of a pressure profile
       integer :: profile_nodes = 0
@@ -314,7 +314,7 @@ module scene_types
       real(dp), allocatable :: numbers(:)
    end type numbers_t
 
-   !> &campaign, as given; the campaign room makes scenes of it.
+   !> &campaign, as given; the campaign folder makes scenes of it.
    type, public :: campaign_choice_t
       type(word_t), allocatable :: vary(:)
       !> Scale code of each varied key: 1 linear, 2 logarithmic
@@ -553,10 +553,10 @@ contains
             solver%periods = nint(value)
          case ('spectrum.periods')
             spectrum%periods = nint(value)
-         case ('spectrum.line_threshold')
-            spectrum%line_threshold = value
-         case ('spectrum.idle_lines')
-            spectrum%idle_lines = nint(value)
+         case ('spectrum.harmonic_threshold')
+            spectrum%harmonic_threshold = value
+         case ('spectrum.idle_harmonics')
+            spectrum%idle_harmonics = nint(value)
          case ('spectrum.quiet_limit')
             spectrum%quiet_limit = value
          case ('spectrum.irregular_limit')
@@ -569,7 +569,7 @@ contains
       end associate
    end subroutine set_number
 
-   !> At which orders lines are forced: those of at least a hundredth of the largest amplitude of the force.
+   !> At which orders harmonics are forced: those of at least a hundredth of the largest amplitude of the force.
    pure function forced_orders(orders, amplitudes) result(forced)
       integer, intent(in) :: orders(:)
       !> Of each order [N]

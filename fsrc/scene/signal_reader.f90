@@ -1,5 +1,5 @@
-!> &load signal and &shaft signal: the mean cycle of a force, or of the motion of the shaft, from a CSV file becomes orders, amplitudes
-!> and phases, as if the input gave them.
+!> &load signal and &shaft signal: the mean cycle of a force, or of the motion of the shaft, from a CSV file becomes orders,
+!> amplitudes and phases, as if the input gave them.
 module signal_reader
    use axis_unit, only: no_axis
    use constants, only: two_pi

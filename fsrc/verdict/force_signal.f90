@@ -29,7 +29,7 @@ module force_signal
       logical :: repeats = .false.
       !> Root of the mean square [N]
       real(dp) :: rms = 0.0_dp
-      !> Lines at multiples of the base frequency over `periods`: amplitude [N] and phase at the start of the motion
+      !> Harmonics at multiples of the base frequency over `periods`: amplitude [N] and phase at the start of the motion
       complex(dp), allocatable :: lines(:)
    end type force_signal_t
 
@@ -150,7 +150,7 @@ contains
       has_enough_samples = abs(0.5_dp*sum(abs(signal%lines)**2) - signal%rms**2) <= power_share*signal%rms**2
    end function has_enough_samples
 
-   !> Mean of the product of two signals: only lines at frequencies of both have one [N2].
+   !> Mean of the product of two signals: only harmonics at frequencies of both have one [N2].
    pure real(dp) function mean_of_product(one, other) result(mean)
       type(force_signal_t), intent(in) :: one
       type(force_signal_t), intent(in) :: other

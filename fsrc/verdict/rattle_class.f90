@@ -4,7 +4,7 @@ module rattle_class
    use lyapunov, only: parting_t
    use reversals, only: count_reversals, reversal_prominence
    use scene_types, only: spectrum_choice_t
-   use spectral_lines, only: find_lines, find_lines_by_integrals, spectral_lines_t
+   use harmonic_spectrum, only: find_harmonics, find_harmonics_by_integrals, harmonic_spectrum_t
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -19,7 +19,7 @@ module rattle_class
       real(dp) :: reversals_per_period = 0.0_dp
       !> Of a motion that does not repeat: how a neighbouring one parts from it
       type(parting_t) :: parting = parting_t()
-      type(spectral_lines_t) :: lines
+      type(harmonic_spectrum_t) :: spectrum
    end type rattle_verdict_t
 
    public :: classify, classify_steps, note_orbit, note_parting, note_known, is_off_harmonics
@@ -36,15 +36,15 @@ contains
       real(dp), intent(in) :: noise_floor
       type(rattle_verdict_t), intent(out) :: verdict
 
-      call find_lines(acceleration, choice%periods, choice%forced, choice%line_threshold, noise_floor, verdict%lines)
-      verdict%class = class_of(verdict%lines, choice)
-      if (verdict%lines%moving) verdict%reversals_per_period = &
+      call find_harmonics(acceleration, choice%periods, choice%forced, choice%harmonic_threshold, noise_floor, verdict%spectrum)
+      verdict%class = class_of(verdict%spectrum, choice)
+      if (verdict%spectrum%moving) verdict%reversals_per_period = &
          real(count_reversals(acceleration, reversal_prominence), dp)/real(choice%periods, dp)
    end subroutine classify
 
    !> A motion off its harmonics that is known to repeat after several periods of the force is subharmonic.
    elemental subroutine note_orbit(verdict, orbit)
-      !> Verdict on the lines of the motion
+      !> Verdict on the harmonics of the motion
       type(rattle_verdict_t), intent(inout) :: verdict
       !> Periods of the force after which the motion is known to repeat, 0: not known
       integer, intent(in) :: orbit
@@ -54,7 +54,7 @@ contains
 
    !> A motion that does not repeat, and that its neighbours leave for good, is irregular.
    elemental subroutine note_parting(verdict, parting)
-      !> Verdict on the lines of the motion
+      !> Verdict on the harmonics of the motion
       type(rattle_verdict_t), intent(inout) :: verdict
       !> How a neighbour parts from it
       type(parting_t), intent(in) :: parting
@@ -64,10 +64,10 @@ contains
       if (parting%for_good) verdict%class = class_irregular
    end subroutine note_parting
 
-   !> What is known of a motion off its harmonics counts for another solution of it as well: looked at once, it counts for both. Where
-   !> it repeats after several periods, the films of both tell whether they are one motion.
+   !> What is known of a motion off its harmonics counts for another solution of it as well: looked at once, it counts for both.
+   !> Where it repeats after several periods, the films of both tell whether they are one motion.
    elemental subroutine note_known(verdict, known)
-      !> Verdict on the lines of the other solution
+      !> Verdict on the harmonics of the other solution
       type(rattle_verdict_t), intent(inout) :: verdict
       !> Verdict on the motion
       type(rattle_verdict_t), intent(in) :: known
@@ -109,7 +109,7 @@ contains
       mean = record%acceleration_sum/periods
       power = 2.0_dp*(record%acceleration_square/periods - mean*mean)
       highest_quarter = (3*record%multiples)/4 + 1
-      associate (sums => record%line_sums, squares => record%line_squares, n => record%multiples)
+      associate (sums => record%harmonic_sums, squares => record%harmonic_squares, n => record%multiples)
          ! What varies from period to period is off the harmonics; of the mean of z'' only that.
          repeating(:) = (abs(sums(1:))/periods)**2
          varying(:) = max(0.0_dp, squares(1:)/periods - repeating)
@@ -120,13 +120,13 @@ contains
          irregular_fraction = share(off_harmonics + irregular_beyond, sum(repeating) + beyond - irregular_beyond)
          is_bound = share_beyond > repeating_share .and. &
                     beyond - irregular_beyond > negligible*(off_harmonics + sum(repeating) + beyond)
-         call find_lines_by_integrals(2.0_dp*frequency/periods*abs(sums(1:n)), irregular_fraction, &
+         call find_harmonics_by_integrals(2.0_dp*frequency/periods*abs(sums(1:n)), irregular_fraction, &
                                       .not. (is_bound .and. irregular_fraction > choice%irregular_limit), &
-                                      power, choice%forced, choice%line_threshold, noise_floor, verdict%lines)
-         verdict%lines%irregular_is_bound = is_bound .and. verdict%lines%moving
+                                      power, choice%forced, choice%harmonic_threshold, noise_floor, verdict%spectrum)
+         verdict%spectrum%irregular_is_bound = is_bound .and. verdict%spectrum%moving
       end associate
-      verdict%class = class_of(verdict%lines, choice)
-      if (verdict%lines%moving) verdict%reversals_per_period = &
+      verdict%class = class_of(verdict%spectrum, choice)
+      if (verdict%spectrum%moving) verdict%reversals_per_period = &
          real(count_reversals(record%turns(:record%turn_count), reversal_prominence), dp)/periods
 
    contains
@@ -142,17 +142,17 @@ contains
    end subroutine classify_steps
 
    !> Order of the questions: regular at all, rich at all, how rich.
-   pure integer function class_of(lines, choice) result(class)
-      type(spectral_lines_t), intent(in) :: lines
+   pure integer function class_of(spectrum, choice) result(class)
+      type(harmonic_spectrum_t), intent(in) :: spectrum
       type(spectrum_choice_t), intent(in) :: choice
 
-      if (.not. lines%moving) then
+      if (.not. spectrum%moving) then
          class = class_quiet
-      else if (lines%irregular_fraction > choice%irregular_limit) then
+      else if (spectrum%irregular_fraction > choice%irregular_limit) then
          class = class_irregular_so_far
-      else if (lines%harmonic_distortion < choice%quiet_limit) then
+      else if (spectrum%harmonic_distortion < choice%quiet_limit) then
          class = class_quiet
-      else if (lines%line_count >= choice%idle_lines) then
+      else if (spectrum%harmonic_count >= choice%idle_harmonics) then
          class = class_idle
       else
          class = class_creep

@@ -12,11 +12,11 @@ module regime_check
    implicit none(type, external)
    private
 
-   !> What the exact film says of a motion.
+   !> What the Reynolds film says of a motion.
    type, public :: regime_verdict_t
       !> Code of module regime
       integer :: regime = film_iso_viscous
-      !> Largest alpha p of the exact iso-viscous film [-]
+      !> Largest alpha p of the Reynolds iso-viscous film [-]
       real(dp) :: alpha_p_maximum = 0.0_dp
       !> Largest pressure [Pa]: p for an iso-viscous law, q of (31) for a piezo-viscous one
       real(dp) :: pressure_maximum = 0.0_dp
@@ -44,7 +44,7 @@ contains
    !> Judge the film law by the largest exact pressure of a motion.
    pure function check_regime(film, largest, thickness) result(verdict)
       type(film_t), intent(in) :: film
-      !> Largest pressure of the exact iso-viscous film [Pa]
+      !> Largest pressure of the Reynolds iso-viscous film [Pa]
       real(dp), intent(in) :: largest
       !> Film thickness where it acts [m]
       real(dp), intent(in) :: thickness
@@ -62,7 +62,7 @@ contains
       verdict%deflection = contact_deflection(film%radius, verdict%pressure_maximum, film%modulus)
       verdict%regime = film_regime(verdict%alpha_p_maximum, verdict%deflection, verdict%film)
       if (film%pressure_thickens) then
-         ! The exact film holds for thin oil as well; the published one is a fit to films with alpha p well above zero.
+         ! The Reynolds film holds for thin oil as well; the published one is a fit to films with alpha p well above zero.
          verdict%law_contradicted = verdict%regime /= film_piezo_viscous .and. &
                                     .not. (film%exact .and. verdict%regime == film_iso_viscous)
       else
@@ -85,7 +85,7 @@ contains
       type(regime_verdict_t), intent(in) :: verdict
       character(:), allocatable :: sentence
 
-      sentence = quantity_word(quantity_film_regime, verdict%regime)//': the exact film reaches alpha p = '// &
+      sentence = quantity_word(quantity_film_regime, verdict%regime)//': the Reynolds film reaches alpha p = '// &
                  short_text(verdict%alpha_p_maximum, 3)
       if (verdict%alpha_p_maximum >= rigid_limit) then
          sentence = sentence//'; from 1 on there is no piezo-viscous film of rigid flanks'
@@ -117,7 +117,7 @@ contains
       !> Code of a limit
       integer, intent(in) :: limit
       character(:), allocatable :: sentence
-      character(*), parameter :: wide = 'the film grows beyond a tenth of the radius, where the parabolic gap of a line '// &
+      character(*), parameter :: wide = 'the film grows beyond a tenth of the radius, where the parabolic gap of a harmonic '// &
                                          'contact ends'
       character(*), parameter :: narrow = 'the film falls below 1 nm, where no oil film is left'
 

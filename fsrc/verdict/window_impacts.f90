@@ -1,4 +1,4 @@
-!> Separation and impacts of a window: whether the tooth leaves its flank, and which flanks it strikes how hard.
+!> Separation and impacts of a window: whether the tooth leaves its flank, and which flanks it hits how hard.
 module window_impacts
    use impacts, only: impact_count_t, impacts_of_watch
    use kinds, only: dp

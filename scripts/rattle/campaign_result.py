@@ -74,7 +74,7 @@ class Campaign(ResultFile):
         self._rows = CheckedRows(path, header, rows, self.row_count)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        self.check_column(name)
+        name = self.check_column(name)
         held = self.rows[:, self.names.index(name)]
         if self.done.all():
             return held

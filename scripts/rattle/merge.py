@@ -39,7 +39,7 @@ Part = Campaign | Result
 
 
 def merge(paths: Sequence[Path], output: Path) -> str:
-    """Join the parts into `output` and return how many scenes or lines it has, as in '300 scenes'.
+    """Join the parts into `output` and return how many scenes or traces it has, as in '300 scenes'.
 
     Raises CommandError, with a sentence for each fault, before anything is written.
     """
@@ -74,7 +74,7 @@ def _opened(path: Path) -> Part:
 
 
 def _counted(part: Part) -> str:
-    """What the numbers in the first column count: scenes of a campaign, lines of thresholds."""
+    """What the numbers in the first column count: scenes of a campaign, traces of thresholds."""
     return part.names[0]
 
 
@@ -145,7 +145,7 @@ def _shown(value: object) -> str:
 
 
 def _disordered(parts: Sequence[Part]) -> list[str]:
-    """Gaps, overlaps, scenes or lines out of order, parts of a campaign that do not begin with a chunk."""
+    """Gaps, overlaps, scenes or traces out of order, parts of a campaign that do not begin with a chunk."""
     what = _counted(parts[0]) + "s"
     faults = [
         f"{part.path} is damaged: its {what} are not in order." for part in parts if not _in_order(part)
@@ -175,7 +175,7 @@ def _disordered(parts: Sequence[Part]) -> list[str]:
 
 
 def _in_order(part: Part) -> bool:
-    """A line may have several rows; a scene that comes twice leaves a gap at the end."""
+    """A trace may have several rows; a scene that comes twice leaves a gap at the end."""
     return bool(np.isin(np.diff(part[_counted(part)]), (0, 1)).all())
 
 

@@ -69,8 +69,7 @@ class Result(ResultFile):
         self.columns = Columns(header.names, self._rows, row_count)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        self.check_column(name)
-        return self.columns[name]
+        return self.columns[self.check_column(name)]
 
     @cached_property
     def extremes(self) -> Mapping[str, np.ndarray]:
@@ -155,7 +154,7 @@ class Result(ResultFile):
 
     def samples(self, name: str, rows: slice = slice(None)) -> np.ndarray:
         """A contiguous copy of some rows of a column, all of them finite."""
-        self.check_column(name)
+        name = self.check_column(name)
         values = np.ascontiguousarray(self.columns.part(name, rows), dtype=np.float64)
         if not np.isfinite(values).all():
             raise ResultError(f"The column '{name}' of {self.path} holds values that are not finite.")

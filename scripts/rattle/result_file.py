@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from rattle.checksums import LANES, checksum, checksums
+from rattle.former_names import asked_for, present_input
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import SERIES, ResultError, ResultHeader
 
@@ -51,16 +52,18 @@ class ResultFile:
     def __contains__(self, name: object) -> bool:
         return name in self.units
 
-    def check_column(self, name: str) -> None:
-        """Refuse a name that is no column."""
+    def check_column(self, name: str) -> str:
+        """The present name of a column; refuse a name that is no column."""
+        name = asked_for(name, self)
         if name not in self:
             raise ResultError(f"{self.path} has no column '{name}'; it holds {', '.join(self.names)}.")
+        return name
 
     @cached_property
     def input(self) -> dict[str, dict[str, Any]]:
         """The resolved input: group, key, value."""
         try:
-            groups = parse(self.input_text)
+            groups = present_input(parse(self.input_text))
             # What follows from &gear, &shaft and &oil; a sweep or campaign may vary what it follows from.
             if groups.get("scene", {}).get("task") == "motion":
                 for group, key, value, _ in DERIVED.findall(self.input_text):

@@ -8,6 +8,7 @@ from typing import Any
 
 from rattle.checksums import checksum
 from rattle.codes import QUANTITIES
+from rattle.former_names import present_summary
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import checksum_of_head
 from rattle.rounding import stated_error
@@ -50,8 +51,10 @@ def read_summary(path: str | Path) -> dict[str, Any]:
         raise SummaryError(f"{path} is not a summary: {fault}") from None
     if "summary" not in groups:
         raise SummaryError(f"{path} is not a summary: it has no group &summary.")
-    summary = groups["summary"]
-    pairs = [keys for name, keys in groups.items() if name == "pair" or name.startswith("pair(")]
+    summary = present_summary(groups["summary"])
+    pairs = [
+        present_summary(keys) for name, keys in groups.items() if name == "pair" or name.startswith("pair(")
+    ]
     if pairs:
         summary["gears"] = {str(keys.pop("gear")).strip(): keys for keys in pairs}
     summary.setdefault("name", path.name.removesuffix(".nml").removesuffix(".summary"))
@@ -109,8 +112,8 @@ def _range(label: str, quantity: str, form: str) -> Row:
 
 
 def _bound(summary: Summary) -> str:
-    """What stands before the number of lines where there may be more of them."""
-    return "at least " if "line_count_is_bound" in summary and summary["line_count_is_bound"] else ""
+    """What stands before the number of harmonics where there may be more of them."""
+    return "at least " if "harmonic_count_is_bound" in summary and summary["harmonic_count_is_bound"] else ""
 
 
 def _flag(label: str, quantity: str, when_set: str, otherwise: str) -> Row:
@@ -133,13 +136,13 @@ _ROWS: tuple[Row, ...] = (
     _number("acceleration rms", "acceleration_rms", ".3f"),
     _number("film force rms", "film_force_rms", ".4g"),
     _number("dissipated power", "dissipated_power", ".4g"),
-    ("lines", lambda summary: f"{_bound(summary)}{summary['line_count']}"),
+    ("harmonics", lambda summary: f"{_bound(summary)}{summary['harmonic_count']}"),
     _number("harmonic distortion", "harmonic_distortion", ".4f"),
     _number("irregular fraction", "irregular_fraction", ".1e"),
     _number("reversals a period", "reversals_per_period", "g"),
     _text("rattle class", "rattle_class"),
     _flag("both flanks struck", "double_sided", "yes", "no"),
-    _text("class stands", "certificate"),
+    _text("verification", "verification"),
     (
         "error of the film",
         lambda summary: f"{stated_error(float(summary['film_error']), 1.0, FILM_DIGITS):.1e}",

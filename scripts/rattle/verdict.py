@@ -9,16 +9,16 @@ import numpy as np
 
 from rattle.result import Result, ResultError
 
-LIMITS = ("line_threshold", "quiet_limit", "irregular_limit")
-THRESHOLDS = (*LIMITS, "idle_lines")
+LIMITS = ("harmonic_threshold", "quiet_limit", "irregular_limit")
+THRESHOLDS = (*LIMITS, "idle_harmonics")
 
 
 def thresholds(result: Result, overrides: Mapping[str, float | None] | None = None) -> dict[str, float]:
     """Thresholds of the resolved input, replaced where an override is not None."""
     given = {name: value for name, value in (overrides or {}).items() if value is not None}
     own = {name: float(result.number("spectrum", name)) for name in LIMITS if name not in given}
-    if "idle_lines" not in given:
-        own["idle_lines"] = result.positive_integer("spectrum", "idle_lines")
+    if "idle_harmonics" not in given:
+        own["idle_harmonics"] = result.positive_integer("spectrum", "idle_harmonics")
     return own | given
 
 
@@ -35,7 +35,7 @@ def classify(
     if result.coarse:
         raise ResultError(
             f"{result.path} is coarser than its motion: its samples carry no class. "
-            "What is known of its class stands in the summary."
+            "What is known of its class is verified in the summary."
         )
     return judge_samples(result, periods, overrides)
 

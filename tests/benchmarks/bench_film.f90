@@ -1,4 +1,4 @@
-!> Time per film of the exact film kernels, one core: median of several rounds, scalar calls and arrays.
+!> Time per film of the Reynolds film kernels, one core: median of several rounds, scalar calls and arrays.
 program bench_film
    use, intrinsic :: iso_fortran_env, only: int64
    use kinds, only: dp

@@ -20,18 +20,18 @@ NEWMARK = [
     "--set",
     "output.series=.false.",
     "--set",
-    "spectrum.certify=.false.",
+    "spectrum.verify=.false.",
 ]
 TAYLOR = [
-    *("--set", "output.series=.false.", "--set", "spectrum.certify=.false."),
+    *("--set", "output.series=.false.", "--set", "spectrum.verify=.false."),
     *("--set", "film.law=iso-viscous", "--set", "solver.periods=4000"),
 ]
 MAP = ["--threads", "1", "--set", "campaign.count=101, 101", "input/map.nml"]
-# The columns of the map, all but `certified`
+# The columns of the map, all but `verified`
 PLAIN = [
     "--set",
     "campaign.record=film_minimum,film_maximum,acceleration_minimum,acceleration_maximum,natural_frequency,"
-    "damping_ratio,line_count,harmonic_distortion,irregular_fraction,reversals_per_period,rattle_class,"
+    "damping_ratio,harmonic_count,harmonic_distortion,irregular_fraction,reversals_per_period,rattle_class,"
     "sampling_sufficient,film_regime,alpha_p_maximum,model_limit,harmonics",
 ]
 LEAN = ["--set", "campaign.record=film_minimum,film_maximum"]
@@ -53,9 +53,9 @@ ROWS = (
         [*NEWMARK, "input/idle.nml"],
     ),
     (
-        "certificate",
-        "`certify = .false.`",
-        [*TAYLOR, "--set", "spectrum.certify=.true.", BARE],
+        "verification",
+        "`verify = .false.`",
+        [*TAYLOR, "--set", "spectrum.verify=.true.", BARE],
         [*TAYLOR, BARE],
     ),
     (
@@ -64,7 +64,7 @@ ROWS = (
         [*TAYLOR, BARE],
         [*TAYLOR, "--set", "solver.until=steady", BARE],
     ),
-    ("certificate of every scene", "`certified` not in `record`", MAP, [*PLAIN, *MAP]),
+    ("verification of every scene", "`verified` not in `record`", MAP, [*PLAIN, *MAP]),
     (
         "spectrum and pressure scan",
         "columns of a campaign that need none",

@@ -104,7 +104,7 @@ all_well "$job" || { show "$job"; fail 'a task of the array job of thresholds'; 
 $campaign merge threshold_array/threshold.part-*-of-3.rattle --output threshold_array/threshold.rattle 2> array.note || { cat array.note; fail merge; }
 same 'thresholds, array job, merged' threshold_array/threshold.rattle thresholds/threshold.rattle
 
-say 'a gearbox over speed and oil temperature, every class certified: array job and MPI jobs'
+say 'a gearbox over speed and oil temperature, every class verified: array job and MPI jobs'
 sed 's/count = 25, 29/count = 7, 9/' "$repository/input/gearbox_map.nml" > gearbox.nml
 "$program" --quiet --threads 1 --output alone gearbox.nml > alone.log 2>&1 || { tail alone.log; give_up 'gearbox'; }
 write_script gearbox_array gearbox --array 3 --time 00:10:00

@@ -20,7 +20,7 @@ import rattle  # noqa: E402
 WORK = ("wall_seconds", "program_version", "evaluations", "steps", "steps_cut", "iterations_per_step")
 ROUNDING = 1e-6  # the share of the largest by which values without a stated error may differ
 SHARES = ("irregular_fraction",)  # of one, however little is left of them
-CODES = ("status", "rattle_class", "certified", "film_regime", "law_contradicted", "model_limit")
+CODES = ("status", "rattle_class", "verified", "film_regime", "law_contradicted", "model_limit")
 
 
 def main() -> int:

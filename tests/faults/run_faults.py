@@ -46,11 +46,11 @@ BASE = """&contact radius = 0.0127 length = 0.010 /
 """
 MOTION = """&scene task = 'motion' /
 &solver method = 'newmark' steps_per_period = 32 periods = {periods} /
-&spectrum periods = 2 certify = .false. /
+&spectrum periods = 2 verify = .false. /
 """
 STEADY = """&scene task = 'motion' /
 &solver until = 'steady' periods = {periods} /
-&spectrum periods = 2 certify = .false. /
+&spectrum periods = 2 verify = .false. /
 """
 SWEEP = """&scene task = 'sweep' /
 &solver periods = 60 /
@@ -75,7 +75,7 @@ TABLE = """&scene task = 'campaign' /
 """
 THRESHOLD = """&scene task = 'threshold' /
 &solver periods = 60 accuracy = 1e-6 /
-&spectrum periods = 2 certify = .false. /
+&spectrum periods = 2 verify = .false. /
 &threshold key = 'load.force_amplitude' criterion = 'harmonic_distortion' level = 0.3
    first = 20.0 last = 200.0 count = 5 tolerance = 0.01 /
 &campaign vary = 'load.mass' first = 2.0 last = 3.0 count = 6 /
@@ -89,7 +89,7 @@ GEARBOX = """&scene name = 'scene' /
 &oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 0.0 /
 &film law = 'iso-viscous', model = 'reynolds' /
 &solver periods = 40, accuracy = 1e-6 /
-&spectrum periods = 2 certify = .false. /
+&spectrum periods = 2 verify = .false. /
 &output directory = 'results' /
 """
 # Values of an input that an engineer may edit.
@@ -173,7 +173,7 @@ TASKS = (
 
 
 class Study:
-    """The program, a folder to play in, and the score."""
+    """The program, a folder to backlash in, and the score."""
 
     def __init__(self, program: Path, folder: Path, shim: Path, options: argparse.Namespace) -> None:
         self.program, self.folder, self.shim = program, folder, shim
@@ -926,7 +926,7 @@ def main() -> None:
 def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program", type=Path, help="the program, build/rattle")
-    parser.add_argument("folder", type=Path, help="folder to play in; it is emptied first")
+    parser.add_argument("folder", type=Path, help="folder to backlash in; it is emptied first")
     parser.add_argument("--tries", type=int, default=16, help="tries of each fault and task (16)")
     parser.add_argument("--every-call", action="store_true", help="a fault at every output call, not at some")
     parser.add_argument("--seed", type=int, default=1, help="of the random choices (1)")

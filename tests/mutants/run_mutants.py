@@ -413,7 +413,8 @@ def rows_of(path: Path) -> list[dict[str, str]]:
 
 
 def table(paths: Sequence[Path]) -> str:
-    """Results of several parts in Markdown: a line for each room, then the survivors. Later results count."""
+    """Results of several parts in Markdown: a line for each folder, then the survivors. Later results
+    count."""
     found = {}
     for path in paths:
         found.update({(row["place"], row["reason"]): row for row in rows_of(path)})
@@ -448,7 +449,7 @@ def main() -> int:
     )
     parser.add_argument("--only", metavar="PATTERN", help="those whose 'NUMBER FILE: REASON' it matches")
     parser.add_argument(
-        "--near", action="store_true", help="leave out the tests of other rooms, which take minutes"
+        "--near", action="store_true", help="leave out the tests of other folders, which take minutes"
     )
     parser.add_argument("--scratch", type=Path, default=REPOSITORY / "build" / "mutants", metavar="DIR")
     parser.add_argument("--csv", type=Path, help="where the results go; by default beside the scratch copy")

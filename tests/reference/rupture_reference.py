@@ -1,4 +1,4 @@
-"""Prints tests/unit/rupture_reference.f90: integrals, rupture and peak pressure of the exact film.
+"""Prints tests/unit/rupture_reference.f90: integrals, rupture and peak pressure of the Reynolds film.
 
 Run as `python tests/reference/rupture_reference.py > tests/unit/rupture_reference.f90`.
 """
@@ -53,7 +53,7 @@ def main() -> None:
         with mp.workdps(DIGITS):
             values = (exact.tangent, exact.tangent_slope, 1 / exact.peak)
         rupture_rows.append([f"{text}_dp", *(real(value) for value in values)])
-    print("!> Reference values of the exact film, from integrals and roots in arbitrary precision;")
+    print("!> Reference values of the Reynolds film, from integrals and roots in arbitrary precision;")
     print("!> written by tests/reference/rupture_reference.py.")
     print("module rupture_reference")
     print("   use kinds, only: dp")

@@ -179,7 +179,7 @@ def recordable(program: Path) -> list[str]:
     return [
         name
         for name in names
-        if re.search(rf"\b{name}\b", line.split("|")[4]) and not name.endswith(("certified", "verified"))
+        if re.search(rf"\b{name}\b", line.split("|")[4]) and not name.endswith(("verified", "verified"))
     ]
 
 
@@ -224,7 +224,9 @@ def _invalid_status() -> int:
 
 
 def _differences(rows, row: int, alone: dict, recorded: list[str]) -> Iterator[str]:
-    coarse = bool(rows["line_count_is_bound"][row] == 1.0 and not alone.get("line_count_is_bound", False))
+    coarse = bool(
+        rows["harmonic_count_is_bound"][row] == 1.0 and not alone.get("harmonic_count_is_bound", False)
+    )
     for name in recorded:
         if name == "harmonics":
             if "harmonics" not in alone:
@@ -246,7 +248,7 @@ def _differences(rows, row: int, alone: dict, recorded: list[str]) -> Iterator[s
         if name in CODES:
             told = {words: code for code, words in CODES[name].items()}[str(told).strip()]
         told, here = float(told), float(rows[name][row])
-        if coarse and (name == "line_count_is_bound" or (name == "line_count" and here <= told)):
+        if coarse and (name == "harmonic_count_is_bound" or (name == "harmonic_count" and here <= told)):
             continue
         if coarse and name in SPECTRAL and abs(told - here) <= BY_INTEGRALS * max(told, 1.0):
             continue

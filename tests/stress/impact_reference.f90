@@ -3,7 +3,7 @@
 !> possible, all of them are.
 module impact_reference
    use impact_steps, only: has_coast, tooth_state_t, tooth_t
-   use impact_window, only: impact_window_t, integrated_lines, solve_impact_window, solve_periods
+   use impact_window, only: impact_window_t, integrated_harmonics, solve_impact_window, solve_periods
    use kinds, only: dp
    use lobatto_rule, only: lobatto_rule_t, nodes, solve_linear
    use scene_types, only: spectrum_choice_t
@@ -83,14 +83,14 @@ contains
       real(dp), intent(in) :: noise_floor
       real(dp), intent(in) :: margin
       logical :: possible(size(possible_classes))
-      real(dp) :: a(integrated_lines), forced, largest, harmonic, between, rest, fraction(2), distortion(2)
-      logical :: is_forced(integrated_lines)
+      real(dp) :: a(integrated_harmonics), forced, largest, harmonic, between, rest, fraction(2), distortion(2)
+      logical :: is_forced(integrated_harmonics)
       integer :: most, fewest
 
       possible = .true.
       a = window%amplitudes(window%divisions::window%divisions)
       is_forced = .false.
-      most = min(integrated_lines, size(choice%forced))
+      most = min(integrated_harmonics, size(choice%forced))
       is_forced(:most) = choice%forced(:most)
       largest = maxval(a, mask=is_forced)
       forced = sum(a**2, mask=is_forced)
@@ -114,11 +114,11 @@ contains
       possible(1) = distortion(1) < choice%quiet_limit*(1.0_dp + margin)
       possible(2:3) = .false.
       if (distortion(2) < choice%quiet_limit*(1.0_dp - margin)) return
-      fewest = 1 + count(.not. is_forced .and. a > choice%line_threshold*largest*(1.0_dp + margin))
-      most = 1 + count(.not. is_forced .and. a > choice%line_threshold*largest*(1.0_dp - margin)) + &
-             int(min(rest/(choice%line_threshold*largest)**2, 1.0e6_dp))
-      possible(3) = most >= choice%idle_lines
-      possible(2) = fewest < choice%idle_lines
+      fewest = 1 + count(.not. is_forced .and. a > choice%harmonic_threshold*largest*(1.0_dp + margin))
+      most = 1 + count(.not. is_forced .and. a > choice%harmonic_threshold*largest*(1.0_dp - margin)) + &
+             int(min(rest/(choice%harmonic_threshold*largest)**2, 1.0e6_dp))
+      possible(3) = most >= choice%idle_harmonics
+      possible(2) = fewest < choice%idle_harmonics
    end function classes_of
 
    !> How far two states are from each other, relative to film and velocity.

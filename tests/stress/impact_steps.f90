@@ -12,7 +12,7 @@
 !>
 !> with w the velocity at which the film carries the load, or W(h, h') = d k where it may pull; at the coast flank the
 !> velocity of the gear counts backwards. After each step the thicker film is what the thinner one, the springs and the backlash
-!> leave of the play.
+!> leave of the backlash.
 module impact_steps
    use engine, only: motion_state_t
    use film_law, only: film_load, film_t, never_pulls, overflow_load, squeeze_velocity
@@ -285,7 +285,7 @@ contains
       step%coast = tooth%backlash*(state%coast*share)
    end subroutine set_films
 
-   !> Solve the equations of a step of a tooth that gives by Newton's method, and estimate its error. The unknowns are, node by
+   !> Solve the equations of a step of a elastic tooth by Newton's method, and estimate its error. The unknowns are, node by
    !> node, what has been added to v, to ln h and d of the drive flank, and to those of the coast flank.
    pure subroutine solve_elastic_step(tooth, rule, length, state, before, step, error, solved)
       type(tooth_t), intent(in) :: tooth

@@ -8,7 +8,7 @@ module impact_window
 
    !> Lines of the force's frequency that are integrated, and the longest step for that [periods]. A step of a tenth of a
    !> period of its highest order is short enough for the force without a window.
-   integer, parameter, public :: integrated_lines = 64
+   integer, parameter, public :: integrated_harmonics = 64
    real(dp), parameter :: longest_in_window = 1.0_dp/64.0_dp, longest = 0.1_dp
    !> More steps are not waited for.
    integer, parameter :: most_steps = 300000
@@ -81,7 +81,7 @@ contains
       window%divisions = divisions
       allocate (window%states(0:periods))
       window%states(0) = state
-      allocate (lines(integrated_lines*divisions), source=(0.0_dp, 0.0_dp))
+      allocate (lines(integrated_harmonics*divisions), source=(0.0_dp, 0.0_dp))
       solved = .true.
       square = 0.0_dp
       steps = 0

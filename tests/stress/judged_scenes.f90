@@ -257,7 +257,7 @@ contains
       end associate
    end subroutine draw_orders
 
-   !> A coast flank in every other scene, half of these with the steady force turned, and teeth that give in every other scene.
+   !> A coast flank in every other scene, half of these with the steady force turned, and elastic teeth in every other scene.
    pure subroutine draw_flanks(start, scene, turned)
       !> Where the numbers come from
       type(random_state_t), intent(in) :: start

@@ -132,12 +132,12 @@ contains
       word = 'diverged'
       if (status /= status_complete) return
       call classify(accelerations, drawn%scene%spectrum, drawn%resolved%noise_floor, verdict)
-      associate (found => verdict%lines, right => reference%lines)
+      associate (found => verdict%spectrum, right => reference%lines)
          compared = min(size(found%harmonics), size(right%harmonics))
          worst = maxval(abs(found%harmonics(:compared) - right%harmonics(:compared)))
          if (abs(verdict%reversals_per_period - reference%reversals_per_period) > 0.05_dp) then
             word = 'wrong reversals'
-         else if (verdict%class /= reference%class .or. abs(found%line_count - right%line_count) > 1) then
+         else if (verdict%class /= reference%class .or. abs(found%harmonic_count - right%harmonic_count) > 1) then
             word = 'false lines'
          else if (worst > line_share*maxval(right%harmonics)) then
             word = 'wrong amplitudes'

@@ -26,8 +26,8 @@ module reference_check
       real(dp) :: backlash = 0.0_dp, stiffness = 0.0_dp
       !> Unit of the last digit of the harmonics [m/s2]
       real(dp) :: digit = 1.0e-7_dp
-      !> Whether it is the loose gear of 0.45 kg between two flanks, R 7.5 mm, l 20 mm, 0.05 Pa s, 5 N with three orders of 7.9, 2 and
-      !> 0.8 N with phases of 0, 0.5 and 1.1 at 26.7 Hz, no gravity
+      !> Whether it is the loose gear of 0.45 kg between two flanks, R 7.5 mm, l 20 mm, 0.05 Pa s, 5 N with three orders of 7.9, 2
+      !> and 0.8 N with phases of 0, 0.5 and 1.1 at 26.7 Hz, no gravity
       logical :: loose = .false.
    end type known_t
 

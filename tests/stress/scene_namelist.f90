@@ -45,7 +45,7 @@ contains
       end associate
    end subroutine print_namelist
 
-   !> Keys of the coast flank and of teeth that give.
+   !> Keys of the coast flank and of elastic teeth.
    function flank_keys(scene) result(words)
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: words

@@ -25,9 +25,9 @@ program stress_summaries
    use told_summary, only: rows_told, steps_expected, summary_told, told_t, value_told
    implicit none(type, external)
 
-   !> The scenes of a table: all decades, loose gears, rows of campaigns without and with certificate, values of sweeps.
+   !> The scenes of a table: all decades, loose gears, rows of campaigns without and with verification, values of sweeps.
    character(*), parameter :: kinds_of_scenes(5) = [character(16) :: 'all decades', 'loose gears', 'campaign rows', &
-      'certified rows', 'sweep values']
+      'verified rows', 'sweep values']
    integer(int64) :: scenes = 100000_int64, campaigns = -1_int64, sweeps = -1_int64, seed = 1_int64, first = 0_int64, number, &
       longest = huge(1_int64)
    integer(int64) :: counts(told_outcomes, laws, size(kinds_of_scenes)) = 0_int64
@@ -110,15 +110,15 @@ contains
       type(told_t), allocatable :: told(:)
       type(told_outcome_t) :: outcome
       real(dp) :: values(size(campaign_keys), campaign_rows), times(3)
-      logical :: certified, too_long
+      logical :: verified, too_long
       integer :: law, i
 
       allocate (drawn(campaign_rows), told(campaign_rows))
       call draw_campaign(seed, number, base, law, values, drawn)
       times(1) = wall_seconds()
-      certified = modulo(number, 4_int64) == 3_int64
+      verified = modulo(number, 4_int64) == 3_int64
       too_long = sum(steps_expected(drawn)) > longest/3_int64*int(campaign_rows, int64)
-      if (.not. too_long) call rows_told(base, campaign_keys, values, certified, told)
+      if (.not. too_long) call rows_told(base, campaign_keys, values, verified, told)
       times(2) = wall_seconds()
       do i = 1, campaign_rows
          if (too_long) then
@@ -127,7 +127,7 @@ contains
             call outcome_of_row(drawn(i), rule, told(i), outcome)
          end if
          !$omp critical (count_summaries)
-         call note(drawn(i), merge(4, 3, certified), law, 'row', outcome)
+         call note(drawn(i), merge(4, 3, verified), law, 'row', outcome)
          !$omp end critical (count_summaries)
       end do
       times(3) = wall_seconds()

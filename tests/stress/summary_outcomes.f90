@@ -1,17 +1,17 @@
 !> Whether what a summary tells is true.
 !>
-!> A certified summary is a silent failure if its class is none that the true motion can have, if an extreme of film or
+!> A verified summary is a silent failure if its class is none that the true motion can have, if an extreme of film or
 !> acceleration or one of the first harmonics is farther off than the error that it states, if the motion that it
 !> calls steady is not the one that repeats, or if a motion repeats after fewer periods than told. What the reference may be off
 !> itself, found by solving it with another tolerance, is allowed for. Where a disturbance of film and force by 1e-9 grows so far
-!> that no certificate could foresee the film (30 times the growth times the accuracy of a certificate, 1e-10, beyond 1 %), nothing
-!> can be asked for but that a motion called irregular is irregular, or was so before and has settled by chance. The same holds
-!> where the reference itself comes to other films with another tolerance.
+!> that no verification could foresee the film (30 times the growth times the accuracy of a verification, 1e-10, beyond 1 %),
+!> nothing can be asked for but that a motion called irregular is irregular, or was so before and has settled by chance. The same
+!> holds where the reference itself comes to other films with another tolerance.
 !>
 !> A row of a campaign states no errors. It is right if its class is possible, its films are within 30 times its accuracy,
 !> and its accelerations and harmonics within 1 % of the largest and the noise floor of the scene; where disturbances
 !> grow, that times the growth, up to 10 %. A row that is not, and does not say that its samples are too few, is a silent
-!> failure. Where a row was asked for a certificate, a wrong class is one only if it is certified. A value of a sweep is held
+!> failure. Where a row was asked for a verification, a wrong class is one only if it is verified. A value of a sweep is held
 !> against the truth as a row is.
 module summary_outcomes
    use carried_loads, only: load_springs
@@ -59,8 +59,8 @@ module summary_outcomes
 
    !> What a row of a campaign may be off in films, over its accuracy, and in accelerations, over the largest [-].
    real(dp), parameter :: row_ratio = 30.0_dp, row_error = 0.01_dp, row_unforeseeable = 0.1_dp
-   !> How well the limits of the classes are known to a certificate, and to a row [-].
-   real(dp), parameter :: certified_margin = 1.0e-3_dp, row_margin = 2.0e-2_dp
+   !> How well the limits of the classes are known to a verification, and to a row [-].
+   real(dp), parameter :: verified_margin = 1.0e-3_dp, row_margin = 2.0e-2_dp
 
    public :: outcome_of_row, outcome_of_summary
 
@@ -81,14 +81,14 @@ contains
       outcome%fault = trim(told%status)
       outcome%code = told_status
       if (.not. told%judged) return
-      outcome%code = merge(told_right, told_uncertain, told%certified)
+      outcome%code = merge(told_right, told_uncertain, told%verified)
       outcome%fault = trim(told%reason)
-      call reference_of(drawn, rule, told, usual, 0.0_dp, certified_margin, reference)
+      call reference_of(drawn, rule, told, usual, 0.0_dp, verified_margin, reference)
       if (.not. reference%solved) then
-         if (told%certified) outcome%code = told_unjudged
+         if (told%verified) outcome%code = told_unjudged
          return
       end if
-      if (told%certified .and. told%class == 'irregular') then
+      if (told%verified .and. told%class == 'irregular') then
          outcome%code = told_irregular
          if (class_is_possible(told, reference)) return
          if (settles_by_chance(drawn, rule, told)) then
@@ -99,25 +99,25 @@ contains
          return
       end if
       own_errors = usual_error*abs(values_of(reference)) + noise(drawn)
-      fault = fault_of(told, reference, own_errors, told%certified)
+      fault = fault_of(told, reference, own_errors, told%verified)
       if (len(fault) > 0) then
-         call reference_of(drawn, rule, told, second, 0.0_dp, certified_margin, tight)
+         call reference_of(drawn, rule, told, second, 0.0_dp, verified_margin, tight)
          if (.not. tight%solved) then
-            if (told%certified) outcome%code = told_unjudged
+            if (told%verified) outcome%code = told_unjudged
             return
          end if
          own_errors = second_error*abs(values_of(tight)) + noise(drawn) + 3.0_dp*abs(values_of(tight) - values_of(reference))
-         fault = fault_of(told, tight, own_errors, told%certified)
+         fault = fault_of(told, tight, own_errors, told%verified)
       end if
       if (len(fault) > 0) then
-         call reference_of(drawn, rule, told, second, disturbance, certified_margin, disturbed)
+         call reference_of(drawn, rule, told, second, disturbance, verified_margin, disturbed)
          grown = huge(1.0_dp)
          if (disturbed%solved) grown = maxval(abs(log(disturbed%extremes(:2)/tight%extremes(:2))))/disturbance
          if (grown > foreseeable_growth .or. .not. is_known(tight, reference)) then
-            if (told%certified) outcome%code = told_sensitive
+            if (told%verified) outcome%code = told_sensitive
             return
          end if
-         if (told%certified) then
+         if (told%verified) then
             call fail(fault//', growth '//short_text(grown, 3))
          else
             outcome%code = told_understated
@@ -125,7 +125,7 @@ contains
          end if
          return
       end if
-      if (told%orbit > 0 .and. told%certified) then
+      if (told%orbit > 0 .and. told%verified) then
          fault = fault_of_orbit(drawn, rule, told, reference, own_errors)
          if (fault == '?') then
             outcome%code = told_unjudged
@@ -167,8 +167,8 @@ contains
       earlier%window = 1
       do part = 1, parts
          earlier%periods = 1 + ((told%periods - told%window)*part)/parts
-         call reference_of(drawn, rule, earlier, usual, 0.0_dp, certified_margin, before)
-         call reference_of(drawn, rule, earlier, usual, disturbance, certified_margin, disturbed)
+         call reference_of(drawn, rule, earlier, usual, 0.0_dp, verified_margin, before)
+         call reference_of(drawn, rule, earlier, usual, disturbance, verified_margin, disturbed)
          if (.not. (before%solved .and. disturbed%solved)) return
          by_chance = distance(tooth_of_lane(drawn%resolved%problem), before%start, disturbed%start) > grown
          if (by_chance) return
@@ -211,7 +211,7 @@ contains
       fault = fault_of(row, reference, 0.0_dp*allowed, .true.)
       if (len(fault) == 0) return
       outcome%fault = fault
-      if (told%certificate_asked .and. .not. told%certified) then
+      if (told%verification_asked .and. .not. told%verified) then
          outcome%code = told_uncertain
          if (len(fault_of(row, reference, 0.0_dp*allowed, .false.)) == 0) return
       end if
@@ -243,7 +243,7 @@ contains
       logical :: found
       real(dp) :: margin
 
-      margin = merge(certified_margin, row_margin, told%certified)
+      margin = merge(verified_margin, row_margin, told%verified)
       call reference_of(drawn, rule, told, tolerance, offset, margin, reference)
       if (told%orbit == 0 .or. .not. reference%solved) return
       tooth = tooth_of_lane(drawn%resolved%problem)
@@ -390,7 +390,7 @@ contains
       call find_orbit(tooth, rule, usual, told%orbit, state, found)
       if (.not. found) return
       call solve_reference(tooth, rule, usual, told%orbit, drawn%scene%spectrum, drawn%resolved%noise_floor, &
-                           certified_margin, state, orbit)
+                           verified_margin, state, orbit)
       if (.not. orbit%solved) return
       fault = ''
       away = abs(log(told%extremes(:2)/orbit%extremes(:2)))

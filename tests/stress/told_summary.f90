@@ -1,7 +1,7 @@
 !> What the program tells a user of a scene: solved and judged as a single scene is, as a row of a campaign, or as a
 !> value of a sweep, without their files. The only file of this study that knows how the program does that.
 module told_summary
-   use certificate, only: certificate_word
+   use verification, only: verification_word
    use controlled_engine, only: solve_controlled
    use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, request_t, start_of
    use errors, only: error_t
@@ -12,7 +12,7 @@ module told_summary
    use many_motions, only: solve_motions
    use newmark_engine, only: solve_newmark
    use problem, only: has_two_flanks, problem_t
-   use quantities, only: quantity_acceleration_maximum, quantity_acceleration_minimum, quantity_certified, &
+   use quantities, only: quantity_acceleration_maximum, quantity_acceleration_minimum, quantity_verified, &
                          quantity_coast_film_maximum, quantity_coast_film_minimum, &
                          quantity_film_maximum, quantity_film_minimum, quantity_harmonics, quantity_orbit_period, &
                          quantity_periods_solved, quantity_rattle_class, quantity_sampling_sufficient, quantity_word
@@ -33,9 +33,9 @@ module told_summary
    type, public :: told_t
       !> Status as a word, and whether there is a window
       character(16) :: status = ''
-      logical :: judged = .false., certified = .false.
-      !> Whether a certificate was asked for
-      logical :: certificate_asked = .true.
+      logical :: judged = .false., verified = .false.
+      !> Whether a verification was asked for
+      logical :: verification_asked = .true.
       character(16) :: class = ''
       character(160) :: reason = ''
       !> film_minimum, film_maximum [m], acceleration_minimum, acceleration_maximum [m/s2], coast_film_minimum, coast_film_maximum
@@ -115,23 +115,23 @@ contains
       told%window = result%window_periods
       told%orbit = result%repeats_after
       told%repeats = result%orbit%period
-      told%sampling_sufficient = result%rattle%lines%sampling_sufficient
+      told%sampling_sufficient = result%rattle%spectrum%sampling_sufficient
       told%extremes = extremes_of(result)
-      n = min(compared_harmonics, size(result%rattle%lines%harmonics))
+      n = min(compared_harmonics, size(result%rattle%spectrum%harmonics))
       told%harmonic_count = n
-      told%harmonics(:n) = result%rattle%lines%harmonics(:n)
+      told%harmonics(:n) = result%rattle%spectrum%harmonics(:n)
       told%harmonic_errors = huge(1.0_dp)
       told%extreme_errors = huge(1.0_dp)
-      associate (certificate => result%certificate)
-         told%certified = certificate_word(certificate) == 'certified'
-         if (allocated(certificate%reason)) told%reason = certificate%reason
-         if (.not. allocated(certificate%harmonic_errors)) return
-         n = min(n, size(certificate%harmonic_errors))
-         told%harmonic_errors(:n) = certificate%harmonic_errors(:n)
+      associate (verification => result%verification)
+         told%verified = verification_word(verification) == 'verified'
+         if (allocated(verification%reason)) told%reason = verification%reason
+         if (.not. allocated(verification%harmonic_errors)) return
+         n = min(n, size(verification%harmonic_errors))
+         told%harmonic_errors(:n) = verification%harmonic_errors(:n)
          if (n == 0) return
-         told%extreme_errors = [certificate%film_minimum_error, certificate%film_maximum_error, &
-                                certificate%acceleration_minimum_error, certificate%acceleration_maximum_error, &
-                                certificate%film_error*told%extremes(5:)]
+         told%extreme_errors = [verification%film_minimum_error, verification%film_maximum_error, &
+                                verification%acceleration_minimum_error, verification%acceleration_maximum_error, &
+                                verification%film_error*told%extremes(5:)]
       end associate
    end subroutine summary_told
 
@@ -150,15 +150,15 @@ contains
    end function extremes_of
 
    !> What a campaign tells of scenes that differ from a base in some keys.
-   subroutine rows_told(base, keys, values, certified, told)
+   subroutine rows_told(base, keys, values, verified, told)
       !> Base scene with its solver
       type(scene_t), intent(in) :: base
       !> Varied keys as a user writes them
       character(*), intent(in) :: keys(:)
       !> Their values: key, scene
       real(dp), intent(in) :: values(:, :)
-      !> Whether the class is to be certified
-      logical, intent(in) :: certified
+      !> Whether the class is to be verified
+      logical, intent(in) :: verified
       !> What is told of each scene
       type(told_t), intent(out) :: told(:)
       integer, parameter :: recorded(11) = [quantity_film_minimum, quantity_film_maximum, quantity_acceleration_minimum, &
@@ -178,7 +178,7 @@ contains
       scene = base
       scene%task = task_campaign
       record = recorded
-      if (certified) record = [recorded(:10), quantity_certified, quantity_harmonics]
+      if (verified) record = [recorded(:10), quantity_verified, quantity_harmonics]
       scene%campaign%record = record
       scene%resolved_input = ''
       table = values
@@ -200,8 +200,8 @@ contains
             told(i)%window = scene%spectrum%periods
             ! A motion that was found to repeat while it was followed is judged by one orbit, others by the whole window.
             if (told(i)%orbit > 0 .and. nint(row(1)) == status_steady) told(i)%window = told(i)%orbit
-            told(i)%certificate_asked = certified
-            if (certified) told(i)%certified = row(12) > 0.5_dp
+            told(i)%verification_asked = verified
+            if (verified) told(i)%verified = row(12) > 0.5_dp
             associate (before => size(record))
                told(i)%harmonics(:row_harmonics) = row(before + 1:before + row_harmonics)
             end associate
@@ -223,7 +223,7 @@ contains
       call solve_value(scene, state, judged, error)
       told%status = status_name(judged%status)
       told%judged = is_success(judged%status) .and. .not. allocated(error)
-      told%certificate_asked = .false.
+      told%verification_asked = .false.
       if (.not. told%judged) return
       told%extremes = extremes_of(judged)
       told%class = quantity_word(quantity_rattle_class, judged%rattle%class)
@@ -232,7 +232,7 @@ contains
       if (judged%periods < scene%solver%periods) told%orbit = judged%orbit%period
       if (told%orbit > 0) told%window = told%orbit
       told%periods = judged%periods + told%window
-      told%harmonics(1) = judged%rattle%lines%harmonics(1)
+      told%harmonics(1) = judged%rattle%spectrum%harmonics(1)
       told%harmonic_count = 1
    end subroutine value_told
 

@@ -58,7 +58,7 @@ contains
       scene%output%series = .false.
    end function canonical_scene
 
-   !> A loose gear: case R1 of an exact film, R4 of a published one.
+   !> A loose gear: case R1 of a Reynolds film, R4 of a published one.
    type(scene_t) function loose_gear() result(scene)
       scene%contact%radius = 7.5e-3_dp
       scene%contact%length = 0.02_dp

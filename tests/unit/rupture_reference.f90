@@ -1,4 +1,4 @@
-!> Reference values of the exact film, from integrals and roots in arbitrary precision;
+!> Reference values of the Reynolds film, from integrals and roots in arbitrary precision;
 !> written by tests/reference/rupture_reference.py.
 module rupture_reference
    use kinds, only: dp

@@ -1,4 +1,4 @@
-!> Tests of teeth that give: references of independent codes, the limit of stiff teeth, small motions, order of Newmark's method.
+!> Tests of elastic teeth: references of independent codes, the limit of stiff teeth, small motions, order of Newmark's method.
 module test_elastic_teeth
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use canonical_scenes, only: canonical_scene, loose_gear
@@ -66,7 +66,7 @@ contains
       call test_lost_load(checks)
    end subroutine run_elastic_teeth_tests
 
-   !> The canonical scene, steady under Q + m g, on teeth that give.
+   !> The canonical scene, steady under Q + m g, on elastic teeth.
    type(problem_t) function canonical(law, model, stiffness)
       integer, intent(in) :: law
       integer, intent(in) :: model
@@ -193,8 +193,8 @@ contains
       call checks%check(abs(thinnest(1)/thinnest(2) - 1.0_dp) < 3.0e-5_dp, 'soft teeth: thinnest film')
    end subroutine test_soft_teeth
 
-   !> A tooth that is thrown off leaves its film next to no load, and comes back. A step that ends with next to no load then puts the
-   !> film off by a tenth, whatever the accuracy.
+   !> A tooth that is thrown off leaves its film next to no load, and comes back. A step that ends with next to no load then puts
+   !> the film off by a tenth, whatever the accuracy.
    subroutine test_lost_load(checks)
       type(check_list_t), intent(inout) :: checks
       real(dp), parameter :: stiffness(3) = [3.0e8_dp, 3.0e7_dp, 3.9e8_dp], amplitude(3) = [2000.0_dp, 700.0_dp, 490.0_dp]
@@ -369,7 +369,7 @@ contains
       end do
    end subroutine test_two_ways
 
-   !> An exact piezo-viscous film that ceases to exist within a step, and would be there again at its end, ends the motion at any
+   !> An Reynolds piezo-viscous film that ceases to exist within a step, and would be there again at its end, ends the motion at any
    !> accuracy.
    subroutine test_film_that_ceases(checks)
       type(check_list_t), intent(inout) :: checks
@@ -450,10 +450,10 @@ contains
       character(40) :: name
 
       do law = 1, 2
-         name = 'exact iso-viscous'
+         name = 'Reynolds iso-viscous'
          problems = between_flanks()
          if (law == 2) then
-            name = 'exact piezo-viscous'
+            name = 'Reynolds piezo-viscous'
             scene = canonical_scene(law_piezo_viscous, 256)
             scene%film%model = model_reynolds
             scene%film%initial_film = 0.0_dp

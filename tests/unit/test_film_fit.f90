@@ -1,4 +1,4 @@
-!> Tests of the least-squares film law on made and on exact films, and of the printed coefficients of eq (32).
+!> Tests of the least-squares film law on made and on Reynolds films, and of the printed coefficients of eq (32).
 module test_film_fit
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use checks, only: check_list_t
@@ -153,7 +153,7 @@ contains
       call checks%check(size(film_ratio) == 0, 'window: no films of an invalid window')
    end subroutine test_window
 
-   !> The printed coefficients against exact films. As printed the law is 38 to 44 % too thin; with the
+   !> The printed coefficients against Reynolds films. As printed the law is 38 to 44 % too thin; with the
    !> pressure halved the rms of ln h* is 0.20 over 0.3 < alpha p < 1 and 0.09 over 0.5 < alpha p < 1.
    subroutine test_published_law(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
@@ -175,7 +175,7 @@ contains
 
       !> Error of the printed law over one window.
       subroutine expect(window, rms, bias, message)
-         type(film_window_t), intent(in) :: window  !> Range of exact films
+         type(film_window_t), intent(in) :: window  !> Range of Reynolds films
          real(dp), intent(in) :: rms                !> Expected rms of ln h*
          real(dp), intent(in) :: bias               !> Expected mean of ln h*
          character(len=*), intent(in) :: message    !> Name of the window
@@ -192,7 +192,7 @@ contains
 
    end subroutine test_published_law
 
-   !> Least squares of exact films: the exponent of the load depends wholly on the window, and halving the
+   !> Least squares of Reynolds films: the exponent of the load depends wholly on the window, and halving the
    !> pressure changes the factor only, by 2^-a.
    subroutine test_exact_fit(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
@@ -204,24 +204,24 @@ contains
       narrow = fit_of(film_window_t(pressure=[0.5_dp, 1.0_dp]))
       near = fit_of(film_window_t(pressure=[0.9_dp, 1.0_dp]))
       halved = fit_of(film_window_t(pressure=[0.3_dp, 1.0_dp], pressure_factor=0.5_dp))
-      call checks%check(wide%status == fit_done .and. narrow%status == fit_done, 'exact films: status')
+      call checks%check(wide%status == fit_done .and. narrow%status == fit_done, 'Reynolds films: status')
       call checks%check_close(wide%law%load_exponent, -1.222_dp, tolerance, &
-         'exact films: load exponent, wide')
+         'Reynolds films: load exponent, wide')
       call checks%check_close(narrow%law%load_exponent, -0.845_dp, tolerance, &
-         'exact films: load exponent, narrow')
+         'Reynolds films: load exponent, narrow')
       call checks%check(near%law%load_exponent > narrow%law%load_exponent, &
-         'exact films: load exponent, near')
-      call checks%check_close(wide%law%speed_exponent, 0.640_dp, tolerance, 'exact films: speed exponent')
-      call checks%check(wide%error%rms < 0.1_dp .and. narrow%error%rms < 0.06_dp, 'exact films: residuals')
+         'Reynolds films: load exponent, near')
+      call checks%check_close(wide%law%speed_exponent, 0.640_dp, tolerance, 'Reynolds films: speed exponent')
+      call checks%check(wide%error%rms < 0.1_dp .and. narrow%error%rms < 0.06_dp, 'Reynolds films: residuals')
       call checks%check_close(halved%law%load_exponent, wide%law%load_exponent, rounding, &
          'halved: same exponent')
       call checks%check_close(halved%law%factor/wide%law%factor, 0.5_dp**wide%law%speed_exponent, rounding, &
          'halved: factor')
    end subroutine test_exact_fit
 
-   !> Fit over one window of exact films.
+   !> Fit over one window of Reynolds films.
    function fit_of(window) result(fit)
-      type(film_window_t), intent(in) :: window  !> Range of exact films
+      type(film_window_t), intent(in) :: window  !> Range of Reynolds films
       type(film_fit_t) :: fit
 
       real(dp), allocatable, dimension(:) :: speed_group, load_group, squeeze_ratio, film_ratio

@@ -1,4 +1,4 @@
-!> Tests of single films in the groups of the paper: the figure-5 case, published slopes, limits, the referee.
+!> Tests of single films in the groups of the paper: the figure-5 case, published slopes, limits, the reference solution.
 module test_film_point
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use checks, only: check_list_t

@@ -101,7 +101,7 @@ contains
          16.0_dp*epsilon(1.0_dp), 'pressure scale')
    end subroutine test_scale
 
-   !> alpha p = 1 - exp(-alpha q) is (31) turned round.
+   !> alpha p = 1 - exp(-alpha q) is (31) inverted.
    subroutine test_barus(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 

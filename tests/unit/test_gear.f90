@@ -1,4 +1,4 @@
-!> Tests of the room gear: the contact of a gear pair, an oil at a temperature, the base order of a shaft.
+!> Tests of the folder gear: the contact of a gear pair, an oil at a temperature, the base order of a shaft.
 module test_gear
    use checks, only: check_list_t
    use derived_scene, only: base_order

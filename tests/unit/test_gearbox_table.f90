@@ -61,21 +61,21 @@ contains
       judged%judged = status == status_steady
       judged%periods = 10
       judged%rattle%class = class_idle
-      judged%certificate%exists = .true.
-      judged%certificate%certified = number == 1
+      judged%verification%exists = .true.
+      judged%verification%verified = number == 1
       judged%extremes%lowest(seen_film)%value = real(number, dp)*1.2345e-7_dp
       judged%extremes%lowest(seen_acceleration)%value = -real(number, dp)*20.0_dp
       judged%extremes%highest(seen_acceleration)%value = real(number, dp)**2*10.0_dp
-      judged%loudness%acceleration_rms = 0.5_dp + real(number, dp)
-      judged%loudness%film_force_rms = forces(number)/sqrt(2.0_dp)
-      judged%loudness%dissipated_energy = powers(number)/judged%resolved%problem%frequency
+      judged%severity%acceleration_rms = 0.5_dp + real(number, dp)
+      judged%severity%film_force_rms = forces(number)/sqrt(2.0_dp)
+      judged%severity%dissipated_energy = powers(number)/judged%resolved%problem%frequency
       judged%impacts%exists = .true.
       judged%impacts%periods = 1
       judged%impacts%flanks(drive_flank)%count = 1
       judged%impacts%flanks(coast_flank)%count = number - 1
       accelerations = [(forces(number)/judged%resolved%problem%mass*cos(two_pi*real(i, dp)/64.0_dp + phases(number)), i=1, 64)]
       if (judged%judged) judged%film_force = signal_of_window(judged%resolved%problem, accelerations, 1, 10, .true., &
-                                                              judged%loudness%film_force_rms)
+                                                              judged%severity%film_force_rms)
       row = row_of_pair(scene, judged)
    end function row_of
 
@@ -107,7 +107,7 @@ contains
 
       call write_both(checks, 3, rows, log, summary)
       sums = together(3, rows)
-      call expect(checks, log, ' g1 idle, certified no 0.1235 20.00 1.500 3.000 1.000 ')
+      call expect(checks, log, ' g1 idle, verified no 0.1235 20.00 1.500 3.000 1.000 ')
       call expect(checks, log, ' g2 idle yes 0.2469 40.00 2.500 4.000 20.00 ')
       call expect(checks, log, ' g3 idle yes 0.3704 90.00 3.500 12.00 300.0 ')
       call expect(checks, log, ' together, uncorrelated 13.00 321.0 ')
@@ -118,7 +118,7 @@ contains
       call expect(checks, summary, " status = 'complete' pairs = 3 pairs_failed = 0 film_force_rms_uncorrelated = 13.0")
       call expect(checks, summary, ' film_force_rms_in_phase = ')
       call expect(checks, summary, " film_force_text = '"//sums%words//"' dissipated_power = 321.0 ")
-      call expect(checks, summary, " &pair gear = 'g2' status = 'steady' rattle_class = 'idle' certified = .false. "// &
+      call expect(checks, summary, " &pair gear = 'g2' status = 'steady' rattle_class = 'idle' verified = .false. "// &
                   'double_sided = .true. film_minimum = 2.469E-7 acceleration_minimum = -40.0 acceleration_maximum = 40.0 '// &
                   'acceleration_rms = 2.5 ')
    end subroutine test_table

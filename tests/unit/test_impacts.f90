@@ -89,7 +89,7 @@ contains
       states(:, of_drive_compression) = loads
    end function states_of
 
-   !> A load that stays above the largest force strikes nothing, in one period and in two.
+   !> A load that stays above the largest force has no impact, in one period and in two.
    subroutine test_held(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(window_impacts_t) :: impacts

@@ -12,7 +12,7 @@ module test_integrate_motion
    use sample_recorder, only: sample_recorder_t
    use scene_status, only: status_complete, status_no_rigid_film, status_not_converged, status_overflow
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, scene_t
-   use spectral_lines, only: find_lines, spectral_lines_t
+   use harmonic_spectrum, only: find_harmonics, harmonic_spectrum_t
    implicit none(type, external)
    private
 
@@ -22,7 +22,7 @@ module test_integrate_motion
       real(dp) :: extremes(4) = 0.0_dp
       !> a_1 to a_6 [m/s2]
       real(dp) :: harmonics(6) = 0.0_dp
-      type(spectral_lines_t) :: lines
+      type(harmonic_spectrum_t) :: spectrum
       integer :: status = -1
    end type response_t
 
@@ -58,18 +58,18 @@ contains
       if (ending%status /= status_complete) return
       response%extremes = [minval(recorder%states(:, of_film)), maxval(recorder%states(:, of_film)), &
                              minval(recorder%accelerations), maxval(recorder%accelerations)]
-      call find_lines(recorder%accelerations, 1, [.true.], 0.01_dp, 1.0e-10_dp, response%lines)
-      response%harmonics = response%lines%harmonics(:6)
+      call find_harmonics(recorder%accelerations, 1, [.true.], 0.01_dp, 1.0e-10_dp, response%spectrum)
+      response%harmonics = response%spectrum%harmonics(:6)
    end subroutine respond
 
    !> A converged row of extremes, harmonics and lines.
-   subroutine compare(checks, name, response, extremes, harmonics, line_count)
+   subroutine compare(checks, name, response, extremes, harmonics, harmonic_count)
       type(check_list_t), intent(inout) :: checks   !> Collects the results
       character(*), intent(in) :: name              !> Scene
       type(response_t), intent(in) :: response      !> Computed with 4096 steps
       real(dp), intent(in) :: extremes(4)           !> h_min, h_max [m], z'' min, max [m/s2]
       real(dp), intent(in) :: harmonics(6)          !> a_1 to a_6 [m/s2]
-      integer, intent(in) :: line_count             !> Lines over 1 % of the first
+      integer, intent(in) :: harmonic_count             !> Lines over 1 % of the first
 
       !> Error of the method at 4096 steps, shown by halving, and the digits of the values compared with.
       real(dp), parameter :: film_error = 1.0e-5_dp, acceleration_error = 3.0e-5_dp
@@ -84,8 +84,8 @@ contains
       do i = 1, 6
          call checks%check_close(response%harmonics(i)/harmonics(i), 1.0_dp, film_error, name//': harmonic')
       end do
-      call checks%check(response%lines%line_count == line_count, name//': number of lines')
-      call checks%check(response%lines%sampling_sufficient, name//': enough samples')
+      call checks%check(response%spectrum%harmonic_count == harmonic_count, name//': number of lines')
+      call checks%check(response%spectrum%sampling_sufficient, name//': enough samples')
    end subroutine compare
 
    !> Halving the step brings extremes and harmonics nearer by the square.
@@ -119,7 +119,7 @@ contains
          202.785793_dp], &
          [21.2023751_dp, 30.5365166_dp, 25.8178690_dp, 22.4385275_dp, 19.3319685_dp, 16.5060500_dp], 30)
       call check_order(checks, 'idle', responses(1), responses(2), responses(3))
-      call checks%check(responses(3)%lines%harmonic_distortion > 1.0_dp, 'idle: distortion')
+      call checks%check(responses(3)%spectrum%harmonic_distortion > 1.0_dp, 'idle: distortion')
    end subroutine test_idle
 
    !> Creep rattle, (37).
@@ -154,7 +154,7 @@ contains
          [28.9175793_dp, 40.2342318_dp, 35.9704977_dp, 34.0112309_dp, 30.7059169_dp, 27.0072316_dp], 47)
    end subroutine test_solved
 
-   !> The exact iso-viscous film, at the paper's u and at the true entrainment speed.
+   !> The Reynolds iso-viscous film, at the paper's u and at the true entrainment speed.
    subroutine test_reynolds(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -164,17 +164,17 @@ contains
       scene = canonical_scene(law_iso_viscous, 4096)
       scene%film%model = model_reynolds
       call respond(scene, response)
-      call compare(checks, 'exact film, u_r = 3.810', response, [0.409978e-6_dp, 6.885256e-6_dp, -92.317481_dp, &
+      call compare(checks, 'Reynolds film, u_r = 3.810', response, [0.409978e-6_dp, 6.885256e-6_dp, -92.317481_dp, &
          370.473132_dp], &
          [42.1753420_dp, 52.7575920_dp, 44.9082791_dp, 38.5704473_dp, 32.4493844_dp, 27.3582296_dp], 33)
       scene%kinematics%entrainment_speed = 0.5_dp*1.905_dp
       call respond(scene, response)
-      call compare(checks, 'exact film, u_r = 1.905', response, [0.400824e-6_dp, 3.478332e-6_dp, -61.644347_dp, &
+      call compare(checks, 'Reynolds film, u_r = 1.905', response, [0.400824e-6_dp, 3.478332e-6_dp, -61.644347_dp, &
          123.573157_dp], &
          [20.8160154_dp, 28.7555678_dp, 21.6951357_dp, 17.0416711_dp, 13.3297691_dp, 10.3671095_dp], 21)
    end subroutine test_reynolds
 
-   !> The exact piezo-viscous film ends where alpha p reaches 1, and not before.
+   !> The Reynolds piezo-viscous film ends where alpha p reaches 1, and not before.
    subroutine test_no_rigid_film(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 

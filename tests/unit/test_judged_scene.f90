@@ -32,7 +32,7 @@ contains
       call test_unknown(checks, judged)
    end subroutine run_judged_scene_tests
 
-   !> A scene between two flanks with teeth that give, in which every number is another.
+   !> A scene between two flanks with elastic teeth, in which every number is another.
    type(judged_scene_t) function made_up() result(judged)
       type(scene_t) :: scene
       integer :: i
@@ -60,14 +60,14 @@ contains
       judged%rattle%reversals_per_period = 11.0_dp
       judged%rattle%parting%periods = 100
       judged%rattle%parting%exponent = 0.125_dp
-      judged%rattle%lines%harmonics = [21.0_dp, 22.0_dp]
-      judged%rattle%lines%line_count = 23
-      judged%rattle%lines%harmonic_distortion = 24.0_dp
-      judged%rattle%lines%irregular_fraction = 25.0_dp
-      judged%loudness%acceleration_rms = 31.0_dp
-      judged%loudness%acceleration_kurtosis = 32.0_dp
-      judged%loudness%film_force_rms = 33.0_dp
-      judged%loudness%dissipated_energy = 34.0_dp
+      judged%rattle%spectrum%harmonics = [21.0_dp, 22.0_dp]
+      judged%rattle%spectrum%harmonic_count = 23
+      judged%rattle%spectrum%harmonic_distortion = 24.0_dp
+      judged%rattle%spectrum%irregular_fraction = 25.0_dp
+      judged%severity%acceleration_rms = 31.0_dp
+      judged%severity%acceleration_kurtosis = 32.0_dp
+      judged%severity%film_force_rms = 33.0_dp
+      judged%severity%dissipated_energy = 34.0_dp
       do i = 1, seen_quantities
          judged%extremes%lowest(i)%value = 100.0_dp + real(i, dp)
          judged%extremes%highest(i)%value = 200.0_dp + real(i, dp)
@@ -77,15 +77,15 @@ contains
       judged%regime%alpha_p_maximum = 41.0_dp
       judged%regime%pressure_maximum = 42.0_dp
       judged%regime%deflection = 43.0_dp
-      judged%certificate%exists = .true.
-      judged%certificate%film_error = 51.0_dp
-      judged%certificate%film_minimum_error = 52.0_dp
-      judged%certificate%film_maximum_error = 53.0_dp
-      judged%certificate%acceleration_minimum_error = 54.0_dp
-      judged%certificate%acceleration_maximum_error = 55.0_dp
-      judged%certificate%acceleration_error = 56.0_dp
-      judged%certificate%loudness_error = 57.0_dp
-      judged%certificate%harmonic_errors = [58.0_dp, 59.0_dp]
+      judged%verification%exists = .true.
+      judged%verification%film_error = 51.0_dp
+      judged%verification%film_minimum_error = 52.0_dp
+      judged%verification%film_maximum_error = 53.0_dp
+      judged%verification%acceleration_minimum_error = 54.0_dp
+      judged%verification%acceleration_maximum_error = 55.0_dp
+      judged%verification%acceleration_error = 56.0_dp
+      judged%verification%severity_error = 57.0_dp
+      judged%verification%harmonic_errors = [58.0_dp, 59.0_dp]
       judged%orbit%period = 2
       judged%orbit%multipliers = [(0.3_dp, -0.4_dp), (0.1_dp, 0.0_dp)]
       judged%impacts%exists = .true.
@@ -136,7 +136,7 @@ contains
       call expect('rattle_class', real(class_idle, dp))
       call expect('reversals_per_period', 11.0_dp)
       call expect('lyapunov_exponent', 0.125_dp)
-      call expect('line_count', 23.0_dp)
+      call expect('harmonic_count', 23.0_dp)
       call expect('harmonic_distortion', 24.0_dp)
       call expect('irregular_fraction', 25.0_dp)
       call expect('acceleration_rms', 31.0_dp)
@@ -161,7 +161,7 @@ contains
       call expect('acceleration_minimum_error', 54.0_dp)
       call expect('acceleration_maximum_error', 55.0_dp)
       call expect('acceleration_error', 56.0_dp)
-      call expect('loudness_error', 57.0_dp)
+      call expect('severity_error', 57.0_dp)
       call expect('floquet_modulus', 0.5_dp)
       call expect('unloaded_share', 0.25_dp)
       call expect('impact_periods', 4.0_dp)
@@ -243,10 +243,10 @@ contains
       call checks%check(ieee_is_nan(quantity_value(code_of('floquet_modulus'), judged)), 'no orbit, no multiplier')
       judged%impacts%exists = .false.
       call checks%check(ieee_is_nan(quantity_value(code_of('impacts_drive'), judged)), 'impacts that nobody asked for')
-      judged%certificate%exists = .false.
-      call checks%check(ieee_is_nan(quantity_value(code_of('certified'), judged)), 'no certificate')
-      judged%rattle%lines%moving = .false.
-      call checks%check(ieee_is_nan(quantity_value(code_of('line_count'), judged)), 'no lines at rest')
+      judged%verification%exists = .false.
+      call checks%check(ieee_is_nan(quantity_value(code_of('verified'), judged)), 'no verification')
+      judged%rattle%spectrum%moving = .false.
+      call checks%check(ieee_is_nan(quantity_value(code_of('harmonic_count'), judged)), 'no lines at rest')
       judged%regime%pressure_exists = .false.
       call checks%check(ieee_is_nan(quantity_value(code_of('pressure_maximum'), judged)), 'no pressure')
       judged%judged = .false.

@@ -261,8 +261,8 @@ contains
       call expect('solver', 'steps_per_period', 7.0_dp, .false.)
       call expect('solver', 'steps_per_period', 8.0_dp, .true.)
       call expect('solver', 'steps_per_period', 1.0e7_dp, .true.)
-      call expect('spectrum', 'line_threshold', 0.0_dp, .false.)
-      call expect('spectrum', 'line_threshold', 1.0_dp, .true.)
+      call expect('spectrum', 'harmonic_threshold', 0.0_dp, .false.)
+      call expect('spectrum', 'harmonic_threshold', 1.0_dp, .true.)
 
    contains
 

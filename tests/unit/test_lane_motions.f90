@@ -19,7 +19,7 @@ module test_lane_motions
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, rupture_solved, &
       rupture_solver_fast, &
                           rupture_solver_successive, scene_t
-   use spectral_lines, only: find_lines, spectral_lines_t
+   use harmonic_spectrum, only: find_harmonics, harmonic_spectrum_t
    implicit none(type, external)
    private
 
@@ -55,7 +55,7 @@ contains
       call test_last_pass(checks)
    end subroutine run_lane_motions_tests
 
-   !> Canonical scene of a kernel, started from its steady film. The exact films have u_r = 1.905 m/s. For the
+   !> Canonical scene of a kernel, started from its steady film. The Reynolds films have u_r = 1.905 m/s. For the
    !> piezo-viscous one alpha is so small that it is the iso-viscous film: the canonical alpha would be beyond
    !> it.
    function lane_of(kernel) result(lane)
@@ -124,11 +124,11 @@ contains
                              [0.341405_dp, 3.570926_dp, 0.245194_dp, 4.676586_dp, 0.245194_dp, 4.676586_dp, &
                               0.837089_dp, 1.827841_dp, 0.400824_dp, 3.478332_dp, 0.400824_dp, 3.478332_dp], &
                               [2, 6])
-      integer, parameter :: line_counts(6) = [30, 47, 47, 12, 21, 21]
+      integer, parameter :: harmonic_counts(6) = [30, 47, 47, 12, 21, 21]
       type(problem_t) :: lanes(2*size(kernels))
       type(motion_state_t) :: starts(2*size(kernels))
       type(motions_t) :: motions
-      type(spectral_lines_t) :: lines
+      type(harmonic_spectrum_t) :: spectrum
       real(dp) :: values(samples)
       integer :: i, law
 
@@ -143,11 +143,11 @@ contains
          call checks%check(motions%endings(i)%status == status_complete .and. &
                            motions%endings(i)%samples == samples, trim(names(law))//': ended well')
          call accelerations_of_samples(lanes(i), samples, motions%states(:, :, i), values)
-         call find_lines(values, 1, [.true.], 0.01_dp, 1.0e-10_dp, lines)
-         call checks%check_close(maxval(abs(lines%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, &
+         call find_harmonics(values, 1, [.true.], 0.01_dp, 1.0e-10_dp, spectrum)
+         call checks%check_close(maxval(abs(spectrum%harmonics(:6)/harmonics(:, law) - 1.0_dp)), 0.0_dp, &
                                  1.0e-6_dp, &
                                  trim(names(law))//': harmonics')
-         call checks%check(lines%line_count == line_counts(law), trim(names(law))//': number of lines')
+         call checks%check(spectrum%harmonic_count == harmonic_counts(law), trim(names(law))//': number of lines')
          call checks%check_close(least(motions%states(:, of_film, i))/extremes(1, law), 1.0_dp, 3.0e-6_dp, &
                                  trim(names(law))//': thinnest film')
          call checks%check_close(-least(-motions%states(:, of_film, i))/extremes(2, law), 1.0_dp, 3.0e-6_dp, &
@@ -380,7 +380,7 @@ contains
       end do
    end subroutine test_overshooting_newton
 
-   !> A small correction ends the passes of Newton's method if the residual has fallen with it, and not if it has grown.
+   !> A small correction ends the iterations of Newton's method if the residual has fallen with it, and not if it has grown.
    subroutine test_last_pass(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 

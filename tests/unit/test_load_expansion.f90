@@ -76,7 +76,7 @@ contains
             do l = 1, lanes
                call load_by_table(law, a(l), load, slope)
                tolerance = 64.0_dp*epsilon(1.0_dp)*abs(load)
-               ! On separation, beyond the pieces, the load has reached its limit: 0 for the exact film.
+               ! On separation, beyond the pieces, the load has reached its limit: 0 for the Reynolds film.
                if (a(l) > last_piece_start) tolerance = 8.0_dp*epsilon(1.0_dp)
                if (law == published_load) tolerance = max(tolerance, 64.0_dp*epsilon(1.0_dp))
                call checks%check_close(expansion%terms(l, 0), load, tolerance, 'load')
@@ -88,8 +88,8 @@ contains
    end subroutine test_values
 
    !> The terms lead to the load at other A. A twentieth of the distance to the singularities at +-2i is half of half a piece:
-   !> up to 1.5 half pieces from its centre the 13th Chebyshev polynomial grows to 1.4e5, and what is left out in the piece, 2 * 14 *
-   !> 17**(-13) of a load that falls with A**(-2), with it to 4e-10.
+   !> up to 1.5 half pieces from its centre the 13th Chebyshev polynomial grows to 1.4e5, and what is left out in the piece, 2 * 14
+   !> * 17**(-13) of a load that falls with A**(-2), with it to 4e-10.
    subroutine test_neighbours(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(load_expansion_t) :: expansion

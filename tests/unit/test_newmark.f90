@@ -62,7 +62,7 @@ contains
          call checks%check_close(error(3), 0.0_dp, 1.0e-10_dp, name//': acceleration')
          ! On a linear film the first pass is exact, the second sees that.
          if (method%by_newton) call checks%check(count%evaluations == 1 + 2*periods*steps, &
-            name//': two passes a step')
+            name//': two iterations a step')
       end do
    end subroutine test_discrete
 

@@ -29,7 +29,7 @@ contains
 
    !> The successive iteration step by step, written as the paper says it: z'' of a pass from the equation of
    !> motion at the iterate, then z and z' by Newmark's formulas, until z moves by less than eps. States and
-   !> number of passes agree, from loose tolerances to tight ones.
+   !> number of iterations agree, from loose tolerances to tight ones.
    subroutine test_by_hand(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -75,12 +75,12 @@ contains
          end do
          ! Rounding of the load, 1e-13 m/s2, over some hundred steps.
          call checks%check_close(error, 0.0_dp, 1.0e-9_dp, 'successive iteration by hand: states')
-         call checks%check(int(count%evaluations) == passes, 'successive iteration by hand: passes')
+         call checks%check(int(count%evaluations) == passes, 'successive iteration by hand: iterations')
       end do
    end subroutine test_by_hand
 
    !> Newton's iteration step by step on the canonical idle film, written as corrections of z'' by the
-   !> residual of the equation of motion. States and number of passes agree at every tolerance.
+   !> residual of the equation of motion. States and number of iterations agree at every tolerance.
    subroutine test_newton_by_hand(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -130,7 +130,7 @@ contains
                abs(accelerations(i) - a)/100.0_dp)
          end do
          call checks%check_close(error, 0.0_dp, 1.0e-10_dp, 'newton by hand: states')
-         call checks%check(int(count%evaluations) == passes .and. count%cuts == 0, 'newton by hand: passes')
+         call checks%check(int(count%evaluations) == passes .and. count%cuts == 0, 'newton by hand: iterations')
       end do
    end subroutine test_newton_by_hand
 

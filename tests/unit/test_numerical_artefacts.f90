@@ -27,7 +27,7 @@ contains
 
       call checks%start('numerical_artefacts')
       call test_false_reversals(checks)
-      call test_forged_line(checks)
+      call test_false_harmonic(checks)
       call test_doubled_period(checks)
    end subroutine run_numerical_artefacts_tests
 
@@ -73,7 +73,7 @@ contains
 
    !> A lightly loaded piezo-viscous film: with 18 and 20 steps a period and a loose tolerance a line near
    !> 2.5 f_exc stands above all, with more steps or a tight tolerance there is nothing but the harmonics.
-   subroutine test_forged_line(checks)
+   subroutine test_false_harmonic(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       type(rattle_verdict_t) :: verdict
@@ -86,9 +86,9 @@ contains
          call judge(checks, scene, amplitudes, verdict)
          largest = maxloc(amplitudes(1:), dim=1)
          ! 2.3 to 2.7 f_exc. Where the line stands and how high hangs on the last bit; band and ratio do not.
-         call checks%check(largest >= 37 .and. largest <= 43, 'forged line near 2.5 f_exc')
-         call checks%check(amplitudes(largest) > 4.0_dp*amplitudes(16), 'forged line above that at f_exc')
-         call checks%check(verdict%class == class_irregular_so_far, 'forged line: irregular')
+         call checks%check(largest >= 37 .and. largest <= 43, 'false harmonic near 2.5 f_exc')
+         call checks%check(amplitudes(largest) > 4.0_dp*amplitudes(16), 'false harmonic above that at f_exc')
+         call checks%check(verdict%class == class_irregular_so_far, 'false harmonic: irregular')
       end do
       do i = 1, 4
          scene = light_scene(merge(24, 20, i == 1), merge(1.0e-7_dp, 1.0e-12_dp, i == 1))
@@ -96,14 +96,14 @@ contains
          if (i == 4) scene = light_scene(1024, 1.0e-12_dp)
          call judge(checks, scene, amplitudes, verdict)
          largest = maxloc(amplitudes(1:), dim=1)
-         call checks%check(largest == 16, 'no forged line')
-         call checks%check(verdict%lines%irregular_fraction < 1.0e-6_dp, 'nothing but harmonics')
+         call checks%check(largest == 16, 'no false harmonic')
+         call checks%check(verdict%spectrum%irregular_fraction < 1.0e-6_dp, 'nothing but harmonics')
          ! Four digits are known, of the converged motion.
          if (i == 4) call checks%check_close(amplitudes(16), 0.4135_dp, 0.00005_dp, 'line at f_exc')
       end do
-   end subroutine test_forged_line
+   end subroutine test_false_harmonic
 
-   !> The lightly loaded film of the forged line.
+   !> The lightly loaded film of the false harmonic.
    function light_scene(steps, tolerance) result(scene)
       integer, intent(in) :: steps       !> Steps a period
       real(dp), intent(in) :: tolerance  !> eps of (36) [m]

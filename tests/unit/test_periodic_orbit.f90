@@ -54,8 +54,8 @@ contains
       ending = endings(1)
    end function settled
 
-   !> The motion is found from states beside it, in film and velocity, either way, with the distance of the larger; and it is another
-   !> one beyond the nearness.
+   !> The motion is found from states beside it, in film and velocity, either way, with the distance of the larger; and it is
+   !> another one beyond the nearness.
    subroutine test_off_the_orbit(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(problem_t) :: lane
@@ -149,8 +149,8 @@ contains
       end do
    end subroutine test_periods
 
-   !> A motion near its period doubling jumps from side to side of the one that it settles to: after two periods it is nearer to where
-   !> it was than after one, and yet its period is one.
+   !> A motion near its period doubling jumps from side to side of the one that it settles to: after two periods it is nearer to
+   !> where it was than after one, and yet its period is one.
    subroutine test_shortest_period(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(problem_t) :: lane

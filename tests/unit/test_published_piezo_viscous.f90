@@ -26,7 +26,7 @@ contains
       call test_overflow(checks)
    end subroutine run_published_piezo_viscous_tests
 
-   !> (37) in groups: W = 6.6 l (R/alpha) u*^2.75 h*^-3.5 exp(-703 w*), from (32) turned round.
+   !> (37) in groups: W = 6.6 l (R/alpha) u*^2.75 h*^-3.5 exp(-703 w*), from (32) inverted.
    subroutine test_values(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 

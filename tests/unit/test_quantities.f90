@@ -15,7 +15,7 @@ module test_quantities
    use quantities, only: a_list, a_number, needs_impacts, quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
                          quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
                          quantity_inertia_ratio, &
-                         quantity_impacts_drive, quantity_certified, quantity_gear_position_maximum, &
+                         quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, &
                          quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
                          quantity_word
    use resolved_scene, only: request_of, resolve
@@ -69,7 +69,7 @@ contains
 
    !> Every quantity that a scene has is known; of rigid teeth no position of the gear is told, which the film is.
    subroutine test_every_value(single, checks)
-      type(judged_scene_t), intent(in) :: single  !> A steady, certified scene
+      type(judged_scene_t), intent(in) :: single  !> A steady, verified scene
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       integer :: i
 
@@ -120,7 +120,7 @@ contains
                   trim(quantity_table(told(i))%name)//' in a campaign')
             end associate
             column = column + 7
-         else if (.not. any(told(i) == [quantity_certified, quantity_periods_solved])) then
+         else if (.not. any(told(i) == [quantity_verified, quantity_periods_solved])) then
             call check_same(told(i), row(column), 'in a campaign')
          end if
       end do

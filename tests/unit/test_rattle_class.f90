@@ -33,15 +33,15 @@ contains
       amplitudes(2) = 0.36_dp
       call expect(amplitudes, 0.0_dp, class_creep, 'distortion 0.36')
       amplitudes(3:19) = 0.011_dp
-      call expect(amplitudes, 0.0_dp, class_creep, '19 lines')
+      call expect(amplitudes, 0.0_dp, class_creep, '19 harmonics')
       amplitudes(20) = 0.011_dp
-      call expect(amplitudes, 0.0_dp, class_idle, '20 lines')
+      call expect(amplitudes, 0.0_dp, class_idle, '20 harmonics')
       amplitudes(20) = 0.009_dp
       call expect(amplitudes, 0.0_dp, class_creep, 'the twentieth below the threshold')
       amplitudes = 0.011_dp
       amplitudes(1) = 1.0_dp
-      call expect(amplitudes, 0.0_dp, class_quiet, 'many small lines are no rattle')
-      ! The irregular share of a half-integer line b beside a line of 1: b^2/(1 + b^2).
+      call expect(amplitudes, 0.0_dp, class_quiet, 'many small harmonics are no rattle')
+      ! The irregular share of a half-integer harmonic b beside a line of 1: b^2/(1 + b^2).
       amplitudes = 0.0_dp
       amplitudes(1) = 1.0_dp
       call expect(amplitudes, 0.09_dp, class_quiet, 'irregular share 0.0080')
@@ -57,7 +57,7 @@ contains
 
    contains
 
-      !> Harmonics and a line at half the forcing frequency, and their class.
+      !> Harmonics and a harmonic at half the forcing frequency, and their class.
       subroutine expect(harmonics, half_line, class, message)
          real(dp), intent(in) :: harmonics(:)  !> a_1, a_2, ...
          real(dp), intent(in) :: half_line     !> Amplitude at half the forcing frequency
@@ -113,9 +113,9 @@ contains
       amplitudes(1:3) = [1.0_dp, 0.5_dp, 0.03_dp]
       call expect(spectrum_choice_t(periods=periods), 0.0_dp, class_creep, 'default limits')
       call expect(spectrum_choice_t(periods=periods, quiet_limit=0.6_dp), 0.0_dp, class_quiet, 'quiet limit 0.6')
-      call expect(spectrum_choice_t(periods=periods, idle_lines=3), 0.0_dp, class_idle, '3 lines are idle')
-      call expect(spectrum_choice_t(periods=periods, idle_lines=3, line_threshold=0.04_dp), 0.0_dp, class_creep, &
-         'line threshold 0.04')
+      call expect(spectrum_choice_t(periods=periods, idle_harmonics=3), 0.0_dp, class_idle, '3 harmonics are idle')
+      call expect(spectrum_choice_t(periods=periods, idle_harmonics=3, harmonic_threshold=0.04_dp), 0.0_dp, class_creep, &
+         'harmonic threshold 0.04')
       ! 0.2^2/(1 + 0.5^2 + 0.2^2) is a share of 0.031.
       call expect(spectrum_choice_t(periods=periods), 0.2_dp, class_irregular_so_far, 'irregular share 0.031')
       call expect(spectrum_choice_t(periods=periods, irregular_limit=0.04_dp), 0.2_dp, class_creep, 'irregular limit 0.04')

@@ -92,7 +92,7 @@ contains
          *(line_load/(modulus*radius))**(-0.13_dp)), 1.0_dp, 1.0e-12_dp, 'map: the film of Dowson')
    end subroutine test_map
 
-   !> The rigid limits are the rounded values of the exact film: 24 Phi(0) = 4.895 and, at the critical group
+   !> The rigid limits are the rounded values of the Reynolds film: 24 Phi(0) = 4.895 and, at the critical group
    !> in pure rolling, (12 sqrt(2)/B_crit(0))^(2/3) = 1.666.
    subroutine test_exact_limits(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results

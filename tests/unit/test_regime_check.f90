@@ -192,7 +192,7 @@ contains
 
    end subroutine test_regimes
 
-   !> The exact piezo-viscous film holds for thin oil as well, though not beyond alpha p = 1.
+   !> The Reynolds piezo-viscous film holds for thin oil as well, though not beyond alpha p = 1.
    subroutine test_exact_piezo_viscous(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -209,8 +209,8 @@ contains
       film%modulus = 1.0e15_dp
       do i = 1, 3
          verdict = regime_of(film, [film_of_group(film, alpha_p(i)*critical_at_rest)], [0.0_dp])
-         call checks%check(verdict%regime == regimes(i), 'exact piezo-viscous film: regime')
-         call checks%check(verdict%law_contradicted .eqv. alpha_p(i) > 1.0_dp, 'exact piezo-viscous film: contradiction')
+         call checks%check(verdict%regime == regimes(i), 'Reynolds piezo-viscous film: regime')
+         call checks%check(verdict%law_contradicted .eqv. alpha_p(i) > 1.0_dp, 'Reynolds piezo-viscous film: contradiction')
       end do
    end subroutine test_exact_piezo_viscous
 

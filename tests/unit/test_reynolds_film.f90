@@ -1,4 +1,4 @@
-!> Tests of the exact films against 18-digit values, and of what must hold between them.
+!> Tests of the Reynolds films against 18-digit values, and of what must hold between them.
 module test_reynolds_film
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_is_nan, &
       ieee_quiet_nan, ieee_set_halting_mode, ieee_support_halting, ieee_value

@@ -1,4 +1,4 @@
-!> Tests of the exact films in physical units: values by their groups, slopes by differences, static films.
+!> Tests of the Reynolds films in physical units: values by their groups, slopes by differences, static films.
 module test_reynolds_load
    use checks, only: check_list_t
    use kinds, only: dp

@@ -1,4 +1,4 @@
-!> Tests of the load of the exact piezo-viscous film as polynomials of A and sigma, against the film kernel, whose table is one
+!> Tests of the load of the Reynolds piezo-viscous film as polynomials of A and sigma, against the film kernel, whose table is one
 !> for all films.
 module test_reynolds_piezo_expansion
    use checks, only: check_list_t
@@ -111,8 +111,8 @@ contains
       end do
    end subroutine test_neighbours
 
-   !> Beyond the cells, and without a rigid film, there is no expansion; without any effect of pressure it is that of the iso-viscous
-   !> film.
+   !> Beyond the cells, and without a rigid film, there is no expansion; without any effect of pressure it is that of the
+   !> iso-viscous film.
    subroutine test_borders(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(reynolds_piezo_expansion_t) :: expansion

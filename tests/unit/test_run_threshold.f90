@@ -15,8 +15,8 @@ module test_run_threshold
    use scene_texts, only: input_path
    use scene_types, only: scene_t
    use text, only: counted, integer_text
-   use threshold_cases, only: crossings, failed, grid, lines, new_outcome, prepare, solved, uncertain, uncrossed, wide
-   use threshold_outcome, only: add_lines, outcome_t, save_outcome
+   use threshold_cases, only: crossings, failed, grid, traces, new_outcome, prepare, solved, uncertain, uncrossed, wide
+   use threshold_outcome, only: add_traces, outcome_t, save_outcome
    implicit none(type, external)
    private
 
@@ -42,13 +42,13 @@ contains
       call prepare(checks, scene, threshold, ' /')
       call checks%check_close(grid_scenes(scene, threshold), grid, 1.0e-12_dp, 'a grid of the tolerance')
       scene%threshold%count = 65
-      call checks%check_close(grid_scenes(scene, threshold), 65.0_dp*real(lines, dp), 1.0e-12_dp, 'a grid of the scan')
+      call checks%check_close(grid_scenes(scene, threshold), 65.0_dp*real(traces, dp), 1.0e-12_dp, 'a grid of the scan')
       threshold%axis%whole = .true.
       threshold%axis%count = 11
-      call checks%check_close(grid_scenes(scene, threshold), 11.0_dp*real(lines, dp), 1.0e-12_dp, 'a grid of whole numbers')
+      call checks%check_close(grid_scenes(scene, threshold), 11.0_dp*real(traces, dp), 1.0e-12_dp, 'a grid of whole numbers')
    end subroutine test_grid
 
-   !> Log, summary and result of a run that is carried on where all lines are done but the last.
+   !> Log, summary and result of a run that is carried on where all traces are done but the last.
    subroutine test_told(checks)
       class(check_list_t), intent(inout) :: checks
       type(scene_t) :: scene
@@ -65,9 +65,9 @@ contains
       call prepare(checks, scene, threshold, ' /')
       call clear(scene)
       call new_outcome(scene, threshold, whole)
-      call add_lines(scene, threshold, 1_int64, lines, whole)
+      call add_traces(scene, threshold, 1_int64, traces, whole)
       call new_outcome(scene, threshold, outcome)
-      call add_lines(scene, threshold, 1_int64, lines - 1_int64, outcome)
+      call add_traces(scene, threshold, 1_int64, traces - 1_int64, outcome)
       call save_outcome(scene, threshold, outcome, log)
       ! A run that is carried on may replace what it goes on from.
       scene%output%overwrite = .true.
@@ -79,18 +79,18 @@ contains
       call checks%check(.not. path_exists(state_path(scene)), 'a state that was carried on to its end is gone')
       told = content_of(log_path(scene))
       summary = content_of(summary_path(scene))
-      call expect('carried on after '//integer_text(lines - 1_int64)//' lines of the earlier run and 5 values of those under way')
-      call expect('5 values a line, then halves down to 33 places;')
+      call expect('carried on after '//integer_text(traces - 1_int64)//' traces of the earlier run and 5 values of those under way')
+      call expect('5 values a trace, then halves down to 33 places;')
       call expect(integer_text(solved)//' of '//integer_text(solved)//' scenes,')
-      call expect('  '//counted(crossings, 'crossing')//'; '//integer_text(uncrossed)//' of '//counted(lines, 'line')// &
-                  ' without any; at '//counted(uncertain, 'crossing')//' a class beside it is not certified'//line_feed)
-      call expect('the ends of '//counted(wide, 'crossing')//' are certified only farther apart than asked for')
+      call expect('  '//counted(crossings, 'crossing')//'; '//integer_text(uncrossed)//' of '//counted(traces, 'trace')// &
+                  ' without any; at '//counted(uncertain, 'crossing')//' a class beside it is not verified'//line_feed)
+      call expect('the ends of '//counted(wide, 'crossing')//' are verified only farther apart than asked for')
       call expect('scenes that failed are a kind of their own')
       call expect('  '//integer_text(solved)//' scenes; a grid as fine has '//integer_text(nint(grid, int64))// &
                   ', 3.00 times as many'//line_feed)
-      call hold('lines', integer_text(lines))
+      call hold('traces', integer_text(traces))
       call hold('crossings', integer_text(crossings))
-      call hold('lines_without_crossing', integer_text(uncrossed))
+      call hold('traces_without_crossing', integer_text(uncrossed))
       call hold('crossings_uncertain', integer_text(uncertain))
       call hold('crossings_wide', integer_text(wide))
       call hold('scenes', integer_text(solved))
@@ -103,13 +103,13 @@ contains
       allocate (rows(reader%columns, reader%row_count))
       call reader%read_rows(1_int64, rows, error)
       call reader%close()
-      call checks%check(all(shape(rows) == shape(whole%rows)), 'as many rows as brackets and lines without one')
+      call checks%check(all(shape(rows) == shape(whole%rows)), 'as many rows as brackets and traces without one')
       if (all(shape(rows) == shape(whole%rows))) &
          call checks%check(all(same_bits(rows, whole%rows) .or. (ieee_is_nan(rows) .and. ieee_is_nan(whole%rows))), &
                            'rows of the outcome')
-      call checks%check(all(reader%names == [character(32) :: 'line', 'kinematics.entrainment_speed', 'crossing', 'lower', &
+      call checks%check(all(reader%names == [character(32) :: 'trace', 'kinematics.entrainment_speed', 'crossing', 'lower', &
                                              'upper', 'width', 'rattle_class_below', 'rattle_class_above', 'status_below', &
-                                             'status_above', 'certified_below', 'certified_above']), 'names of the columns')
+                                             'status_above', 'verified_below', 'verified_above']), 'names of the columns')
       call clear(scene)
 
    contains

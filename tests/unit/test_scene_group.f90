@@ -55,7 +55,7 @@ contains
          scene = canonical_scene(law_iso_viscous, 16)
          scene%excitation%force_amplitude = amplitudes(i)
          scene%kinematics%entrainment_speed = speeds(i)
-         scene%spectrum%line_threshold = thresholds(i)
+         scene%spectrum%harmonic_threshold = thresholds(i)
          resolved(i) = resolve(scene)
          choices(i) = scene%spectrum
          choices(i)%periods = 16
@@ -65,25 +65,25 @@ contains
          call classify_group(problems, choices, resolved%noise_floor, request, together)
          call checks%check(all(together%endings%orbit == [1, 1, 2]), 'unlike windows: one period, one, two')
          call checks%check(all(together%endings%samples == 16*[1, 1, 2]), 'unlike windows: samples')
-         call checks%check(together%verdicts(1)%lines%line_count == 1, 'unlike windows: lines of quiet motion')
-         call checks%check(together%verdicts(2)%lines%line_count == 30, 'unlike windows: lines of idle rattle')
+         call checks%check(together%verdicts(1)%spectrum%harmonic_count == 1, 'unlike windows: lines of quiet motion')
+         call checks%check(together%verdicts(2)%spectrum%harmonic_count == 30, 'unlike windows: lines of idle rattle')
          do i = 1, count
             call solve_group(problems(i:i), start_of(problems(i:i)), request, wants, alone)
             call classify_group(problems(i:i), choices(i:i), resolved(i:i)%noise_floor, request, alone)
             associate (mine => together%verdicts(i), own => alone%verdicts(1))
-               call checks%check(mine%class == own%class .and. mine%lines%line_count == own%lines%line_count, &
+               call checks%check(mine%class == own%class .and. mine%spectrum%harmonic_count == own%spectrum%harmonic_count, &
                                  'unlike windows: class and lines as alone')
-               call checks%check(size(mine%lines%harmonics) == size(own%lines%harmonics), 'unlike windows: harmonics alone')
-               call checks%check(all(same_bits(mine%lines%harmonics, own%lines%harmonics)), 'unlike windows: the same bits')
+               call checks%check(size(mine%spectrum%harmonics) == size(own%spectrum%harmonics), 'unlike windows: harmonics alone')
+               call checks%check(all(same_bits(mine%spectrum%harmonics, own%spectrum%harmonics)), 'unlike windows: the same bits')
                call checks%check(same_bits(mine%reversals_per_period, own%reversals_per_period) .and. &
-                                 same_bits(mine%lines%irregular_fraction, own%lines%irregular_fraction), &
+                                 same_bits(mine%spectrum%irregular_fraction, own%spectrum%irregular_fraction), &
                                  'unlike windows: reversals and power off the harmonics')
             end associate
          end do
       end associate
    end subroutine test_windows_of_unlike_length
 
-   !> Teeth that give have more numbers a state than rigid ones, which were solved before in the same arrays.
+   !> Elastic teeth have more numbers a state than rigid ones, which were solved before in the same arrays.
    subroutine test_more_numbers_a_state(checks)
       type(check_list_t), intent(inout) :: checks
 

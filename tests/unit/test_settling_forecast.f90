@@ -138,7 +138,7 @@ contains
    end subroutine test_motions
 
    !> Motions that never settle are sometimes forecast to. Behind a forecast that failed they are what they were, to the
-   !> last bit, period by period; only the steps of the way there and back are more.
+   !> last bit, period by period; only the steps of the increasing and back are more.
    subroutine test_failed_excursions(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       integer, parameter :: samples = 16, scenes = 120

@@ -133,7 +133,7 @@ contains
       films = all_films()
       do law = 1, laws
          do i = 1, size(groups)
-            ! The load of (24) hardly falls any more at A = 20, and the exact piezo-viscous film does not live at A = -20.
+            ! The load of (24) hardly falls any more at A = 20, and the Reynolds piezo-viscous film does not live at A = -20.
             if (law == merge(2, 3, law == 2) .and. i == 6 .or. law == laws .and. i == 1) cycle
             h = merge(2.0e-5_dp, 2.0e-6_dp, law == laws)
             w = groups(i)*1.905_dp*sqrt(h/0.0254_dp)

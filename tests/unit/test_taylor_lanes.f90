@@ -217,7 +217,7 @@ contains
       end do
    end subroutine test_accuracy
 
-   !> The cells of the exact piezo-viscous film end at |A| = 14. Where a motion goes further, collocation goes on; and below the
+   !> The cells of the Reynolds piezo-viscous film end at |A| = 14. Where a motion goes further, collocation goes on; and below the
    !> accuracy of the cells it solves all of it.
    subroutine test_leaving_cells(checks)
       type(check_list_t), intent(inout) :: checks

@@ -163,7 +163,7 @@ contains
       end do
    end subroutine test_solved_rupture
 
-   !> Exact films that hardly damp and rise for hundreds of periods: the errors of long steps have one sign in every period, and
+   !> Reynolds films that hardly damp and rise for hundreds of periods: the errors of long steps have one sign in every period, and
    !> nothing takes them back.
    subroutine test_slow_drift(checks)
       type(check_list_t), intent(inout) :: checks

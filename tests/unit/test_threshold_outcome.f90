@@ -1,5 +1,5 @@
-!> Tests of what is kept of a threshold: rows and counts of points that are known, entered at once, line by line, in parts of the
-!> lines, and read back from a state.
+!> Tests of what is kept of a threshold: rows and counts of points that are known, entered at once, trace by trace, in parts of the
+!> traces, and read back from a state.
 module test_threshold_outcome
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use campaign_file_cases, only: line_feed
@@ -12,9 +12,9 @@ module test_threshold_outcome
    use prepared_threshold, only: prepared_threshold_t
    use scene_status, only: status_film_lost, status_steady
    use scene_types, only: scene_t
-   use threshold_cases, only: case_points, creep, crossings, failed, first_force, idle, last_force, lines, new_outcome, prepare, &
+   use threshold_cases, only: case_points, creep, crossings, failed, first_force, idle, last_force, traces, new_outcome, prepare, &
                               quiet, solved, speeds, steps, uncertain, uncrossed, wide
-   use threshold_outcome, only: add_lines, failed_scenes, load_outcome, outcome_t, save_outcome, solved_scenes
+   use threshold_outcome, only: add_traces, failed_scenes, load_outcome, outcome_t, save_outcome, solved_scenes
    use threshold_search, only: point_t
    implicit none(type, external)
    private
@@ -34,16 +34,16 @@ contains
       call prepare(checks, scene, threshold, ' /')
       call new_outcome(scene, threshold, outcome)
       call check_scenes(checks, outcome, 'under way')
-      call add_lines(scene, threshold, 1_int64, lines, outcome)
-      call check_counts(checks, outcome, 'all lines at once')
+      call add_traces(scene, threshold, 1_int64, traces, outcome)
+      call check_counts(checks, outcome, 'all traces at once')
       call check_rows(checks, outcome%rows)
       call test_line_by_line(checks, scene, threshold, outcome)
       call test_state(checks, scene, threshold, outcome)
       call test_part(checks, outcome)
-      call test_without_certificates(checks)
+      call test_without_verifications(checks)
    end subroutine run_threshold_outcome_tests
 
-   !> Scenes are counted once, whether their lines are done or under way.
+   !> Scenes are counted once, whether their traces are done or under way.
    subroutine check_scenes(checks, outcome, what)
       class(check_list_t), intent(inout) :: checks
       type(outcome_t), intent(in) :: outcome
@@ -53,17 +53,17 @@ contains
       call checks%check(failed_scenes(outcome) == failed, 'scenes failed: '//what)
    end subroutine check_scenes
 
-   !> Every count of an outcome of which all lines are done.
+   !> Every count of an outcome of which all traces are done.
    subroutine check_counts(checks, outcome, what)
       class(check_list_t), intent(inout) :: checks
       type(outcome_t), intent(in) :: outcome
       character(*), intent(in) :: what
 
       call check_scenes(checks, outcome, what)
-      call checks%check(outcome%lines == lines .and. size(outcome%points) == 0, 'lines done: '//what)
-      call checks%check(outcome%solved == solved .and. outcome%failed == failed, 'scenes of the lines: '//what)
+      call checks%check(outcome%traces == traces .and. size(outcome%points) == 0, 'traces done: '//what)
+      call checks%check(outcome%solved == solved .and. outcome%failed == failed, 'scenes of the traces: '//what)
       call checks%check(outcome%crossings == crossings, 'crossings: '//what)
-      call checks%check(outcome%uncrossed == uncrossed, 'lines without a crossing: '//what)
+      call checks%check(outcome%uncrossed == uncrossed, 'traces without a crossing: '//what)
       call checks%check(outcome%uncertain == uncertain, 'uncertain crossings: '//what)
       call checks%check(outcome%wide == wide, 'wide crossings: '//what)
    end subroutine check_counts
@@ -72,35 +72,35 @@ contains
    subroutine check_rows(checks, rows)
       class(check_list_t), intent(inout) :: checks
       real(dp), intent(in) :: rows(:, :)
-      integer, parameter :: certified_below = 11, certified_above = 12
-      integer :: line
+      integer, parameter :: verified_below = 11, verified_above = 12
+      integer :: trace
 
-      call checks%check(all(shape(rows) == [12, 7]), 'a row for each crossing and each line without one')
+      call checks%check(all(shape(rows) == [12, 7]), 'a row for each crossing and each trace without one')
       if (any(shape(rows) /= [12, 7])) return
       call row(1, 1, 1, [8, 9], [quiet, idle], [status_steady, status_steady])
       call stand(1, [1, 0])
       call row(2, 2, 1, [8, 11], [quiet, idle], [status_steady, status_steady])
       call stand(2, [1, 1])
       call row(3, 2, 2, [23, 24], [idle, 0], [status_steady, status_film_lost])
-      call checks%check(ieee_is_nan(rows(certified_below, 3)) .and. ieee_is_nan(rows(certified_above, 3)), &
+      call checks%check(ieee_is_nan(rows(verified_below, 3)) .and. ieee_is_nan(rows(verified_above, 3)), &
                         'row 3: nothing was put to the test')
-      do line = 3, 6
-         if (line < 6) call row(line + 1, line, 0, [0, steps], [creep, creep], [status_steady, status_steady])
-         if (line == 6) call row(line + 1, line, 0, [0, steps], [0, 0], [status_film_lost, status_film_lost])
-         call checks%check(all(ieee_is_nan(rows([6, certified_below, certified_above], line + 1))), &
-                           'a line without a crossing has no width and no certificate')
+      do trace = 3, 6
+         if (trace < 6) call row(trace + 1, trace, 0, [0, steps], [creep, creep], [status_steady, status_steady])
+         if (trace == 6) call row(trace + 1, trace, 0, [0, steps], [0, 0], [status_film_lost, status_film_lost])
+         call checks%check(all(ieee_is_nan(rows([6, verified_below, verified_above], trace + 1))), &
+                           'a trace without a crossing has no width and no verification')
       end do
 
    contains
 
-      subroutine row(place, line, crossing, places, classes, statuses)
-         integer, intent(in) :: place, line, crossing, places(2), classes(2), statuses(2)
+      subroutine row(place, trace, crossing, places, classes, statuses)
+         integer, intent(in) :: place, trace, crossing, places(2), classes(2), statuses(2)
          real(dp) :: ends(2)
          character(8) :: name
 
          write (name, '(a, i0, a)') 'row ', place, ': '
          ends = first_force + (last_force - first_force)*real(places, dp)/real(steps, dp)
-         call checks%check(nint(rows(1, place)) == line .and. same_bits(rows(2, place), speeds(line)), name//'its line')
+         call checks%check(nint(rows(1, place)) == trace .and. same_bits(rows(2, place), speeds(trace)), name//'its trace')
          call checks%check(nint(rows(3, place)) == crossing, name//'its crossing')
          call checks%check_close(rows(4, place), ends(1), 1.0e-12_dp, name//'lower end')
          call checks%check_close(rows(5, place), ends(2), 1.0e-12_dp, name//'upper end')
@@ -110,31 +110,32 @@ contains
          call checks%check(all(nint(rows(9:10, place)) == statuses), name//'how both scenes ended')
       end subroutine row
 
-      subroutine stand(place, certified)
-         integer, intent(in) :: place, certified(2)
+      subroutine stand(place, verified)
+         integer, intent(in) :: place, verified(2)
 
-         call checks%check(all(nint(rows(certified_below:certified_above, place)) == certified), 'which class stands, in its order')
+         call checks%check(all(nint(rows(verified_below:verified_above, place)) == verified), &
+            'which class is verified, in its order')
       end subroutine stand
 
    end subroutine check_rows
 
-   !> Lines entered one after another are those entered at once; what is counted on the way is counted once.
+   !> Traces entered one after another are those entered at once; what is counted on the way is counted once.
    subroutine test_line_by_line(checks, scene, threshold, at_once)
       class(check_list_t), intent(inout) :: checks
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       type(outcome_t), intent(in) :: at_once
       type(outcome_t) :: outcome
-      integer(int64) :: line
+      integer(int64) :: trace
 
       call new_outcome(scene, threshold, outcome)
-      do line = 1_int64, lines
-         call add_lines(scene, threshold, line, line, outcome)
-         call check_scenes(checks, outcome, 'some lines done')
-         call checks%check(outcome%lines == line, 'lines done, one after another')
+      do trace = 1_int64, traces
+         call add_traces(scene, threshold, trace, trace, outcome)
+         call check_scenes(checks, outcome, 'some traces done')
+         call checks%check(outcome%traces == trace, 'traces done, one after another')
       end do
-      call check_counts(checks, outcome, 'line by line')
-      call check_same(checks, outcome%rows, at_once%rows, 'line by line')
+      call check_counts(checks, outcome, 'trace by trace')
+      call check_same(checks, outcome%rows, at_once%rows, 'trace by trace')
    end subroutine test_line_by_line
 
    !> A state read back is the outcome that was kept, and goes on to the same end.
@@ -146,25 +147,25 @@ contains
       type(outcome_t) :: kept, loaded
       type(error_t), allocatable :: error
       type(log_t) :: log
-      integer(int64) :: line
+      integer(int64) :: trace
 
-      do line = 0_int64, lines
+      do trace = 0_int64, traces
          call new_outcome(scene, threshold, kept)
-         if (line > 0_int64) call add_lines(scene, threshold, 1_int64, line, kept)
+         if (trace > 0_int64) call add_traces(scene, threshold, 1_int64, trace, kept)
          call save_outcome(scene, threshold, kept, log)
          loaded = outcome_t()
          call load_outcome(scene, threshold, loaded, error)
          call checks%check(.not. allocated(error) .and. allocated(loaded%rows), 'a state is read back')
          if (.not. allocated(loaded%rows)) return
          call check_scenes(checks, loaded, 'read back')
-         call checks%check(all([loaded%lines, loaded%solved, loaded%failed, loaded%crossings, loaded%uncrossed, &
-                                loaded%uncertain, loaded%wide] == [kept%lines, kept%solved, kept%failed, kept%crossings, &
+         call checks%check(all([loaded%traces, loaded%solved, loaded%failed, loaded%crossings, loaded%uncrossed, &
+                                loaded%uncertain, loaded%wide] == [kept%traces, kept%solved, kept%failed, kept%crossings, &
                                                                   kept%uncrossed, kept%uncertain, kept%wide]), 'its counts')
          call check_same(checks, loaded%rows, kept%rows, 'read back')
          call check_points(checks, loaded%points, kept%points)
-         call add_lines(scene, threshold, line + 1_int64, lines, loaded)
-         if (line < lines) call check_counts(checks, loaded, 'carried on')
-         if (line < lines) call check_same(checks, loaded%rows, at_once%rows, 'carried on')
+         call add_traces(scene, threshold, trace + 1_int64, traces, loaded)
+         if (trace < traces) call check_counts(checks, loaded, 'carried on')
+         if (trace < traces) call check_same(checks, loaded%rows, at_once%rows, 'carried on')
       end do
       call delete_file(state_path(scene))
    end subroutine test_state
@@ -177,11 +178,11 @@ contains
 
       call checks%check(size(points) == size(others), 'points read back: as many')
       if (size(points) /= size(others)) return
-      call checks%check(all(points%line == others%line .and. points%place == others%place), 'points read back: where')
+      call checks%check(all(points%trace == others%trace .and. points%place == others%place), 'points read back: where')
       call checks%check(all(points%scanned .eqv. others%scanned), 'points read back: those of the scan')
       call checks%check(all(points%status == others%status .and. points%side == others%side), 'points read back: what')
       call checks%check(all(points%tested .eqv. others%tested), 'points read back: put to the test')
-      call checks%check(all(same_numbers(points%certified, others%certified)), 'points read back: certified')
+      call checks%check(all(same_numbers(points%verified, others%verified)), 'points read back: verified')
       call checks%check(all(same_bits(points%quantity, others%quantity)), 'points read back: their quantity')
    end subroutine check_points
 
@@ -204,7 +205,7 @@ contains
       same_numbers = same_bits(x, y) .or. (ieee_is_nan(x) .and. ieee_is_nan(y))
    end function same_numbers
 
-   !> The second half of the lines is a part that counts its own lines, and has the rows of the whole.
+   !> The second half of the traces is a part that counts its own traces, and has the rows of the whole.
    subroutine test_part(checks, whole)
       class(check_list_t), intent(inout) :: checks
       type(outcome_t), intent(in) :: whole
@@ -213,32 +214,32 @@ contains
       type(outcome_t) :: outcome
 
       call prepare(checks, scene, threshold, ', part = 2, parts = 2 /')
-      call checks%check(threshold%lines%first == 4_int64 .and. threshold%lines%layout%scene_count == 3_int64, &
-                        'a part of the lines')
+      call checks%check(threshold%traces%first == 4_int64 .and. threshold%traces%layout%scene_count == 3_int64, &
+                        'a part of the traces')
       call new_outcome(scene, threshold, outcome)
-      outcome%points = pack(outcome%points, outcome%points%line > 3_int64)
-      call add_lines(scene, threshold, 4_int64, 5_int64, outcome)
-      call checks%check(outcome%lines == 2_int64, 'lines of a part')
-      call add_lines(scene, threshold, 6_int64, 6_int64, outcome)
-      call checks%check(outcome%lines == 3_int64 .and. outcome%uncrossed == 3_int64 .and. outcome%crossings == 0_int64, &
+      outcome%points = pack(outcome%points, outcome%points%trace > 3_int64)
+      call add_traces(scene, threshold, 4_int64, 5_int64, outcome)
+      call checks%check(outcome%traces == 2_int64, 'traces of a part')
+      call add_traces(scene, threshold, 6_int64, 6_int64, outcome)
+      call checks%check(outcome%traces == 3_int64 .and. outcome%uncrossed == 3_int64 .and. outcome%crossings == 0_int64, &
                         'counts of a part')
       call check_same(checks, outcome%rows, whole%rows(:, 5:), 'a part')
    end subroutine test_part
 
-   !> Without certificates rows have no column of them, and nothing is put to the test.
-   subroutine test_without_certificates(checks)
+   !> Without verifications rows have no column of them, and nothing is put to the test.
+   subroutine test_without_verifications(checks)
       class(check_list_t), intent(inout) :: checks
       type(scene_t) :: scene
       type(prepared_threshold_t) :: threshold
       type(outcome_t) :: outcome
 
-      call prepare(checks, scene, threshold, ' /'//line_feed//'&spectrum certify = .false. /')
+      call prepare(checks, scene, threshold, ' /'//line_feed//'&spectrum verify = .false. /')
       call new_outcome(scene, threshold, outcome)
       outcome%points%tested = .false.
-      call add_lines(scene, threshold, 1_int64, lines, outcome)
-      call checks%check(size(outcome%rows, 1) == 10, 'no columns of certificates')
+      call add_traces(scene, threshold, 1_int64, traces, outcome)
+      call checks%check(size(outcome%rows, 1) == 10, 'no columns of verifications')
       call checks%check(outcome%solved == size(case_points(scene), kind=int64), 'every point is one scene')
       call checks%check(outcome%wide == 0_int64, 'brackets as narrow as asked for')
-   end subroutine test_without_certificates
+   end subroutine test_without_verifications
 
 end module test_threshold_outcome

@@ -7,7 +7,7 @@ module test_threshold_search
    use quantities, only: quantity_film_force_rms, quantity_rattle_class
    use scene_status, only: status_film_lost, status_steady
    use scene_types, only: threshold_t
-   use threshold_search, only: bracket_t, brackets_of, finest_axis, is_certified, merged_points, missing_middles, missing_scan, &
+   use threshold_search, only: bracket_t, brackets_of, finest_axis, is_verified, merged_points, missing_middles, missing_scan, &
                                new_point, point_t, scan_places, side_unknown, untested_ends
    implicit none(type, external)
    private
@@ -156,7 +156,7 @@ contains
          do i = 1, size(changes)
             lower = grid_value(axis, brackets(i)%lower%place)
             upper = grid_value(axis, brackets(i)%upper%place)
-            right = right .and. lower < changes(i) .and. changes(i) <= upper .and. brackets(i)%lower%line == 7_int64 &
+            right = right .and. lower < changes(i) .and. changes(i) <= upper .and. brackets(i)%lower%trace == 7_int64 &
                     .and. brackets(i)%upper%place == brackets(i)%lower%place + 1 &
                     .and. brackets(i)%lower%side == nint(known(lower)) .and. brackets(i)%upper%side == nint(known(upper))
          end do
@@ -205,19 +205,19 @@ contains
       call checks%check(all(brackets%upper%place - brackets%lower%place == 1), 'down to the next integer')
    end subroutine test_integers
 
-   !> Points of one line with these sides, places of the scan every fourth; certified as told, 2: not put to the test.
-   function line_of(sides, certified, line) result(points)
+   !> Points of one trace with these sides, places of the scan every fourth; verified as told, 2: not put to the test.
+   function line_of(sides, verified, trace) result(points)
       integer, intent(in) :: sides(:)
-      integer, intent(in) :: certified(:)
-      integer(int64), intent(in) :: line
+      integer, intent(in) :: verified(:)
+      integer(int64), intent(in) :: trace
       type(point_t) :: points(size(sides))
       integer :: i
 
       do i = 1, size(sides)
-         points(i) = new_point(search(3, 1.0e-2_dp, 1), point_t(line=line, place=i - 1, scanned=mod(i - 1, 4) == 0), &
+         points(i) = new_point(search(3, 1.0e-2_dp, 1), point_t(trace=trace, place=i - 1, scanned=mod(i - 1, 4) == 0), &
                                status_steady, real(sides(i), dp))
-         points(i)%tested = certified(i) < 2
-         if (points(i)%tested) points(i)%certified = real(certified(i), dp)
+         points(i)%tested = verified(i) < 2
+         if (points(i)%tested) points(i)%verified = real(verified(i), dp)
       end do
    end function line_of
 
@@ -241,36 +241,36 @@ contains
       call checks%check(wanted(1)%place == 2 .and. wanted(2)%place == 5, 'of each the nearest')
       wanted = untested_ends(line_of(sides, [0, 0, 0, 0, 0, 0, 0, 0, 0], 1_int64))
       call checks%check(size(wanted) == 0, 'where none stands all have been tried')
-      ! The scene that fails has no certificate, and what is beyond it is not asked.
+      ! The scene that fails has no verification, and what is beyond it is not asked.
       points(5:) = new_point(search(3, 1.0e-2_dp, 1), points(5), status_film_lost, 0.0_dp)
       points(5:)%place = [4, 5, 6, 7, 8]
       points(5:)%tested = .false.
       wanted = untested_ends(points)
       call checks%check(size(wanted) == 1, 'scenes that fail are not put to the test')
-      ! Two lines of the same places do not see each other.
+      ! Two traces of the same places do not see each other.
       wanted = untested_ends([line_of(sides, [2, 2, 2, 1, 1, 2, 2, 2, 2], 1_int64), &
                               line_of([1, 1, 1, 1, 1, 1, 1, 1, 1], [2, 2, 2, 2, 2, 2, 2, 2, 2], 2_int64)])
-      call checks%check(size(wanted) == 0, 'the end of a line and the start of the next are no neighbours')
+      call checks%check(size(wanted) == 0, 'the end of a trace and the start of the next are no neighbours')
 
    contains
 
-      subroutine check_bracket(what, sides, certified, lower, upper, stand)
+      subroutine check_bracket(what, sides, verified, lower, upper, stand)
          character(*), intent(in) :: what
-         integer, intent(in) :: sides(:), certified(:), lower, upper
+         integer, intent(in) :: sides(:), verified(:), lower, upper
          logical, intent(in) :: stand(2)
          type(bracket_t), allocatable :: brackets(:)
 
-         allocate (brackets, source=brackets_of(line_of(sides, certified, 1_int64)))
+         allocate (brackets, source=brackets_of(line_of(sides, verified, 1_int64)))
          call checks%check(size(brackets) == 1, what//': one bracket')
          if (size(brackets) /= 1) return
          call checks%check(brackets(1)%lower%place == lower .and. brackets(1)%upper%place == upper, what//': its ends')
-         call checks%check(is_certified(brackets(1)%lower) .eqv. stand(1), what//': below')
-         call checks%check(is_certified(brackets(1)%upper) .eqv. stand(2), what//': above')
+         call checks%check(is_verified(brackets(1)%lower) .eqv. stand(1), what//': below')
+         call checks%check(is_verified(brackets(1)%upper) .eqv. stand(2), what//': above')
       end subroutine check_bracket
 
    end subroutine test_ends
 
-   !> A kind that only narrower brackets have met and no certified point shows is none; the scan's own stays as it was found.
+   !> A kind that only narrower brackets have met and no verified point shows is none; the scan's own stays as it was found.
    subroutine test_kinds_that_none_shows(checks)
       type(check_list_t), intent(inout) :: checks
       integer, parameter :: between(9) = [1, 1, 2, 2, 3, 3, 3, 3, 3], scanned(9) = [1, 1, 2, 2, 2, 3, 3, 3, 3]
@@ -281,11 +281,11 @@ contains
       call checks%check(brackets(1)%lower%place == 1 .and. brackets(1)%upper%place == 4, 'from where they stand')
       call checks%check(brackets(1)%lower%side == 1 .and. brackets(1)%upper%side == 3, 'and what they are')
       brackets = brackets_of(line_of(between, [2, 1, 0, 1, 1, 2, 2, 2, 2], 1_int64))
-      call checks%check(size(brackets) == 2, 'one certified point is enough for a kind')
+      call checks%check(size(brackets) == 2, 'one verified point is enough for a kind')
       call checks%check(brackets(1)%upper%place == 3 .and. brackets(2)%lower%place == 3, 'at which both brackets end')
       brackets = brackets_of(line_of(scanned, [2, 1, 0, 0, 0, 1, 2, 2, 2], 1_int64))
       call checks%check(size(brackets) == 2, 'what the scan has met stays')
-      call checks%check(.not. (is_certified(brackets(1)%upper) .or. is_certified(brackets(2)%lower)), 'with its doubt')
+      call checks%check(.not. (is_verified(brackets(1)%upper) .or. is_verified(brackets(2)%lower)), 'with its doubt')
    end subroutine test_kinds_that_none_shows
 
    !> A search that is cut at any point, with some answers of a pass or all of them, asks for the same points in all.

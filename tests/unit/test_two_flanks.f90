@@ -8,7 +8,7 @@ module test_two_flanks
    use fourier, only: amplitude_spectrum
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use loudness, only: loudness_of_record, loudness_of_samples, loudness_t
+   use vibration_severity, only: severity_of_record, severity_of_samples, vibration_severity_t
    use node_extremes, only: seen_acceleration, seen_coast_load, seen_film, seen_load, seen_net_load
    use carried_loads, only: net_load
    use problem, only: film_at_rest, of_film, of_velocity, problem_of, problem_t, static_load
@@ -77,7 +77,7 @@ contains
       do law = 1, 4
          problem = problem_of(scene_of_law(law))
          do i = 1, size(loads)
-            ! No exact piezo-viscous film is that thin.
+            ! No Reynolds piezo-viscous film is that thin.
             if (law == 4 .and. abs(loads(i)) > 1000.0_dp) cycle
             film = film_at_rest(problem, loads(i))
             mirrored = film_at_rest(problem, -loads(i))
@@ -138,14 +138,14 @@ contains
       end do
    end subroutine test_slopes
 
-   !> R1: exact film, three orders.
+   !> R1: Reynolds film, three orders.
    subroutine test_reference_1(checks)
       type(check_list_t), intent(inout) :: checks
 
       call compare(checks, 'R1', loose_gear_problem(), [2.0385964e-06_dp, 9.5180665e-05_dp], [-15.900521_dp, 36.042153_dp], &
                    [1.0544934_dp, 2.0593625_dp, 1.5235086_dp, 0.8887504_dp, 1.8208022_dp, 2.0759337_dp, 1.2894884_dp, &
                     0.4725849_dp], [22.91200_dp, 8.87695_dp], &
-                   loudness_t(4.939422_dp, 22.1410_dp, 6.424069_dp, 1.5696859e-4_dp))
+                   vibration_severity_t(4.939422_dp, 22.1410_dp, 6.424069_dp, 1.5696859e-4_dp))
 
    contains
 
@@ -163,7 +163,7 @@ contains
                    [1.0171632e-06_dp, 2.9199843e-06_dp], [-21.034912_dp, 21.334129_dp], &
                    [14.4858004_dp, 2.8541201_dp, 10.8644005_dp, 2.6224554_dp, 3.5903728_dp, 1.2712236_dp, 1.0567365_dp, &
                     0.5642385_dp], [283.4196_dp, 249.5708_dp], &
-                   loudness_t(13.398022_dp, 1.56530_dp, 171.143605_dp, 4.5073491e-4_dp))
+                   vibration_severity_t(13.398022_dp, 1.56530_dp, 171.143605_dp, 4.5073491e-4_dp))
    end subroutine test_reference_3
 
    !> R4: published iso-viscous film, no static load.
@@ -181,11 +181,11 @@ contains
       call compare(checks, 'R4', problem_of(scene), [1.0214233e-06_dp, 7.9708353e-05_dp], [-466.402023_dp, 55.880566_dp], &
                    [1.1560955_dp, 1.0103131_dp, 1.8883829_dp, 4.4178161_dp, 2.4031906_dp, 4.9109625_dp, 1.7944560_dp, &
                     3.6924518_dp], [32.4707_dp, 217.1656_dp], &
-                   loudness_t(18.249671_dp, 343.762_dp, 9.650001_dp, 6.4343945e-4_dp))
+                   vibration_severity_t(18.249671_dp, 343.762_dp, 9.650001_dp, 6.4343945e-4_dp))
    end subroutine test_reference_4
 
    !> Compare one period of a steady motion with a reference.
-   subroutine compare(checks, name, problem, films, accelerations, harmonics, loads, loudness)
+   subroutine compare(checks, name, problem, films, accelerations, harmonics, loads, severity)
       type(check_list_t), intent(inout) :: checks
       character(*), intent(in) :: name
       type(problem_t), intent(in) :: problem
@@ -197,11 +197,11 @@ contains
       !> Largest loads of the drive and the coast film [N]
       real(dp), intent(in) :: loads(2)
       !> To the digits given
-      type(loudness_t), intent(in) :: loudness
+      type(vibration_severity_t), intent(in) :: severity
       integer, parameter :: periods = 400
       type(ending_t) :: found
       type(window_record_t) :: record
-      type(loudness_t) :: told
+      type(vibration_severity_t) :: told
       real(dp), allocatable :: states(:, :), z(:), amplitudes(:)
 
       call find_steady_motion(problem, start_of(problem), accuracy, periods, 1, found)
@@ -220,15 +220,15 @@ contains
       call checks%check(abs(record%highest(seen_load)%value/loads(1) - 1.0_dp) < 1.0e-4_dp, name//': drive load')
       call checks%check(abs(record%highest(seen_coast_load)%value/loads(2) - 1.0_dp) < 1.0e-4_dp, name//': coast load')
       call checks%check(record%lowest(seen_net_load)%value < 0.0_dp, name//': double-sided')
-      told = loudness_of_record(record, problem%frequency)
-      call checks%check_close(told%acceleration_rms/loudness%acceleration_rms, 1.0_dp, 1.0e-6_dp, name//': rms')
-      call checks%check_close(told%acceleration_kurtosis/loudness%acceleration_kurtosis, 1.0_dp, 4.0e-6_dp, name//': kurtosis')
-      call checks%check_close(told%film_force_rms/loudness%film_force_rms, 1.0_dp, 1.0e-6_dp, name//': net film force')
-      call checks%check_close(told%dissipated_energy/loudness%dissipated_energy, 1.0_dp, 1.0e-6_dp, name//': dissipated energy')
+      told = severity_of_record(record, problem%frequency)
+      call checks%check_close(told%acceleration_rms/severity%acceleration_rms, 1.0_dp, 1.0e-6_dp, name//': rms')
+      call checks%check_close(told%acceleration_kurtosis/severity%acceleration_kurtosis, 1.0_dp, 4.0e-6_dp, name//': kurtosis')
+      call checks%check_close(told%film_force_rms/severity%film_force_rms, 1.0_dp, 1.0e-6_dp, name//': net film force')
+      call checks%check_close(told%dissipated_energy/severity%dissipated_energy, 1.0_dp, 1.0e-6_dp, name//': dissipated energy')
       ! The impacts of R4 need twice as many samples.
-      told = loudness_of_samples(problem, samples, states(:, of_velocity), z)
-      call checks%check_close(told%film_force_rms/loudness%film_force_rms, 1.0_dp, 2.0e-4_dp, name//': net film force by samples')
-      call checks%check_close(told%dissipated_energy/loudness%dissipated_energy, 1.0_dp, 2.0e-4_dp, name//': energy by samples')
+      told = severity_of_samples(problem, samples, states(:, of_velocity), z)
+      call checks%check_close(told%film_force_rms/severity%film_force_rms, 1.0_dp, 2.0e-4_dp, name//': net film force by samples')
+      call checks%check_close(told%dissipated_energy/severity%dissipated_energy, 1.0_dp, 2.0e-4_dp, name//': energy by samples')
       call checks%check(energy_gap(record, problem%mass) < 1.0e-7_dp, name//': energy closes')
    end subroutine compare
 

@@ -20,7 +20,7 @@ module test_window_record
    implicit none(type, external)
    private
 
-   !> Samples that miss nothing of the canonical scenes: their extremes are off by (pi n/N)**2/2 of the highest lines.
+   !> Samples that miss nothing of the canonical scenes: their extremes are off by (pi n/N)**2/2 of the highest harmonics.
    integer, parameter :: fine = 32768
    real(dp), parameter :: accuracy = 1.0e-9_dp
 
@@ -162,7 +162,7 @@ contains
 
    end subroutine test_curves
 
-   !> All film laws: extremes as those of very many samples, closed windows, lines as those of the samples; Taylor series and
+   !> All film laws: extremes as those of very many samples, closed windows, harmonics as those of the samples; Taylor series and
    !> collocation.
    subroutine test_canonical(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
@@ -212,7 +212,7 @@ contains
       extremes = extremes_of_samples(lane, states(:, :, 1), accelerations)
       do quantity = 1, seen_quantities
          size_of = extremes%highest(quantity)%value - extremes%lowest(quantity)%value
-         ! Samples fall short of the extreme, by (pi 100/fine)**2/2 of the range for a hundred lines.
+         ! Samples fall short of the extreme, by (pi 100/fine)**2/2 of the range for a hundred harmonics.
          call checks%check(records(1)%highest(quantity)%value >= extremes%highest(quantity)%value - 1.0e-8_dp*size_of .and. &
             records(1)%highest(quantity)%value <= extremes%highest(quantity)%value + 1.0e-6_dp*size_of, name//': highest')
          ! Nobody asks where the largest pressure of the film is smallest.
@@ -235,15 +235,18 @@ contains
       call classify(accelerations, choice, 1.0e-9_dp, by_samples)
       call classify_steps(integrals(1), lane%frequency, choice, 1.0e-9_dp, by_steps)
       ! The accelerations of samples follow from the film law, which the steps obey to a hundred times their accuracy.
-      call checks%check(maxval(abs(by_steps%lines%harmonics - by_samples%lines%harmonics(:size(by_steps%lines%harmonics)))) &
-         < 100.0_dp*accuracy*by_samples%lines%harmonics(1), name//': lines by integrals')
-      ! Forty multiples are integrated for; where lines lie beyond them, their count is a lower bound.
-      call checks%check(by_steps%class == by_samples%class .and. by_steps%lines%line_count == min(by_samples%lines%line_count, &
-         count(by_samples%lines%harmonics(:integrals(1)%multiples) > 0.01_dp*by_samples%lines%harmonics(1))), &
-         name//': class and lines by integrals')
-      call checks%check(by_steps%lines%count_is_bound .or. by_steps%lines%line_count == by_samples%lines%line_count, &
-         name//': fewer lines are a lower bound')
-      call checks%check_close(by_steps%lines%harmonic_distortion/by_samples%lines%harmonic_distortion, 1.0_dp, 1.0e-8_dp, &
+      call checks%check(maxval(abs(by_steps%spectrum%harmonics &
+         - by_samples%spectrum%harmonics(:size(by_steps%spectrum%harmonics)))) &
+         < 100.0_dp*accuracy*by_samples%spectrum%harmonics(1), name//': harmonics by integrals')
+      ! Forty multiples are integrated for; where harmonics lie beyond them, their count is a lower bound.
+      call checks%check(by_steps%class == by_samples%class .and. by_steps%spectrum%harmonic_count == &
+         min(by_samples%spectrum%harmonic_count, &
+         count(by_samples%spectrum%harmonics(:integrals(1)%multiples) > 0.01_dp*by_samples%spectrum%harmonics(1))), &
+         name//': class and harmonics by integrals')
+      call checks%check(by_steps%spectrum%count_is_bound .or. by_steps%spectrum%harmonic_count == &
+         by_samples%spectrum%harmonic_count, &
+         name//': fewer harmonics are a lower bound')
+      call checks%check_close(by_steps%spectrum%harmonic_distortion/by_samples%spectrum%harmonic_distortion, 1.0_dp, 1.0e-8_dp, &
          name//': distortion by integrals')
       call checks%check_close(by_steps%reversals_per_period, by_samples%reversals_per_period, 0.0_dp, name//': reversals by steps')
    end subroutine compare_with_samples
@@ -302,14 +305,14 @@ contains
          sampled_periods=8, &
          every_period=.true.), states, endings, records=records)
       call classify_steps(records(1), lane%frequency, choice, 1.0e-9_dp, verdict)
-      call checks%check_close(verdict%lines%harmonics(1), 290.754_dp, 1.0e-3_dp, 'impact: first harmonic')
-      call checks%check_close(verdict%lines%harmonics(2), 152.365_dp, 1.0e-3_dp, 'impact: second harmonic')
+      call checks%check_close(verdict%spectrum%harmonics(1), 290.754_dp, 1.0e-3_dp, 'impact: first harmonic')
+      call checks%check_close(verdict%spectrum%harmonics(2), 152.365_dp, 1.0e-3_dp, 'impact: second harmonic')
       call checks%check(records(1)%lowest(seen_film)%value < 0.1e-9_dp, 'impact: thinnest film')
       call checks%check(records(1)%highest(seen_velocity)%value - records(1)%lowest(seen_velocity)%value > 5.0_dp, &
          'impact: jump of the velocity')
-      call checks%check(verdict%lines%count_is_bound .and. verdict%lines%line_count == records(1)%multiples, &
-         'impact: more lines than are resolved')
-      call checks%check(.not. verdict%lines%distortion_is_bound .and. verdict%lines%harmonic_distortion > 1000.0_dp, &
+      call checks%check(verdict%spectrum%count_is_bound .and. verdict%spectrum%harmonic_count == records(1)%multiples, &
+         'impact: more harmonics than are resolved')
+      call checks%check(.not. verdict%spectrum%distortion_is_bound .and. verdict%spectrum%harmonic_distortion > 1000.0_dp, &
          'impact: distortion by the whole power')
       call checks%check(momentum_gap(records(1), lane%frequency) < 1.0e-6_dp, 'impact: momentum closes')
       call checks%check(energy_gap(records(1), lane%mass) < 1.0e-6_dp, 'impact: energy closes')
@@ -366,8 +369,8 @@ contains
          nodes%pieces = pieces
          nodes%states(:, of_velocity) = phases
          call record_period(lane, 1.0_dp, nodes, record)
-         call checks%check(abs(record%line_sums(0) - 1.0_dp) < rounding, 'coefficients: mean of a ramp')
-         call checks%check(all(abs(record%line_sums(1:)) < rounding), 'coefficients: of a ramp')
+         call checks%check(abs(record%harmonic_sums(0) - 1.0_dp) < rounding, 'coefficients: mean of a ramp')
+         call checks%check(all(abs(record%harmonic_sums(1:)) < rounding), 'coefficients: of a ramp')
          do k = 1, multiples
             call start_record(motion_state_t(numbers=[1.0e-6_dp, 0.0_dp]), record)
             nodes%pieces = pieces
@@ -375,7 +378,7 @@ contains
             call record_period(lane, 0.0_dp, nodes, record)
             do n = 0, multiples
                expected = merge(cmplx(0.5_dp, 1.0_dp, dp)*two_pi*real(k, dp), (0.0_dp, 0.0_dp), n == k)
-               call checks%check(abs(record%line_sums(n) - expected) < rounding*two_pi*real(multiples, dp), &
+               call checks%check(abs(record%harmonic_sums(n) - expected) < rounding*two_pi*real(multiples, dp), &
                   'coefficients: of sine and cosine')
             end do
          end do

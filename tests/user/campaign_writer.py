@@ -20,7 +20,7 @@ RECORDED = (
     ("acceleration_maximum", "m/s2"),
     ("natural_frequency", "Hz"),
     ("damping_ratio", "-"),
-    ("line_count", "-"),
+    ("harmonic_count", "-"),
     ("harmonic_distortion", "-"),
     ("irregular_fraction", "-"),
     ("reversals_per_period", "-"),
@@ -31,7 +31,7 @@ RECORDED = (
     ("status", "-"),
     ("period_count", "-"),
     *((f"harmonic_{n}", "m/s2") for n in range(1, 9)),
-    ("certified", "-"),
+    ("verified", "-"),
 )
 
 BASE = """&scene
@@ -216,7 +216,7 @@ def _quantities(force: np.ndarray, speed: np.ndarray, viscosity: np.ndarray) -> 
         "acceleration_maximum": 200.0 * severity**2,
         "natural_frequency": 1473.6 * (1.905 / speed) ** 0.9,
         "damping_ratio": 0.61 * (speed / 1.905) ** 0.25 * (viscosity / 0.3) ** 0.5,
-        "line_count": np.floor(30.0 * np.minimum(severity, 1.3)),
+        "harmonic_count": np.floor(30.0 * np.minimum(severity, 1.3)),
         "harmonic_distortion": distortion,
         "irregular_fraction": np.where(codes >= 4.0, 0.05 * severity, 0.0),
         "reversals_per_period": np.where(codes >= 3.0, 4.0, 2.0),
@@ -226,7 +226,7 @@ def _quantities(force: np.ndarray, speed: np.ndarray, viscosity: np.ndarray) -> 
         "alpha_p_maximum": 1.5 * severity,
         "status": np.ones_like(severity),
         "period_count": np.floor(12.0 + 20.0 * severity),
-        "certified": ((codes < 4.0) & (np.abs(severity - 0.8) > 0.03)).astype(float),
+        "verified": ((codes < 4.0) & (np.abs(severity - 0.8) > 0.03)).astype(float),
     }
     for n in range(1, 9):
         data[f"harmonic_{n}"] = 20.0 * severity / n ** (2.0 / (0.5 + severity))

@@ -51,7 +51,7 @@ class PublishedPiezoViscous:
 
 
 def _rupture_table(points: int = 400_000) -> tuple[list[float], list[float]]:
-    """A and Phi of the exact film, from its rupture angle, in the order of A, for |A| below 60."""
+    """A and Phi of the Reynolds film, from its rupture angle, in the order of A, for |A| below 60."""
     x = np.linspace(1.5605, -1.53, points)
     c, t = np.cos(x), np.tan(x)
     j = x / 8 - np.sin(4 * x) / 32 + math.pi / 16

@@ -156,8 +156,8 @@ _MOTION_INPUT = """&scene
 /
 &spectrum
    periods = {window}
-   line_threshold = 0.01
-   idle_lines = 20
+   harmonic_threshold = 0.01
+   idle_harmonics = 20
    quiet_limit = 0.35
    irregular_limit = 0.01
 /

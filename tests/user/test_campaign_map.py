@@ -67,7 +67,7 @@ def test_class_colours_differ_in_lightness():
 
 
 def test_maps_of_columns_words_and_numbers(whole):
-    columns = ["film_minimum", "status", "certified", "line_count", "harmonic_3"]
+    columns = ["film_minimum", "status", "verified", "harmonic_count", "harmonic_3"]
     done = draw(whole, "--columns", ",".join(columns), "--x", SPEED, "--contours", "damping")
     assert done.returncode == 0, done.stderr
     assert stems(whole.parent / "out") == sorted(f"map_map_{column}" for column in columns)
@@ -144,20 +144,20 @@ def test_a_campaign_that_is_no_grid_is_drawn_as_dots(tmp_path, made):
     assert "is no grid" in refused.stderr
 
 
-def test_summary_page_says_where_certificates_fail(run, repository, tmp_path):
-    """The certificates of a campaign that the program solved loosely."""
-    recorded = "campaign.record='rattle_class', 'acceleration_maximum', 'certified'"
+def test_summary_page_says_where_verifications_fail(run, repository, tmp_path):
+    """The verifications of a campaign that the program solved loosely."""
+    recorded = "campaign.record='rattle_class', 'acceleration_maximum', 'verified'"
     changes = ["--set", recorded, "--set", "campaign.count=12, 12", "--set", "solver.accuracy=1e-2"]
     solved = run("--output", tmp_path, *changes, repository / "input" / "map.nml", cwd=tmp_path)
     assert solved.returncode == 0, solved.stderr
     campaign = rattle.read_campaign(tmp_path / "map.rattle")
-    failing = int((campaign["certified"] == 0.0).sum())
+    failing = int((campaign["verified"] == 0.0).sum())
     assert 0 < failing < campaign.row_count
     page = campaign_summary.draw(
         campaign, campaign_summary.Worst([0], "acceleration_maximum", smallest=False)
     )
     share = look.share(failing, campaign.row_count)
-    assert f"Certificate fails in {share} of 144 scenes" in [axes.get_title() for axes in page.axes]
+    assert f"Verification fails in {share} of 144 scenes" in [axes.get_title() for axes in page.axes]
     assert draw(campaign.path, "--summary").returncode == 0
     assert stems(tmp_path / "out") == ["map_summary"]
 

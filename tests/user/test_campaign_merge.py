@@ -23,7 +23,7 @@ def made():
 
 
 def refused(directory: Path, *arguments: object) -> list[str]:
-    """Lines of the complaint; nothing may have been written."""
+    """Traces of the complaint; nothing may have been written."""
     before = sorted(directory.iterdir())
     done = merge(directory, *arguments, "--output", "whole.rattle")
     assert done.returncode == 2
@@ -128,7 +128,7 @@ def test_different_versions_columns_and_chunks_are_refused(made, tmp_path):
     made.version, made.columns[-1] = "0.1.0", ("sure", "-")
     made.write(second, part=2, parts=2)
     assert "hold different columns." in refused(tmp_path, first, second)[1]
-    made.columns[-1], made.chunk_rows = ("certified", "-"), 32
+    made.columns[-1], made.chunk_rows = ("verified", "-"), 32
     made.write(second, part=2, parts=2)
     assert "have chunks of different size: 32 and 64 rows." in refused(tmp_path, first, second)[1]
 

@@ -145,7 +145,7 @@ def test_dataset_of_a_grid(campaign):
     assert data["rattle_class"].attrs["flag_meanings"] == (
         "quiet creep idle irregular subharmonic irregular_so_far"
     )
-    for name, known in (("rattle_class", CLASSES), ("status", STATUSES), ("certified", NO_OR_YES)):
+    for name, known in (("rattle_class", CLASSES), ("status", STATUSES), ("verified", NO_OR_YES)):
         attributes = data[name].attrs
         meanings = dict(zip(attributes["flag_values"], attributes["flag_meanings"].split(), strict=True))
         assert meanings == dict(known)

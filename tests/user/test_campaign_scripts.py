@@ -252,8 +252,8 @@ def test_status_of_a_finished_campaign(made, whole):
     assert "5 of 5" in done.stdout
     assert "300 of 300 (100 %)" in done.stdout
     assert "status film_lost" in done.stdout
-    certified, failed = made.column("certified"), int((made.column("status") > 1.0).sum())
-    for words, count in (("not certified", int((certified == 0.0).sum())), ("failed", failed)):
+    verified, failed = made.column("verified"), int((made.column("status") > 1.0).sum())
+    for words, count in (("not verified", int((verified == 0.0).sum())), ("failed", failed)):
         assert rows[words] == f"{count} ({100.0 * count / 300.0:.3g} %)"
 
 

@@ -88,7 +88,7 @@ def test_a_scene_of_a_campaign_is_the_single_scene(
         "load": {"force_amplitude": repr(float(result["load.force_amplitude"][row]))},
         "kinematics": {"entrainment_speed": repr(float(result["kinematics.entrainment_speed"][row]))},
         "solver": {**BASE["solver"], "samples_per_period": "64"},
-        "spectrum": {"periods": "8", "certify": ".false."},
+        "spectrum": {"periods": "8", "verify": ".false."},
     }
     (folder / "single.nml").write_text(scene_text(**changes))
     assert run("--set", "output.series=.false.", "single.nml", cwd=folder).returncode == 0
@@ -124,7 +124,7 @@ def test_recorded_quantities_hang_together(run, scene_text, tmp_path: Path) -> N
 def test_motion_known_to_repeat_is_subharmonic(until: str, run, scene_text, tmp_path: Path) -> None:
     """A steady run knows the orbit; solved for all periods, it is looked for at the end."""
     campaign = {
-        "record": "'rattle_class', 'irregular_fraction', 'orbit_period', 'certified'",
+        "record": "'rattle_class', 'irregular_fraction', 'orbit_period', 'verified'",
         "first": "250.0, 8.0",
         "last": "450.0, 20.0",
         "samples_per_period": "256",
@@ -139,8 +139,8 @@ def test_motion_known_to_repeat_is_subharmonic(until: str, run, scene_text, tmp_
     subharmonic = names == "subharmonic"
     assert repeats.any() and subharmonic.any()
     assert repeats[subharmonic].all()
-    assert (result["certified"][subharmonic] == 1.0).sum() > 10
-    assert not (result["certified"][names == "irregular_so_far"] == 1.0).any()
+    assert (result["verified"][subharmonic] == 1.0).sum() > 10
+    assert not (result["verified"][names == "irregular_so_far"] == 1.0).any()
 
 
 HARD = {"first": "250.0, 8.0", "last": "450.0, 20.0"}
@@ -155,25 +155,25 @@ HARD = {"first": "250.0, 8.0", "last": "450.0, 20.0"}
     ],
     ids=["loose", "irregular", "piezo-viscous"],
 )
-def test_certified_scene_is_the_certified_single_scene(
+def test_verified_scene_is_the_verified_single_scene(
     law: str, solver: dict, campaign: dict, fewest: int, run, scene_text, tmp_path: Path
 ) -> None:
-    """Row by row what the certificate of a single scene says, and of each verdict so many.
+    """Row by row what the verification of a single scene says, and of each verdict so many.
 
     A row and a single scene look for the same orbit at the same end, so that their classes are the same.
     """
     solver = {**BASE["solver"], **solver}
     film = {"law": f"'{law}'"}
-    recorded = "'rattle_class', 'line_count', 'sampling_sufficient', 'certified'"
+    recorded = "'rattle_class', 'harmonic_count', 'sampling_sufficient', 'verified'"
     campaign = {"record": recorded, "samples_per_period": "1024", **campaign}
     (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, solver=solver, film=film, campaign=campaign))
     result = package.read(solve(run, tmp_path))
-    certified = result["certified"]
-    assert np.isin(certified, [0.0, 1.0]).all()
+    verified = result["verified"]
+    assert np.isin(verified, [0.0, 1.0]).all()
     compared = {0.0: 0, 1.0: 0}
     # A single scene refines its samples where they are too few; then it judges another window.
     for row in np.flatnonzero(result["sampling_sufficient"] == 1.0):
-        compared[certified[row]] += 1
+        compared[verified[row]] += 1
         values = {
             "load": {"force_amplitude": repr(float(result["load.force_amplitude"][row]))},
             "kinematics": {"entrainment_speed": repr(float(result["kinematics.entrainment_speed"][row]))},
@@ -188,11 +188,11 @@ def test_certified_scene_is_the_certified_single_scene(
         single = summary_of(tmp_path / "results" / "single.summary.nml")
         same = single["rattle_class"] == CLASSES[int(result["rattle_class"][row])]
         assert same, single
-        assert (same and single["certificate"] == "certified") == certified[row], single
+        assert (same and single["verification"] == "verified") == verified[row], single
     assert min(compared.values()) >= fewest, compared
 
 
-def test_a_window_of_one_of_two_periods_certifies_nothing(run, scene_text, tmp_path: Path) -> None:
+def test_a_window_of_one_of_two_periods_verifies_nothing(run, scene_text, tmp_path: Path) -> None:
     """One period of a motion that repeats after two looks like one that repeats after it."""
     texts = {
         "film": {"law": "'piezo-viscous'"},
@@ -204,42 +204,42 @@ def test_a_window_of_one_of_two_periods_certifies_nothing(run, scene_text, tmp_p
     (tmp_path / "single.nml").write_text(scene_text(**texts))
     assert run("single.nml", cwd=tmp_path).returncode == 0
     told = summary_of(tmp_path / "results" / "single.summary.nml")
-    assert told["orbit_period"] == 2 and told["certificate"] == "uncertain"
-    assert "The window of one period begins with a film of" in told["certificate_text"]
+    assert told["orbit_period"] == 2 and told["verification"] == "uncertain"
+    assert "The window of one period begins with a film of" in told["verification_text"]
     assert run("--overwrite", "--set", "spectrum.periods=8", "single.nml", cwd=tmp_path).returncode == 0
     longer = summary_of(tmp_path / "results" / "single.summary.nml")
-    assert longer["rattle_class"] == "subharmonic" and longer["certificate"] == "certified"
+    assert longer["rattle_class"] == "subharmonic" and longer["verification"] == "verified"
     varied = {"vary": "'load.force_amplitude'", "first": "203.1", "last": "205.7", "count": "2"}
-    campaign = {"record": "'rattle_class', 'certified'", "samples_per_period": "1024", **varied}
+    campaign = {"record": "'rattle_class', 'verified'", "samples_per_period": "1024", **varied}
     whole = {"scene": {"task": "'campaign'"}, **texts, "campaign": campaign}
     (tmp_path / "scene.nml").write_text(scene_text(**whole))
     result = package.read(solve(run, tmp_path))
-    assert CLASSES[int(result["rattle_class"][0])] == told["rattle_class"] and result["certified"][0] == 0.0
+    assert CLASSES[int(result["rattle_class"][0])] == told["rattle_class"] and result["verified"][0] == 0.0
 
 
-def test_log_and_summary_count_what_is_not_certified(run, scene_text, tmp_path: Path) -> None:
+def test_log_and_summary_count_what_is_not_verified(run, scene_text, tmp_path: Path) -> None:
     loose = {**BASE["solver"], "accuracy": "1e-2", "periods": "200"}
-    campaign = {"record": "'rattle_class', 'certified'"}
+    campaign = {"record": "'rattle_class', 'verified'"}
     (tmp_path / "scene.nml").write_text(grid(scene_text, 6, 6, solver=loose, campaign=campaign))
     path = solve(run, tmp_path)
-    failing = int((package.read(path)["certified"] == 0.0).sum())
+    failing = int((package.read(path)["verified"] == 0.0).sum())
     assert 0 < failing < 36
     log = path.with_suffix(".log").read_text()
-    assert f", 0 failed, {failing} not certified" in log
-    assert f"{failing} of 36 scenes not certified" in log
-    assert summary_of(path.with_suffix(".summary.nml"))["scenes_not_certified_in_this_run"] == failing
+    assert f", 0 failed, {failing} not verified" in log
+    assert f"{failing} of 36 scenes not verified" in log
+    assert summary_of(path.with_suffix(".summary.nml"))["scenes_not_verified_in_this_run"] == failing
     plain = solve(run, tmp_path, "--set", "campaign.record='rattle_class'", name="plain")
-    assert "certified" not in plain.with_suffix(".log").read_text()
-    assert "scenes_not_certified_in_this_run" not in summary_of(plain.with_suffix(".summary.nml"))
+    assert "verified" not in plain.with_suffix(".log").read_text()
+    assert "scenes_not_verified_in_this_run" not in summary_of(plain.with_suffix(".summary.nml"))
 
 
-def test_certificate_of_a_scene_does_not_depend_on_its_company(run, scene_text, tmp_path: Path) -> None:
+def test_verification_of_a_scene_does_not_depend_on_its_company(run, scene_text, tmp_path: Path) -> None:
     """Solved with others, irregular ones among them, and with hardly any: the same bits."""
-    recorded = "'rattle_class', 'acceleration_maximum', 'harmonics', 'certified'"
+    recorded = "'rattle_class', 'acceleration_maximum', 'harmonics', 'verified'"
     campaign = {"record": recorded, "count": "6, 6", **HARD}
     (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, campaign=campaign))
     result = package.read(solve(run, tmp_path))
-    assert {3.0, 4.0, 5.0} <= set(result["rattle_class"]) and (result["certified"] == 1.0).sum() > 10
+    assert {3.0, 4.0, 5.0} <= set(result["rattle_class"]) and (result["verified"] == 1.0).sum() > 10
     for row in range(0, 36, 5):
         ends = (
             repr(float(result[key][row])) for key in ("load.force_amplitude", "kinematics.entrainment_speed")
@@ -251,15 +251,15 @@ def test_certificate_of_a_scene_does_not_depend_on_its_company(run, scene_text, 
             assert again[name][0].tobytes() == result[name][row].tobytes(), (row, name)
 
 
-def test_certified_is_for_those_who_ask(run, folder: Path) -> None:
+def test_verified_is_for_those_who_ask(run, folder: Path) -> None:
     """The column changes no other one, and is unknown where a scene failed."""
     plain = package.read(solve(run, folder))
     columns = [name for name in plain.columns if name.startswith("film_m") or name == "rattle_class"]
-    words = ", ".join(f"'{name}'" for name in [*columns, "certified"])
+    words = ", ".join(f"'{name}'" for name in [*columns, "verified"])
     few = ("--set", "campaign.count=5, 5", "--set", f"campaign.record={words}")
     asked = package.read(solve(run, folder, *few, name="asked"))
     alone = package.read(solve(run, folder, *few[:2], name="alone"))
-    assert "certified" not in plain and list(asked.columns)[-1] == "certified"
+    assert "verified" not in plain and list(asked.columns)[-1] == "verified"
     for name in columns:
         assert (asked[name] == alone[name]).all()
     invalid = (
@@ -280,7 +280,7 @@ def test_certified_is_for_those_who_ask(run, folder: Path) -> None:
     failed = package.read(solve(run, folder, *options, name="failed", code=1))
     known = np.isin(failed["status"], [0.0, 1.0])
     assert 0 < known.sum() < known.size
-    assert (np.isfinite(failed["certified"]) == known).all()
+    assert (np.isfinite(failed["verified"]) == known).all()
 
 
 def test_window_may_be_varied(run, scene_text, tmp_path: Path) -> None:

@@ -44,7 +44,7 @@ def same(folder: Path, *names: str, one: str = "chained", other: str = "long") -
 
 
 def canonical(scene_text, law: str = "iso-viscous", model: str = "published", **solver: str | None) -> str:
-    """The scene of the paper; with the exact film a viscosity that it bears."""
+    """The scene of the paper; with the Reynolds film a viscosity that it bears."""
     given = {"steps_per_period": None, "method": None, "periods": "60", **solver}
     lubricant = {"pressure_viscosity": "1.0e-9"} if model == "reynolds" else {}
     return scene_text(
@@ -68,7 +68,7 @@ def settling(scene_text, film: str, method: str, **keys: str | None) -> str:
         load={"steady_force": "20.0", "force_amplitude": "60.0" if slower else "30.0"},
         film=FILMS[film],
         solver={**solver_of(method, "256"), "periods": "120", "until": "'steady'", **keys},
-        spectrum={"periods": "4", "certify": ".false."},
+        spectrum={"periods": "4", "verify": ".false."},
     )
 
 
@@ -80,7 +80,7 @@ def creeping(scene_text, method: str, periods: str, **keys: str) -> str:
         load={"steady_force": "20.0", "force_amplitude": "60.0"},
         film={"law": "'piezo-viscous'"},
         solver={**solver_of(method, "512"), "periods": periods, "until": "'steady'", **keys},
-        spectrum={"periods": "1", "certify": ".false."},
+        spectrum={"periods": "1", "verify": ".false."},
         output={"series": ".false."},
     )
 
@@ -167,7 +167,7 @@ def test_interrupted_run_is_carried_on(method: str, rattle: Path, run, scene_tex
     periods = {"newmark": 20000, "taylor": 5000000}[method]
     text = canonical(scene_text, **solver_of(method, "512", periods=str(periods)))
     (tmp_path / "scene.nml").write_text(text)
-    quiet = ["--set", "output.series=.false.", "--set", "spectrum.certify=.false.", "--quiet"]
+    quiet = ["--set", "output.series=.false.", "--set", "spectrum.verify=.false.", "--quiet"]
     cut = terminated(rattle, tmp_path, *quiet, after=0.05)
     assert cut["status"] == "interrupted" and 0 < cut["periods_solved"] < periods
     assert run(*quiet, "--resume", "--output", "cut", "scene.nml", cwd=tmp_path).returncode == 0
@@ -180,7 +180,7 @@ def test_interrupted_series_is_completed(method: str, rattle: Path, run, scene_t
     # Each takes a fast machine some tenths of a second: the signal must come before its end.
     periods = {"newmark": 50000, "taylor": 10000}[method]
     text = canonical(scene_text, **solver_of(method, periods=str(periods)))
-    (tmp_path / "scene.nml").write_text(text.replace("&spectrum", "&spectrum\n   certify = .false."))
+    (tmp_path / "scene.nml").write_text(text.replace("&spectrum", "&spectrum\n   verify = .false."))
     cut = terminated(rattle, tmp_path, after=0.05)
     assert cut["status"] == "interrupted" and 0 < cut["periods_solved"] < periods
     carry_on(run, tmp_path, output="cut")
@@ -313,7 +313,7 @@ def test_interrupted_search_goes_on(method: str, rattle: Path, run, scene_text, 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_steady_run_goes_on_beyond_its_orbit(method: str, run, scene_text, tmp_path: Path) -> None:
-    """With until = 'periods' the state of a steady run is a state like others; the way back is told."""
+    """With until = 'periods' the state of a steady run is a state like others; the decreasing is told."""
     (tmp_path / "scene.nml").write_text(settling(scene_text, "reynolds-iso", method))
     carry_on(run, tmp_path)
     on = ["--set", "solver.until=periods"]

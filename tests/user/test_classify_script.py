@@ -37,7 +37,7 @@ def test_each_class_is_recognised_and_saved(results, tmp_path):
         rows = list(csv.DictReader(stream))
     assert [row["scene"] for row in rows] == list(MOTIONS)
     assert [row["rattle_class"] for row in rows] == list(MOTIONS)
-    assert [int(row["line_count"]) for row in rows] == [30, 3, 2, 1]
+    assert [int(row["harmonic_count"]) for row in rows] == [30, 3, 2, 1]
     assert float(rows[2]["harmonic_distortion"]) == pytest.approx(0.1, rel=1e-12)
     assert float(rows[3]["irregular_fraction"]) == pytest.approx(0.2, rel=1e-12)
     table = done.stdout.splitlines()
@@ -48,11 +48,11 @@ def test_each_class_is_recognised_and_saved(results, tmp_path):
 @pytest.mark.parametrize(
     ("scene", "option", "expected"),
     [
-        ("idle", ("--idle-lines", "31"), "creep"),
+        ("idle", ("--idle-harmonics", "31"), "creep"),
         ("creep", ("--quiet-limit", "2.0"), "quiet"),
         ("quiet", ("--quiet-limit", "0.05"), "creep"),
         ("irregular_so_far", ("--irregular-limit", "0.5"), "quiet"),
-        ("creep", ("--line-threshold", "0.5"), "creep"),
+        ("creep", ("--harmonic-threshold", "0.5"), "creep"),
     ],
 )
 def test_thresholds_can_be_replaced(results, tmp_path, scene, option, expected):

@@ -70,18 +70,18 @@ def test_extremes_of_the_summary_stand_in_the_series(until: str, impact) -> None
 
 
 def test_log_says_what_the_samples_miss(impact) -> None:
-    """How many lines there are at least, and what the model cannot mean."""
+    """How many harmonics there are at least, and what the model cannot mean."""
     _, summary, told = impact()
-    assert "at least 40 lines" in told and summary["line_count_is_bound"]
+    assert "at least 40 harmonics" in told and summary["harmonic_count_is_bound"]
     assert not summary["harmonic_distortion_is_bound"] and summary["sampling_sufficient"]
     assert summary["model_limit"] == "too_wide_and_narrow"
     assert "beyond a tenth of the radius" in told and "below 1 nm" in told
 
 
 def test_number_of_samples_that_is_named_does(impact) -> None:
-    """With as many samples as the log names the series is fine, and the lines are the same."""
+    """With as many samples as the log names the series is fine, and the harmonics are the same."""
     _, coarse, told = impact(load={}, solver=IMPACT["solver"] | {"samples_per_period": "64"})
-    assert coarse["series_coarse"] and not coarse["lines_by_integrals"]
+    assert coarse["series_coarse"] and not coarse["harmonics_by_integrals"]
     samples = int(told.split("solver.samples_per_period = ")[1].split(" ")[0])
     result, fine, _ = impact(
         load={}, solver=IMPACT["solver"] | {"samples_per_period": str(samples)}, output={"overwrite": "t"}
@@ -93,13 +93,13 @@ def test_number_of_samples_that_is_named_does(impact) -> None:
 
 
 def test_newmark_says_how_many_steps_would_do(impact) -> None:
-    """Its steps are its samples: too few of them are no certificate."""
+    """Its steps are its samples: too few of them are no verification."""
     newmark = {"method": "'newmark'", "steps_per_period": "64", "tolerance": "1e-14", "periods": "40"}
     result, summary, told = impact(load={}, solver=newmark)
     assert result.coarse and summary["series_coarse"] and not summary["sampling_sufficient"]
-    assert summary["certificate"] == "uncertain"
+    assert summary["verification"] == "uncertain"
     assert "solver.steps_per_period" in told
-    assert summary["line_count_is_bound"] and summary["harmonic_distortion_is_bound"]
+    assert summary["harmonic_count_is_bound"] and summary["harmonic_distortion_is_bound"]
     assert len(result.extremes["time"]) == 0
 
 
@@ -147,33 +147,33 @@ def test_figure_10_draws_the_lines_of_the_summary(impact) -> None:
     assert figure.axes[0].get_ylim() == pytest.approx((0.0, 1.08 * 290.75366), rel=1e-6)
     assert drawn.rules(figure.axes[1], "y") == [0.01 * summary["harmonics"][0]]
     assert figure.axes[0].get_title(loc="left").splitlines()[1:] == [
-        "Scene impact, published iso-viscous film; at least 40 lines, class idle",
-        "Series of too few samples; lines of the summary, integrals over the steps",
+        "Scene impact, published iso-viscous film; at least 40 harmonics, class idle",
+        "Series of too few samples; harmonics of the summary, integrals over the steps",
     ]
     again = spectra.draw_acceleration([result], ["impact"], 2)
     assert harmonics_drawn(again)[0].tolist() == summary["harmonics"]
 
 
-def test_figure_10_says_how_many_samples_gave_the_lines(impact) -> None:
+def test_figure_10_says_how_many_samples_gave_the_harmonics(impact) -> None:
     result, summary, _ = impact(load={}, solver=IMPACT["solver"] | {"samples_per_period": "64"})
     with style.house_style():
         figure = spectra.draw_acceleration([result], ["impact"], None)
         both = spectra.draw_acceleration([result, result], ["one", "two"], None)
     assert harmonics_drawn(figure)[0].tolist() == summary["harmonics"]
     title = figure.axes[0].get_title(loc="left")
-    assert f"; {summary['line_count']} lines, class {summary['rattle_class']}\n" in title
-    assert title.endswith(f"lines of the summary, of {summary['samples_per_period']} samples a period")
+    assert f"; {summary['harmonic_count']} harmonics, class {summary['rattle_class']}\n" in title
+    assert title.endswith(f"harmonics of the summary, of {summary['samples_per_period']} samples a period")
     assert drawn.legend_words(both) == ["one, by its summary", "two, by its summary"]
     for axes in both.axes:
         for _, heights in drawn.bars(axes):
             assert heights.tolist() == summary["harmonics"]
 
 
-@pytest.mark.parametrize("lacking", ["summary", "window", "better lines"])
+@pytest.mark.parametrize("lacking", ["summary", "window", "better harmonics"])
 def test_figure_10_says_where_no_better_lines_are_known(lacking: str, impact) -> None:
     """Without the summary, of another window, and of Newmark's method, whose steps are its samples."""
     newmark = {"method": "'newmark'", "steps_per_period": "64", "tolerance": "1e-14", "periods": "40"}
-    changes = {"load": {}, "solver": newmark} if lacking == "better lines" else {}
+    changes = {"load": {}, "solver": newmark} if lacking == "better harmonics" else {}
     result, _, _ = impact(**changes)
     if lacking == "summary":
         result.summary_path.unlink()
@@ -184,7 +184,7 @@ def test_figure_10_says_where_no_better_lines_are_known(lacking: str, impact) ->
     assert (
         figure.axes[0]
         .get_title(loc="left")
-        .endswith("; too few samples\nThe lines are those of the samples, not of the motion")
+        .endswith("; too few samples\nThe harmonics are those of the samples, not of the motion")
     )
     assert drawn.legend_words(both) == ["one, too few samples", "two, too few samples"]
 

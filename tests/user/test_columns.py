@@ -161,7 +161,7 @@ def test_a_row_of_a_sweep_is_the_single_scene(key, group, first, last, run, scen
         for name in ("natural_frequency", "harmonic_distortion"):
             # A sweep tells 0 where there is none: overdamped motions have no natural frequency.
             assert rows[name][row] == pytest.approx(one.get(name, 0.0), rel=1e-5), name
-        for name in ("orbit_period", "line_count"):
+        for name in ("orbit_period", "harmonic_count"):
             assert rows[name][row] == one[name], name
         assert CLASSES[int(rows["rattle_class"][row])] == one["rattle_class"]
         assert rows["first_harmonic"][row] == pytest.approx(one["harmonics"][0], rel=1e-5)
@@ -175,7 +175,7 @@ def test_a_campaign_knows_no_ratios_of_a_motion_at_rest(run, scene_text, tmp_pat
     campaign = {
         "vary": "'load.force_amplitude'",
         "values(:, 1)": "0.0, 50.0",
-        "record": "'line_count', 'harmonic_distortion', 'irregular_fraction', 'rattle_class'",
+        "record": "'harmonic_count', 'harmonic_distortion', 'irregular_fraction', 'rattle_class'",
     }
     solver = SOLVER | {"periods": "40"}
     (tmp_path / "rest.nml").write_text(
@@ -183,7 +183,7 @@ def test_a_campaign_knows_no_ratios_of_a_motion_at_rest(run, scene_text, tmp_pat
     )
     assert run("rest.nml", cwd=tmp_path).returncode == 0
     rows = package.read_campaign(tmp_path / "results" / "rest.rattle")
-    for name in ("line_count", "harmonic_distortion", "irregular_fraction"):
+    for name in ("harmonic_count", "harmonic_distortion", "irregular_fraction"):
         assert np.isnan(rows[name][0]) and np.isfinite(rows[name][1]), name
     assert CLASSES[int(rows["rattle_class"][0])] == "quiet"
 

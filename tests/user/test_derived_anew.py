@@ -16,7 +16,7 @@ SETTINGS = (
     "solver.periods=6",
     "solver.accuracy=1e-6",
     "spectrum.periods=2",
-    "spectrum.certify=.false.",
+    "spectrum.verify=.false.",
 )
 
 
@@ -47,10 +47,10 @@ def test_rows_over_the_speed_have_the_accelerations_of_their_speed(run, cycle: P
     many = cycle.with_name("many.nml")
     many.write_text(text)
     ended = run(*settings("scene.task='campaign'"), many.name, cwd=many.parent)
-    # `certify` belongs to motions.
-    assert ended.returncode == 2 and "spectrum certify" in ended.stderr
+    # `verify` belongs to motions.
+    assert ended.returncode == 2 and "spectrum verify" in ended.stderr
     words = settings("scene.task='campaign'")
-    place = words.index("spectrum.certify=.false.")
+    place = words.index("spectrum.verify=.false.")
     ended = run(*words[: place - 1], *words[place + 1 :], many.name, cwd=many.parent)
     assert ended.returncode == 0, ended.stderr
     rows = package.read_campaign(many.parent / "results" / "many.rattle")

@@ -131,11 +131,11 @@ def test_codes_that_do_not_occur_are_not_in_the_legend(made, tmp_path):
     ]
 
 
-@pytest.mark.parametrize("column", ["certified", "law_contradicted"])
+@pytest.mark.parametrize("column", ["verified", "law_contradicted"])
 def test_flags_are_no_and_yes(made, tmp_path, column):
     figure = draw_map(read(made, tmp_path), column, contours=())
     mesh = cells(figure.axes[0])
-    bad = {"certified": 0, "law_contradicted": 1}[column]
+    bad = {"verified": 0, "law_contradicted": 1}[column]
     assert to_hex(mesh.cmap(mesh.norm(bad))).upper() == "#D55E00"
     no = int((made.column(column) == 0.0).sum())
     assert f"no ({look.share(no, 300)})" in drawn.legend_words(figure)
@@ -152,7 +152,7 @@ def test_gaps_cover_the_scenes_that_failed_or_are_not_done(made, tmp_path):
     np.testing.assert_array_equal(found[look.HATCHES[1]], rigid)
     np.testing.assert_array_equal(found[look.NOT_DONE_HATCH], ~done)
     so_far = done & (shown_grid(made, "rattle_class") == look.IRREGULAR_SO_FAR)
-    lacking = done & (shown_grid(made, "certified") == 0.0) & ~so_far
+    lacking = done & (shown_grid(made, "verified") == 0.0) & ~so_far
     gaps = [word for word in drawn.legend_words(figure) if word.split(" (")[0] not in CLASSES.values()]
     # Once for the colour, once for the hatch.
     assert gaps.pop() == gaps.pop(0) == f"irregular so far ({look.share(int(so_far.sum()), 300)})"
@@ -160,35 +160,35 @@ def test_gaps_cover_the_scenes_that_failed_or_are_not_done(made, tmp_path):
         f"film lost ({look.share(int(lost.sum()), 300)})",
         f"no rigid film ({look.share(int(rigid.sum()), 300)})",
         f"not done ({look.share(20, 300)})",
-        f"not certified ({look.share(int(lacking.sum()), 300)})",
+        f"not verified ({look.share(int(lacking.sum()), 300)})",
     ]
     assert axes.get_title(loc="left") == "Rattle class, campaign map, 280 of 300 scenes"
 
 
 @pytest.mark.parametrize("column", ["rattle_class", "film_minimum"])
-def test_what_is_not_certified_is_hatched_over_its_colour(made, tmp_path, column):
+def test_what_is_not_verified_is_hatched_over_its_colour(made, tmp_path, column):
     figure = draw_map(read(made, tmp_path), column, contours=())
     so_far = shown_grid(made, "rattle_class") == look.IRREGULAR_SO_FAR
-    axes, lacking = figure.axes[0], (shown_grid(made, "certified") == 0.0) & ~so_far
+    axes, lacking = figure.axes[0], (shown_grid(made, "verified") == 0.0) & ~so_far
     assert so_far.any()
     np.testing.assert_array_equal(hatched(axes)[look.SO_FAR_HATCH], so_far)
     np.testing.assert_array_equal(hatched(axes)[look.UNCERTAIN_HATCH], lacking)
     for area in axes.collections:
         if isinstance(area, QuadContourSet) and area.filled and area.hatches[0] == look.UNCERTAIN_HATCH:
             assert (area.get_facecolor()[:, 3] == 0.0).all()
-    assert f"not certified ({look.share(int(lacking.sum()), 300)})" in drawn.legend_words(figure)
+    assert f"not verified ({look.share(int(lacking.sum()), 300)})" in drawn.legend_words(figure)
 
 
-def test_a_map_of_certificates_needs_no_hatch(made, tmp_path):
-    figure = draw_map(read(made, tmp_path), "certified", contours=())
+def test_a_map_of_verifications_needs_no_hatch(made, tmp_path):
+    figure = draw_map(read(made, tmp_path), "verified", contours=())
     assert look.UNCERTAIN_HATCH not in hatched(figure.axes[0])
 
 
-def test_every_class_certified_leaves_no_hatch(made, tmp_path):
-    made.column("certified")[:] = 1.0
+def test_every_class_verified_leaves_no_hatch(made, tmp_path):
+    made.column("verified")[:] = 1.0
     figure = draw_map(read(made, tmp_path), "rattle_class", contours=())
     assert look.UNCERTAIN_HATCH not in hatched(figure.axes[0])
-    assert not any("certified" in words for words in drawn.legend_words(figure))
+    assert not any("verified" in words for words in drawn.legend_words(figure))
 
 
 def bilinear(x: np.ndarray, y: np.ndarray, values: np.ndarray, point: np.ndarray) -> float:
@@ -198,7 +198,7 @@ def bilinear(x: np.ndarray, y: np.ndarray, values: np.ndarray, point: np.ndarray
 
 
 def test_contours_lie_where_their_labels_say(made, tmp_path):
-    made.column("certified")[:] = 1.0
+    made.column("verified")[:] = 1.0
     made.column("rattle_class")[made.column("rattle_class") == look.IRREGULAR_SO_FAR] = 5.0
     figure = draw_map(read(made, tmp_path), "rattle_class")
     (axes,) = figure.axes
@@ -266,7 +266,7 @@ def test_dots_stand_at_their_scenes(tmp_path):
     for marks, code in zip(crosses, (3.0, 4.0), strict=True):
         np.testing.assert_allclose(marks.get_offsets(), places[status == code])
     so_far = made.column("rattle_class") == look.IRREGULAR_SO_FAR
-    lacking = (made.column("certified") == 0.0) & ~so_far
+    lacking = (made.column("verified") == 0.0) & ~so_far
     np.testing.assert_allclose(diamonds.get_offsets(), places[so_far])
     np.testing.assert_allclose(rings.get_offsets(), places[lacking])
     assert rings.get_facecolor().size == 0
@@ -275,7 +275,7 @@ def test_dots_stand_at_their_scenes(tmp_path):
     gaps = [f"film lost ({lost})", f"no rigid film ({rigid})"]
     assert drawn.legend_words(figure) == [
         *gaps,
-        f"not certified ({int(lacking.sum())})",
+        f"not verified ({int(lacking.sum())})",
         f"irregular so far ({int(so_far.sum())})",
     ]
     assert (axes.get_xscale(), axes.get_yscale()) == ("linear", "log")
@@ -329,7 +329,7 @@ def test_a_slice_shows_its_columns_over_bands_of_the_classes(made, tmp_path):
     assert bands[(look.GAP_COLOUR, look.HATCHES[0])] == list(np.flatnonzero(status == 3.0))
     assert bands[(look.GAP_COLOUR, look.NOT_DONE_HATCH)] == [14]
     so_far = shown_grid(made, "rattle_class")[:14, 19] == look.IRREGULAR_SO_FAR
-    lacking = np.flatnonzero((shown_grid(made, "certified")[:14, 19] == 0.0) & ~so_far)
+    lacking = np.flatnonzero((shown_grid(made, "verified")[:14, 19] == 0.0) & ~so_far)
     assert lacking.size and bands[("#000000", look.UNCERTAIN_HATCH)] == list(lacking)
 
 
@@ -383,20 +383,20 @@ def test_the_page_counts_classes_and_endings(page, made):
     )
 
 
-def test_the_page_maps_classes_and_certificates(page, made):
-    for title, column in (("Rattle class", "rattle_class"), ("Certificate fails", "certified")):
+def test_the_page_maps_classes_and_verifications(page, made):
+    for title, column in (("Rattle class", "rattle_class"), ("Verification fails", "verified")):
         axes = panel(page, title)
         values = shown_grid(made, column).copy()
         values[7] = np.nan
         np.testing.assert_array_equal(np.ma.filled(cells(axes).get_array(), np.nan), values)
         assert drawn.labels(axes) == ("Force amplitude [N]", "Entrainment speed [m/s]")
         assert axes.get_xlim() == pytest.approx((10.0, 410.0))
-    certified = np.delete(made.column("certified"), slice(140, 160))
-    judged, failing = int(np.isfinite(certified).sum()), int((certified == 0.0).sum())
-    words = f"Certificate fails in {look.share(failing, judged)} of {judged} scenes"
-    assert panel(page, "Certificate").get_title(loc="left") == words
-    legend = [text.get_text() for text in panel(page, "Certificate").get_legend().get_texts()]
-    assert legend[0].startswith("certificate fails") and legend[1].startswith("certificate holds")
+    verified = np.delete(made.column("verified"), slice(140, 160))
+    judged, failing = int(np.isfinite(verified).sum()), int((verified == 0.0).sum())
+    words = f"Verification fails in {look.share(failing, judged)} of {judged} scenes"
+    assert panel(page, "Verification").get_title(loc="left") == words
+    legend = [text.get_text() for text in panel(page, "Verification").get_legend().get_texts()]
+    assert legend[0].startswith("verification fails") and legend[1].startswith("verification holds")
 
 
 def test_the_page_lists_the_worst_scenes_in_the_unit_of_the_head(page, made):
@@ -414,13 +414,13 @@ def test_the_page_lists_the_worst_scenes_in_the_unit_of_the_head(page, made):
     assert "entrainment speed: 0.5 to 5 m/s (logarithmic, 15 values)" in head
 
 
-def test_the_page_shows_how_often_certificates_fail_over_further_keys(tmp_path):
+def test_the_page_shows_how_often_verifications_fail_over_further_keys(tmp_path):
     made = grid(FORCES, SPEEDS, VISCOSITIES, name="deep")
     campaign = read(made, tmp_path)
     with style.house_style():
         page = campaign_summary.draw(campaign, campaign_summary.Worst([], "film_minimum", smallest=False))
-    axes = panel(page, "Certificate fails")
-    lacking = (made.column("certified") == 0.0).reshape(3, 15, 20).mean(axis=0)
+    axes = panel(page, "Verification fails")
+    lacking = (made.column("verified") == 0.0).reshape(3, 15, 20).mean(axis=0)
     np.testing.assert_allclose(cells(axes).get_array(), lacking, rtol=1e-12)
     assert cells(axes).norm.vmax == 1.0 and cells(axes).norm.vmin == 0.0
     held = panel(page, "Rattle class at")

@@ -181,7 +181,7 @@ def test_figure_4_shows_the_slopes_of_the_kernels_over_micrometres(film, number)
     )
     words = drawn.legend_words(made)
     assert squeeze_legend(words)
-    assert words[-3:] == ["exact iso-viscous", "published (26)-(28)", "exact piezo-viscous"]
+    assert words[-3:] == ["Reynolds iso-viscous", "published (26)-(28)", "Reynolds piezo-viscous"]
     kinds = above.get_legend().legend_handles
     shown = [line.get_linestyle() for line in above.lines[:3]]
     assert [line.get_linestyle() for line in kinds] == shown

@@ -168,7 +168,7 @@ def test_figure_10_shows_harmonics_and_what_is_between_them(idle, window):
     assert (
         linear.get_title(loc="left")
         .splitlines()[1]
-        .startswith("Scene idle, published iso-viscous film; 3 lines, class ")
+        .startswith("Scene idle, published iso-viscous film; 3 harmonics, class ")
     )
 
 
@@ -274,7 +274,7 @@ SWEEP_COLUMNS = {
     "floquet_modulus": "-",
     "status": "-",
 }
-# The third one failed on the way there; of the fourth no period is known.
+# The third one failed on the increasing; of the fourth no period is known.
 SWEEP_ROWS = [
     [100.0, 1.0, 1e-6, 2e-6, -30.0, 20.0, 1.0, 0.3, 1.0],
     [200.0, 1.0, 0.5e-6, 3e-6, -40.0, 50.0, 2.0, 0.6, 0.0],
@@ -338,7 +338,7 @@ def test_a_sweep_shows_both_ways_and_leaves_gaps(first_column, tmp_path):
     assert period.get_ylim() == (0.5, 4.5)
     assert multiplier.get_ylim() == (0.0, 1.1)
     assert drawn.rules(multiplier, "y") == [1.0]
-    assert drawn.legend_words(made) == ["way there", "way back"]
+    assert drawn.legend_words(made) == ["increasing", "decreasing"]
 
 
 @pytest.mark.parametrize(
@@ -354,22 +354,22 @@ def test_a_sweep_names_its_key_and_unit(tmp_path, key, label):
     made = sweep_figure(tmp_path / "climb.rattle", key, only_there)
     assert made.axes[-1].get_xlabel() == label
     assert made.axes[2].get_ylim() == (0.5, 2.5)
-    assert drawn.legend_words(made) == ["way there"]
+    assert drawn.legend_words(made) == ["increasing"]
 
 
 def test_several_sweeps_share_the_panels_that_are_asked_for(tmp_path):
     """Each sweep has a colour and a mark, each way its dashes; marks name values of the key."""
-    columns = [("stiffness", "N/m"), *SWEEP_COLUMNS.items(), ("line_count", "-")]
+    columns = [("stiffness", "N/m"), *SWEEP_COLUMNS.items(), ("harmonic_count", "-")]
     results = []
     for name, lines in (("soft", 9.0), ("hard", 30.0)):
         rows = [[*row, lines] for row in SWEEP_ROWS]
-        text = sweep_input("stiffness").replace("climb", name) + "&spectrum idle_lines=20 /\n"
+        text = sweep_input("stiffness").replace("climb", name) + "&spectrum idle_harmonics=20 /\n"
         text = text.replace("&sweep ", "&sweep spacing='logarithmic' ")
         path = tmp_path / f"{name}.rattle"
         write_result(path, columns, rows, input_text=text)
         results.append(rattle.read(path))
     with style.house_style():
-        made = sweep.draw(*results, panels=("acceleration", "lines"), marks=[(150.0, "steel")])
+        made = sweep.draw(*results, panels=("acceleration", "harmonics"), marks=[(150.0, "steel")])
     acceleration, lines = made.axes
     assert lines.get_xlabel() == "Stiffness of the teeth $k$ [N/m]" and lines.get_xscale() == "log"
     curves = [line for line in lines.lines if len(line.get_xdata()) > 2]
@@ -379,13 +379,13 @@ def test_several_sweeps_share_the_panels_that_are_asked_for(tmp_path):
     assert drawn.rules(lines, "y") == [20.0] and drawn.rules(acceleration, "x") == [150.0]
     assert [text.get_text() for text in acceleration.texts] == ["steel"]
     films = "published iso-viscous film"
-    assert drawn.legend_words(made) == [f"soft, {films}", f"hard, {films}", "way there", "way back"]
+    assert drawn.legend_words(made) == [f"soft, {films}", f"hard, {films}", "increasing", "decreasing"]
 
 
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        (("--panels", "lines,colour"), "'colour' is not one of film, acceleration"),
+        (("--panels", "harmonics,colour"), "'colour' is not one of film, acceleration"),
         (("--mark", "steel"), "is not a value and words"),
     ],
 )

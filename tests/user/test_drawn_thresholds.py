@@ -20,9 +20,9 @@ from script_calls import call_script
 import rattle as package
 from rattle.figures import style, threshold
 
-SIDES = ("certified_below", "certified_above")
+SIDES = ("verified_below", "verified_above")
 NAN = np.nan
-# line, speed, crossing, lower, upper, then below and above: class, status, certified
+# trace, speed, crossing, lower, upper, then below and above: class, status, verified
 ROWS = [
     [1.0, 1.0, 1.0, 40.0, 42.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0],
     [1.0, 1.0, 2.0, 90.0, 92.0, 2.0, 3.0, 1.0, 1.0, 1.0, 1.0],
@@ -74,7 +74,16 @@ def threshold_input(
 
 def written(path: Path, rows=ROWS, axes=("kinematics.entrainment_speed",), criterion: str = "class"):
     units = {"kinematics.entrainment_speed": "m/s", "load.mass": "kg"}
-    names = ["line", *axes, "crossing", "lower", "upper", "width", "rattle_class_below", "rattle_class_above"]
+    names = [
+        "trace",
+        *axes,
+        "crossing",
+        "lower",
+        "upper",
+        "width",
+        "rattle_class_below",
+        "rattle_class_above",
+    ]
     names += ["status_below", "status_above", *SIDES]
     columns = [(name, units.get(name, "N" if name in ("lower", "upper", "width") else "-")) for name in names]
     start = 1 + len(axes)
@@ -90,7 +99,8 @@ def figure(result, **options) -> Figure:
 
 
 def test_kinds_of_change_are_curves_of_their_own(tmp_path):
-    """Neighbours with as many changes of a kind are joined; a line without a change is marked at the foot."""
+    """Neighbours with as many changes of a kind are joined; a trace without a change is marked at the
+    foot."""
     made = figure(written(tmp_path / "edge.rattle"))
     lines = drawn.curves(made.axes[0])
     expected = [
@@ -113,7 +123,7 @@ def test_kinds_of_change_are_curves_of_their_own(tmp_path):
         "creep to idle (1)",
         "creep to film lost (1)",
         "from end to end",
-        "not certified (2)",
+        "not verified (2)",
         "no change (1)",
     ]
     assert made.axes[0].get_xlabel() == "Entrainment speed [m/s]"
@@ -208,10 +218,10 @@ def test_the_report_tells_every_threshold(tmp_path):
     words = read_page(tmp_path / "edge.html").words
     for sentence in (
         "5 thresholds",
-        "Looked for: change of class, along the force amplitude from 5 N to 100 N, on 4 lines, one for each",
+        "Looked for: change of class, along the force amplitude from 5 N to 100 N, on 4 traces, one for each",
         "From quiet to creep: 3 times, between 21 N and 41 N.",
-        "1 of 4 lines have no threshold in this range.",
-        "At 3 of 5 thresholds the classes at both ends are certified",
+        "1 of 4 traces have no threshold in this range.",
+        "At 3 of 5 thresholds the classes at both ends are verified",
         "quiet throughout",
         "Two changes between neighbours that cancel each other are not seen.",
     ):
@@ -228,7 +238,7 @@ def level_result(path: Path):
         [1.0, 1.0, 1.0, 40.0, 42.0, 2.0, 99.0, 101.0, 1.0, 1.0, 1.0, 1.0],
         [2.0, 2.0, 1.0, 30.0, 31.0, 1.0, 100.0, 99.5, 1.0, 1.0, 1.0, 0.0],
     ]
-    names = ["line", "kinematics.entrainment_speed", "crossing", "lower", "upper", "width"]
+    names = ["trace", "kinematics.entrainment_speed", "crossing", "lower", "upper", "width"]
     names += ["film_force_rms_below", "film_force_rms_above", "status_below", "status_above", *SIDES]
     newtons = ("lower", "upper", "width", "film_force_rms_below", "film_force_rms_above")
     units = dict.fromkeys(newtons, "N") | {"kinematics.entrainment_speed": "m/s"}
@@ -246,7 +256,7 @@ def test_sides_of_a_level_are_named_for_what_they_are(tmp_path):
         "below 100 N to at least 100 N (1)",
         "at least 100 N to below 100 N (1)",
         "from end to end",
-        "not certified (1)",
+        "not verified (1)",
     ]
 
 
@@ -300,7 +310,7 @@ def test_every_cell_of_the_report_is_that_of_the_result(tmp_path):
         "From quiet to creep: 3 times, between 21 N and 41 N.",
         "From creep to idle: at 91 N.",
         "From creep to film lost: at 71 N.",
-        "1 of 4 lines have no threshold in this range.",
+        "1 of 4 traces have no threshold in this range.",
         "was solved in 33 places",
         "the widest that is left is 2 N.",
         "It took 50 scenes; a grid as fine has 20 times as many.",
@@ -321,7 +331,7 @@ def test_thresholds_from_python_and_as_a_table(groups, tmp_path):
         folder=tmp_path,
     )
     frame = found.result.frame()
-    assert frame["line"].tolist() == [1.0, 2.0] and found.summary["crossings"] == 2
+    assert frame["trace"].tolist() == [1.0, 2.0] and found.summary["crossings"] == 2
     assert frame["rattle_class_below_word"].tolist() == ["quiet", "quiet"]
     assert set(frame["status_above_word"]) <= {"complete", "steady"}
     assert (frame["upper"] - frame["lower"] < 4.5).all() and frame.attrs["units"]["lower"] == "N"

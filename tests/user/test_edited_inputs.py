@@ -48,7 +48,7 @@ def threshold(scene_text, **changes: dict) -> str:
     return scene_text(
         scene={"task": "'threshold'"},
         solver={"method": None, "steps_per_period": None, "periods": "60", "accuracy": "1e-6"},
-        spectrum={"periods": "2", "certify": ".false."},
+        spectrum={"periods": "2", "verify": ".false."},
         threshold={
             "key": "'load.force_amplitude'",
             "criterion": "'harmonic_distortion'",
@@ -265,7 +265,7 @@ def test_the_result_of_a_threshold_over_another_table_is_kept(run, scene_text, t
     (tmp_path / "lines.csv").write_text("load.mass\n2.0\n2.5\n")
     ended = run("--resume", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 2
-    assert "results/scene.rattle belongs to other lines: their CSV file has changed since" in ended.stderr
+    assert "results/scene.rattle belongs to other traces: their CSV file has changed since" in ended.stderr
     assert contents(tmp_path / "results") == before
 
 
@@ -281,7 +281,7 @@ def test_a_signal_that_has_changed_is_another_input(run, repository: Path, tmp_p
         "--set",
         "solver.periods=20",
         "--set",
-        "spectrum.certify=.false.",
+        "spectrum.verify=.false.",
     )
     assert run(*quick, "cycle.nml", cwd=tmp_path).returncode == 0
     (tmp_path / "results" / "cycle.state").unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""Teeth that give, as a user describes them: one key more, resumed, swept, in campaigns, by both methods."""
+"""Elastic teeth, as a user describes them: one key more, resumed, swept, in campaigns, by both methods."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_gear_films_and_loads_are_those_of_the_reference(run, tmp_path: Path) ->
     assert told["gear_position_maximum"] == pytest.approx(9.5334473e-05, rel=1e-5)
     assert told["coast_film_minimum"] == pytest.approx(4.8281494e-06, rel=1e-4)
     assert told["coast_load_maximum"] == pytest.approx(8.8322, rel=2e-4)
-    assert told["reversal"] is True and told["double_sided"] is False and told["certificate"] == "certified"
+    assert told["reversal"] is True and told["double_sided"] is False and told["verification"] == "verified"
     assert len(told["floquet_multipliers"]) == 8
     result = rattle.read(tmp_path / "results" / "teeth.rattle")
     compression = np.array(result["film_thickness"]) - np.array(result["gear_position"])
@@ -80,7 +80,7 @@ def test_a_campaign_over_the_stiffness_has_the_same_rows_in_any_company(run, tmp
 
 
 def test_a_sweep_carries_the_springs_along(run, repository: Path, tmp_path: Path) -> None:
-    """Films that let go in flight: a spring that met its film anew would throw the tooth away."""
+    """Films that rupture in flight: a spring that met its film anew would throw the tooth away."""
     scene = repository / "input" / "stiff_or_not.nml"
     settings = ("film.law=piezo-viscous", "sweep.first=1.3e8", "sweep.last=1.0e8", "sweep.count=4")
     given = [word for setting in settings for word in ("--set", setting)]
@@ -108,7 +108,8 @@ SOFT = """
 """
 
 
-# The tooth strikes with 0.19 m/s through a film of 24 nm where a period begins, and moves 0.4 mm in a period:
+# The tooth hits its flank with 0.19 m/s through a film of 24 nm where a period begins, and moves 0.4 mm in a
+# period:
 # what rounding leaves of its velocity is much against that film and nothing against the velocity.
 STRIKING = """
 &contact radius = 2.20778e-3, length = 0.01475016, backlash = 3.705e-4, stiffness = 3.15849e6 /

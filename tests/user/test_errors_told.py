@@ -16,7 +16,7 @@ from told import stated_error
 import rattle
 from rattle import rounding
 
-READY = ("idle", "creep", "creep_forged_line", "engine_cycle", "loose_gear", "loose_pair", "gearbox")
+READY = ("idle", "creep", "creep_false_harmonic", "engine_cycle", "loose_gear", "loose_pair", "gearbox")
 
 
 @pytest.fixture(scope="module")

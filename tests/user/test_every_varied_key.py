@@ -92,7 +92,7 @@ TABLES = {
     "600,900,0,120,3\n1000,600,.2,100,-3\n",
     "cycle.csv": CYCLE,
 }
-# Tips and centres leave little room; all else is varied by some per cent.
+# Tips and centres leave little folder; all else is varied by some per cent.
 NARROW = ("gear.tip_diameter_1", "gear.tip_diameter_2", "gear.centre_distance", "gear.normal_module")
 MOST_COLUMNS = 30
 PAIRS = 100

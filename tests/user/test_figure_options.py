@@ -269,7 +269,7 @@ def test_where_there_is_a_shaft_lines_stand_at_engine_orders(tmp_path):
 
 def test_orders_count_the_shaft_of_the_scene(repository, run, tmp_path):
     scene = repository / "input" / "loose_pair.nml"
-    assert run(scene, "--set", "spectrum.certify=.false.", "--output", tmp_path, cwd=tmp_path).returncode == 0
+    assert run(scene, "--set", "spectrum.verify=.false.", "--output", tmp_path, cwd=tmp_path).returncode == 0
     result = rattle.read(tmp_path / "loose_pair.rattle")
     for speed, factor in ((None, 2.0), (1600.0, 1.0)):
         with style.house_style(own=False):

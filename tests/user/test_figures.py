@@ -104,7 +104,7 @@ def test_unclosed_run_is_drawn_with_a_word(tmp_path):
 
 def test_tolerance_figure_is_drawn(iso, tmp_path):
     loose = write_motion(tmp_path / "loose.rattle", lines={1.0: 4.0, 2.5: 9.0}, tolerance=1e-7)
-    pair = ("--forged-line", loose, iso, "--false-reversals", loose, iso)
+    pair = ("--false-harmonic", loose, iso, "--false-reversals", loose, iso)
     done = call_script("plot.py", "tolerance", *pair, "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
     assert figure_stems(tmp_path / "figures") == ["tolerance"]
@@ -112,10 +112,10 @@ def test_tolerance_figure_is_drawn(iso, tmp_path):
 
 def test_tolerance_figure_refuses_two_motions_and_a_wrong_order(iso, piezo, tmp_path):
     loose = write_motion(tmp_path / "loose.rattle", lines=LINES, tolerance=1e-7)
-    other = call_script("plot.py", "tolerance", "--forged-line", loose, piezo, "--output", tmp_path)
+    other = call_script("plot.py", "tolerance", "--false-harmonic", loose, piezo, "--output", tmp_path)
     assert other.returncode == 2
     assert "are not the same motion: their groups &film differ." in other.stderr
-    swapped = call_script("plot.py", "tolerance", "--forged-line", iso, loose, "--output", tmp_path)
+    swapped = call_script("plot.py", "tolerance", "--false-harmonic", iso, loose, "--output", tmp_path)
     assert swapped.returncode == 2
     assert "is not looser than" in swapped.stderr
 
@@ -157,7 +157,9 @@ def test_another_scene_does_not_replace_the_figures_of_the_first(iso, tmp_path):
     assert figure_stems(output) == ["figure_08_idle", "figure_08_light"]
 
 
-@pytest.mark.parametrize("script", ["plot.py motion", "plot.py tolerance --forged-line other", "classify.py"])
+@pytest.mark.parametrize(
+    "script", ["plot.py motion", "plot.py tolerance --false-harmonic other", "classify.py"]
+)
 def test_the_result_of_another_task_is_refused_with_the_script_that_draws_it(script, tmp_path):
     path = write_motion(tmp_path / "up.rattle", lines=LINES, task="sweep")
     done = call_script(*script.replace("other", str(path)).split(), path)
@@ -179,7 +181,7 @@ def test_a_result_in_place_of_the_command_is_answered_with_the_command(iso):
         ("sweep", ["RESULT", "--panels", "--mark"]),
         ("campaign", ["FILE", "--slice", "--summary"]),
         ("threshold", ["RESULT", "--map", "--crossing", "--slice"]),
-        ("tolerance", ["--forged-line"]),
+        ("tolerance", ["--false-harmonic"]),
         ("film-fit", ["--alpha-p"]),
         ("regime-map", ["SUMMARY|RESULT"]),
     ],

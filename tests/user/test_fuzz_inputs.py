@@ -146,7 +146,7 @@ def is_short(echo: str) -> bool:
     """Whether a resolved input is solved within moments."""
     solver = f90nml.reads(echo)["solver"]
     steps = solver["steps_per_period"]
-    # A step may take as many passes as the limit allows.
+    # A step may take as many iterations as the limit allows.
     passes = (
         min(solver["iteration_limit"], 100) if solver["iteration"] == "newton" else solver["iteration_limit"]
     )

@@ -160,7 +160,7 @@ def test_orders_of_a_four_stroke_engine_share_a_base(check) -> None:
 
 
 def test_a_gear_with_the_contact_of_a_known_motion(run, tmp_path: Path) -> None:
-    """The contact, force and play of the reference for two flanks, from equal spur gears."""
+    """The contact, force and backlash of the reference for two flanks, from equal spur gears."""
     base_radius = 0.015 / math.tan(math.radians(20.0))
     speed = 1.07 / 0.015 * 30.0 / math.pi
     order = 26.7 * 60.0 / speed
@@ -237,7 +237,7 @@ def test_a_row_is_the_single_scene_with_that_value(key: str, run, tmp_path: Path
             "--set",
             f"{key}={value}",
             "--set",
-            "spectrum.certify=.false.",
+            "spectrum.verify=.false.",
             "--overwrite",
             "one.nml",
             cwd=tmp_path,
@@ -459,5 +459,7 @@ def test_the_page_works_the_ready_pair_through(run, repository: Path, tmp_path: 
     ],
 )
 def test_check_advises_a_film_law(settings: list[str], advice: str, check) -> None:
-    line = next(line for line in check(PAIR, *settings).stdout.splitlines() if "exact film at rest" in line)
+    line = next(
+        line for line in check(PAIR, *settings).stdout.splitlines() if "Reynolds film at rest" in line
+    )
     assert line.endswith(advice)

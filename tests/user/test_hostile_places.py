@@ -425,7 +425,7 @@ def test_a_limit_of_processor_time_keeps_the_state(rattle: Path, run, scene_text
     """The soft limit is a warning, the hard one a kill some seconds later."""
     (tmp_path / "scene.nml").write_text(
         scene_text(
-            solver={"periods": "3000000"}, output={"series": ".false."}, spectrum={"certify": ".false."}
+            solver={"periods": "3000000"}, output={"series": ".false."}, spectrum={"verify": ".false."}
         )
     )
     ended = subprocess.run(

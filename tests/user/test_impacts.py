@@ -124,9 +124,9 @@ def test_summary_of_an_impact_is_right_or_uncertain(
     ended = run("scene.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0, ended
     summary = summary_of(tmp_path / "results" / "scene.summary.nml")
-    if summary["certificate"] != "certified":
-        assert summary["certificate"] == "uncertain"
-        assert summary["certificate_text"]
+    if summary["verification"] != "verified":
+        assert summary["verification"] == "uncertain"
+        assert summary["verification_text"]
         return
 
     assert summary["rattle_class"] == impact.rattle_class
@@ -148,7 +148,7 @@ def stated_error(summary: dict, key: str) -> float:
 
 
 def test_a_motion_that_is_irregular_now_and_then_is_uncertain(run, scene_text, tmp_path: Path) -> None:
-    """A tooth in resonance that strikes once in a while: irregular in its window, quiet in the next.
+    """A tooth in resonance that hits a flank once in a while: irregular in its window, quiet in the next.
 
     An independent solution finds the same window quiet: which one holds a strike is chance.
     """
@@ -176,12 +176,12 @@ def test_a_motion_that_is_irregular_now_and_then_is_uncertain(run, scene_text, t
     assert run("scene.nml", cwd=tmp_path).returncode == 0
     summary = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert summary["rattle_class"] == "irregular"
-    assert summary["certificate"] == "uncertain"
-    assert "too few strikes" in summary["certificate_text"]
+    assert summary["verification"] == "uncertain"
+    assert "too few impacts" in summary["verification_text"]
 
 
 def test_a_row_counts_the_power_beyond_its_harmonics(run, scene_text, tmp_path: Path) -> None:
-    """Strikes that vary by little: of 40 harmonics 0.95 % of the power is off them, of 64 more than 1 %.
+    """Impacts that vary by little: of 40 harmonics 0.95 % of the power is off them, of 64 more than 1 %.
 
     The row is judged by integrals over the steps, the single scene by as many samples as it needs.
     """

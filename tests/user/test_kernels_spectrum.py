@@ -34,7 +34,7 @@ def test_classify_agrees_with_numpy(name):
     assert np.allclose(found["harmonics"], harmonics, atol=1e-12)
     assert np.allclose(kernels.lines(samples, PERIOD), harmonics, atol=1e-12)
     assert found["reference_line"] == 1
-    assert found["line_count"] == int((harmonics > 0.01 * harmonics[0]).sum())
+    assert found["harmonic_count"] == int((harmonics > 0.01 * harmonics[0]).sum())
     distortion = np.sqrt((harmonics[1:] ** 2).sum()) / harmonics[0]
     assert found["harmonic_distortion"] == pytest.approx(distortion, rel=1e-10)
     irregular = 1.0 - (harmonics**2).sum() / (amplitude[1:] ** 2).sum()
@@ -45,7 +45,7 @@ def test_classify_agrees_with_numpy(name):
         else "quiet"
         if distortion < 0.35
         else "idle"
-        if found["line_count"] >= 20
+        if found["harmonic_count"] >= 20
         else "creep"
     )
     assert found["rattle_class"] == expected == name
@@ -73,4 +73,4 @@ def test_a_motion_at_rest_is_quiet_and_has_no_ratios():
         found = kernels.classify(samples, PERIOD, noise_floor=floor)
         assert found["rattle_class"] == "quiet"
         assert np.isnan(found["harmonic_distortion"]) and np.isnan(found["irregular_fraction"])
-        assert found["reversals_per_period"] == 0.0 and found["line_count"] == 0
+        assert found["reversals_per_period"] == 0.0 and found["harmonic_count"] == 0

@@ -20,8 +20,8 @@ DRAG = {f"drag_{part}": " N m" for part in ("torque", "bearing", "synchroniser",
 DRAG["inertia_ratio"] = ""
 SUCCESSES = ("complete", "steady")
 LAWS = {
-    ("reynolds", "iso-viscous"): "exact iso-viscous film of the Reynolds equation",
-    ("reynolds", "piezo-viscous"): "exact piezo-viscous film of the Reynolds equation",
+    ("reynolds", "iso-viscous"): "Reynolds iso-viscous film of rigid flanks",
+    ("reynolds", "piezo-viscous"): "Reynolds piezo-viscous film of rigid flanks",
     ("published", "iso-viscous"): "published iso-viscous film (35), rupture angle pi/2",
     ("published", "piezo-viscous"): "published piezo-viscous film (37)",
 }
@@ -73,7 +73,7 @@ def lines_of_motion(path: Path) -> list[str | None]:
         "  no natural frequency: small motions about the steady film are overdamped"
         if "steady_film" in told and "natural_frequency" not in told
         else None,
-        f"  {told['steps']} steps in {ANY} s, {short(told.get('iterations_per_step', 0.0), 3)} passes a "
+        f"  {told['steps']} steps in {ANY} s, {short(told.get('iterations_per_step', 0.0), 3)} iterations a "
         f"step, {told['steps_cut']} steps cut where the film law had no value",
         f"  {told['status']} at t = {short(told['status_time'], 6)} s, film "
         f"{um(told['film_at_status_time'], 5)}: {told['status_text']}"
@@ -86,7 +86,7 @@ def lines_of_motion(path: Path) -> list[str | None]:
 
 
 def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[str | None]:
-    certificate = f" ({told['certificate']})" if "certificate" in told else ""
+    verification = f" ({told['verification']})" if "verification" in told else ""
     limits = [ENDS[name] for name in ENDS if name in told["model_limit"]]
     relative = f" {RELATIVE}" if "gear" in given else ""
     contradicted = "  warning: the film law of the scene does not fit this regime (law_contradicted)"
@@ -94,25 +94,25 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
         f"  film {um(told['film_minimum'], 5).removesuffix(' um')} to {um(told['film_maximum'], 5)}, "
         f"acceleration {short(told['acceleration_minimum'], 5)} to "
         f"{short(told['acceleration_maximum'], 5)} m/s2{relative}",
-        spectrum_words(told, certificate),
+        spectrum_words(told, verification),
         f"  warning: {coarse_words(told, given)}" if told["series_coarse"] else None,
         f"  warning: {', and '.join(limits)} (model_limit)" if limits else None,
-        *(lines_of_certificate(told) if certificate else []),
+        *(lines_of_verification(told) if verification else []),
         f"  {regime_words(told)}",
         contradicted if told["law_contradicted"] else None,
         stiffness_words(told, given),
     ]
 
 
-def spectrum_words(told: Mapping[str, Any], certificate: str) -> str:
+def spectrum_words(told: Mapping[str, Any], verification: str) -> str:
     if "harmonic_distortion" not in told:
         return f"  no motion but rounding: {told['rattle_class']}"
-    bound = "at least " if told["line_count_is_bound"] else ""
+    bound = "at least " if told["harmonic_count_is_bound"] else ""
     share = "at least " if told["harmonic_distortion_is_bound"] else ""
     return (
-        f"  {bound}{told['line_count']} lines, harmonic distortion {share}"
+        f"  {bound}{told['harmonic_count']} harmonics, harmonic distortion {share}"
         f"{short(told['harmonic_distortion'], 3)}, {short(told['reversals_per_period'], 3)} reversals a "
-        f"period: {told['rattle_class']}{certificate}"
+        f"period: {told['rattle_class']}{verification}"
     )
 
 
@@ -120,21 +120,21 @@ def coarse_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str:
     newmark = given["solver"]["method"] == "newmark"
     key = "solver.steps_per_period" if newmark else "solver.samples_per_period"
     if not told["sampling_sufficient"]:
-        what = f"the lines are those of the samples: raise {key}"
-    elif told["lines_by_integrals"]:
+        what = f"the harmonics are those of the samples: raise {key}"
+    elif told["harmonics_by_integrals"]:
         return (
             "the motion has impacts that no samples of a series show: take peaks from its rows of the "
-            "extremes, and lines from here, where they are integrals over the steps (series_coarse)"
+            "extremes, and harmonics from here, where they are integrals over the steps (series_coarse)"
         )
     else:
-        what = f"{key} = {told['samples_per_period']} would do, as many as gave the lines here"
+        what = f"{key} = {told['samples_per_period']} would do, as many as gave the harmonics here"
     return (
         f"the samples of the series are too few for its motion; {what} "
         "(series_coarse; the rows of the extremes stand in the series)"
     )
 
 
-def lines_of_certificate(told: Mapping[str, Any]) -> list[str | None]:
+def lines_of_verification(told: Mapping[str, Any]) -> list[str | None]:
     errors = [
         short(stated_error(told[f"{name}_error"], told.get(name, 1.0), 5), 2)
         for name in ("film", "acceleration_minimum", "acceleration_maximum")
@@ -142,7 +142,7 @@ def lines_of_certificate(told: Mapping[str, Any]) -> list[str | None]:
     ]
     multiplier = np.atleast_1d(told.get("floquet_multipliers", [0.0]))
     return [
-        f"  {told['certificate_text']}",
+        f"  {told['verification_text']}",
         f"  error of the film at most {errors[0]} of it, of the extremes of the acceleration {errors[1]} and "
         f"{errors[2]} m/s2"
         if len(errors) == 3
@@ -156,7 +156,7 @@ def lines_of_certificate(told: Mapping[str, Any]) -> list[str | None]:
 
 def regime_words(told: Mapping[str, Any]) -> str:
     reached = told["alpha_p_maximum"]
-    words = f"{told['film_regime']}: the exact film reaches alpha p = {short(reached, 3)}; "
+    words = f"{told['film_regime']}: the Reynolds film reaches alpha p = {short(reached, 3)}; "
     if reached >= 1.0:
         return words + "from 1 on there is no piezo-viscous film of rigid flanks"
     if told["film_regime"] == "elastohydrodynamic":
@@ -179,13 +179,13 @@ def stiffness_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str | 
         steel = f"contact.stiffness = {short(STEEL * given['contact']['length'], 2)} N/m"
     return (
         f"  warning: under its largest load a steel tooth gives way by {words} the film, while these teeth "
-        "are rigid (stiffness_matters). Teeth that give may move otherwise, and fall into another class: "
+        "are rigid (stiffness_matters). Elastic teeth may move otherwise, and fall into another class: "
         f"steel ones have {steel}"
     )
 
 
 def ending_of_motion(told: Mapping[str, Any]) -> str | None:
-    """Loudness and impacts, as far as they are known."""
+    """Vibration severity and impacts, as far as they are known."""
     parts = [
         f"{name.replace('_', ' ')} {short(told[name], 4)} {unit}"
         for name, unit in (("acceleration_rms", "m/s2"), ("film_force_rms", "N"), ("dissipated_power", "W"))
@@ -229,8 +229,8 @@ MOTIONS = {
     "wide": {"load": {"steady_force": "0.001", "force_amplitude": "0.0001"}, "solver": TAYLOR, "film": EXACT},
     "loose": {"contact": GAP, "solver": TAYLOR, "film": EXACT, "load": {"force_amplitude": "400.0"}},
     "hard": {"solver": {**TAYLOR, "samples_per_period": "64"}, "load": {"force_amplitude": "800.0"}},
-    "few": {"load": {"force_amplitude": "800.0"}, "spectrum": {"certify": ".false."}},
-    "bare": {"solver": TAYLOR, "spectrum": {"certify": ".false."}},
+    "few": {"load": {"force_amplitude": "800.0"}, "spectrum": {"verify": ".false."}},
+    "bare": {"solver": TAYLOR, "spectrum": {"verify": ".false."}},
 }
 FAILED = {
     "lost": {"load": {"force_amplitude": "1e9"}, "solver": {"iteration_limit": "2"}},
@@ -268,18 +268,18 @@ def told_by_the_table(gear: str, told: Mapping[str, Any]) -> list[str]:
     least = 1e6 * told["film_minimum"] if "film_minimum" in told else None
     loud = [told.get(name) for name in ("acceleration_rms", "film_force_rms", "dissipated_power")]
     numbers = ["-" if number is None else short(number, 4) for number in (least, peak, *loud)]
-    return [gear, word + (", certified" if told.get("certified") else ""), flanks, *numbers]
+    return [gear, word + (", verified" if told.get("verified") else ""), flanks, *numbers]
 
 
 @pytest.mark.parametrize(
     ("change", "code"),
     (
         (("name = '2nd'", "name = '2nd'"), 0),
-        # The 4th, which alone has a larger gap, leaves the film of the exact piezo-viscous law.
+        # The 4th, which alone has a larger gap, leaves the film of the Reynolds piezo-viscous law.
         (("law = 'iso-viscous'", "law = 'piezo-viscous'"), 1),
-        (("periods = ", "certify = .false., periods = "), 0),
+        (("periods = ", "verify = .false., periods = "), 0),
     ),
-    ids=("ready", "failing", "not certified"),
+    ids=("ready", "failing", "not verified"),
 )
 def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, code):
     text = (repository / "input" / "gearbox.nml").read_text()
@@ -390,7 +390,7 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
         [
             f"rattle 0.1.0, scene {name}: sweep of {result.row_count} motions, "
             + (
-                "exact piezo-viscous film of the Reynolds equation"
+                "Reynolds piezo-viscous film of rigid flanks"
                 if exact
                 else "published iso-viscous film (35), rupture angle pi/2"
             ),
@@ -401,7 +401,7 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
     )
 
 
-RECORD = "'rattle_class', 'acceleration_maximum', 'certified', 'model_limit', 'sampling_sufficient'"
+RECORD = "'rattle_class', 'acceleration_maximum', 'verified', 'model_limit', 'sampling_sufficient'"
 
 
 @pytest.mark.parametrize(
@@ -419,8 +419,8 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
     path = solve(name, text, "--threads", 2, code=int(name == "failing"))
     rows, told = rattle.read_campaign(path), rattle.read_summary(path.with_suffix(".summary.nml"))
     failed, count = int(rows.failed.sum()), rows.row_count
-    certified = rows["certified"]
-    doubts, tested = int((certified == 0.0).sum()), int(np.isfinite(certified).sum())
+    verified = rows["verified"]
+    doubts, tested = int((verified == 0.0).sum()), int(np.isfinite(verified).sum())
     beyond = int((rows["model_limit"] > 0.0).sum())
     coarse = int((rows["sampling_sufficient"] == 0.0).sum())
     open_ended = int((rows["rattle_class"] == 6.0).sum())
@@ -428,7 +428,7 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
     assert told["scenes_failed_in_this_run"] == failed
     assert told["scenes_beyond_model_in_this_run"] == beyond
     assert told["scenes_undersampled_in_this_run"] == coarse
-    assert told["scenes_not_certified_in_this_run"] == doubts
+    assert told["scenes_not_verified_in_this_run"] == doubts
     assert told["scenes_irregular_so_far_in_this_run"] == open_ended
     law = LAWS[("reynolds", "piezo-viscous") if changes else ("published", "iso-viscous")]
     found = log_of(path)
@@ -436,17 +436,17 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
         [line for line in found if " s left, " not in line],
         [
             f"rattle 0.1.0, campaign {name}: {count} scenes, {law}; 1 rank of 2 threads",
-            f"  {count} of {count} scenes, {ANY} a second, {failed} failed, {doubts} not certified",
+            f"  {count} of {count} scenes, {ANY} a second, {failed} failed, {doubts} not verified",
             f"  warning: {counted(beyond, 'scene')} beyond what the model can mean: films beyond a tenth of "
             "the radius or below 1 nm (column model_limit)"
             if beyond
             else None,
-            f"  warning: the lines of {counted(coarse, 'scene')} are not resolved (column "
+            f"  warning: the harmonics of {counted(coarse, 'scene')} are not resolved (column "
             "sampling_sufficient); raise campaign.samples_per_period"
             if coarse
             else None,
-            f"  {doubts} of {tested} scenes not certified: solved again, tighter, the class is another "
-            "or close to a limit (column certified)",
+            f"  {doubts} of {tested} scenes not verified: solved again, tighter, the class is another "
+            "or close to a limit (column verified)",
             f"  {counted(open_ended, 'scene')} irregular so far: without repetition, and no neighbouring "
             "motion parts for good (rattle_class)"
             if open_ended
@@ -461,10 +461,10 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
     path = solve("edge", text, "--threads", 2)
     rows, told = rattle.read(path), rattle.read_summary(path.with_suffix(".summary.nml"))
     crossed = rows["crossing"] > 0
-    lines, without = int(np.unique(rows["line"]).size), int((~crossed).sum())
-    both = (rows["certified_below"] == 1.0) & (rows["certified_above"] == 1.0)
+    lines, without = int(np.unique(rows["trace"]).size), int((~crossed).sum())
+    both = (rows["verified_below"] == 1.0) & (rows["verified_above"] == 1.0)
     doubts = int((crossed & ~both).sum())
-    assert (told["lines"], told["crossings"], told["lines_without_crossing"]) == (
+    assert (told["traces"], told["crossings"], told["traces_without_crossing"]) == (
         lines,
         crossed.sum(),
         without,
@@ -479,16 +479,16 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
     assert_told(
         [line for line in log_of(path) if " s left, " not in line],
         [
-            f"rattle 0.1.0, threshold {rows.scene_name}: {counted(lines, 'line')} of {given['key']}, "
+            f"rattle 0.1.0, threshold {rows.scene_name}: {counted(lines, 'trace')} of {given['key']}, "
             f"{LAWS['published', 'iso-viscous']}; 1 rank of 2 threads",
-            f"  {given['count']} values a line, then halves down to {places} places; two changes "
+            f"  {given['count']} values a trace, then halves down to {places} places; two changes "
             "between neighbours of the scan that cancel each other stay unseen: more &threshold count sees "
             "them",
-            "  the ends of a crossing go apart again until both are certified",
+            "  the ends of a crossing go apart again until both are verified",
             f"  {told['scenes']} of {told['scenes']} scenes, {ANY} a second, {told['scenes_failed']} failed",
-            f"  {counted(told['crossings'], 'crossing')}; {without} of {counted(lines, 'line')} without any; "
-            f"at {counted(doubts, 'crossing')} a class beside it is not certified",
-            f"  the ends of {counted(wide, 'crossing')} are certified only farther apart than asked for: the "
+            f"  {counted(told['crossings'], 'crossing')}; {without} of {counted(lines, 'trace')} without "
+            f"any; at {counted(doubts, 'crossing')} a class beside it is not verified",
+            f"  the ends of {counted(wide, 'crossing')} are verified only farther apart than asked for: the "
             "width tells how sure that is (column width)"
             if wide
             else None,

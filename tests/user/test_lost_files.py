@@ -176,7 +176,7 @@ def test_half_of_a_new_file_is_replaced(kind: str, run, scene_text, tmp_path: Pa
 @pytest.mark.parametrize("task", ["motion", "film", "sweep"])
 def test_one_of_two_runs_refuses(task: str, rattle: Path, scene_text, tmp_path: Path) -> None:
     """However they meet: one does the work, the others say why not and change nothing."""
-    long = scene_text(solver={"periods": "3000"}, spectrum={"certify": ".false."})
+    long = scene_text(solver={"periods": "3000"}, spectrum={"verify": ".false."})
     text = {"motion": long, "film": film_task(scene_text), "sweep": sweep(scene_text, 20)}[task]
     (tmp_path / "scene.nml").write_text(text)
     alone = subprocess.run([rattle, "--quiet", "--output", "alone", "scene.nml"], cwd=tmp_path, check=False)

@@ -25,7 +25,7 @@ PAIR = """&gear
 /
 &film law = 'iso-viscous', model = 'reynolds' /
 &solver periods = 4, accuracy = 1e-6 /
-&spectrum periods = 2, certify = .false. /
+&spectrum periods = 2, verify = .false. /
 """
 # Of a gear: what is typed, and what would have been meant.
 OF_GEARS = [

@@ -19,9 +19,7 @@ RESULTS = ("scene.rattle", "scene.state", "scene.summary.nml")
 @pytest.fixture
 def meet(shim: Path, rattle: Path, scene_text, tmp_path: Path) -> Callable:
     """Run the scene, or the campaign, in a folder of its own with a fault; its end and its output calls."""
-    (tmp_path / "scene.nml").write_text(
-        scene_text(solver={"periods": "100"}, spectrum={"certify": ".false."})
-    )
+    (tmp_path / "scene.nml").write_text(scene_text(solver={"periods": "100"}, spectrum={"verify": ".false."}))
     (tmp_path / "map.nml").write_text(grid(scene_text, 5, 4))
 
     def call(

@@ -114,7 +114,10 @@ def reader_of_computed(given: Mapping[str, Mapping[str, Any]], told: Told) -> Ca
         "Tolerance of the iteration on the film": (solver.get("tolerance"), "m"),
         "Steps in a period of the force": (solver.get("steps_per_period"), ""),
         "Film law": (told.get("law"), ""),
-        "Film model: published, the formulas of the paper; reynolds, exact": (told.get("model"), ""),
+        "Film model: published, the formulas of the paper; reynolds, those of rigid flanks": (
+            told.get("model"),
+            "",
+        ),
         "Speed that the film was computed with": (told.get("speed_used"), "m/s"),
         "That speed is": (told.get("speed_meaning"), ""),
         "Accelerations are": (told.get("acceleration_meaning"), ""),
@@ -213,17 +216,17 @@ def reader_of_lines(told: Told, order: float | None) -> Callable[[Rows], None]:
 def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
     """What the verdict and the notes say with this summary, and what they must not say."""
     limits = given["spectrum"]
-    count = told["line_count"]
-    bound = "At least " if told.get("line_count_is_bound") else ""
+    count = told["harmonic_count"]
+    bound = "At least " if told.get("harmonic_count_is_bound") else ""
     lines = f"{bound}{count} {'harmonic' if count == 1 else 'harmonics'} of the acceleration stand above"
     of = "the largest one of the force's own harmonics" if "force_orders" in given["load"] else "the first"
-    threshold = f"{100.0 * limits['line_threshold']:g} % of {of}"
+    threshold = f"{100.0 * limits['harmonic_threshold']:g} % of {of}"
     classes = {
         "quiet": f"a harmonic distortion of {told.get('harmonic_distortion', np.nan):.4g}, below the limit "
         f"of {limits['quiet_limit']:g}.",
-        "creep": f"{lines} {threshold}, fewer than the {limits['idle_lines']} from which on it is idle "
+        "creep": f"{lines} {threshold}, fewer than the {limits['idle_harmonics']} from which on it is idle "
         "rattle.",
-        "idle": f"{lines} {threshold}; {limits['idle_lines']} or more make it idle rattle",
+        "idle": f"{lines} {threshold}; {limits['idle_harmonics']} or more make it idle rattle",
         "irregular": f"A share of {told.get('irregular_fraction', np.nan):.4g} of the power of the "
         f"acceleration lies off the harmonics of the force; {limits['irregular_limit']:g} is the limit.",
         "irregular_so_far": f"A share of {told.get('irregular_fraction', np.nan):.4g} of the power of the "
@@ -240,7 +243,9 @@ def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str]
             if told["orbit_stability"] == "unstable"
             else f"it repeats {repeats} of the force ({told['orbit_stability']})."
         )
-    choose(found, silent, "certificate" in told, told.get("certificate_text", "No reason."), "a second time")
+    choose(
+        found, silent, "verification" in told, told.get("verification_text", "No reason."), "a second time"
+    )
     if told["model_limit"] != "within":
         found.append("1 nm" if "narrow" in told["model_limit"] else "a tenth of the radius")
     share, elastic = told["deflection_share"], "stiffness" in given["contact"]
@@ -252,8 +257,8 @@ def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str]
     impacts = {
         "no separation": "no separation, and no impact",
         "separation": "leaves its drive flank, without an impact",
-        "single-sided impacts": "strikes one flank (single-sided impacts)",
-        "double-sided impacts": "strikes both flanks of its gap (double-sided impacts)",
+        "single-sided impacts": "hits one flank (single-sided impacts)",
+        "double-sided impacts": "hits both flanks of its gap (double-sided impacts)",
     }
     for name, words in impacts.items():
         choose(found, silent, told.get("verdict") == name, words, "Never.")
@@ -294,7 +299,7 @@ def asked(given: Mapping[str, Mapping[str, Any]], words: str) -> list[str]:
         ("kinematics", "entrainment_speed", "speed at which the flanks draw oil in"),
         ("contact", "radius", "radius of the contact"),
         ("contact", "length", "its length"),
-        ("contact", "backlash", "play between the flanks"),
+        ("contact", "backlash", "backlash between the flanks"),
         ("contact", "stiffness", "stiffness of the teeth"),
     ):
         value = given.get(group, {}).get(name)
@@ -354,8 +359,8 @@ def assert_motion(path: Path) -> None:
     odd = np.atleast_1d(told.get("input_warnings", [])).tolist()
     sentences += [f"{words[:1].upper()}{words[1:]}." for words in odd]
     assert_numbers(page, sentences, silent)
-    assert page.paragraphs[2] == told["rattle_class"] + told.get("certificate", "not examined")
-    assert page.badges == [told.get("certificate", "not examined")]
+    assert page.paragraphs[2] == told["rattle_class"] + told.get("verification", "not examined")
+    assert page.badges == [told.get("verification", "not examined")]
 
 
 @pytest.mark.parametrize("name", ("idle", "creep_period_two", "engine_cycle", "loose_gear", "loose_pair"))
@@ -367,16 +372,16 @@ def test_the_page_of_a_ready_motion_is_its_summary(run, repository, tmp_path, na
 # Changes of a summary that bring out each sentence.
 SAID = (
     {"rattle_class": "'quiet'", "harmonic_distortion": "0.12345", "verdict": "'no separation'"},
-    {"rattle_class": "'creep'", "line_count": "1", "line_count_is_bound": ".false."},
-    {"rattle_class": "'creep'", "line_count": "17", "line_count_is_bound": ".true."},
+    {"rattle_class": "'creep'", "harmonic_count": "1", "harmonic_count_is_bound": ".false."},
+    {"rattle_class": "'creep'", "harmonic_count": "17", "harmonic_count_is_bound": ".true."},
     {"rattle_class": "'irregular'", "irregular_fraction": "0.061234"},
-    {"rattle_class": "'irregular_so_far'", "irregular_fraction": "0.43217", "certificate": "'uncertain'"},
+    {"rattle_class": "'irregular_so_far'", "irregular_fraction": "0.43217", "verification": "'uncertain'"},
     {"rattle_class": "'subharmonic'", "orbit_period": "3", "orbit_stability": "'near_unstable'"},
     {"orbit_stability": "'unstable'", "model_limit": "'too_narrow'", "film_regime": "'piezo-viscous'"},
     {"model_limit": "'too_wide'", "film_regime": "'elastohydrodynamic'", "law_contradicted": ".true."},
     {"deflection_share": "0.0654", "stiffness_matters": ".false.", "verdict": "'separation'"},
     {"deflection_share": "0.2345", "stiffness_matters": ".true.", "verdict": "'single-sided impacts'"},
-    {"certificate": None, "certificate_text": None, "verdict": "'double-sided impacts'"},
+    {"verification": None, "verification_text": None, "verdict": "'double-sided impacts'"},
     {"film_minimum": "3.4567891e-9", "film_maximum": "0.00234567", "film_minimum_error": "4.567e-12"},
     {"acceleration_maximum": "1.2345678e7", "acceleration_maximum_error": None},
     {"pressure_maximum": "1.2345678e9", "deflection": "1.23e-11", "dissipated_energy": "2.3456e-5"},
@@ -474,7 +479,7 @@ def made_campaign(chosen: Sequence[str], *, failures: bool) -> campaign_writer.M
 
 
 FULL = (
-    *("rattle_class", "certified", "law_contradicted", "film_regime", "acceleration_maximum", "film_minimum"),
+    *("rattle_class", "verified", "law_contradicted", "film_regime", "acceleration_maximum", "film_minimum"),
     *FLAGS,
 )
 
@@ -501,7 +506,7 @@ def test_the_page_of_a_campaign_is_its_rows(tmp_path, chosen, failures, undone):
     good = {name: values[~failed] for name, values in columns.items()}
     sentences = sentences_on_campaign(columns, int(failed.sum()), len(made.rows), int(done.sum()))
     worst = "acceleration_maximum" in columns
-    extra = [name for name in ("rattle_class", "film_regime", "certified") if name in columns]
+    extra = [name for name in ("rattle_class", "film_regime", "verified") if name in columns]
     head = (*WORST, *(name.replace("_", " ") for name in extra))
     classes = "rattle_class" in columns
     heads = [CLASSES, VARIED, *([head] if worst else []), RANGES, COMPUTED, KEYS]
@@ -556,10 +561,10 @@ def sentences_on_campaign(
             found.append(f"{codes.CLASSES[int(code)]} in {count} ({share(count, done)})")
     else:
         found.append("The class was not recorded.")
-    if "certified" in columns:
-        certified, lacking = (int((columns["certified"] == flag).sum()) for flag in (1.0, 0.0))
-        found.append(f"The class is certified in {certified} scenes: solved again, tighter, it is the same.")
-        found.append(f"{lacking} of {certified + lacking} scenes are not certified.")
+    if "verified" in columns:
+        verified, lacking = (int((columns["verified"] == flag).sum()) for flag in (1.0, 0.0))
+        found.append(f"The class is verified in {verified} scenes: solved again, tighter, it is the same.")
+        found.append(f"{lacking} of {verified + lacking} scenes are not verified.")
     if "law_contradicted" in columns:
         count = int((columns["law_contradicted"] == 1.0).sum())
         found.append(f"In {count} scenes the film law is not the one of the regime that the motion reaches.")
@@ -570,7 +575,7 @@ def sentences_on_campaign(
     for name, words in (
         ("model_limit", "scenes the film leaves what the model can mean: below 1 nm, or beyond a tenth of"),
         ("stiffness_matters", "scenes the teeth give way, or if they are rigid those of steel would"),
-        ("double_sided", "scenes the tooth strikes both flanks of its gap."),
+        ("double_sided", "scenes the tooth hits both flanks of its gap."),
     ):
         if name in columns:
             found.append(f"In {int((columns[name] > 0.0).sum())} {words}")

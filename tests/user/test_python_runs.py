@@ -56,7 +56,7 @@ def test_set_replaces_keys_of_every_kind(file):
     changes = {
         "load.mass": np.float64(2.5),
         "solver.periods": 4,
-        "spectrum.certify": False,
+        "spectrum.verify": False,
         "film.rupture": "solved",
         "output.columns": ["time", "acceleration"],
     }
@@ -64,7 +64,7 @@ def test_set_replaces_keys_of_every_kind(file):
     for key, value in changes.items():
         assert result.value(*key.split(".")) == value
     assert result.names == ("time", "acceleration")
-    assert "certificate" not in summary
+    assert "verification" not in summary
 
 
 def test_files_go_to_the_folder_and_are_not_replaced_unasked(file, tmp_path):

@@ -29,7 +29,7 @@ def counted(tmp_path: Path) -> rattle.Campaign:
     columns = {
         "status": [1.0] * 10 + [3.0, 3.0] + [1.0] * 4,
         "rattle_class": [1, 3, 3, 3, 3, 3, 3, 2, 2, 2, NAN, NAN] + [1.0] * 4,
-        "certified": [1, 1, 1, 1, 1, 1, 0, 0, 0, NAN, NAN, NAN] + [1.0] * 4,
+        "verified": [1, 1, 1, 1, 1, 1, 0, 0, 0, NAN, NAN, NAN] + [1.0] * 4,
         "law_contradicted": [1.0] * 7 + [0.0] * 3 + [NAN] * 2 + [1.0] * 4,
         "model_limit": [1.0] * 2 + [2.0] * 2 + [3.0] + [0.0] * 5 + [NAN] * 2 + [1.0] * 4,
         "stiffness_matters": [1.0] * 4 + [0.0] * 6 + [NAN] * 2 + [1.0] * 4,
@@ -52,13 +52,13 @@ def test_every_sentence_on_a_campaign_counts_its_rows(counted) -> None:
     assert list(campaign_report.sentences_on(counted)) == [
         "12 of 16 scenes are solved; 2 of them failed.",
         "Class of the motion: idle in 6 (50.0 %), creep in 3 (25.0 %), quiet in 1 (8.3 %).",
-        "The class is certified in 6 scenes: solved again, tighter, it is the same. "
-        "3 of 9 scenes are not certified.",
+        "The class is verified in 6 scenes: solved again, tighter, it is the same. "
+        "3 of 9 scenes are not verified.",
         "In 7 scenes the film law is not the one of the regime that the motion reaches.",
         "In 5 scenes the film leaves what the model can mean: below 1 nm, or beyond a tenth of the radius.",
         "In 4 scenes the teeth give way, or if they are rigid those of steel would, by more than a tenth of "
         "the film: rigid teeth are no fair assumption there.",
-        "In 3 scenes the tooth strikes both flanks of its gap.",
+        "In 3 scenes the tooth hits both flanks of its gap.",
     ]
     head = campaign_report.verdict(counted)[0]
     assert '<p class="class">idle in 50.0 % of the scenes</p>' in head
@@ -79,13 +79,14 @@ def test_scenes_that_failed_or_are_not_done_are_in_no_range_and_no_worst(counted
 
 def test_a_share_of_a_line_is_told_in_per_cent(solved) -> None:
     result = (
-        solved("calm", solver=CALM, spectrum={"line_threshold": "0.035", "idle_lines": "9"}) / "calm.rattle"
+        solved("calm", solver=CALM, spectrum={"harmonic_threshold": "0.035", "idle_harmonics": "9"})
+        / "calm.rattle"
     )
     for word, words in (
         ("creep", "17 harmonics of the acceleration stand above 3.5 % of the first, fewer than the 9 from"),
         ("idle", "17 harmonics of the acceleration stand above 3.5 % of the first; 9 or more make it idle"),
     ):
-        with_summary(result, rattle_class=f"'{word}'", line_count="17")
+        with_summary(result, rattle_class=f"'{word}'", harmonic_count="17")
         assert words in " ".join(read_page(report(result)).verdicts[0].split())
 
 
@@ -110,8 +111,8 @@ def test_as_many_periods_are_told_as_are_drawn(solved) -> None:
 
 
 def test_every_sentence_on_thresholds_is_that_of_the_rows(tmp_path: Path) -> None:
-    """The widest bracket is neither the first nor the last, and the certified ones are not half of all."""
-    # line, speed, crossing, lower, upper, then below and above: class, status, certified
+    """The widest bracket is neither the first nor the last, and the verified ones are not half of all."""
+    # line, speed, crossing, lower, upper, then below and above: class, status, verified
     rows = [
         [1.0, 1.0, 1.0, 40.0, 42.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0],
         [2.0, 2.0, 1.0, 30.0, 38.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0],
@@ -128,9 +129,9 @@ def test_every_sentence_on_thresholds_is_that_of_the_rows(tmp_path: Path) -> Non
     assert told[1:4] == [
         "From quiet to creep: 3 times, between 21.5 N and 41 N.",
         "From creep to idle: at 71 N.",
-        "1 of 4 lines have no threshold in this range.",
+        "1 of 4 traces have no threshold in this range.",
     ]
-    assert told[4].startswith("At 3 of 4 thresholds the classes at both ends are certified: ")
+    assert told[4].startswith("At 3 of 4 thresholds the classes at both ends are verified: ")
     assert "solved in 33 places" in told[5] and "the widest that is left is 8 N." in told[5]
     assert told[6] == "It took 30 scenes; a grid as fine has 20 times as many."
     page = read_page(report(result.path))
@@ -146,7 +147,7 @@ def test_where_no_scene_has_a_motion_nothing_is_said_of_motions(run, scene_text,
     film = {"law": "'piezo-viscous'", "model": "'reynolds'"}
     base = {"film": film, "solver": CALM, "load": {"steady_force": "3e4"}}
     loads = {"first": "3e4", "last": "4e4", "count": "3"}
-    record = "'rattle_class', 'certified', 'acceleration_maximum'"
+    record = "'rattle_class', 'verified', 'acceleration_maximum'"
     tasks = {
         "sweep": {"sweep": {"key": "'steady_force'", **loads}, "solver": {**CALM, "until": None}},
         "campaign": {"campaign": {"vary": "'load.steady_force'", **loads, "record": record}},
@@ -162,12 +163,13 @@ def test_where_no_scene_has_a_motion_nothing_is_said_of_motions(run, scene_text,
         said[task] = read_page(report(tmp_path / f"{task}.rattle"))
     words = {task: " ".join(page.verdicts[0].split()) for task, page in said.items()}
     assert words["sweep"].startswith("no class") and "5 failed" in words["sweep"]
-    assert "way back" not in words["sweep"]
+    assert "decreasing" not in words["sweep"]
     cells = [row for row in said["sweep"].rows if row[:1] in (["there"], ["back"])]
     assert [row[4:] for row in cells] == [["-", "-"], ["-", "-"]]
     assert "3 of 3 scenes are solved; 3 of them failed. No scene has a class." in words["campaign"]
     assert "Scenes with the largest acceleration" not in said["campaign"].headings
-    assert "certified" not in words["threshold"] and "widest" not in words["threshold"]
+    assert "verified" not in words["threshold"] and "widest" not in words["threshold"]
     assert (
-        "The line has no threshold in this range. The line was solved in 3 places. Two" in words["threshold"]
+        "The trace has no threshold in this range. The trace was solved in 3 places. Two"
+        in words["threshold"]
     )

@@ -221,7 +221,7 @@ def test_closed_terminal_does_not_lose_the_run(rattle: Path, scene_text, tmp_pat
 
 
 def test_a_signal_ends_a_long_period(rattle: Path, scene_text, tmp_path: Path) -> None:
-    """A period of ten million steps, each with a root that takes many passes, is not waited for."""
+    """A period of ten million steps, each with a root that takes many iterations, is not waited for."""
     text = scene_text(
         film={"rupture": "'solved'", "rupture_solver": "'successive'"},
         solver={"steps_per_period": "10000000"},

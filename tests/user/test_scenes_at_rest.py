@@ -42,7 +42,7 @@ def test_scene_at_rest_is_quiet(method: str, law: str, model: str, run, scene_te
         folder = tmp_path / str(number)
         assert amplitude_scene(run, scene_text, folder, "0.0", method, law, model, **accuracy) == {
             "rattle_class": "quiet",
-            "certificate": "certified",
+            "verification": "verified",
         }
 
 
@@ -51,13 +51,13 @@ def test_faint_motion_has_its_line(method: str, run, scene_text, tmp_path: Path)
     """A force of less than a ten-thousandth of the static load moves the tooth by more than the errors."""
     for law in ("iso-viscous", "piezo-viscous"):
         found = amplitude_scene(run, scene_text, tmp_path / law, "0.01", method, law, "published")
-        assert found == {"rattle_class": "quiet", "line_count": 1, "certificate": "certified"}
+        assert found == {"rattle_class": "quiet", "harmonic_count": 1, "verification": "verified"}
 
 
 def amplitude_scene(
     run, scene_text, folder: Path, amplitude: str, method: str, law: str, model: str, **solver: str
 ) -> dict:
-    """Class, lines and certificate of the scene of the paper under a force of some amplitude [N]."""
+    """Class, lines and verification of the scene of the paper under a force of some amplitude [N]."""
     folder.mkdir()
     text = scene_text(
         lubricant={"pressure_viscosity": "1.0e-9" if model == "reynolds" else "2.0e-8"},
@@ -75,7 +75,7 @@ def amplitude_scene(
     assert run("scene.nml", cwd=folder).returncode == 0
     summary = summary_of(folder / "results" / "scene.summary.nml")
     # Without motion nothing is said of lines.
-    return {key: summary[key] for key in ("rattle_class", "line_count", "certificate") if key in summary}
+    return {key: summary[key] for key in ("rattle_class", "harmonic_count", "verification") if key in summary}
 
 
 @pytest.mark.long

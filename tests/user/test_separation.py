@@ -231,7 +231,7 @@ def test_a_row_tells_what_the_summary_tells(name: str, run, tmp_path: Path) -> N
 
 
 def test_a_higher_limit_leaves_fewer_impacts(run, tmp_path: Path) -> None:
-    """R4 strikes the drive flank with 26.3 and 32.5 N, the coast flank with 217 N; its force is 9 N."""
+    """R4 hits the drive flank with 26.3 and 32.5 N, the coast flank with 217 N; its force is 9 N."""
     scene = SCENES["R4"]
     force = largest_force(scene)
     verdicts = {}

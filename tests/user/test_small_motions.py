@@ -12,7 +12,7 @@ from outcomes import summary_of
 
 from rattle import kernels
 
-# Load and its slopes of each law by its keys; the exact film takes the rolling speed u1 + u2.
+# Load and its slopes of each law by its keys; the Reynolds film takes the rolling speed u1 + u2.
 LAWS: dict[tuple[str, str, str], tuple[str, float]] = {
     ("iso-viscous", "published", "half-pi"): ("half_pi_rupture_load", 1.0),
     ("iso-viscous", "published", "solved"): ("solved_rupture_load", 1.0),

@@ -116,7 +116,7 @@ def test_a_motion_that_is_ended_tells_the_state_of_its_last_row(
     process = subprocess.Popen([rattle, "--quiet", "scene.nml"], cwd=tmp_path)
     try:
         if ending == "interrupted":
-            wait_for_rows(tmp_path / "results" / "scene.rattle")
+            wait_for_rows(tmp_path / "results" / "scene.rattle", process)
             process.send_signal(signal.SIGTERM)
         process.wait(30)
     finally:

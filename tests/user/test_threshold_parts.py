@@ -1,4 +1,4 @@
-"""Thresholds as an array job: parts of the lines, joined into the file of one undivided run."""
+"""Thresholds as an array job: parts of the traces, joined into the file of one undivided run."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from test_thresholds import LONG, MANY_LINES, SPEEDS, cut_short, threshold_text
 import rattle as package
 
 COARSE = {"tolerance": "1e-2"}
-# No class is certified by errors of rounding alone, so that there are uncertain crossings.
-STRICT = {"certificate_tolerance": "1e-12"}
+# No class is verified by errors of rounding alone, so that there are uncertain crossings.
+STRICT = {"verification_tolerance": "1e-12"}
 
 
 def part_of(part: int, parts: int) -> list[str]:
@@ -56,18 +56,18 @@ def refusal(directory: Path, *parts: Path) -> str:
 
 @pytest.mark.parametrize("parts", [2, 5])
 def test_joined_parts_are_the_undivided_run(parts: int, solve, scene_text, tmp_path: Path) -> None:
-    """Also where some parts have no line; the lines of all parts are counted from the first of all."""
+    """Also where some parts have no trace; the traces of all parts are counted from the first of all."""
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text, threshold=COARSE, spectrum=STRICT))
     whole = solve()
     paths = [solve(parts=(part, parts)) for part in range(1, parts + 1)]
-    held = [np.unique(package.read(path)["line"]).tolist() for path in paths]
+    held = [np.unique(package.read(path)["trace"]).tolist() for path in paths]
     assert held == ([[1.0], [2.0, 3.0]] if parts == 2 else [[], [1.0], [], [2.0], [3.0]])
     done = merge(tmp_path, *reversed(paths))
     assert (done.returncode, done.stdout) == (0, "joined.rattle\n"), done.stderr
-    assert done.stderr == f"campaign.py: {parts} parts joined, 3 lines.\n"
+    assert done.stderr == f"campaign.py: {parts} parts joined, 3 traces.\n"
     assert (tmp_path / "joined.rattle").read_bytes() == whole.read_bytes()
     told = [summary_of(path.with_suffix(".summary.nml")) for path in (*paths, whole)]
-    for name in ("lines", "crossings", "crossings_uncertain", "scenes"):
+    for name in ("traces", "crossings", "crossings_uncertain", "scenes"):
         assert sum(one[name] for one in told[:-1]) == told[-1][name] > 0, name
 
 
@@ -75,10 +75,10 @@ def test_parts_that_do_not_belong_together(solve, scene_text, tmp_path: Path) ->
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text, threshold=COARSE))
     first, second, third = (solve(parts=(part, 3)) for part in (1, 2, 3))
     said = refusal(tmp_path, first, third)
-    assert f"  lines 2 to 2 are missing between {first} and {third}.\n" in said
+    assert f"  traces 2 to 2 are missing between {first} and {third}.\n" in said
     assert "  of 3 parts these are not given: 2.\n" in said
-    assert f"lines 3 to 3 are missing after {second}." in refusal(tmp_path, first, second)
-    assert f"lines 2 to 2 of {second} are also in {second}." in refusal(
+    assert f"traces 3 to 3 are missing after {second}." in refusal(tmp_path, first, second)
+    assert f"traces 2 to 2 of {second} are also in {second}." in refusal(
         tmp_path, first, second, second, third
     )
     assert "belong to different divisions: into 2 and 3 parts." in refusal(
@@ -89,19 +89,19 @@ def test_parts_that_do_not_belong_together(solve, scene_text, tmp_path: Path) ->
 
 
 def test_parts_of_two_states_of_a_table(solve, scene_text, tmp_path: Path) -> None:
-    """Parts of lines from a CSV file that has changed in between are no whole."""
+    """Parts of traces from a CSV file that has changed in between are no whole."""
     lines = "kinematics.entrainment_speed\n0.8\n1.9\n9.5\n"
-    (tmp_path / "lines.csv").write_text(lines)
-    table = {"csv": "'lines.csv'"}
+    (tmp_path / "traces.csv").write_text(lines)
+    table = {"csv": "'traces.csv'"}
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text, campaign=table, threshold=COARSE))
     whole, first, second = solve(), solve(parts=(1, 2)), solve(parts=(2, 2))
     assert merge(tmp_path, first, second).returncode == 0
     assert (tmp_path / "joined.rattle").read_bytes() == whole.read_bytes()
     (tmp_path / "joined.rattle").unlink()
-    (tmp_path / "lines.csv").write_text(lines.replace("0.8", "0.9"))
+    (tmp_path / "traces.csv").write_text(lines.replace("0.8", "0.9"))
     solve(parts=(2, 2))
     said = refusal(tmp_path, first, second)
-    assert "come from different lines: their CSV file has changed in between." in said
+    assert "come from different traces: their CSV file has changed in between." in said
 
 
 def test_a_part_is_carried_on(rattle, run, solve, scene_text, tmp_path: Path) -> None:
@@ -116,11 +116,11 @@ def test_a_part_is_carried_on(rattle, run, solve, scene_text, tmp_path: Path) ->
         if code == 128 + signal.SIGTERM and state.exists():
             break
     else:
-        raise AssertionError("the run could not be cut between two lines")
+        raise AssertionError("the run could not be cut between two traces")
     ended = run("--resume", *part_of(1, 2), "scene.nml", cwd=tmp_path, timeout=600.0)
     assert "all is solved from the start" in ended.stdout
     ended = run("--resume", *part_of(2, 2), "scene.nml", cwd=tmp_path, timeout=600.0)
-    assert ended.returncode == 0 and "lines of the earlier run" in ended.stdout, ended.stderr
+    assert ended.returncode == 0 and "traces of the earlier run" in ended.stdout, ended.stderr
     assert path_of(tmp_path, 2, 2).read_bytes() == expected
     assert not state.exists()
 
@@ -129,9 +129,9 @@ def test_wrong_parts_and_what_check_tells(run, refused, scene_text, tmp_path: Pa
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text, campaign=SPEEDS))
     assert "campaign part: at most parts (3)" in refused(*part_of(4, 3), "scene.nml")[0]
     told = run("--check", *part_of(2, 2), "scene.nml", cwd=tmp_path).stdout
-    assert "! lines               2\n! scenes of the scan  34\n" in told
+    assert "! traces              2\n! scenes of the scan  34\n" in told
     told = run("--check", *part_of(1, 5), "scene.nml", cwd=tmp_path).stdout
-    assert "! lines               0\n" in told
+    assert "! traces              0\n" in told
 
 
 def test_a_job_script_takes_thresholds_as_an_array(scene_text, tmp_path: Path) -> None:
@@ -144,7 +144,7 @@ def test_a_job_script_takes_thresholds_as_an_array(scene_text, tmp_path: Path) -
 
 def test_rows_of_several_chunks_are_joined(tmp_path: Path) -> None:
     """So many rows that the joined file has a checksum for each of two runs of them, and none is left."""
-    columns = [("line", "-"), *((f"column_{i}", "-") for i in range(11))]
+    columns = [("trace", "-"), *((f"column_{i}", "-") for i in range(11))]
     text = "&scene\n   task = 'threshold'\n/\n&campaign\n   part = {}\n   parts = {}\n/\n"
     size = 524_288 // 12
     rows = np.random.default_rng(1).random((2 * size, 12))

@@ -19,8 +19,8 @@ from rattle.figures import threshold
 
 THRESHOLD = {"key": "'load.force_amplitude'", "first": "5.0", "last": "455.0", "count": "17"}
 SPEEDS = {"vary": "'kinematics.entrainment_speed'", "values(:, 1)": "0.8, 1.9, 9.5"}
-# Brackets as narrow as asked for, whatever is certified.
-NARROW = {"periods": "8", "certify": ".false."}
+# Brackets as narrow as asked for, whatever is verified.
+NARROW = {"periods": "8", "verify": ".false."}
 LOUD = {"criterion": "'film_force_rms'", "level": "100.0"}
 
 
@@ -46,7 +46,7 @@ def found(run, tmp_path: Path):
 
 
 def grid_column(run, scene_text, folder: Path, column: str, values, **changes: dict) -> np.ndarray:
-    """A column of a campaign over the same lines and these force amplitudes, and the status."""
+    """A column of a campaign over the same traces and these force amplitudes, and the status."""
     campaign = {
         "vary": "'kinematics.entrainment_speed', 'load.force_amplitude'",
         "values(:, 1)": SPEEDS["values(:, 1)"],
@@ -75,7 +75,7 @@ def test_brackets_are_where_a_fine_grid_changes(criterion: str, found, run, scen
     side = {"class": grid, "idle": grid == 3.0, "film_force_rms": grid >= 100.0}[criterion]
     scan, crossings, searched = np.arange(0, 1025, 64), 0, 0
     for line in range(3):
-        ours = rows[(rows["line"] == line + 1) & (rows["crossing"] > 0)]
+        ours = rows[(rows["trace"] == line + 1) & (rows["crossing"] > 0)]
         np.testing.assert_array_equal(ours["crossing"], np.arange(len(ours)) + 1)
         steps = np.searchsorted(values, ours["lower"] - 1e-9)
         np.testing.assert_allclose(values[steps], ours["lower"], rtol=1e-14)
@@ -91,7 +91,7 @@ def test_brackets_are_where_a_fine_grid_changes(criterion: str, found, run, scen
         crossings += len(ours)
     assert crossings >= 3
     told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["crossings"] == crossings and told["lines"] == 3
+    assert told["crossings"] == crossings and told["traces"] == 3
     # Crossings within one step of the scan share the first halves of their search.
     assert 51 + 6 * searched <= told["scenes"] <= 51 + (6 + 2) * crossings
 
@@ -100,7 +100,7 @@ def test_several_thresholds_on_a_line(found, scene_text) -> None:
     """Quiet, creep, idle and back: every change of the class, each beginning where the one before has led."""
     rows = found(threshold_text(scene_text, spectrum=NARROW))
     for line in (1, 2, 3):
-        ours = rows[rows["line"] == line]
+        ours = rows[rows["trace"] == line]
         assert len(ours) >= 2
         np.testing.assert_array_equal(ours["rattle_class_above"][:-1], ours["rattle_class_below"][1:])
         assert (ours["rattle_class_above"] != ours["rattle_class_below"]).all()
@@ -117,33 +117,33 @@ def test_every_column_has_the_unit_of_what_it_holds(found, scene_text, tmp_path:
     told = package.read(tmp_path / "results" / "scene.rattle").units
     assert {name: unit for name, unit in told.items() if unit != "-"} == units
     assert set(told) - set(units) == {
-        *("line", "crossing", "status_below", "status_above", "certified_below", "certified_above")
+        *("trace", "crossing", "status_below", "status_above", "verified_below", "verified_above")
     }
 
 
-def test_rows_of_a_campaign_know_which_side_is_certified(found, run, scene_text, tmp_path: Path) -> None:
+def test_rows_of_a_campaign_know_which_side_is_verified(found, run, scene_text, tmp_path: Path) -> None:
     rows = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}))
     for _, row in rows.iterrows():
-        stands, _ = grid_column(run, scene_text, tmp_path, "certified", [row["lower"], row["upper"]])
-        told = [row["certified_below"], row["certified_above"]]
-        assert stands[int(row["line"]) - 1].tolist() == told, row
+        stands, _ = grid_column(run, scene_text, tmp_path, "verified", [row["lower"], row["upper"]])
+        told = [row["verified_below"], row["verified_above"]]
+        assert stands[int(row["trace"]) - 1].tolist() == told, row
 
 
 @pytest.mark.parametrize(("tolerance", "seen"), [("0.01", 1.0), ("1e-12", 0.0)])
 def test_every_bracket_says_whether_both_classes_stand(tolerance, seen, found, scene_text, tmp_path: Path):
-    """Regular motions are certified up to a film error; hardly one is up to an error of rounding."""
-    spectrum = {"certificate_tolerance": tolerance}
+    """Regular motions are verified up to a film error; hardly one is up to an error of rounding."""
+    spectrum = {"verification_tolerance": tolerance}
     rows = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}, spectrum=spectrum))
-    flags = rows[["certified_below", "certified_above"]]
+    flags = rows[["verified_below", "verified_above"]]
     assert seen in np.unique(flags) and np.isin(flags, [0.0, 1.0]).all() and len(rows) > 3
     told = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert told["crossings_uncertain"] == int((flags == 0.0).any(axis=1).sum())
     bare = found(threshold_text(scene_text, threshold={"tolerance": "0.05"}, spectrum=NARROW), name="bare")
-    assert list(bare) == [name for name in rows if name not in ("certified_below", "certified_above")]
+    assert list(bare) == [name for name in rows if name not in ("verified_below", "verified_above")]
 
 
-def test_ends_go_apart_until_both_are_certified(found, run, scene_text, tmp_path: Path) -> None:
-    """Each end of a bracket is the next point whose class stands; rows of a campaign say the same."""
+def test_ends_go_apart_until_both_are_verified(found, run, scene_text, tmp_path: Path) -> None:
+    """Each end of a bracket is the next point whose class is verified; rows of a campaign say the same."""
     fine = {"tolerance": "1e-7", "count": "9", "criterion": "'quiet'"}
     rows = found(threshold_text(scene_text, threshold=fine))
     bare = found(threshold_text(scene_text, threshold=fine, spectrum=NARROW), name="bare")
@@ -152,15 +152,17 @@ def test_ends_go_apart_until_both_are_certified(found, run, scene_text, tmp_path
     asked = 450.0 / 2**24
     np.testing.assert_allclose(bare["width"], asked, rtol=1e-6)
     np.testing.assert_array_equal(rows["width"], rows["upper"] - rows["lower"])
-    assert (rows[["certified_below", "certified_above"]] == 1.0).all(axis=None)
+    assert (rows[["verified_below", "verified_above"]] == 1.0).all(axis=None)
     assert (rows["width"] > 1.5 * asked).any()
     for place, row in rows.iterrows():
         # Solved alone, both ends are what the row says of them.
         halves = [row["lower"], row["upper"]]
-        certified, _ = grid_column(run, scene_text, tmp_path, "certified", halves)
+        verified, _ = grid_column(run, scene_text, tmp_path, "verified", halves)
         classes, _ = grid_column(run, scene_text, tmp_path, "rattle_class", halves)
-        assert certified[int(row["line"]) - 1].tolist() == [1.0, 1.0], place
-        assert (classes[int(row["line"]) - 1] == [row["rattle_class_below"], row["rattle_class_above"]]).all()
+        assert verified[int(row["trace"]) - 1].tolist() == [1.0, 1.0], place
+        assert (
+            classes[int(row["trace"]) - 1] == [row["rattle_class_below"], row["rattle_class_above"]]
+        ).all()
     told = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert told["crossings_uncertain"] == 0
     assert told["crossings_wide"] == int((rows["width"] > 1.5 * asked).sum())
@@ -168,17 +170,17 @@ def test_ends_go_apart_until_both_are_certified(found, run, scene_text, tmp_path
 
 def test_a_line_without_threshold_is_told(found, scene_text, run, tmp_path: Path) -> None:
     rows = found(threshold_text(scene_text, threshold={**LOUD, "last": "60.0"}))
-    assert rows["line"].tolist() == [1, 2, 3]
+    assert rows["trace"].tolist() == [1, 2, 3]
     alone = rows[rows["crossing"] == 0]
     assert 0 < len(alone) < 3
     assert (alone["lower"] == 5.0).all() and (alone["upper"] == 60.0).all()
-    assert (alone["film_force_rms_above"] < 100.0).all() and alone["certified_below"].isna().all()
+    assert (alone["film_force_rms_above"] < 100.0).all() and alone["verified_below"].isna().all()
     told = summary_of(tmp_path / "results" / "scene.summary.nml")
-    assert told["lines_without_crossing"] == len(alone) and told["crossings"] == 3 - len(alone)
+    assert told["traces_without_crossing"] == len(alone) and told["crossings"] == 3 - len(alone)
 
 
 def test_scenes_that_fail_are_a_kind_of_their_own(found, run, scene_text, tmp_path: Path) -> None:
-    """Where the exact piezo-viscous film is lost is a crossing, with the status behind it."""
+    """Where the Reynolds piezo-viscous film is lost is a crossing, with the status behind it."""
     film = {"law": "'piezo-viscous'", "model": "'reynolds'"}
     changes = {"film": film, "load": {"steady_force": "30.0"}}
     threshold = {"last": "900.0", "tolerance": "1e-2"}
@@ -190,12 +192,12 @@ def test_scenes_that_fail_are_a_kind_of_their_own(found, run, scene_text, tmp_pa
         _, status = grid_column(
             run, scene_text, tmp_path, "rattle_class", [row["lower"], row["upper"]], **changes
         )
-        assert status[int(row["line"]) - 1].tolist() == [row["status_below"], row["status_above"]], place
+        assert status[int(row["trace"]) - 1].tolist() == [row["status_below"], row["status_above"]], place
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["scenes_failed"] > 0
 
 
 def test_several_axes_and_other_scenes(found, scene_text, tmp_path: Path) -> None:
-    """The lines are the scenes of the campaign: of a grid, a sample, a table; without one, the base."""
+    """The traces are the scenes of the campaign: of a grid, a sample, a table; without one, the base."""
     two = {
         "vary": "'kinematics.entrainment_speed', 'load.mass'",
         "first": "1.0, 2.0",
@@ -204,11 +206,13 @@ def test_several_axes_and_other_scenes(found, scene_text, tmp_path: Path) -> Non
     }
     coarse = {**LOUD, "tolerance": "1e-2"}
     rows = found(threshold_text(scene_text, campaign=two, threshold=coarse))
-    assert rows["line"].tolist() == [1, 2, 3, 4, 5, 6]
+    assert rows["trace"].tolist() == [1, 2, 3, 4, 5, 6]
     assert rows["kinematics.entrainment_speed"].tolist() == [1.0] * 3 + [4.0] * 3
     assert rows["load.mass"].tolist() == [2.0, 2.5, 3.0] * 2
-    (tmp_path / "lines.csv").write_text("load.mass,kinematics.entrainment_speed\n2.5,4.0\n")
-    table = found(threshold_text(scene_text, campaign={"csv": "'lines.csv'"}, threshold=coarse), name="table")
+    (tmp_path / "traces.csv").write_text("load.mass,kinematics.entrainment_speed\n2.5,4.0\n")
+    table = found(
+        threshold_text(scene_text, campaign={"csv": "'traces.csv'"}, threshold=coarse), name="table"
+    )
     base = {"kinematics": {"entrainment_speed": "4.0"}, "load": {"mass": "2.5"}}
     alone = found(threshold_text(scene_text, campaign=None, threshold=coarse, **base), name="alone")
     for other in (table, alone):
@@ -224,8 +228,14 @@ def test_logarithmic_range_and_integers(found, scene_text) -> None:
     rows = found(threshold_text(scene_text, threshold=coarse))
     crossed = rows[rows["crossing"] > 0]
     np.testing.assert_allclose(crossed["upper"] / crossed["lower"], 91.0 ** (1 / 1024))
-    lines = {"key": "'spectrum.idle_lines'", "first": "2", "last": "40", "criterion": "'idle'", "count": "5"}
-    rows = found(threshold_text(scene_text, threshold=lines), name="lines")
+    lines = {
+        "key": "'spectrum.idle_harmonics'",
+        "first": "2",
+        "last": "40",
+        "criterion": "'idle'",
+        "count": "5",
+    }
+    rows = found(threshold_text(scene_text, threshold=lines), name="traces")
     crossed = rows[rows["crossing"] > 0]
     assert len(crossed) >= 1 and (crossed["upper"] - crossed["lower"] == 1.0).all()
 
@@ -258,16 +268,16 @@ def test_a_signal_ends_it_without_a_result(number, rattle, run, scene_text, tmp_
     many = ["--set", "threshold.count=100000", "--set", "threshold.tolerance=1e-6"]
     process = subprocess.Popen([rattle, "--overwrite", "--quiet", *many, "scene.nml"], cwd=tmp_path)
     log = tmp_path / "results" / "scene.log"
-    until(lambda: "100000 values a line" in log.read_text(), process)
+    until(lambda: "100000 values a trace" in log.read_text(), process)
     process.send_signal(number)
     assert process.wait(600) == 128 + number
     assert summary_of(tmp_path / "results" / "scene.summary.nml")["status"] == "interrupted"
-    assert "cut short after 0 of 3 lines; --resume goes on with these and " in log.read_text()
+    assert "cut short after 0 of 3 traces; --resume goes on with these and " in log.read_text()
     assert digest(tmp_path / "results" / "scene.rattle") == before
     assert not list((tmp_path / "results").glob("*.new"))
 
 
-# So many values a line that few lines are searched at a time.
+# So many values a trace that few traces are searched at a time.
 LONG = {"count": "2049", "tolerance": "1e-4", "criterion": "'film_force_rms'", "level": "100.0"}
 MANY_LINES = {
     "vary": "'kinematics.entrainment_speed'",
@@ -301,14 +311,14 @@ def cut_between(rattle: Path, folder: Path) -> int:
     for share in (1.0, 2.0, 0.5, 4.0, 0.25, 8.0, 0.1):
         if cut_short(rattle, folder, signal.SIGTERM, 0.2 * share) == 128 + signal.SIGTERM:
             told = (folder / "results" / "scene.log").read_text()
-            if lines := int(re.search(r"cut short after (\d+) of 24 lines", told)[1]):
+            if lines := int(re.search(r"cut short after (\d+) of 24 traces", told)[1]):
                 return lines
-    raise AssertionError("the run could not be cut between two lines")
+    raise AssertionError("the run could not be cut between two traces")
 
 
 def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -> None:
     """After a signal, and a kill that leaves the state as it was; with other threads."""
-    # Of the class: no crossing is certified as close to its change as asked for.
+    # Of the class: no crossing is verified as close to its change as asked for.
     classes = {**LONG, "criterion": "'class'", "level": None}
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text, campaign=MANY_LINES, threshold=classes))
     assert run("--output", "whole", "scene.nml", cwd=tmp_path, timeout=600.0).returncode == 0
@@ -323,7 +333,7 @@ def test_carried_on_to_the_same_bytes(rattle, run, scene_text, tmp_path: Path) -
     assert state_path(tmp_path).read_bytes() == kept
     ended = run("--resume", "--threads", "2", "scene.nml", cwd=tmp_path, timeout=600.0)
     assert ended.returncode == 0, ended.stderr
-    assert f"carried on after {lines} lines of the earlier run" in ended.stdout
+    assert f"carried on after {lines} traces of the earlier run" in ended.stdout
     assert digest(results / "scene.rattle") == digest(whole / "scene.rattle")
     told, expected = (summary_of(place / "scene.summary.nml") for place in (results, whole))
     assert {**told, "wall_seconds": 0} == {**expected, "wall_seconds": 0}
@@ -362,10 +372,10 @@ def test_cut_in_its_first_lines_it_goes_on_where_it_was(rattle, run, scene_text,
 
 
 def test_states_of_others_are_refused(rattle, run, scene_text, tmp_path: Path) -> None:
-    """Of other inputs, of lines from a CSV file that has changed, damaged ones."""
+    """Of other inputs, of traces from a CSV file that has changed, damaged ones."""
     lines = "kinematics.entrainment_speed\n" + "".join(f"{1.0 + 0.1 * i}\n" for i in range(24))
-    (tmp_path / "lines.csv").write_text(lines)
-    table = {"csv": "'lines.csv'", "samples_per_period": "32"}
+    (tmp_path / "traces.csv").write_text(lines)
+    table = {"csv": "'traces.csv'", "samples_per_period": "32"}
     text = threshold_text(scene_text, campaign=table, threshold=LONG)
     (tmp_path / "scene.nml").write_text(text)
     cut_between(rattle, tmp_path)
@@ -378,9 +388,9 @@ def test_states_of_others_are_refused(rattle, run, scene_text, tmp_path: Path) -
         return ended.stderr
 
     assert "threshold.level is 90.0 now and was 100.0" in refusal("--set", "threshold.level=90.0")
-    (tmp_path / "lines.csv").write_text(lines.replace("1.5", "1.55"))
-    assert "belongs to other lines: their CSV file has changed" in refusal()
-    (tmp_path / "lines.csv").write_text(lines)
+    (tmp_path / "traces.csv").write_text(lines.replace("1.5", "1.55"))
+    assert "belongs to other traces: their CSV file has changed" in refusal()
+    (tmp_path / "traces.csv").write_text(lines)
     state_path(tmp_path).write_bytes(kept[:-300] + bytes(300))
     assert "scene.state" in refusal()
     state_path(tmp_path).write_bytes(kept)
@@ -392,7 +402,7 @@ def test_check_tells_lines_and_cost(run, scene_text, tmp_path: Path) -> None:
     ended = run("--check", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
     for words in (
-        "! lines               3\n",
+        "! traces              3\n",
         "! scenes of the scan  51\n",
         "! a grid as fine has  30003 scenes\n",
     ):
@@ -452,7 +462,7 @@ def test_every_fault_at_once(refused, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(text.replace("'threshold'", "'campaign'"))
     assert all("used only with scene.task=threshold" in fault for fault in refused("scene.nml")[:4])
     (tmp_path / "scene.nml").write_text(
-        threshold_text(scene_text, campaign={**SPEEDS, "record": "'certified'"})
+        threshold_text(scene_text, campaign={**SPEEDS, "record": "'verified'"})
     )
     assert "&campaign record: this key is used only with scene.task=campaign" in refused("scene.nml")[0]
     (tmp_path / "scene.nml").write_text(threshold_text(scene_text))
@@ -471,9 +481,9 @@ def test_lines_that_are_no_scenes(run, found, scene_text, tmp_path: Path) -> Non
         and "the static load steady_force + mass*gravity must be positive" in ended.stderr
     )
     rows = found(text.replace("&campaign\n", "&campaign\n   allow_invalid = .true.\n"), code=1)
-    assert (rows.groupby("line")["status_below_word"].first() == "invalid").all()
+    assert (rows.groupby("trace")["status_below_word"].first() == "invalid").all()
     weight = 3.0 * 9.80665
-    first = rows.groupby("line").first()
+    first = rows.groupby("trace").first()
     assert ((first["lower"] <= -weight) & (-weight <= first["upper"])).all()
 
 
@@ -485,7 +495,7 @@ def test_every_gear_of_a_box_has_its_curve(run, repository: Path, tmp_path: Path
     changes += [
         "threshold.scale='logarithmic'",
         "campaign.vary='shaft.speed_rpm'",
-        "spectrum.certify=.false.",
+        "spectrum.verify=.false.",
     ]
     changes += ["campaign.first=800.0", "campaign.last=1600.0", "campaign.count=3"]
     options = [part for change in changes for part in ("--set", change)]

@@ -29,7 +29,7 @@ def test_a_loose_tooth_crosses_its_gap_without_impacts(run, tmp_path: Path) -> N
     told = summary_of(tmp_path / "results" / "loose.summary.nml")
     # Its largest load is 1.49 times the largest force.
     assert told["reversal"] is True and told["verdict"] == "separation" and told["double_sided"] is False
-    assert told["line_count"] == 89
+    assert told["harmonic_count"] == 89
     assert told["film_minimum"] == pytest.approx(2.0385964e-06, rel=3e-5)
     assert told["film_maximum"] == pytest.approx(9.5180665e-05, rel=3e-7)
     assert told["harmonics"][:8] == pytest.approx(

@@ -31,8 +31,8 @@ RECORDED = (
     "steady_film",
     "natural_frequency",
     "damping_ratio",
-    "line_count",
-    "line_count_is_bound",
+    "harmonic_count",
+    "harmonic_count_is_bound",
     "harmonic_distortion",
     "irregular_fraction",
     "reversals_per_period",
@@ -75,8 +75,8 @@ KEYS = {
     "solver.accuracy": ("1.0e-2", "1.0e-4", "film_minimum"),
     "solver.periods": ("8", "12", "periods_solved"),
     "spectrum.periods": ("2", "4", "irregular_fraction"),
-    "spectrum.line_threshold": ("0.001", "0.1", "line_count"),
-    "spectrum.idle_lines": ("2", "30", "rattle_class"),
+    "spectrum.harmonic_threshold": ("0.001", "0.1", "harmonic_count"),
+    "spectrum.idle_harmonics": ("2", "30", "rattle_class"),
     "spectrum.quiet_limit": ("0.0001", "100.0", "rattle_class"),
     "spectrum.impact_limit": ("1.01", "1000.0", "impacts_per_period_drive"),
     "spectrum.irregular_limit": ("1.0e-13", "1.0", "rattle_class"),
@@ -96,7 +96,7 @@ BASES = {
     "film.initial_velocity": FROM_START,
     "spectrum.periods": FROM_START,
     "spectrum.irregular_limit": FROM_START,
-    "spectrum.idle_lines": {"spectrum": {"quiet_limit": "0.001"}},
+    "spectrum.idle_harmonics": {"spectrum": {"quiet_limit": "0.001"}},
 }
 BASES["contact.radius_2"] = BASES["contact.radius_1"]
 BASES["kinematics.surface_speed_2"] = BASES["kinematics.surface_speed_1"]
@@ -151,7 +151,7 @@ def test_a_row_is_the_single_scene_with_that_value(key, film, run, scene_text, t
     assert rows[differing][0] != rows[differing][1]
 
     changes = base(key, film, samples_per_period="128")
-    changes["spectrum"]["certify"] = ".false."
+    changes["spectrum"]["verify"] = ".false."
     (tmp_path / "one.nml").write_text(scene_text(**changes))
     for row, value in enumerate(values):
         ended = run("--overwrite", "--set", f"{key}={value}", "one.nml", cwd=tmp_path)

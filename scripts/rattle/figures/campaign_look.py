@@ -32,10 +32,10 @@ OTHER_COLOURS = (
     "#4D4D4D",
 )
 FLAG_COLOURS = {
-    "certified": {0: "#D55E00", 1: "#DCE6EC"},
+    "verified": {0: "#D55E00", 1: "#DCE6EC"},
     "sampling_sufficient": {0: "#D55E00", 1: "#DCE6EC"},
     "law_contradicted": {0: "#DCE6EC", 1: "#D55E00"},
-    "line_count_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
+    "harmonic_count_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
     "harmonic_distortion_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
     "irregular_fraction_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
 }
@@ -46,7 +46,7 @@ HATCHES = ("xxxx", "////", "\\\\\\\\", "++++", "||||", "----", "oo")
 NOT_DONE_HATCH = "...."
 UNKNOWN_HATCH = "**"
 UNCERTAIN_HATCH = "//////"
-UNCERTAIN_WORDS = "not certified"
+UNCERTAIN_WORDS = "not verified"
 IRREGULAR_SO_FAR = 6
 SO_FAR_HATCH = "\\\\\\\\\\\\"
 SO_FAR_WORDS = "irregular so far"
@@ -101,15 +101,15 @@ class Doubt:
 
 
 def doubts(campaign: Campaign, column: str) -> list[Doubt]:
-    """What maps of a column mark: scenes irregular so far, apart from others that are not certified."""
-    if column in ("certified", "status"):
+    """What maps of a column mark: scenes irregular so far, apart from others that are not verified."""
+    if column in ("verified", "status"):
         return []
     nowhere = np.zeros(campaign.row_count, dtype=bool)
     so_far, lacking = nowhere, nowhere
     if "rattle_class" in campaign:
         so_far = campaign.done & (campaign["rattle_class"] == IRREGULAR_SO_FAR)
-    if "certified" in campaign:
-        lacking = campaign.done & (campaign["certified"] == 0.0) & ~so_far
+    if "verified" in campaign:
+        lacking = campaign.done & (campaign["verified"] == 0.0) & ~so_far
     found = [
         Doubt(lacking, UNCERTAIN_WORDS, UNCERTAIN_HATCH, "o"),
         Doubt(so_far, SO_FAR_WORDS, SO_FAR_HATCH, "D"),
@@ -118,7 +118,7 @@ def doubts(campaign: Campaign, column: str) -> list[Doubt]:
 
 
 def doubt_patch(words: str, hatch: str) -> Patch:
-    """What a scene that is not certified looks like in a legend: hatched, whatever its colour."""
+    """What a scene that is not verified looks like in a legend: hatched, whatever its colour."""
     return Patch(facecolor="none", edgecolor="black", hatch=hatch, linewidth=0.6, label=words)
 
 
@@ -196,7 +196,7 @@ def cell_edges(axis: Axis) -> np.ndarray:
 
 
 def _widened(axis: Axis) -> np.ndarray:
-    """The ends of an axis with some room, so that dots at the ends are whole."""
+    """The ends of an axis with some folder, so that dots at the ends are whole."""
     ends = np.log(axis.values[[0, -1]]) if is_logarithmic(axis) else axis.values[[0, -1]]
     room = 0.03 * (ends[1] - ends[0])
     ends = ends + np.array([-room, room])

@@ -1,4 +1,4 @@
-"""One page on a campaign: its classes, where certificates fail, how scenes ended, the worst scenes."""
+"""One page on a campaign: its classes, where verifications fail, how scenes ended, the worst scenes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def draw(campaign: Campaign, worst: Worst) -> Figure:
     scenes = figure.add_axes((0.06, 0.03, right - 0.06, 0.175))
     _draw_head(head, campaign)
     _draw_classes_map(figure.add_subplot(maps[0]), campaign)
-    _draw_certificates(figure, figure.add_subplot(maps[1]), campaign)
+    _draw_verifications(figure, figure.add_subplot(maps[1]), campaign)
     _draw_class_shares(figure.add_subplot(bars[0]), campaign)
     _draw_statuses(figure.add_subplot(bars[1]), campaign)
     _draw_worst(scenes, campaign, worst)
@@ -93,21 +93,21 @@ def _legend_below(axes: Axes, handles: list) -> None:
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(-0.04, -0.16), ncols=2, fontsize=7)
 
 
-def _draw_certificates(figure: Figure, axes: Axes, campaign: Campaign) -> None:
-    """Where the class is not certified; over further keys of a grid, how often."""
-    axes.set_title("Where the certificate fails")
-    if "certified" not in campaign:
-        _say(axes, "certified is not recorded")
+def _draw_verifications(figure: Figure, axes: Axes, campaign: Campaign) -> None:
+    """Where the class is not verified; over further keys of a grid, how often."""
+    axes.set_title("Where the verification fails")
+    if "verified" not in campaign:
+        _say(axes, "verified is not recorded")
         return
-    certified = campaign["certified"]
-    lacking = campaign.done & (certified == 0.0)
-    judged = int((campaign.done & np.isfinite(certified)).sum())
+    verified = campaign["verified"]
+    lacking = campaign.done & (verified == 0.0)
+    judged = int((campaign.done & np.isfinite(verified)).sum())
     if not lacking.any():
-        _say(axes, f"every class of {judged:,} scenes is certified")
+        _say(axes, f"every class of {judged:,} scenes is verified")
         return
-    axes.set_title(f"Certificate fails in {look.share(int(lacking.sum()), judged)} of {judged:,} scenes")
+    axes.set_title(f"Verification fails in {look.share(int(lacking.sum()), judged)} of {judged:,} scenes")
     if len(campaign.varied) < 2:
-        _draw_single_key(axes, campaign, "certified")
+        _draw_single_key(axes, campaign, "verified")
     elif campaign.kind != GRID:
         x, y = campaign.varied[:2]
         axes.scatter(campaign[x][campaign.done], campaign[y][campaign.done], s=2, color=style.PERIOD_COLOUR)
@@ -115,11 +115,11 @@ def _draw_certificates(figure: Figure, axes: Axes, campaign: Campaign) -> None:
         for which, key in (("x", x), ("y", y)):
             look.set_axis(axes, which, campaign.axis(key), to_edges=False)
     else:
-        _draw_uncertified_share(figure, axes, campaign)
+        _draw_unverified_share(figure, axes, campaign)
 
 
-def _draw_uncertified_share(figure: Figure, axes: Axes, campaign: Campaign) -> None:
-    grid = campaign.grid("certified")
+def _draw_unverified_share(figure: Figure, axes: Axes, campaign: Campaign) -> None:
+    grid = campaign.grid("verified")
     known = np.isfinite(grid)
     others = tuple(range(2, grid.ndim))
     count = known.sum(axis=others)
@@ -130,14 +130,14 @@ def _draw_uncertified_share(figure: Figure, axes: Axes, campaign: Campaign) -> N
     if others:
         drawn = axes.pcolormesh(*edges, shares.T, cmap="YlOrBr", vmin=0.0, vmax=1.0, rasterized=True)
         bar = figure.colorbar(drawn, cax=axes.inset_axes((0.0, -0.27, 1.0, 0.04)), orientation="horizontal")
-        bar.set_label("share without certificate over the other keys")
+        bar.set_label("share without verification over the other keys")
         bar.ax.xaxis.set_major_formatter(PercentFormatter(1.0))
     else:
         section = new_section(campaign, campaign.varied[:2], {})
-        handles, _ = campaign_map.draw_cells(axes, section, "certified")
+        handles, _ = campaign_map.draw_cells(axes, section, "verified")
         for handle in handles:
             first = handle.get_label().partition(" (")[0]
-            handle.set_label({"no": "certificate fails", "yes": "certificate holds"}.get(first, first))
+            handle.set_label({"no": "verification fails", "yes": "verification holds"}.get(first, first))
         _legend_below(axes, handles)
     for which, axis in zip("xy", campaign.axes[:2], strict=True):
         look.set_axis(axes, which, axis, to_edges=True)
@@ -222,7 +222,7 @@ def _draw_worst(axes: Axes, campaign: Campaign, worst: Worst) -> None:
     keys = campaign.varied[:MOST_KEYS_IN_TABLE]
     head = ["input", *(_head(look.short_name(key), campaign.units[key]) for key in keys)]
     head.append(_head(look.short_name(worst.column), unit))
-    extra = [name for name in ("rattle_class", "film_regime", "certified") if name in campaign]
+    extra = [name for name in ("rattle_class", "film_regime", "verified") if name in campaign]
     head += [name.replace("_", " ") for name in extra]
     lines = [head]
     for row in worst.rows:

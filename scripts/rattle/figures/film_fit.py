@@ -16,7 +16,7 @@ from rattle.figures import style
 from rattle.figures.fit import is_narrow
 
 DESCRIPTION = (
-    "Fit the film-thickness law (32) to exact piezo-viscous films over windows of alpha p, and judge the "
+    "Fit the film-thickness law (32) to Reynolds piezo-viscous films over windows of alpha p, and judge the "
     "printed coefficients on the same films. Prints a table and draws 'film_fit'. A range is LEAST,LARGEST; "
     "write --squeeze-ratio=-5e-4,5e-4, with '='."
 )
@@ -138,7 +138,7 @@ def fraction(text: str) -> float:
 
 
 def fit_window(ranges: Ranges, reading: Reading, window: Window) -> Fit:
-    """Fit (32) to the exact films of one window."""
+    """Fit (32) to the Reynolds films of one window."""
     points = kernels.sample_film_window(
         ranges.film_ratio,
         ranges.squeeze_ratio,
@@ -226,7 +226,7 @@ def _panel(axes: Axes, title: str, fits: Sequence[Fit], value: Callable[[Fit], f
 
 def _title(ranges: Ranges, upper_end: float) -> str:
     first = (
-        r"The law $h_0^* = c\,u^{*a}\,\bar{W}^b\,e^{s w^*}$ of (32), fitted to exact films"
+        r"The law $h_0^* = c\,u^{*a}\,\bar{W}^b\,e^{s w^*}$ of (32), fitted to Reynolds films"
         rf" up to $\alpha p = {upper_end:g}$"
     )
     second = ranges.words()

@@ -36,9 +36,9 @@ DAMPING = Slope(
 EXACT, PUBLISHED, PIEZO = "iso_viscous", "published", "piezo_viscous"
 LINES = {EXACT: "-", PUBLISHED: (0, (5, 2)), PIEZO: (0, (1, 1.2))}
 WORDS = {
-    EXACT: "exact iso-viscous",
+    EXACT: "Reynolds iso-viscous",
     PUBLISHED: "published (26)-(28)",
-    PIEZO: "exact piezo-viscous",
+    PIEZO: "Reynolds piezo-viscous",
 }
 
 

@@ -22,11 +22,11 @@ from rattle.verdict import classify, forced, thresholds
 
 LAST_FORCE_RATIO = 5.0
 SUBJECT = "Spectrum of the acceleration"
-FLOOR = 1e-5  # of the largest line; below it the logarithmic panel ends
-GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-integer lines
+FLOOR = 1e-5  # of the largest harmonic; below it the logarithmic panel ends
+GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-integer harmonics
 ROOM_FOR_LINES = 100.0  # points that harmonics may cover, also in a column
 SMALLEST_LAST_RATIO = 10.0
-LARGEST_FAINT_RATIO = 40.0  # up to which lines below the threshold have room
+LARGEST_FAINT_RATIO = 40.0  # up to which harmonics below the threshold have folder
 FREQUENCY_LABELS = {"ratio": style.RATIO_LABEL, "hz": "Frequency [Hz]", "order": "Engine order [-]"}
 REFERENCE = 1e-6  # m/s2, of levels
 LEVEL_LABEL = r"Level of the amplitude of $\ddot{z}$" "\n" r"[dB re 10$^{-6}$ m/s$^2$]"
@@ -73,7 +73,7 @@ def engine_order(result: Result, multiple: float, speed: float | None = None) ->
 def draw_force(
     results: Sequence[Result], labels: Sequence[str], window: int | None, view: View = PLAIN
 ) -> Figure:
-    """Figure 7: lines of the force of one run, or of several side by side."""
+    """Figure 7: harmonics of the force of one run, or of several side by side."""
     figure = Figure(figsize=(style.WIDTH, 2.6))
     axes = figure.subplots()
     single = len(results) == 1
@@ -127,7 +127,7 @@ def _name_lines(
 def draw_acceleration(
     results: Sequence[Result], labels: Sequence[str], window: int | None, view: View = PLAIN
 ) -> Figure:
-    """Figure 10: a linear panel as in the paper, and a logarithmic one that shows every line that counts.
+    """Figure 10: a linear panel as in the paper, and a logarithmic one that shows every harmonic that counts.
 
     As levels there is the logarithmic one only.
     """
@@ -200,7 +200,7 @@ def _draw_single(
     harmonic[0] = False
     between = ~harmonic & (amplitude > FLOOR * amplitude[1:].max())  # the others could not be seen
     between[0] = False
-    threshold = thresholds(result)["line_threshold"]
+    threshold = thresholds(result)["harmonic_threshold"]
     colour = style.law_colour(result.law)
     handles = {}
     of_force = _harmonics_of_force(result)
@@ -222,7 +222,7 @@ def _draw_single(
             )
     if between.any():
         handles["between the harmonics"] = panels[0].collections[0]
-    # Under several harmonics lines are held against the largest forced one, which a summary does not name.
+    # Under several harmonics are held against the largest forced one, which a summary does not name.
     reference = (verdict or {}).get("reference_line") if of_force.size else 1
     if reference and amplitude[reference * periods] > 0.0:
         name = "the first harmonic" if reference == 1 else f"harmonic {reference}"
@@ -239,14 +239,14 @@ def _draw_single(
 
 def _verdict_words(verdict: Mapping[str, Any] | None, summary: Summary | None) -> str:
     if not verdict:
-        return f"{style.FEW_SAMPLES}\nThe lines are those of the samples, not of the motion"
-    bound = "at least " if verdict.get("line_count_is_bound") else ""
-    words = f"{bound}{verdict['line_count']} lines, class {verdict['rattle_class']}"
+        return f"{style.FEW_SAMPLES}\nThe harmonics are those of the samples, not of the motion"
+    bound = "at least " if verdict.get("harmonic_count_is_bound") else ""
+    words = f"{bound}{verdict['harmonic_count']} harmonics, class {verdict['rattle_class']}"
     if not summary:
         return words
     more_samples = f"of {summary['samples_per_period']} samples a period"
-    source = "integrals over the steps" if summary["lines_by_integrals"] else more_samples
-    return f"{words}\nSeries of {style.FEW_SAMPLES}; lines of the summary, {source}"
+    source = "integrals over the steps" if summary["harmonics_by_integrals"] else more_samples
+    return f"{words}\nSeries of {style.FEW_SAMPLES}; harmonics of the summary, {source}"
 
 
 def _harmonics_of_force(result: Result) -> np.ndarray:
@@ -259,7 +259,7 @@ def _harmonics_of_force(result: Result) -> np.ndarray:
 
 
 def _last_harmonic(result: Result) -> float:
-    """The last harmonic of a force; 0 of a cosine, which needs no room of its own."""
+    """The last harmonic of a force; 0 of a cosine, which needs no folder of its own."""
     return float(_harmonics_of_force(result).max(initial=0))
 
 
@@ -283,7 +283,8 @@ def _draw_overlay(
     spectra: Sequence[tuple[np.ndarray, np.ndarray]],
     factors: Sequence[float],
 ) -> dict[str, object]:
-    """Lines side by side, each run with a mark of its own on those that can be seen; returns its legend."""
+    """Harmonics side by side, each run with a mark of its own on those that can be seen; returns its
+    legend."""
     spacing = min(0.16, GROUP_WIDTH / len(spectra))
     largest = max(float(amplitude[1:].max()) for _, amplitude in spectra)
     handles: dict[str, object] = {}
@@ -303,19 +304,20 @@ def _draw_overlay(
 
 
 def _last_ratio(result: Result, spectrum: tuple[np.ndarray, np.ndarray]) -> float:
-    """Where the axis ends: behind the last line that counts, and within limits behind fainter ones."""
+    """Where the axis ends: behind the last harmonic that counts, and within limits behind fainter ones."""
     ratio, amplitude = spectrum[0][1:], spectrum[1][1:]
     of_force = _harmonics_of_force(result) if _harmonics_of_force(result).size else [1.0]
-    forced_line = amplitude[np.isin(ratio, of_force)].max(initial=0.0)
-    least = thresholds(result)["line_threshold"] * forced_line
-    counted = ratio[(amplitude > least) & (ratio % 1.0 == 0.0) & (forced_line > 0.0)]
+    forced_harmonic = amplitude[np.isin(ratio, of_force)].max(initial=0.0)
+    least = thresholds(result)["harmonic_threshold"] * forced_harmonic
+    counted = ratio[(amplitude > least) & (ratio % 1.0 == 0.0) & (forced_harmonic > 0.0)]
     faint = ratio[amplitude > FLOOR * amplitude.max()]
     ends = (SMALLEST_LAST_RATIO, max(of_force), counted.max(initial=0.0))
     return math.ceil(max(*ends, min(faint.max(initial=0.0), LARGEST_FAINT_RATIO))) + 0.5
 
 
 def better_summary(result: Result, window: int | None) -> Summary | None:
-    """The summary of a series that is coarser than its motion, where it knows the lines of the same window.
+    """The summary of a series that is coarser than its motion, where it knows the harmonics of the same
+    window.
 
     They come from more samples than the series has, or from integrals over the steps of the solution.
     """

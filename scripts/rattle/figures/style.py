@@ -188,7 +188,7 @@ def file_part(label: str) -> str:
 def film_words(result: Result) -> str:
     """The film law and model, as in 'published iso-viscous film'."""
     model = str(result.value("film", "model")).strip()
-    return f"{'exact' if model == 'reynolds' else model} {result.law} film"
+    return f"{'Reynolds' if model == 'reynolds' else model} {result.law} film"
 
 
 def title(subject: str, result: Result, label: str) -> str:

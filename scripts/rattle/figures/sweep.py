@@ -1,4 +1,4 @@
-"""Steady motions along a swept key, on the way there and on the way back; several sweeps in one figure."""
+"""Steady motions along a swept key, on the increasing and on the decreasing; several sweeps in one figure."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from rattle.figures.campaign_look import with_unit
 from rattle.result import Result
 
 DESCRIPTION = (
-    "Draw the steady motions of a sweep along its key, there and back, as sweep_NAME; several sweeps of one "
+    "Draw the steady motions of a sweep along its key, up and down, as sweep_NAME; several sweeps of one "
     "key as sweep_overlay."
 )
 KEY_LABELS = {
@@ -32,7 +32,10 @@ KEY_LABELS = {
     "entrainment_speed": r"Entrainment speed $U$ [m/s]",
     "stiffness": r"Stiffness of the teeth $k$ [N/m]",
 }
-WAYS = (("there", 1.0, style.RUN_COLOURS[0], "-"), ("back", -1.0, style.RUN_COLOURS[1], (0, (4, 2))))
+WAYS = (
+    ("increasing", 1.0, style.RUN_COLOURS[0], "-"),
+    ("decreasing", -1.0, style.RUN_COLOURS[1], (0, (4, 2))),
+)
 MARKED = 12  # marks along a curve of an overlay
 
 
@@ -68,7 +71,7 @@ def _plain(name: str) -> Callable[[Result, np.ndarray], Sequence[np.ndarray]]:
 PANELS = {
     "film": Panel(r"Film, least and" "\n" r"largest [$\mathrm{\mu}$m]", _films),
     "acceleration": Panel(r"Largest $|\ddot{z}|$" "\n" r"[m/s$^2$]", _peak),
-    "lines": Panel("Lines", _plain("line_count")),
+    "harmonics": Panel("Harmonics", _plain("harmonic_count")),
     "period": Panel("Period\n[$1/f_\\mathrm{exc}$]", _plain("orbit_period"), 1.0),
     "multiplier": Panel("Largest Floquet\nmultiplier", _plain("floquet_modulus"), 1.6),
 }
@@ -84,7 +87,7 @@ def add_options(parser: ArgumentParser) -> None:
         type=panels,
         default=DEFAULT_PANELS,
         metavar="NAMES",
-        help=f"of {', '.join(PANELS)} (all but lines)",
+        help=f"of {', '.join(PANELS)} (all but harmonics)",
     )
     parser.add_argument(
         "--mark",
@@ -135,7 +138,7 @@ def run(options: Namespace) -> None:
 def draw(
     *results: Result, panels: Sequence[str] = DEFAULT_PANELS, marks: Sequence[tuple[float, str]] = ()
 ) -> Figure:
-    """The panels over the swept key; of several sweeps each has its colour and mark, a way its dashes."""
+    """The panels over the swept key; of several sweeps each has colour and mark, a direction its dashes."""
     chosen = [PANELS[name] for name in panels]
     heights = [panel.height for panel in chosen]
     figure = Figure(figsize=(style.WIDTH, 0.8 + 0.77 * sum(heights)))
@@ -183,20 +186,20 @@ def draw(
 def _draw_single(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, object]:
     handles = {}
     for name, direction, colour, dashes in WAYS:
-        rows = way(result, direction)
+        rows = of_direction(result, direction)
         if rows.size == 0:
             continue
         value = result[result.names[0]][rows]
         for panel, axes in all_axes.items():
             for values in PANELS[panel].curves(result, rows):
                 (curve,) = axes.plot(value, values, color=colour, linestyle=dashes)
-                handles.setdefault(f"way {name}", curve)
+                handles.setdefault(name, curve)
     return handles
 
 
 def _draw_overlay(results: Sequence[Result], all_axes: Mapping[str, Axes]) -> dict[str, object]:
     handles: dict[str, object] = {}
-    ways = {}
+    directions = {}
     for position, (result, label) in enumerate(zip(results, style.run_labels(results), strict=True)):
         look = {
             "color": style.RUN_COLOURS[position],
@@ -205,21 +208,21 @@ def _draw_overlay(results: Sequence[Result], all_axes: Mapping[str, Axes]) -> di
         }
         handles[f"{label}, {style.film_words(result)}"] = Line2D([], [], **look)
         for name, direction, _, dashes in WAYS:
-            rows = way(result, direction)
+            rows = of_direction(result, direction)
             if rows.size == 0:
                 continue
             thin = {"linestyle": dashes, "linewidth": 1.2 if direction > 0.0 else 0.9}
-            ways.setdefault(f"way {name}", Line2D([], [], color=style.FORCE_COLOUR, **thin))
+            directions.setdefault(name, Line2D([], [], color=style.FORCE_COLOUR, **thin))
             value = result[result.names[0]][rows]
             marked = _marked(value, position / len(results))
             for panel, axes in all_axes.items():
                 for values in PANELS[panel].curves(result, rows):
                     axes.plot(value, values, markevery=marked, **look, **thin)
-    return handles | ways
+    return handles | directions
 
 
 def _marked(values: np.ndarray, offset: float) -> list[int]:
-    """Rows with a mark, the same values there and back, from a share of their distance on."""
+    """Rows with a mark, the same values in both directions, from a share of their distance on."""
     each = max(1, values.size // MARKED)
     places = np.sort(values)[int(offset * each) :: each]
     return list(np.flatnonzero(np.isin(values, places)))
@@ -235,14 +238,14 @@ def _dress(results: Sequence[Result], all_axes: Mapping[str, Axes]) -> None:
     if multiplier := all_axes.get("multiplier"):
         multiplier.axhline(1.0, color=style.FAINT_COLOUR, linewidth=0.8)
         multiplier.set_ylim(0.0, 1.1)
-    if lines := all_axes.get("lines"):
+    if lines := all_axes.get("harmonics"):
         lines.set_ylim(bottom=0.0)
-        limits = {result.input.get("spectrum", {}).get("idle_lines") for result in results} - {None}
+        limits = {result.input.get("spectrum", {}).get("idle_harmonics") for result in results} - {None}
         if len(limits) == 1:
             (limit,) = limits
             lines.axhline(limit, color=style.FAINT_COLOUR, linewidth=0.8, zorder=0)
             lines.annotate(
-                f"idle from {limit} lines on",
+                f"idle from {limit} harmonics on",
                 (1.0, limit),
                 xycoords=("axes fraction", "data"),
                 xytext=(0, -2),
@@ -264,8 +267,8 @@ def _key_label(result: Result) -> str:
     return KEY_LABELS.get(key_of(result)) or with_unit(short_name(name), result.units[name])
 
 
-def way(result: Result, direction: float) -> np.ndarray:
-    """Rows of one way; the way back begins with the last motion of the way there."""
+def of_direction(result: Result, direction: float) -> np.ndarray:
+    """Rows of one direction; the decreasing one begins with the last motion of the increasing one."""
     rows = np.flatnonzero(result["direction"] == direction)
     if direction < 0.0 and rows.size:
         rows = np.concatenate(([rows[0] - 1], rows))

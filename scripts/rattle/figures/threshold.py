@@ -28,12 +28,12 @@ from rattle.result import Result
 
 DESCRIPTION = (
     "Draw thresholds, over the map of a campaign if one is given, as threshold_NAME: points over one key, "
-    "curves or a map over two. Bars: from end to end; open marks: an end is not certified."
+    "curves or a map over two. Bars: from end to end; open marks: an end is not verified."
 )
 MOST_CURVES = 7
 MOST_KINDS = len(style.RUN_COLOURS) - 1
 NONE = "no change"
-UNCERTAIN = "not certified"
+UNCERTAIN = "not verified"
 BAR = "from end to end"
 
 
@@ -70,7 +70,7 @@ class Thresholds:
 
     @property
     def values(self) -> np.ndarray:
-        """Middles of the brackets, NaN for a line without one."""
+        """Middles of the brackets, NaN for a trace without one."""
         lower, upper = self.column("lower"), self.column("upper")
         logarithmic = self.range.scale == LOGARITHMIC
         with np.errstate(invalid="ignore"):
@@ -79,7 +79,7 @@ class Thresholds:
 
     @cached_property
     def kinds(self) -> np.ndarray:
-        """What changes at each crossing, as in 'quiet to creep'; of a line without one what it is."""
+        """What changes at each crossing, as in 'quiet to creep'; of a trace without one what it is."""
         below, above = (self._sides(side) for side in ("_below", "_above"))
         crossing = self.column("crossing") > 0
         return np.array(
@@ -114,10 +114,10 @@ class Thresholds:
 
     @property
     def uncertain(self) -> np.ndarray:
-        """Crossings with a class beside them that is not certified, where that was asked for."""
-        if "certified_below" not in self.result:
+        """Crossings with a class beside them that is not verified, where that was asked for."""
+        if "verified_below" not in self.result:
             return np.zeros(self.rows.size, dtype=bool)
-        flags = np.column_stack([self.column(f"certified{side}") for side in ("_below", "_above")])
+        flags = np.column_stack([self.column(f"verified{side}") for side in ("_below", "_above")])
         return (self.column("crossing") > 0) & ~(flags == 1.0).all(axis=1)
 
     @cached_property
@@ -140,7 +140,7 @@ class Thresholds:
         return read_plan(self.result.input_text).kind == GRID
 
     def held(self, values: Mapping[str, float]) -> Thresholds:
-        """The rows of the lines at these values of some keys."""
+        """The rows of the traces at these values of some keys."""
         kept = np.ones(self.rows.size, dtype=bool)
         for key, value in values.items():
             kept &= self.column(key) == value
@@ -165,7 +165,7 @@ def add_options(parser: ArgumentParser) -> None:
         type=command.positive,
         default=1,
         metavar="N",
-        help="which change of a line is drawn over two keys, counted from the first value (1)",
+        help="which change of a trace is drawn over two keys, counted from the first value (1)",
     )
     parser.add_argument(
         "--slice",
@@ -352,7 +352,7 @@ def map_column(section: Section, found: Thresholds) -> str:
 
 
 def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Crossings of one kind joined from line to line, as long as neighbours have as many of them."""
+    """Crossings of one kind joined from trace to trace, as long as neighbours have as many of them."""
     x, y = found.column(axis.key), found.values
     lines = [y[chosen & (x == value)] for value in axis.values]
     joined, start = [], 0
@@ -366,7 +366,7 @@ def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.n
 
 
 def on_plane(found: Thresholds, x: Axis, y: Axis, crossing: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """A crossing of each line, an index for each axis, NaN where there is none; its ends; its doubt."""
+    """A crossing of each trace, an index for each axis, NaN where there is none; its ends; its doubt."""
     values = np.full((x.values.size, y.values.size), np.nan)
     ends = np.full((2, *values.shape), np.nan)
     uncertain = np.zeros(values.shape, dtype=bool)

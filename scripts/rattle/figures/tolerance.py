@@ -23,7 +23,7 @@ DESCRIPTION = (
     "Compare the same motion at a loose and a tight tolerance: histories and spectra of the acceleration, "
     "as 'tolerance'."
 )
-CASES = (("forged_line", "A forged spectral line", 6.0), ("false_reversals", "False reversals", 32.0))
+CASES = (("false_harmonic", "A false harmonic", 6.0), ("false_reversals", "False reversals", 32.0))
 FREE_GROUPS = ("scene", "solver", "spectrum", "output")  # all that two runs of one motion may differ in
 LOOSE = {"color": style.LAW_COLOURS["piezo-viscous"], "linewidth": 1.1}
 TIGHT = {"color": style.LAW_COLOURS["iso-viscous"], "linewidth": 1.9}
@@ -76,7 +76,7 @@ def run(options: Namespace) -> None:
                 command.note_open(result)
             pairs.append(Pair(name, loose, tight, last_ratio))
     if not pairs:
-        raise command.CommandError("Nothing to draw: give --forged-line, --false-reversals or both.")
+        raise command.CommandError("Nothing to draw: give --false-harmonic, --false-reversals or both.")
     with style.house_style():
         made = draw(pairs, options.periods, options.window, is_narrow(options.width))
         print(*style.save([("tolerance", made)], options), sep="\n")

@@ -1,4 +1,4 @@
-"""The film-thickness regression (32): laws of its form, fitted to exact films and judged on them."""
+"""The film-thickness regression (32): laws of its form, fitted to Reynolds films and judged on them."""
 
 from __future__ import annotations
 

@@ -89,7 +89,7 @@ def barus_pressure(alpha_p: Any) -> Any:
 def reynolds_iso_viscous_load(
     film: Any, velocity: Any, *, radius: Any, length: Any, speed: Any, viscosity: Any
 ) -> tuple[Any, Any, Any]:
-    """W [N], dW/dh [N/m], dW/dw [N s/m] of the exact iso-viscous film, W = 12 l u eta0 R/h Phi(A).
+    """W [N], dW/dh [N/m], dW/dw [N s/m] of the Reynolds iso-viscous film, W = 12 l u eta0 R/h Phi(A).
 
     The slopes are total: x_e moves with h and w. For arrays of h [m], w [m/s], R [m], l [m], u [m/s],
     eta0 [Pa s]. Relative errors below 1e-12, down to where a number underflows (dW/dh: beyond A = 1e77); a
@@ -108,7 +108,7 @@ def reynolds_piezo_viscous_load(
     viscosity: Any,
     pressure_viscosity: Any,
 ) -> tuple[Any, Any, Any]:
-    """W [N], dW/dh [N/m], dW/dw [N s/m] of the exact piezo-viscous film, W = 12 l u eta0 R/h Psi(A, B).
+    """W [N], dW/dh [N/m], dW/dw [N s/m] of the Reynolds piezo-viscous film, W = 12 l u eta0 R/h Psi(A, B).
 
     The slopes are total. Arrays as for `reynolds_iso_viscous_load`, and alpha [1/Pa]. Relative errors below
     1e-12 up to 0.99 B_crit, growing as 1e-15/(1 - B/B_crit) from there on. NaN where there is no rigid film.

@@ -1,4 +1,4 @@
-"""Reynolds' equation solved numerically, a referee for every closed form."""
+"""Reynolds' equation solved numerically, a reference solution for every closed form."""
 
 from __future__ import annotations
 

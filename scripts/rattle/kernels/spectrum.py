@@ -30,8 +30,8 @@ def classify(
     acceleration: Any,
     samples_per_period: int,
     *,
-    line_threshold: float = 0.01,
-    idle_lines: int = 20,
+    harmonic_threshold: float = 0.01,
+    idle_harmonics: int = 20,
     quiet_limit: float = 0.35,
     irregular_limit: float = 0.01,
     noise_floor: float = 0.0,
@@ -57,7 +57,7 @@ def classify(
             f"acceleration holds {samples.size} samples; that is no whole number of periods of {period}"
         )
     limits = finite_numbers(
-        line_threshold=line_threshold,
+        harmonic_threshold=harmonic_threshold,
         quiet_limit=quiet_limit,
         irregular_limit=irregular_limit,
         noise_floor=noise_floor,
@@ -66,7 +66,7 @@ def classify(
         samples,
         samples.size // period,
         limits,
-        positive_count(idle_lines, "idle_lines"),
+        positive_count(idle_harmonics, "idle_harmonics"),
         0 if orbit_period is None else positive_count(orbit_period, "orbit_period"),
         *_orders_of(force_orders, force_amplitudes),
         (period - 1) // 2,
@@ -74,7 +74,7 @@ def classify(
     moving = bool(counts[2])
     return {
         "rattle_class": codes.CLASSES[counts[0]],
-        "line_count": int(counts[1]),
+        "harmonic_count": int(counts[1]),
         "harmonic_distortion": float(ratios[0]) if moving else float("nan"),
         "irregular_fraction": float(ratios[1]) if moving else float("nan"),
         "reversals_per_period": float(ratios[2]),

@@ -21,7 +21,7 @@ IN_SHORT = (
     ("kinematics", "entrainment_speed", "speed at which the flanks draw oil in"),
     ("contact", "radius", "radius of the contact"),
     ("contact", "length", "its length"),
-    ("contact", "backlash", "play between the flanks"),
+    ("contact", "backlash", "backlash between the flanks"),
     ("contact", "stiffness", "stiffness of the teeth"),
 )
 # Of a scene that is described by its gears, and what then follows.
@@ -53,7 +53,7 @@ def in_short(result: ResultFile) -> str:
     film = result.input.get("film", {})
     law = " ".join(str(film[name]).strip() for name in ("model", "law") if name in film)
     if law:
-        parts.append(f"film by the {law.replace('reynolds', 'exact')} law")
+        parts.append(f"film by the {law.replace('reynolds', 'Reynolds')} law")
     asked = f"Asked: {'; '.join(parts)}. " if parts else ""
     made = f"This makes: {'; '.join(told)}. " if told else ""
     return f"{asked}{made}All inputs stand below."

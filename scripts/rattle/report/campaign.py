@@ -20,15 +20,15 @@ from rattle.report import motion, page
 # Columns that are drawn where they are recorded, and what their picture shows.
 DRAWN = {
     "rattle_class": "Class of the motion over the varied keys. Hatched in grey: no class, because the scene "
-    "failed or is not done; hatched in colour: not certified.",
-    "certified": "Whether the class stands when the scene is solved again, tighter.",
+    "failed or is not done; hatched in colour: not verified.",
+    "verified": "Whether the class is verified: a second solution with a tighter tolerance agrees.",
     "acceleration_maximum": "Largest acceleration: how hard the tooth is thrown back by the film.",
     "film_minimum": "Thinnest film: how close the flanks come.",
     "film_force_rms": "Fluctuation of the force on the bearings of the shaft: how loud.",
 }
 WORST_BY = "acceleration_maximum"
 WORST_COUNT = 10
-EXTRA = ("rattle_class", "film_regime", "certified")
+EXTRA = ("rattle_class", "film_regime", "verified")
 
 
 def verdict(campaign: Campaign) -> list[str]:
@@ -36,7 +36,7 @@ def verdict(campaign: Campaign) -> list[str]:
     done = int(campaign.done.sum())
     most = [f"{name} in {look.share(count, done)} of the scenes" for name, count in counts.most_common(1)]
     doubt = not campaign.done.all() or bool(campaign.failed.any())
-    doubt = doubt or ("certified" in campaign and certificates(campaign)[1] > 0)
+    doubt = doubt or ("verified" in campaign and verifications(campaign)[1] > 0)
     box = page.verdict_box("".join(most) or "no class", None, list(sentences_on(campaign)), doubt=doubt)
     return [box, motion.class_meanings(name for name, _ in counts.most_common())]
 
@@ -52,11 +52,11 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
         yield "No scene has a class."
     else:
         yield "The class was not recorded."
-    if "certified" in campaign:
-        certified, lacking = certificates(campaign)
+    if "verified" in campaign:
+        verified, lacking = verifications(campaign)
         yield (
-            f"The class is certified in {certified} scenes: solved again, tighter, it is the same. "
-            f"{lacking} of {certified + lacking} scenes are not certified."
+            f"The class is verified in {verified} scenes: solved again, tighter, it is the same. "
+            f"{lacking} of {verified + lacking} scenes are not verified."
         )
     else:
         yield "Whether the classes stand when the scenes are solved again, tighter, was not recorded."
@@ -77,15 +77,15 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
             "In {count} scenes the teeth give way, or if they are rigid those of steel would, by more than a "
             "tenth of the film: rigid teeth are no fair assumption there.",
         ),
-        ("double_sided", "In {count} scenes the tooth strikes both flanks of its gap."),
+        ("double_sided", "In {count} scenes the tooth hits both flanks of its gap."),
     ):
         if name in campaign:
             yield sentence.format(count=int((campaign[name][campaign.done] >= 1.0).sum()))
 
 
-def certificates(campaign: Campaign) -> tuple[int, int]:
-    """How many classes are certified, and how many are not."""
-    flags = campaign["certified"][campaign.done]
+def verifications(campaign: Campaign) -> tuple[int, int]:
+    """How many classes are verified, and how many are not."""
+    flags = campaign["verified"][campaign.done]
     return int((flags == 1.0).sum()), int((flags == 0.0).sum())
 
 
@@ -111,7 +111,7 @@ def figures(campaign: Campaign) -> list[str]:
 def figures_of_pair(campaign: Campaign) -> list[str]:
     """Maps over the first two varied keys, or slices along the only one."""
     if campaign.kind == GRID and len(campaign.varied) == 1:
-        columns = [name for name in DRAWN if name in campaign and name != "certified"]
+        columns = [name for name in DRAWN if name in campaign and name != "verified"]
         caption = f"Along {look.short_name(campaign.varied[0])}. Crosses: scenes that failed."
         section = new_section(campaign, campaign.varied, {})
         draw = partial(campaign_slice.draw, section, columns)

@@ -21,7 +21,7 @@ HARMONICS_SHOWN = 12
 COMPUTED = {
     "program_version": ("Version of rattle", ""),
     "law": ("Film law", ""),
-    "model": ("Film model: published, the formulas of the paper; reynolds, exact", ""),
+    "model": ("Film model: published, the formulas of the paper; reynolds, those of rigid flanks", ""),
     "speed_used": ("Speed that the film was computed with", "m/s"),
     "speed_meaning": ("That speed is", ""),
     "acceleration_meaning": ("Accelerations are", ""),
@@ -38,14 +38,14 @@ ERRORS = {
 }
 # What is said of each class. Words in braces are numbers of summary or input.
 CLASSES = {
-    "quiet": "Quiet: the tooth follows the force smoothly. What its acceleration adds to the lines of the "
+    "quiet": "Quiet: the tooth follows the force smoothly. What its acceleration adds to harmonics of the "
     "force is small: "
     "a harmonic distortion of {harmonic_distortion}, below the limit of {quiet_limit}.",
-    "creep": "Creep rattle: the tooth rolls through the oil film rather than beats. {lines} of the "
+    "creep": "Creep rattle: the tooth rolls through the oil film rather than knocks. {lines} of the "
     "acceleration "
-    "stand above {threshold}, fewer than the {idle_lines} from which on it is idle rattle.",
-    "idle": "Idle rattle: the tooth beats. {lines} of the acceleration stand above {threshold}; "
-    "{idle_lines} or more make it idle "
+    "stand above {threshold}, fewer than the {idle_harmonics} from which on it is idle rattle.",
+    "idle": "Idle rattle: the tooth knocks. {lines} of the acceleration stand above {threshold}; "
+    "{idle_harmonics} or more make it idle "
     "rattle: short impacts, whose sound reaches far up in frequency.",
     "irregular": "Irregular rattle: no period of the motion is like the one before. A share of "
     "{irregular_fraction} of the "
@@ -60,7 +60,7 @@ CLASSES = {
 CLASS_MEANINGS = {
     "quiet": "The tooth follows the force smoothly.",
     "creep": "The tooth rolls through the oil film; few harmonics of the acceleration stand out.",
-    "idle": "The tooth beats: short impacts, many harmonics, a sound that reaches far up in frequency.",
+    "idle": "The tooth knocks: short impacts, many harmonics, a sound that reaches far up in frequency.",
     "irregular": "No period of the motion is like the one before, and neighbouring motions part for good.",
     "irregular_so_far": "The motion did not repeat as long as it was followed, and it may settle.",
     "subharmonic": "The motion repeats only after several periods of the force.",
@@ -113,8 +113,8 @@ STIFFNESS = {
 VERDICTS = {
     "no separation": "The tooth stays on its drive flank: no separation, and no impact.",
     "separation": "The tooth leaves its drive flank, without an impact.",
-    "single-sided impacts": "The tooth strikes one flank (single-sided impacts).",
-    "double-sided impacts": "The tooth strikes both flanks of its gap (double-sided impacts).",
+    "single-sided impacts": "The tooth hits one flank (single-sided impacts).",
+    "double-sided impacts": "The tooth hits both flanks of its gap (double-sided impacts).",
 }
 REMARK_WORDS = ("stiffness", "deflection", "double_sided", "coast", "backlash")
 
@@ -132,7 +132,7 @@ def odd_numbers(result: ResultFile) -> list[str]:
 
 
 def verdict(result: Result, summary: Summary | None) -> list[str]:
-    """The class, its certificate, and what must be known beside it."""
+    """The class, its verification, and what must be known beside it."""
     if summary is None:
         words = f"No summary stands beside {result.path.name}: its class and errors are not known here."
         return [page.verdict_box("No verdict", None, [words], doubt=True)]
@@ -144,11 +144,11 @@ def verdict(result: Result, summary: Summary | None) -> list[str]:
 
 
 def badge_of(summary: Summary) -> tuple[str, str]:
-    """What the certificate of the class says, in a word."""
-    certificate = str(summary.get("certificate", "")).strip()
-    if not certificate:
+    """What the verification of the class says, in a word."""
+    verification = str(summary.get("verification", "")).strip()
+    if not verification:
         return "open", "not examined"
-    return ("good" if certificate == "certified" else "doubt"), certificate
+    return ("good" if verification == "verified" else "doubt"), verification
 
 
 def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
@@ -158,14 +158,14 @@ def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
     word = str(summary.get("rattle_class", "")).strip()
     if word in CLASSES:
         yield CLASSES[word].format_map(_words(result, summary))
-    if "certificate" in summary:
-        yield str(summary.get("certificate_text", "")).strip()
+    if "verification" in summary:
+        yield str(summary.get("verification_text", "")).strip()
     elif word:
         yield (
             "The scene was not solved a second time, so nothing is known of how far its class can be trusted."
         )
     if summary.get("sampling_sufficient") is False:
-        yield "There are too few samples a period for this motion: its lines are not those of the motion."
+        yield "There are too few samples a period for this motion: its harmonics are not those of the motion."
     periods = summary.get("orbit_period")
     if periods and "orbit_stability" in summary:
         stability = str(summary["orbit_stability"]).strip()
@@ -236,7 +236,7 @@ def figures(result: Result) -> list[str]:
         ),
         page.drawing(
             lambda: spectra.draw_acceleration(runs, labels, None),
-            f"Lines of the acceleration {over}, linear above and logarithmic below. The class is judged by "
+            f"Harmonics of the acceleration {over}, linear above, logarithmic below. The class is judged by "
             "how many of them stand out.",
             f"{salt} spectrum",
         ),
@@ -299,7 +299,7 @@ def harmonics(result: Result, summary: Summary) -> list[str]:
     more = f"The summary lists {lines.size} of them." if lines.size > len(rows) else ""
     heads = ("Harmonic", *(["Engine order"] if result.shaft_speed else []), "Amplitude", "Error at most")
     return [
-        page.heading(3, "Lines of the acceleration"),
+        page.heading(3, "Harmonics of the acceleration"),
         page.table(heads, rows, kinds=("", *("number" for _ in heads[1:]))),
         *([page.paragraph(more, "note")] if more else []),
     ]
@@ -332,8 +332,8 @@ def computed(result: ResultFile, summary: Summary | None) -> list[str]:
             "name",
             "program_version",
             "status_text",
-            "certificate",
-            "certificate_text",
+            "verification",
+            "verification_text",
             *RESULTS,
         ):
             rows.append([name.replace("_", " "), page.value(given, unit_of(name))])
@@ -350,18 +350,18 @@ def _meaning(name: str) -> str:
 
 def _words(result: Result, summary: Summary) -> dict[str, str]:
     """What the sentences on classes speak of."""
-    count = summary.get("line_count", 0)
-    bound = "at least " if summary.get("line_count_is_bound") else ""
+    count = summary.get("harmonic_count", 0)
+    bound = "at least " if summary.get("harmonic_count_is_bound") else ""
     noun = "harmonic" if count == 1 else "harmonics"
     limits = result.input.get("spectrum", {})
     words = {
         name: f"{limits[name]:g}"
-        for name in ("quiet_limit", "irregular_limit", "idle_lines")
+        for name in ("quiet_limit", "irregular_limit", "idle_harmonics")
         if name in limits
     }
     for name in ("harmonic_distortion", "irregular_fraction", "orbit_period"):
         words[name] = f"{summary[name]:.4g}" if name in summary else "unknown"
     lines = f"{bound}{count} {noun}"
     largest = "the largest one of the force's own harmonics" if forced(result) else "the first"
-    words["threshold"] = f"{100.0 * limits.get('line_threshold', 0.0):g} % of {largest}"
+    words["threshold"] = f"{100.0 * limits.get('harmonic_threshold', 0.0):g} % of {largest}"
     return words | {"lines": lines[0].upper() + lines[1:]}

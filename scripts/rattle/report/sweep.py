@@ -1,4 +1,4 @@
-"""What a report says of a sweep: where along its key the class changes, on the way there and back."""
+"""What a report says of a sweep: where along its key the class changes, on the increasing and back."""
 
 from __future__ import annotations
 
@@ -73,29 +73,29 @@ def sentences_on(result: Result) -> Iterator[str]:
     if (result["direction"] < 0.0).any():
         if both.size:
             yield (
-                f"The way back differs from the way there at {both.size} values of the {name}, from "
+                f"The decreasing differs from the increasing at {both.size} values of the {name}, from "
                 f"{both.min():.6g} to "
                 f"{both.max():.6g} {unit}: there are two motions, and which one comes depends on the one "
                 "before."
             )
         elif known_both_ways(result):
-            yield "The way back has the motions of the way there."
+            yield "The decreasing has the motions of the increasing."
     if "orbit_period" in result:
         longest = int(np.nanmax(result["orbit_period"], initial=0.0))
         if longest > 1:
             yield f"Some motions repeat only after several periods of the force, at most {longest}."
-    yield "A sweep gives no certificate of its classes; the single scene at a value of interest does."
+    yield "A sweep gives no verification of its classes; the single scene at a value of interest does."
 
 
 def known_both_ways(result: Result) -> bool:
-    """Whether any value of the key has a motion on the way there and one on the way back."""
+    """Whether any value of the key has a motion on the increasing and one on the decreasing."""
     kept = np.isin(result["status"], SUCCESSES)
     there, back = (result[result.names[0]][kept & (result["direction"] == way)] for _, way in WAYS)
     return bool(np.isin(back, there).any())
 
 
 def differing(result: Result) -> np.ndarray:
-    """Values of the key at which the motion on the way back is another than on the way there."""
+    """Values of the key at which the motion on the decreasing is another than on the increasing."""
     kept = np.isin(result["status"], SUCCESSES)
     told = zip(
         result[result.names[0]], result["direction"], result["rattle_class"], peaks(result), kept, strict=True

@@ -35,10 +35,10 @@ def verdict(result: Result, summary: Summary | None) -> list[str]:
 def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
     unit = found.range.unit
     crossed = found.column("crossing") > 0
-    lines = int(np.unique(found.column("line")).size)
+    lines = int(np.unique(found.column("trace")).size)
     first, last = (page.plain(float(end), unit) for end in found.range.values)
     keys = " and ".join(map(short_name, found.varied))
-    of_lines = "" if lines == 1 else f", on {lines} lines, one for each value of {keys}"
+    of_lines = "" if lines == 1 else f", on {lines} traces, one for each value of {keys}"
     yield (
         f"Looked for: {picture.words_of_criterion(found)}, along the {short_name(found.key)} from {first} to "
         f"{last}{of_lines}."
@@ -51,14 +51,14 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
     if lines > 1 or not crossed.any():
         none = int((~crossed).sum())
         if none:
-            many = f"{none} of {lines} lines have no" if lines > 1 else "The line has no"
+            many = f"{none} of {lines} traces have no" if lines > 1 else "The trace has no"
             yield f"{many} threshold in this range."
         else:
-            yield "Every line has a threshold in this range."
-    if "certified_below" in found.result and crossed.any():
+            yield "Every trace has a threshold in this range."
+    if "verified_below" in found.result and crossed.any():
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
-            f"At {sure} of {int(crossed.sum())} thresholds the classes at both ends are certified: solved "
+            f"At {sure} of {int(crossed.sum())} thresholds the classes at both ends are verified: solved "
             "again, tighter, they are the same. Where that cannot be had close to the change, its ends lie "
             "farther apart, and the distance between them is how well the threshold is known."
         )
@@ -73,7 +73,7 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
             f"{page.plain(width, unit)}"
         )
     yield (
-        f"{'Each line' if lines > 1 else 'The line'} was solved in {count} places{halved}. Two changes "
+        f"{'Each trace' if lines > 1 else 'The trace'} was solved in {count} places{halved}. Two changes "
         "between neighbours that cancel each other are not seen."
     )
     if summary and "scenes" in summary:
@@ -91,7 +91,7 @@ def tables(result: Result) -> list[str]:
         ends = places[[np.argmin(found.values[places]), np.argmax(found.values[places])]]
         told = [page.value(float(found.values[place]), unit) for place in ends]
         rows.append([kind, str(count), *told, str(int(found.uncertain[places].sum()))])
-    heads = ("From, to", "Thresholds", "Least", "Largest", "Not certified")
+    heads = ("From, to", "Thresholds", "Least", "Largest", "Not verified")
     parts = [page.table(heads, rows, kinds=("", "number", "number", "number", "number"))] if rows else []
     if result.row_count > MOST_ROWS:
         words = f"All {result.row_count} rows stand in the result file; the first {MOST_ROWS} are these."
@@ -102,9 +102,7 @@ def tables(result: Result) -> list[str]:
         lower, upper, width = (float(found.column(name)[row]) for name in ("lower", "upper", "width"))
         ends = [page.value(lower, unit), page.value(upper, unit), page.error(width, upper, unit)]
         kind = found.kinds[row] if crossed[row] else f"{found.kinds[row]} throughout"
-        sure = (
-            "no" if found.uncertain[row] else "yes" if crossed[row] and "certified_below" in result else "-"
-        )
+        sure = "no" if found.uncertain[row] else "yes" if crossed[row] and "verified_below" in result else "-"
         lines.append([*axes, *(ends if crossed[row] else ["-"] * len(ends)), kind, sure])
     heads = (
         *(capital(short_name(key)) for key in found.varied),
@@ -112,7 +110,7 @@ def tables(result: Result) -> list[str]:
         "And",
         "Width",
         "From, to",
-        "Certified",
+        "Verified",
     )
     kinds = (*("number" for _ in found.varied), "number", "number", "number", "", "")
     return [*parts, page.table(heads, lines, kinds=kinds)]
@@ -121,10 +119,10 @@ def tables(result: Result) -> list[str]:
 def figures(result: Result) -> list[str]:
     caption = (
         "Thresholds over the varied keys. Bars: from end to end; open marks: the class at an end is "
-        "not certified."
+        "not verified."
     )
     try:
         found, held = picture.cut(picture.thresholds(result), {}, 2)
     except CommandError:
-        return [page.paragraph("Thresholds of one line, or of a sample of lines, have no curve.", "note")]
+        return [page.paragraph("Thresholds of one trace, or of a sample of traces, have no curve.", "note")]
     return [page.drawing(lambda: picture.draw(found, held), caption, f"{result.scene_name} threshold")]

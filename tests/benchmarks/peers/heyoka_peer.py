@@ -68,7 +68,7 @@ def _system(film: str) -> list:
 
 
 def _flank(d):
-    """A, dd/dA and Phi of an exact iso-viscous film from its rupture angle."""
+    """A, dd/dA and Phi of a Reynolds iso-viscous film from its rupture angle."""
     s, c = hy.sin(d), hy.cos(d)
     sc, s2 = s * c, s * s
     quarter = 0.5 * sc * (1.0 - 2.0 * s2)
@@ -78,7 +78,8 @@ def _flank(d):
 
 
 def _flanks_system(orders: int) -> list:
-    """Equations of the exact iso-viscous film between two rigid flanks under several orders (scenes.py)."""
+    """Equations of the Reynolds iso-viscous film between two rigid flanks under several orders
+    (scenes.py)."""
     y, drive_angle, coast_angle = hy.make_vars("y", "d", "coast")
     big_a, rate, ratio, backlash, _, steady = (hy.par[i] for i in range(6))
     drive = 1.0 + ratio * hy.cos(2.0 * np.pi * hy.time)
@@ -99,7 +100,7 @@ def _flanks_system(orders: int) -> list:
 
 
 def _changed_system(kind: tuple) -> list:
-    """Equations of a published film under several orders, on two flanks, of teeth that give (scenes.py).
+    """Equations of a published film under several orders, on two flanks, of elastic teeth (scenes.py).
 
     Parameters: a, c, q, backlash, compliance, then ratio and phase of every order above the first.
     """

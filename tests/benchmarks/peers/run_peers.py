@@ -123,7 +123,7 @@ def changed_references(chosen: list[scenes.Scene]) -> dict:
 
     films = {}
     for scene in chosen:
-        # Where a film lets go explicit steps are too short, and only CVODE gets on.
+        # Where a film ruptures explicit steps are too short, and only CVODE gets on.
         explicit = scenes.LETS_GO not in scene.group
         tight = heyoka_peer.prepare_scalar(scene, 1e-16) if explicit else cvode_peer.prepare(scene, 1e-12)
         films[scene.name], _ = tight()

@@ -37,7 +37,7 @@ position of the gear over h0 and e = (Q + m g)/(k h0) the compliance of a tooth,
 where g is G solved for the velocity: sqrt(y) (1 - y w)/c for (35), -ln(w y^(7/2))/c for (37). With one
 flank w_2 = 0. The motion starts at y_1 = 1, v = 0, the films at no velocity. k is twice the stiffness of the
 steady film. At F0 = 3 Q the film of (37) lets the tooth go: w falls towards 0, g gets infinitely
-steep, and explicit steps do not follow. That scene is a group of its own ("a film that lets go").
+steep, and explicit steps do not follow. That scene is a group of its own ("a film that ruptures").
 The motion of (35) with teeth that give at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is
 judged in the last ten of 20 periods, timed over 200, and a group of its own as well. With all three changes
 the films of (35) and (37) are a group each.
@@ -74,12 +74,12 @@ FILM_STIFFNESS = {"iso_viscous": 1.0, "piezo_viscous": 3.5}
 CHANGES = {
     "three orders": ("orders",),
     "two flanks": ("flanks",),
-    "teeth that give": ("springs",),
+    "elastic teeth": ("springs",),
     "all three": ("orders", "flanks", "springs"),
 }
 CHAOTIC_PERIODS = 20
 EQUATION = {"iso_viscous": "(35)", "piezo_viscous": "(37)"}
-LETS_GO = "a film that lets go"
+LETS_GO = "a film that ruptures"
 
 REFERENCE_FILE = Path(__file__).resolve().parent.parent / "reference" / "film.csv"
 
@@ -114,7 +114,7 @@ class Scene:
 
     @property
     def kind(self) -> tuple:
-        """What the equations depend on: film, number of orders, two flanks, teeth that give."""
+        """What the equations depend on: film, number of orders, two flanks, elastic teeth."""
         return self.film, 1 + len(self.more_ratios), self.backlash > 0.0, self.compliance > 0.0
 
     @property
@@ -226,7 +226,7 @@ def rest_between_flanks(backlash: float) -> float:
 
 
 def coast_start(scene: Scene) -> float:
-    """Coast film at the start, of teeth that give: y - e G(y, 0) = b - 1 + e, by Newton's method."""
+    """Coast film at the start, of elastic teeth: y - e G(y, 0) = b - 1 + e, by Newton's method."""
     power = 1.0 if scene.law == "iso_viscous" else 3.5
     wanted = scene.backlash - 1.0 + scene.compliance
     film = wanted

@@ -1,13 +1,13 @@
-!> Tests of loudness: values of an independent solver, the work of the force, steps and samples of all film laws.
-module test_loudness
+!> Tests of severity: values of an independent solver, the work of the force, steps and samples of all film laws.
+module test_vibration_severity
    use canonical_scenes, only: canonical_scene
-   use certificate, only: loudness_error
+   use verification, only: severity_error
    use checks, only: check_list_t
    use controlled_engine, only: solve_window
    use engine, only: ending_t, motion_state_t, start_of
    use force, only: force_of_period
    use kinds, only: dp
-   use loudness, only: loudness_of_record, loudness_of_samples, loudness_t
+   use vibration_severity, only: severity_of_record, severity_of_samples, vibration_severity_t
    use problem, only: of_film, of_velocity, problem_of, problem_t, static_load
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, rupture_half_pi, rupture_solved, &
                           rupture_solver_fast, rupture_solver_successive, scene_t
@@ -17,21 +17,21 @@ module test_loudness
 
    integer, parameter :: samples = 4096
 
-   public :: run_loudness_tests
+   public :: run_vibration_severity_tests
 
 contains
 
    !> Runs every test of this topic.
-   subroutine run_loudness_tests(checks)
+   subroutine run_vibration_severity_tests(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call checks%start('loudness')
+      call checks%start('severity')
       call test_reference(checks)
       call test_work(checks)
       call test_unclosed(checks)
       call test_cosine(checks)
       call test_error(checks)
-   end subroutine run_loudness_tests
+   end subroutine run_vibration_severity_tests
 
    !> The canonical tooth pair under three orders.
    function scene_of(law) result(scene)
@@ -69,12 +69,12 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(problem_t) :: problem
       type(window_record_t) :: record
-      type(loudness_t) :: found
+      type(vibration_severity_t) :: found
       real(dp), allocatable :: states(:, :), accelerations(:)
 
       problem = problem_of(scene_of(1))
       call solve(problem, .false., 60, 1, states, accelerations, record)
-      found = loudness_of_record(record, problem%frequency)
+      found = severity_of_record(record, problem%frequency)
       call checks%check_close(found%acceleration_rms, 21.323978_dp, 0.6e-6_dp, 'reference: rms of the acceleration')
       call checks%check_close(found%acceleration_kurtosis, 4.67967_dp, 0.6e-5_dp, 'reference: kurtosis of the acceleration')
       call checks%check_close(found%film_force_rms, 145.751130_dp, 0.6e-6_dp, 'reference: rms of the film force')
@@ -88,7 +88,7 @@ contains
                                              'exact piezo']
       type(problem_t) :: problem
       type(window_record_t) :: record
-      type(loudness_t) :: by_steps, by_samples
+      type(vibration_severity_t) :: by_steps, by_samples
       real(dp), allocatable :: states(:, :), accelerations(:)
       real(dp) :: force(samples), work
       integer :: law, implicit
@@ -98,8 +98,8 @@ contains
          call force_of_period(problem%force, force)
          do implicit = 0, 1
             call solve(problem, implicit == 1, 120, 1, states, accelerations, record)
-            by_steps = loudness_of_record(record, problem%frequency)
-            by_samples = loudness_of_samples(problem, samples, states(:, of_velocity), accelerations)
+            by_steps = severity_of_record(record, problem%frequency)
+            by_samples = severity_of_samples(problem, samples, states(:, of_velocity), accelerations)
             associate (name => trim(names(law))//trim(merge(', implicit', '          ', implicit == 1)))
                work = -sum(force*states(:, of_velocity))/(real(samples, dp)*problem%frequency)
                call checks%check(work > 1.0e-6_dp, name//': the force works')
@@ -122,7 +122,7 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(problem_t) :: problem
       type(window_record_t) :: record
-      type(loudness_t) :: found
+      type(vibration_severity_t) :: found
       real(dp), allocatable :: states(:, :), accelerations(:)
       real(dp) :: work, mean, variance
 
@@ -130,7 +130,7 @@ contains
       problem%initial_film = 1.5_dp*problem%initial_film
       problem%initial_velocity = -2.0e-3_dp
       call solve(problem, .false., 2, 2, states, accelerations, record)
-      found = loudness_of_record(record, problem%frequency)
+      found = severity_of_record(record, problem%frequency)
       work = -record%force_work + static_load(problem)*(states(2*samples, of_film) - record%start%numbers(of_film)) &
              - 0.5_dp*problem%mass*(states(2*samples, of_velocity)**2 - record%start%numbers(of_velocity)**2)
       call checks%check(abs(states(2*samples, of_film)/record%start%numbers(of_film) - 1.0_dp) > 0.1_dp, &
@@ -147,7 +147,7 @@ contains
    subroutine test_cosine(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
       type(problem_t) :: problem
-      type(loudness_t) :: found
+      type(vibration_severity_t) :: found
       real(dp) :: accelerations(samples), velocities(samples)
 
       problem = problem_of(canonical_scene(law_iso_viscous, 512))
@@ -158,7 +158,7 @@ contains
       velocities = velocities - accelerations
       accelerations = 5.0_dp + 2.0_dp*velocities
       problem%force%cosine = 0.0_dp
-      found = loudness_of_samples(problem, samples, velocities, accelerations)
+      found = severity_of_samples(problem, samples, velocities, accelerations)
       call checks%check_close(found%acceleration_rms, sqrt(27.0_dp), 1.0e-11_dp, 'cosine: rms about zero')
       call checks%check_close(found%acceleration_kurtosis, 1.5_dp, 1.0e-11_dp, 'cosine: kurtosis about the mean')
       call checks%check_close(found%film_force_rms/problem%mass, sqrt(2.0_dp), 1.0e-11_dp, 'cosine: film force about its mean')
@@ -175,10 +175,10 @@ contains
       do i = 1, 4
          tight = [1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp]
          tight(i) = 1.01_dp*tight(i)
-         call checks%check_close(loudness_error(loudness_t(1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp), &
-                                                loudness_t(tight(1), tight(2), tight(3), tight(4)), 1.0e-10_dp), &
+         call checks%check_close(severity_error(vibration_severity_t(1.0_dp, 2.0_dp, 3.0_dp, 4.0_dp), &
+                                                vibration_severity_t(tight(1), tight(2), tight(3), tight(4)), 1.0e-10_dp), &
                                  0.020000002_dp, 1.0e-14_dp, 'error: twice the difference')
       end do
    end subroutine test_error
 
-end module test_loudness
+end module test_vibration_severity

@@ -1,4 +1,5 @@
-"""Holds the repository against its own rules: data flows down the list of rooms in fsrc/ROOMS, a file holds
+"""Holds the repository against its own rules: data flows down the list of folders in fsrc/MODULES, a file
+holds
 the module of its name, main is a table of contents, no library routine stops the program, Python imports run
 one way, rooms and version are told alike everywhere, and what a change touches does not spread."""
 
@@ -14,7 +15,7 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 os.chdir(Path(__file__).resolve().parents[1])
-ROOMS = [line.split()[0] for line in Path("fsrc/ROOMS").read_text().splitlines()]
+MODULES = [line.split()[0] for line in Path("fsrc/MODULES").read_text().splitlines()]
 TOP_LEVEL = {"Makefile", "fsrc", "input", "scripts", "tests", "README.md"}
 TOP_LEVEL |= {"LICENSE", "CHANGELOG.md", "CITATION.cff", "pyproject.toml", "build", "results"}
 MAIN_LINES = 80
@@ -29,34 +30,34 @@ USE = re.compile(r"^\s*use\s*(?:,\s*\w+\s*)?(?:::)?\s*(\w+)", re.IGNORECASE)
 STOP = re.compile(r"^\s*(?:if\s*\(.*\)\s*)?(?:error\s+)?stop\b", re.IGNORECASE)
 
 
-def room_of(path: Path) -> str:
+def module_of(path: Path) -> str:
     return path.relative_to("fsrc").parts[0]
 
 
 def faults() -> list[str]:
     """One sentence per broken rule."""
-    found = [f"{entry.name}: stands beside the house" for entry in Path().iterdir() if is_stray(entry)]
+    found = [f"{entry.name}: does not belong to the layout" for entry in Path().iterdir() if is_stray(entry)]
     sources = sorted(Path("fsrc").glob("*/**/*.f90"))
-    found += [f"fsrc/{room}: a room that stands empty" for room in {*ROOMS} - {*map(room_of, sources)}]
-    home = {path.stem.lower(): room_of(path) for path in sources}
+    found += [f"fsrc/{room}: a folder without a module" for room in {*MODULES} - {*map(module_of, sources)}]
+    home = {path.stem.lower(): module_of(path) for path in sources}
     for path in sources:
-        room = room_of(path)
-        if room not in ROOMS:
-            found.append(f"{path}: {room} is no room of fsrc/ROOMS")
+        room = module_of(path)
+        if room not in MODULES:
+            found.append(f"{path}: {room} is no folder of fsrc/MODULES")
             continue
         for number, line in enumerate(path.read_text().splitlines(), 1):
             place = f"{path}:{number}"
             if (module := MODULE.match(line)) and room != "bindings" and module[1].lower() != path.stem:
                 found.append(f"{place}: module {module[1]} stands in a file of another name")
             other = home.get(use[1].lower()) if (use := USE.match(line)) else None
-            if other in ROOMS and ROOMS.index(other) > ROOMS.index(room):
-                found.append(f"{place}: {room} uses {use[1]} of {other}, a room below it")
+            if other in MODULES and MODULES.index(other) > MODULES.index(room):
+                found.append(f"{place}: {room} uses {use[1]} of {other}, a folder below it")
             if STOP.match(line):
                 found.append(f"{place}: a library routine stops the program")
     if len(Path("fsrc/main.f90").read_text().splitlines()) > MAIN_LINES:
         found.append(f"fsrc/main.f90: more than {MAIN_LINES} lines")
     found += [f"{what}: {count}, more than {limit}" for what, count, limit in counts() if count > limit]
-    return [*found, *unlike_rooms(), *unlike_versions(), *import_circles()]
+    return [*found, *unlike_modules(), *unlike_versions(), *import_circles()]
 
 
 def is_stray(entry: Path) -> bool:
@@ -87,16 +88,16 @@ def names_key(path: Path) -> bool:
     )
 
 
-def unlike_rooms() -> Iterator[str]:
-    """Rooms that the map in the README leaves out or puts in another order."""
-    house = Path("README.md").read_text().partition("## The house")[2]
+def unlike_modules() -> Iterator[str]:
+    """Folders that the map in the README leaves out or puts in another order."""
+    house = Path("README.md").read_text().partition("## The layout")[2]
     told = [
         room
         for row in re.findall(r"^\| `.*?\|", house, re.MULTILINE)
         for room in re.findall(r"`(\w+)/`", row)
     ]
-    if told != ROOMS:
-        yield f"README.md: the map has the rooms {' '.join(told)}, fsrc/ROOMS has {' '.join(ROOMS)}"
+    if told != MODULES:
+        yield f"README.md: the map has the folders {' '.join(told)}, fsrc/MODULES has {' '.join(MODULES)}"
 
 
 def unlike_versions() -> Iterator[str]:

@@ -1,9 +1,9 @@
-!> Tests of the certificate of rows: motions that repeat after several periods whose windows begin elsewhere, and motions that are
+!> Tests of the verification of rows: motions that repeat after several periods whose windows begin elsewhere, and motions that are
 !> irregular in their window and settle behind it.
-module test_campaign_certificate
-   use campaign_certificate, only: certify_group
+module test_campaign_verification
+   use campaign_verification, only: verify_group
    use canonical_scenes, only: canonical_scene
-   use certificate, only: doubt_behind, windows_behind
+   use verification, only: doubt_behind, windows_behind
    use checks, only: check_list_t
    use engine, only: request_t, start_of
    use kinds, only: dp
@@ -20,20 +20,20 @@ module test_campaign_certificate
    integer, parameter :: samples_per_period = 64
    logical, parameter :: wants(seen_quantities) = .true.
 
-   public :: run_campaign_certificate_tests
+   public :: run_campaign_verification_tests
 
 contains
 
    !> Runs every test of this topic.
-   subroutine run_campaign_certificate_tests(checks)
+   subroutine run_campaign_verification_tests(checks)
       class(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call checks%start('campaign_certificate')
+      call checks%start('campaign_verification')
       call test_windows_behind(checks)
       call test_doubt_behind(checks)
       call test_phase_of_an_orbit(checks)
       call test_behind_the_window(checks)
-   end subroutine run_campaign_certificate_tests
+   end subroutine run_campaign_verification_tests
 
    !> Four windows at least, and 32 periods of them.
    subroutine test_windows_behind(checks)
@@ -106,17 +106,17 @@ contains
       associate (samples => group%endings(1)%samples)
          call checks%check(samples == 2*samples_per_period .and. group%verdicts(1)%class == class_subharmonic, &
                            'an orbit of two periods')
-         call certify_group(resolved, choices, request, group, tight, stands)
+         call verify_group(resolved, choices, request, group, tight, stands)
          call checks%check(stands(1), 'as it was solved')
          states = group%states(:samples, :, 1)
          group%states(:samples, :, 1) = cshift(states, samples_per_period)
-         call certify_group(resolved, choices, request, group, tight, stands)
+         call verify_group(resolved, choices, request, group, tight, stands)
          call checks%check(stands(1), 'beginning with the other period')
          group%endings(1)%status = status_complete
-         call certify_group(resolved, choices, request, group, tight, stands)
+         call verify_group(resolved, choices, request, group, tight, stands)
          call checks%check(stands(1), 'known to repeat by the tighter solution alone')
          group%states(:samples, :, 1) = cshift(states, samples_per_period/2)
-         call certify_group(resolved, choices, request, group, tight, stands)
+         call verify_group(resolved, choices, request, group, tight, stands)
          call checks%check(.not. stands(1), 'half a period late it is another motion')
       end associate
    end subroutine test_phase_of_an_orbit
@@ -148,10 +148,10 @@ contains
          ! What is known of how neighbouring motions part is not what is asked here.
          group%verdicts%class = class_irregular
          group%verdicts%parting%for_good = .true.
-         call certify_group(resolved, choices, request, group, tight, stands)
+         call verify_group(resolved, choices, request, group, tight, stands)
          call checks%check(stands(1) .eqv. expected, what)
       end subroutine behind
 
    end subroutine test_behind_the_window
 
-end module test_campaign_certificate
+end module test_campaign_verification

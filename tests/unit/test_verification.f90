@@ -1,6 +1,6 @@
-!> Tests of the certificate: what a tighter solution must share with a scene for its class to stand.
-module test_certificate
-   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_of_return, no_certificate
+!> Tests of the verification: what a tighter solution must share with a scene for its class to stand.
+module test_verification
+   use verification, only: verification_t, closing_sentence, compare_windows, doubt_of_return, no_verification
    use checks, only: check_list_t
    use engine, only: motion_state_t
    use kinds, only: dp
@@ -14,23 +14,23 @@ module test_certificate
 
    real(dp), parameter :: films(3) = [1.0e-6_dp, 2.0e-6_dp, 4.0e-6_dp], values(3) = [-100.0_dp, 20.0_dp, 30.0_dp]
    real(dp), parameter :: tolerance = 0.01_dp
-   character(*), parameter :: stands = 'The class stands'
+   character(*), parameter :: stands = 'The class is verified'
 
-   public :: run_certificate_tests
+   public :: run_verification_tests
 
 contains
 
    !> Runs every test of this topic.
-   subroutine run_certificate_tests(checks)
+   subroutine run_verification_tests(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call checks%start('certificate')
+      call checks%start('verification')
       call test_errors(checks)
       call test_film(checks)
       call test_irregular(checks)
       call test_subharmonic(checks)
       call test_quiet_limit(checks)
-      call test_line_count(checks)
+      call test_harmonic_count(checks)
       call test_first_harmonic(checks)
       call test_bounds(checks)
       call test_closing(checks)
@@ -39,7 +39,7 @@ contains
       call test_coast_film(checks)
       call test_return(checks)
       call test_none(checks)
-   end subroutine run_certificate_tests
+   end subroutine run_verification_tests
 
    !> Verdict on given harmonics, with the default limits but those of `choice`.
    pure function verdict_of(class, harmonics, choice) result(verdict)
@@ -49,14 +49,14 @@ contains
       type(rattle_verdict_t) :: verdict
 
       verdict%class = class
-      allocate (verdict%lines%harmonics, source=harmonics)
-      verdict%lines%line_count = count(harmonics > choice%line_threshold*harmonics(1))
-      verdict%lines%forced_amplitude = harmonics(1)
-      verdict%lines%harmonic_distortion = norm2(harmonics(2:))/harmonics(1)
+      allocate (verdict%spectrum%harmonics, source=harmonics)
+      verdict%spectrum%harmonic_count = count(harmonics > choice%harmonic_threshold*harmonics(1))
+      verdict%spectrum%forced_amplitude = harmonics(1)
+      verdict%spectrum%harmonic_distortion = norm2(harmonics(2:))/harmonics(1)
    end function verdict_of
 
-   !> Certificate of windows that close, without velocities: their extremes are those of the samples.
-   subroutine compare(films, tight_films, values, tight_values, verdict, tight, choice, tolerance, certificate, unclosed)
+   !> Verification of windows that close, without velocities: their extremes are those of the samples.
+   subroutine compare(films, tight_films, values, tight_values, verdict, tight, choice, tolerance, verification, unclosed)
       real(dp), intent(in) :: films(:)              !> h of the scene [m]
       real(dp), intent(in) :: tight_films(:)        !> and of its tighter solution [m]
       real(dp), intent(in) :: values(:)             !> z'' of the scene [m/s2]
@@ -65,7 +65,7 @@ contains
       type(rattle_verdict_t), intent(in) :: tight   !> On its tighter solution
       type(spectrum_choice_t), intent(in) :: choice !> Limits
       real(dp), intent(in) :: tolerance             !> Of the film [-]
-      type(certificate_t), intent(out) :: certificate
+      type(verification_t), intent(out) :: verification
       character(*), optional, intent(in) :: unclosed !> Why a window does not close
 
       character(:), allocatable :: reason
@@ -73,7 +73,7 @@ contains
       reason = ''
       if (present(unclosed)) reason = unclosed
       call compare_windows(one_flank(films), one_flank(tight_films), extremes_of(films, values), &
-         extremes_of(tight_films, tight_values), verdict, tight, reason, choice, tolerance, 0.0_dp, 0.0_dp, certificate)
+         extremes_of(tight_films, tight_values), verdict, tight, reason, choice, tolerance, 0.0_dp, 0.0_dp, verification)
    end subroutine compare
 
    !> Films of one flank.
@@ -96,7 +96,7 @@ contains
       extremes%highest(seen_acceleration)%value = maxval(values)
    end function extremes_of
 
-   !> Certificate of the same window with other harmonics, expected to stand or to name its doubt.
+   !> Verification of the same window with other harmonics, expected to stand or to name its doubt.
    subroutine expect(checks, class, harmonics, tight_harmonics, choice, words)
       type(check_list_t), intent(inout) :: checks   !> Collects the results
       integer, intent(in) :: class                  !> Class of both
@@ -105,114 +105,114 @@ contains
       type(spectrum_choice_t), intent(in) :: choice !> Limits
       character(*), intent(in) :: words             !> In its reason
 
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
 
       call compare(films, films, values, values, verdict_of(class, harmonics, choice), &
-         verdict_of(class, tight_harmonics, choice), choice, tolerance, certificate)
-      call checks%check(certificate%exists .and. (certificate%certified .eqv. words == stands), 'certified or not: '//words)
-      call checks%check(index(certificate%reason, words) > 0, words//' (got: '//certificate%reason//')')
+         verdict_of(class, tight_harmonics, choice), choice, tolerance, verification)
+      call checks%check(verification%exists .and. (verification%verified .eqv. words == stands), 'verified or not: '//words)
+      call checks%check(index(verification%reason, words) > 0, words//' (got: '//verification%reason//')')
    end subroutine expect
 
    !> The errors themselves.
    subroutine test_errors(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       type(spectrum_choice_t) :: choice
       type(rattle_verdict_t) :: verdict, tight
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp, 0.2_dp], choice)
       tight = verdict_of(class_creep, [1.001_dp, 0.498_dp], choice)
       call compare(films*[1.0_dp, 0.997_dp, 1.001_dp], films, 0.9_dp*values, values, verdict, tight, choice, tolerance, &
-         certificate)
-      call checks%check_close(certificate%film_error, 0.006_dp/0.997_dp, 1.0e-15_dp, &
+         verification)
+      call checks%check_close(verification%film_error, 0.006_dp/0.997_dp, 1.0e-15_dp, &
          'film error: twice the largest difference, either way')
-      call checks%check_close(certificate%acceleration_error, 0.2_dp/0.9_dp, 1.0e-15_dp, 'acceleration error: of the smaller peak')
-      call checks%check(size(certificate%harmonic_errors) == 2, 'harmonic errors: those that both have')
-      call checks%check_close(maxval(abs(certificate%harmonic_errors - [0.002_dp, 0.004_dp])), 0.0_dp, 1.0e-15_dp, &
+      call checks%check_close(verification%acceleration_error, 0.2_dp/0.9_dp, 1.0e-15_dp, 'acceleration error: of the smaller peak')
+      call checks%check(size(verification%harmonic_errors) == 2, 'harmonic errors: those that both have')
+      call checks%check_close(maxval(abs(verification%harmonic_errors - [0.002_dp, 0.004_dp])), 0.0_dp, 1.0e-15_dp, &
          'harmonic errors')
-      call checks%check(certificate%certified, 'small errors far from the limits')
+      call checks%check(verification%verified, 'small errors far from the limits')
       tight%class = class_idle
-      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
-      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the class is idle') > 0, 'another class')
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
+      call checks%check(.not. verification%verified .and. index(verification%reason, 'the class is idle') > 0, 'another class')
    end subroutine test_errors
 
    !> A regular motion stands up to the tolerance of its film.
    subroutine test_film(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       type(spectrum_choice_t) :: choice
       type(rattle_verdict_t) :: verdict
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
-      call compare(1.009_dp*films, films, values, values, verdict, verdict, choice, tolerance, certificate)
-      call checks%check(certificate%certified, 'film: within the tolerance')
-      call compare(1.011_dp*films, films, values, values, verdict, verdict, choice, tolerance, certificate)
-      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the film differs by 1.1 %') > 0, &
+      call compare(1.009_dp*films, films, values, values, verdict, verdict, choice, tolerance, verification)
+      call checks%check(verification%verified, 'film: within the tolerance')
+      call compare(1.011_dp*films, films, values, values, verdict, verdict, choice, tolerance, verification)
+      call checks%check(.not. verification%verified .and. index(verification%reason, 'the film differs by 1.1 %') > 0, &
          'film: beyond the tolerance')
-      ! A scene at rest has no lines to doubt.
+      ! A scene at rest has no harmonics to doubt.
       verdict = verdict_of(class_quiet, [1.0e-20_dp, 0.35e-20_dp], choice)
-      verdict%lines%moving = .false.
-      call compare(films, films, 0.0_dp*values, 0.0_dp*values, verdict, verdict, choice, tolerance, certificate)
-      call checks%check(certificate%certified, 'film: at rest')
+      verdict%spectrum%moving = .false.
+      call compare(films, films, 0.0_dp*values, 0.0_dp*values, verdict, verdict, choice, tolerance, verification)
+      call checks%check(verification%verified, 'film: at rest')
    end subroutine test_film
 
-   !> Irregular motions part from each other; their class stands if both fractions are twice the limit or more.
+   !> Irregular motions part from each other; their class is verified if both fractions are twice the limit or more.
    subroutine test_irregular(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       type(spectrum_choice_t) :: choice
       type(rattle_verdict_t) :: clear, close_by
 
       clear = verdict_of(class_irregular, [1.0_dp, 0.5_dp], choice)
-      clear%lines%irregular_fraction = 0.021_dp
+      clear%spectrum%irregular_fraction = 0.021_dp
       close_by = clear
-      close_by%lines%irregular_fraction = 0.019_dp
-      call compare(2.0_dp*films, films, values, values, clear, clear, choice, tolerance, certificate)
-      call checks%check(certificate%certified, 'irregular: clear of the limit, whatever the film')
-      call compare(films, films, values, values, clear, close_by, choice, tolerance, certificate)
-      call checks%check(.not. certificate%certified, 'irregular: the tighter one is close to the limit')
-      call compare(films, films, values, values, close_by, clear, choice, tolerance, certificate)
-      call checks%check(.not. certificate%certified, 'irregular: the scene is close to the limit')
+      close_by%spectrum%irregular_fraction = 0.019_dp
+      call compare(2.0_dp*films, films, values, values, clear, clear, choice, tolerance, verification)
+      call checks%check(verification%verified, 'irregular: clear of the limit, whatever the film')
+      call compare(films, films, values, values, clear, close_by, choice, tolerance, verification)
+      call checks%check(.not. verification%verified, 'irregular: the tighter one is close to the limit')
+      call compare(films, films, values, values, close_by, clear, choice, tolerance, verification)
+      call checks%check(.not. verification%verified, 'irregular: the scene is close to the limit')
    end subroutine test_irregular
 
-   !> Subharmonic motions are regular: their films agree. Their class stands unless the limit is within the error of the
+   !> Subharmonic motions are regular: their films agree. Their class is verified unless the limit is within the error of the
    !> irregular fraction, and so does every other class of a regular motion; their harmonics do not matter.
    subroutine test_subharmonic(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       type(spectrum_choice_t) :: choice
       type(rattle_verdict_t) :: verdict, tight
 
       verdict = verdict_of(class_subharmonic, [1.0e-3_dp, 0.5_dp], choice)
-      verdict%lines%irregular_fraction = 0.012_dp
+      verdict%spectrum%irregular_fraction = 0.012_dp
       tight = verdict_of(class_subharmonic, [3.0e-3_dp, 0.5_dp], choice)
-      tight%lines%irregular_fraction = 0.0135_dp
-      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
-      call checks%check(certificate%certified, 'subharmonic: the limit is outside the error')
-      call compare(1.011_dp*films, films, values, values, verdict, tight, choice, tolerance, certificate)
-      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the film differs by 1.1 %') > 0, &
+      tight%spectrum%irregular_fraction = 0.0135_dp
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
+      call checks%check(verification%verified, 'subharmonic: the limit is outside the error')
+      call compare(1.011_dp*films, films, values, values, verdict, tight, choice, tolerance, verification)
+      call checks%check(.not. verification%verified .and. index(verification%reason, 'the film differs by 1.1 %') > 0, &
          'subharmonic: beyond the tolerance of the film')
-      tight%lines%irregular_fraction = 0.0145_dp
-      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
-      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'irregular fraction') > 0, &
+      tight%spectrum%irregular_fraction = 0.0145_dp
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
+      call checks%check(.not. verification%verified .and. index(verification%reason, 'irregular fraction') > 0, &
          'subharmonic: the limit is within the error')
       tight%class = class_irregular
-      tight%lines%irregular_fraction = verdict%lines%irregular_fraction
-      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
-      call checks%check(.not. certificate%certified .and. index(certificate%reason, 'the class is irregular') > 0, &
+      tight%spectrum%irregular_fraction = verdict%spectrum%irregular_fraction
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
+      call checks%check(.not. verification%verified .and. index(verification%reason, 'the class is irregular') > 0, &
          'subharmonic: irregular if solved tighter')
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
-      verdict%lines%irregular_fraction = 0.009_dp
+      verdict%spectrum%irregular_fraction = 0.009_dp
       tight = verdict
-      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
-      call checks%check(certificate%certified, 'creep: the irregular limit is outside the error')
-      tight%lines%irregular_fraction = 0.0075_dp
-      call compare(films, films, values, values, verdict, tight, choice, tolerance, certificate)
-      call checks%check(.not. certificate%certified, 'creep: the irregular limit is within the error')
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
+      call checks%check(verification%verified, 'creep: the irregular limit is outside the error')
+      tight%spectrum%irregular_fraction = 0.0075_dp
+      call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
+      call checks%check(.not. verification%verified, 'creep: the irregular limit is within the error')
    end subroutine test_subharmonic
 
    !> The distortion a_2/a_1 on either side of its limit, with errors that reach it or do not.
@@ -233,28 +233,28 @@ contains
       call expect(checks, class_quiet, [1.0_dp, 0.36_dp], [1.0_dp, 0.371_dp], choice, stands)
    end subroutine test_quiet_limit
 
-   !> A third line close to the threshold matters where three lines make the class.
-   subroutine test_line_count(checks)
+   !> A third harmonic close to the threshold matters where three harmonics make the class.
+   subroutine test_harmonic_count(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      character(*), parameter :: doubt = 'there are 2 to 3 lines'
+      character(*), parameter :: doubt = 'there are 2 to 3 harmonics'
       type(spectrum_choice_t) :: choice
 
-      choice%idle_lines = 3
+      choice%idle_harmonics = 3
       call expect(checks, class_idle, [1.0_dp, 0.5_dp, 0.011_dp], [1.0_dp, 0.5_dp, 0.0125_dp], choice, doubt)
       call expect(checks, class_idle, [1.0_dp, 0.5_dp, 0.011_dp], [1.0_dp, 0.5_dp, 0.0115_dp], choice, stands)
       call expect(checks, class_creep, [1.0_dp, 0.5_dp, 0.009_dp], [1.0_dp, 0.5_dp, 0.0075_dp], choice, doubt)
       call expect(checks, class_creep, [1.0_dp, 0.5_dp, 0.009_dp], [1.0_dp, 0.5_dp, 0.0085_dp], choice, stands)
-      choice%idle_lines = 4
+      choice%idle_harmonics = 4
       call expect(checks, class_creep, [1.0_dp, 0.5_dp, 0.011_dp], [1.0_dp, 0.5_dp, 0.0125_dp], choice, stands)
       ! The error of the first line moves the threshold, too.
-      choice%idle_lines = 3
-      choice%line_threshold = 0.5_dp
+      choice%idle_harmonics = 3
+      choice%harmonic_threshold = 0.5_dp
       call expect(checks, class_creep, [1.0_dp, 2.0_dp, 0.5_dp], [1.1_dp, 2.0_dp, 0.5_dp], choice, doubt)
-      choice%line_threshold = 0.01_dp
-      ! A quiet motion is quiet with any number of lines.
+      choice%harmonic_threshold = 0.01_dp
+      ! A quiet motion is quiet with any number of harmonics.
       call expect(checks, class_quiet, [1.0_dp, 0.1_dp, 0.011_dp], [1.0_dp, 0.1_dp, 0.0125_dp], choice, stands)
-   end subroutine test_line_count
+   end subroutine test_harmonic_count
 
    !> No share of the first harmonic means anything while its error is as large.
    subroutine test_first_harmonic(checks)
@@ -266,46 +266,46 @@ contains
       call expect(checks, class_creep, [1.0_dp, 50.0_dp], [1.9_dp, 50.0_dp], choice, 'within its error of the quiet limit')
    end subroutine test_first_harmonic
 
-   !> Lines and distortion that are lower bounds prove nothing below a limit, and enough above it.
+   !> Harmonics and distortion that are lower bounds prove nothing below a limit, and enough above it.
    subroutine test_bounds(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       type(spectrum_choice_t) :: choice
       type(rattle_verdict_t) :: verdict
 
-      choice%idle_lines = 3
+      choice%idle_harmonics = 3
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
-      verdict%lines%count_is_bound = .true.
-      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate)
-      call checks%check(index(certificate%reason, 'at least 2 lines') > 0, 'bounds: there may be more lines')
+      verdict%spectrum%count_is_bound = .true.
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification)
+      call checks%check(index(verification%reason, 'at least 2 harmonics') > 0, 'bounds: there may be more harmonics')
       verdict = verdict_of(class_idle, [1.0_dp, 0.5_dp, 0.4_dp], choice)
-      verdict%lines%count_is_bound = .true.
-      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate)
-      call checks%check(certificate%certified, 'bounds: enough lines are enough')
+      verdict%spectrum%count_is_bound = .true.
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification)
+      call checks%check(verification%verified, 'bounds: enough harmonics are enough')
       verdict = verdict_of(class_quiet, [1.0_dp, 0.1_dp], choice)
-      verdict%lines%distortion_is_bound = .true.
-      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate)
-      call checks%check(index(certificate%reason, 'distortion is a lower bound') > 0, 'bounds: the distortion may be larger')
+      verdict%spectrum%distortion_is_bound = .true.
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification)
+      call checks%check(index(verification%reason, 'distortion is a lower bound') > 0, 'bounds: the distortion may be larger')
       verdict = verdict_of(class_idle, [1.0_dp, 0.5_dp, 0.4_dp], choice)
-      verdict%lines%distortion_is_bound = .true.
-      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate)
-      call checks%check(certificate%certified, 'bounds: enough distortion is enough')
+      verdict%spectrum%distortion_is_bound = .true.
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification)
+      call checks%check(verification%verified, 'bounds: enough distortion is enough')
    end subroutine test_bounds
 
-   !> A window that does not close is not certified, and says by how much it does not.
+   !> A window that does not close is not verified, and says by how much it does not.
    subroutine test_closing(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       type(spectrum_choice_t) :: choice
       type(rattle_verdict_t) :: verdict
       type(window_record_t) :: record
       real(dp), parameter :: frequency = 15.0_dp, mass = 3.0_dp, noise = 1.0e-6_dp
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
-      call compare(films, films, values, values, verdict, verdict, choice, tolerance, certificate, 'It is open.')
-      call checks%check(certificate%reason == 'It is open.' .and. .not. certificate%certified, 'closing: the reason given')
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification, 'It is open.')
+      call checks%check(verification%reason == 'It is open.' .and. .not. verification%verified, 'closing: the reason given')
       call checks%check(doubt() == '', 'closing: no record, no doubt')
       ! Two periods whose velocity grows by 4 m/s, of which the integral of z'' sees all, or 0.2 % less.
       record = window_record_t(periods=2, start=motion_state_t(numbers=[1.0_dp, 0.0_dp]), end_velocity=4.0_dp, &
@@ -337,16 +337,17 @@ contains
    subroutine test_chance(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       type(spectrum_choice_t) :: choice
       type(rattle_verdict_t) :: verdict, tight
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
       tight = verdict_of(class_creep, [1.0_dp, 0.51_dp], choice)
-      call compare(films, films, values*[1.0_dp, 1.0_dp, 1.1_dp], values, verdict, tight, choice, tolerance, certificate)
-      call checks%check_close(certificate%acceleration_maximum_error, 6.0_dp, 1.0e-13_dp, 'chance: the error of the maximum')
-      call checks%check_close(certificate%acceleration_minimum_error, 2.0_dp, 1.0e-13_dp, 'chance: a tenth of it, relatively')
-      call checks%check_close(certificate%harmonic_errors(1), 0.002_dp, 1.0e-15_dp, 'chance: a tenth of the other line''s error')
+      call compare(films, films, values*[1.0_dp, 1.0_dp, 1.1_dp], values, verdict, tight, choice, tolerance, verification)
+      call checks%check_close(verification%acceleration_maximum_error, 6.0_dp, 1.0e-13_dp, 'chance: the error of the maximum')
+      call checks%check_close(verification%acceleration_minimum_error, 2.0_dp, 1.0e-13_dp, 'chance: a tenth of it, relatively')
+      call checks%check_close(verification%harmonic_errors(1), 0.002_dp, 1.0e-15_dp, &
+         'chance: a tenth of the other harmonic''s error')
    end subroutine test_chance
 
    !> The tighter solution has errors, too: solutions that agree to the last bit do not make a number exact.
@@ -354,21 +355,22 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       real(dp), parameter :: accuracy = 1.0e-10_dp, noise = 1.0e-6_dp
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       type(spectrum_choice_t) :: choice
       type(rattle_verdict_t) :: verdict
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
       call compare_windows(one_flank(films), one_flank(films), extremes_of(films, values), extremes_of(films, values), verdict, &
-         verdict, '', choice, tolerance, accuracy, noise, certificate)
-      call checks%check(certificate%film_error > accuracy, 'tighter errors: film')
-      call checks%check(certificate%film_minimum_error > accuracy*minval(films) .and. &
-         certificate%film_maximum_error > accuracy*maxval(films), 'tighter errors: extremes of the film')
-      call checks%check(certificate%acceleration_minimum_error > noise + accuracy*abs(minval(values)) .and. &
-         certificate%acceleration_maximum_error > noise + accuracy*maxval(values), 'tighter errors: extremes of the acceleration')
-      call checks%check(all(certificate%harmonic_errors > noise + accuracy*verdict%lines%harmonics), 'tighter errors: lines')
-      call checks%check(certificate%film_error < 100.0_dp*accuracy .and. &
-         all(certificate%harmonic_errors < 100.0_dp*(noise + accuracy*verdict%lines%harmonics)), 'tighter errors: not by far')
+         verdict, '', choice, tolerance, accuracy, noise, verification)
+      call checks%check(verification%film_error > accuracy, 'tighter errors: film')
+      call checks%check(verification%film_minimum_error > accuracy*minval(films) .and. &
+         verification%film_maximum_error > accuracy*maxval(films), 'tighter errors: extremes of the film')
+      call checks%check(verification%acceleration_minimum_error > noise + accuracy*abs(minval(values)) .and. &
+         verification%acceleration_maximum_error > noise + accuracy*maxval(values), 'tighter errors: extremes of the acceleration')
+      call checks%check(all(verification%harmonic_errors > noise + accuracy*verdict%spectrum%harmonics), &
+         'tighter errors: harmonics')
+      call checks%check(verification%film_error < 100.0_dp*accuracy .and. &
+         all(verification%harmonic_errors < 100.0_dp*(noise + accuracy*verdict%spectrum%harmonics)), 'tighter errors: not by far')
    end subroutine test_tighter_errors
 
    !> Between two flanks the errors of both films count, against the thinner one: in samples, and in extremes between them. On teeth
@@ -377,7 +379,7 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       real(dp), parameter :: coast(3) = [1.0e-7_dp, 2.0e-7_dp, 4.0e-7_dp], error = 0.05_dp
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       type(spectrum_choice_t) :: choice
       type(rattle_verdict_t) :: verdict
       type(window_extremes_t) :: extremes, tight_extremes
@@ -389,25 +391,25 @@ contains
       tight_extremes = extremes
       call compare_both(coast)
       ! Twenty times the last digit of the drive film, as a share of the coast film.
-      call checks%check(certificate%certified, 'coast film: the same')
-      call checks%check_close(certificate%film_error, 20.0_dp*epsilon(1.0_dp)*maxval(films)/minval(coast), 1.0e-18_dp, &
+      call checks%check(verification%verified, 'coast film: the same')
+      call checks%check_close(verification%film_error, 20.0_dp*epsilon(1.0_dp)*maxval(films)/minval(coast), 1.0e-18_dp, &
                               'coast film: the same to its last digit')
       call compare_both(coast*[1.0_dp, 1.0_dp + error, 1.0_dp])
-      call checks%check_close(certificate%film_error, 2.0_dp*error, 1.0e-14_dp, 'coast film: error of a sample')
-      call checks%check(.not. certificate%certified, 'coast film: not certified')
+      call checks%check_close(verification%film_error, 2.0_dp*error, 1.0e-14_dp, 'coast film: error of a sample')
+      call checks%check(.not. verification%verified, 'coast film: not verified')
       extremes%lowest(seen_coast_film)%value = (1.0_dp - error)*minval(coast)
       call compare_both(coast)
-      call checks%check_close(certificate%film_error, 2.0_dp*error/(1.0_dp - error), 4.0e-13_dp, &
+      call checks%check_close(verification%film_error, 2.0_dp*error/(1.0_dp - error), 4.0e-13_dp, &
                               'coast film: error between samples')
       tight_extremes%lowest(seen_coast_film)%value = 1.0e-9_dp*minval(coast)
       extremes%lowest(seen_coast_film)%value = 1.0e-9_dp*minval(coast)
       call compare_both(coast)
-      call checks%check_close(certificate%acceleration_error, 2.0e10_dp*epsilon(1.0_dp)*maxval(films)/minval(coast), 1.0e-9_dp, &
+      call checks%check_close(verification%acceleration_error, 2.0e10_dp*epsilon(1.0_dp)*maxval(films)/minval(coast), 1.0e-9_dp, &
                               'coast film: so thin that the last digit of the drive film tells')
       tight_extremes%lowest(seen_coast_film)%value = minval(coast)
       extremes%lowest(seen_coast_film)%value = 1.0e-3_dp*minval(coast)
       call compare_both(coast*[1.0e-3_dp, 1.0_dp, 1.0_dp])
-      call checks%check(certificate%film_error*extremes%lowest(seen_coast_film)%value > minval(coast), &
+      call checks%check(verification%film_error*extremes%lowest(seen_coast_film)%value > minval(coast), &
                         'coast film: told far too thin, its error is a share of what is told')
 
    contains
@@ -417,7 +419,7 @@ contains
          real(dp), intent(in) :: coast_film(:) !> Of the scene [m]
 
          call compare_windows(reshape([films, coast_film], [3, 2]), reshape([films, coast], [3, 2]), extremes, tight_extremes, &
-            verdict, verdict, '', choice, tolerance, 0.0_dp, 0.0_dp, certificate)
+            verdict, verdict, '', choice, tolerance, 0.0_dp, 0.0_dp, verification)
       end subroutine compare_both
 
    end subroutine test_coast_film
@@ -440,15 +442,15 @@ contains
       call checks%check(len(doubt_of_return(irregular, 1, far, tolerance)) == 0, 'return: of an irregular motion')
    end subroutine test_return
 
-   !> Without a tighter solution nothing is certified.
+   !> Without a tighter solution nothing is verified.
    subroutine test_none(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
 
-      certificate = no_certificate('It overflowed.')
-      call checks%check(certificate%exists .and. .not. certificate%certified, 'none: not certified')
-      call checks%check(certificate%reason == 'It overflowed.' .and. size(certificate%harmonic_errors) == 0, 'none: its reason')
+      verification = no_verification('It overflowed.')
+      call checks%check(verification%exists .and. .not. verification%verified, 'none: not verified')
+      call checks%check(verification%reason == 'It overflowed.' .and. size(verification%harmonic_errors) == 0, 'none: its reason')
    end subroutine test_none
 
-end module test_certificate
+end module test_verification

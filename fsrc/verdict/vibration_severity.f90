@@ -4,7 +4,7 @@
 !> Work is that of what the film carries beyond the static load, which does no work in a motion that repeats:
 !>
 !>     dissipated energy = - integral of (W - Q - m g) dh,      in a periodic motion the work - integral of (F - Q) dh of the force
-module loudness
+module vibration_severity
    use force, only: force_of_period
    use kinds, only: dp
    use problem, only: problem_t
@@ -12,8 +12,8 @@ module loudness
    implicit none(type, external)
    private
 
-   !> Loudness of a window.
-   type, public :: loudness_t
+   !> Vibration severity of a window.
+   type, public :: vibration_severity_t
       !> Root of the mean square of z'' [m/s2]
       real(dp) :: acceleration_rms = 0.0_dp
       !> Fourth central moment of z'' over the square of the second [-], 0 where z'' stands still
@@ -22,14 +22,14 @@ module loudness
       real(dp) :: film_force_rms = 0.0_dp
       !> What the film takes from the motion, a period of the force [J]
       real(dp) :: dissipated_energy = 0.0_dp
-   end type loudness_t
+   end type vibration_severity_t
 
-   public :: loudness_of_record, loudness_of_samples
+   public :: severity_of_record, severity_of_samples
 
 contains
 
-   !> Loudness that the steps of the engine tell.
-   pure type(loudness_t) function loudness_of_record(record, frequency) result(loudness)
+   !> Vibration severity that the steps of the engine tell.
+   pure type(vibration_severity_t) function severity_of_record(record, frequency) result(severity)
       !> A record of one or more periods
       type(window_record_t), intent(in) :: record
       !> Frequency of the force [Hz]
@@ -37,14 +37,15 @@ contains
       real(dp) :: periods
 
       periods = real(record%periods, dp)
-      loudness = loudness_of_means([record%acceleration_sum, record%acceleration_square, record%acceleration_cube, &
+      severity = severity_of_means([record%acceleration_sum, record%acceleration_square, record%acceleration_cube, &
                                     record%acceleration_fourth]/periods, &
                                    [record%beyond_static, record%beyond_static_square]/periods, &
                                    record%power_beyond_static/(periods*frequency))
-   end function loudness_of_record
+   end function severity_of_record
 
-   !> Loudness of samples of whole periods.
-   pure type(loudness_t) function loudness_of_samples(problem, samples_per_period, velocities, accelerations) result(loudness)
+   !> Vibration severity of samples of whole periods.
+   pure type(vibration_severity_t) function severity_of_samples(problem, samples_per_period, velocities, &
+      accelerations) result(severity)
       !> What moves
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: samples_per_period
@@ -65,12 +66,12 @@ contains
          power = power + load*velocities(i)
       end do
       associate (samples => real(size(accelerations), dp))
-         loudness = loudness_of_means(powers/samples, beyond/samples, power/(samples*problem%frequency))
+         severity = severity_of_means(powers/samples, beyond/samples, power/(samples*problem%frequency))
       end associate
-   end function loudness_of_samples
+   end function severity_of_samples
 
-   !> Loudness from means over the window.
-   pure type(loudness_t) function loudness_of_means(powers, beyond, work) result(loudness)
+   !> Vibration severity from means over the window.
+   pure type(vibration_severity_t) function severity_of_means(powers, beyond, work) result(severity)
       !> Of z'' and its powers
       real(dp), intent(in) :: powers(4)
       !> Of what the film carries beyond the static load, and of its square [N], [N2]
@@ -79,12 +80,12 @@ contains
       real(dp), intent(in) :: work
       real(dp) :: variance
 
-      loudness%acceleration_rms = sqrt(powers(2))
+      severity%acceleration_rms = sqrt(powers(2))
       variance = powers(2) - powers(1)**2
-      if (variance > 0.0_dp) loudness%acceleration_kurtosis = &
+      if (variance > 0.0_dp) severity%acceleration_kurtosis = &
          (powers(4) - 4.0_dp*powers(1)*powers(3) + 6.0_dp*powers(1)**2*powers(2) - 3.0_dp*powers(1)**4)/variance**2
-      loudness%film_force_rms = sqrt(max(0.0_dp, beyond(2) - beyond(1)**2))
-      loudness%dissipated_energy = -work
-   end function loudness_of_means
+      severity%film_force_rms = sqrt(max(0.0_dp, beyond(2) - beyond(1)**2))
+      severity%dissipated_energy = -work
+   end function severity_of_means
 
-end module loudness
+end module vibration_severity

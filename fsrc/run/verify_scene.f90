@@ -1,14 +1,14 @@
 !> Puts the verdict on a scene to the test: the same scene solved tighter by the error-controlled engine, whatever
-!> method solved it first, sampled finely enough for its lines; and the periodic motion behind it with its Floquet
+!> method solved it first, sampled finely enough for its harmonics; and the periodic motion behind it with its Floquet
 !> multipliers.
-module certify_scene
-   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_strikes, &
-      loudness_error, no_certificate, windows_behind
+module verify_scene
+   use verification, only: verification_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_impacts, &
+      severity_error, no_verification, windows_behind
    use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use kinds, only: dp
-   use loudness, only: loudness_of_record, loudness_t
+   use vibration_severity, only: severity_of_record, vibration_severity_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use carried_loads, only: films_of
    use problem, only: problem_t
@@ -28,12 +28,12 @@ module certify_scene
    !> A periodic motion farther away than this is not that of the scene [-].
    real(dp), parameter :: orbit_nearness = 0.02_dp
 
-   public :: certify, tighten, nearby_orbit
+   public :: verify_motion, tighten, nearby_orbit
 
 contains
 
-   !> Certificate and periodic motion of a judged scene.
-   subroutine certify(scene, resolved, periods, window, extremes, loudness, impacts, verdict, certificate, error, orbit)
+   !> Verification and periodic motion of a judged scene.
+   subroutine verify_motion(scene, resolved, periods, window, extremes, severity, impacts, verdict, verification, error, orbit)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What follows from it
@@ -42,14 +42,14 @@ contains
       integer, intent(in) :: periods
       !> Window at their end
       type(window_t), intent(in) :: window
-      !> Its extremes, loudness and impacts
+      !> Its extremes, severity and impacts
       type(window_extremes_t), intent(in) :: extremes
-      type(loudness_t), intent(in) :: loudness
+      type(vibration_severity_t), intent(in) :: severity
       type(window_impacts_t), intent(in) :: impacts
       !> Verdict to be tested
       type(rattle_verdict_t), intent(in) :: verdict
-      !> Its certificate
-      type(certificate_t), intent(out) :: certificate
+      !> Its verification
+      type(verification_t), intent(out) :: verification
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
       !> Periodic motion at the end of the tighter run, if there is one
@@ -70,7 +70,7 @@ contains
                               tight_verdict, ending, error)
       if (allocated(error)) return
       if (.not. is_success(ending%status)) then
-         certificate = no_certificate('The tighter solution ended as '//status_name(ending%status)//'.')
+         verification = no_verification('The tighter solution ended as '//status_name(ending%status)//'.')
          return
       end if
       if (present(orbit) .or. tight_verdict%class == class_irregular_so_far) then
@@ -83,14 +83,14 @@ contains
       if (len(unclosed) == 0) unclosed = &
          closing_sentence(tight%record, resolved%problem%frequency, resolved%problem%mass, &
                                                             resolved%noise_floor_at(accuracy))
-      if (len(unclosed) == 0 .and. .not. (verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient)) &
+      if (len(unclosed) == 0 .and. .not. (verdict%spectrum%sampling_sufficient .and. tight_verdict%spectrum%sampling_sufficient)) &
          unclosed = too_few_samples(scene, tight)
-      if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, window%periods)
+      if (len(unclosed) == 0) unclosed = doubt_of_impacts(verdict, tight_verdict, window%periods)
       if (len(unclosed) == 0) unclosed = &
          doubt_of_return(verdict, window%periods, &
                          films_of(resolved%problem, reshape([tight%record%start%numbers, ending%numbers], &
                                                             [2, size(ending%numbers)], order=[2, 1])), &
-                         scene%spectrum%certificate_tolerance)
+                         scene%spectrum%verification_tolerance)
       if (len(unclosed) == 0 .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
          call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
          if (allocated(error)) return
@@ -99,12 +99,12 @@ contains
          call compare_windows(films_of(resolved%problem, window%states), &
                               films_of(resolved%problem, tight%states(stride::stride, :)), extremes, &
                               extremes_of_record(tight%record), verdict, tight_verdict, unclosed, scene%spectrum, &
-                              scene%spectrum%certificate_tolerance, accuracy, resolved%noise_floor_at(accuracy), certificate)
+                              scene%spectrum%verification_tolerance, accuracy, resolved%noise_floor_at(accuracy), verification)
       end associate
-      certificate%impacts = agreement_of(resolved%problem, extremes, impacts, extremes_of_record(tight%record), &
+      verification%impacts = agreement_of(resolved%problem, extremes, impacts, extremes_of_record(tight%record), &
                                          impacts_of_record(tight%record, resolved%problem%frequency))
-      certificate%loudness_error = loudness_error(loudness, loudness_of_record(tight%record, resolved%problem%frequency), accuracy)
-   end subroutine certify
+      verification%severity_error = severity_error(severity, severity_of_record(tight%record, resolved%problem%frequency), accuracy)
+   end subroutine verify_motion
 
    !> How a scene is solved tighter.
    pure subroutine tighten(method, own_accuracy, accuracy, by_collocation)
@@ -183,7 +183,7 @@ contains
 
       key = 'solver.samples_per_period'
       if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
-      reason = 'The samples a period are too few for the lines: '//key
+      reason = 'The samples a period are too few for the harmonics: '//key
       if (.not. tight%by_integrals .and. tight%samples_per_period > scene%solver%samples_per_period()) then
          reason = reason//' = '//integer_text(tight%samples_per_period)//' would follow the motion.'
       else
@@ -191,4 +191,4 @@ contains
       end if
    end function too_few_samples
 
-end module certify_scene
+end module verify_scene

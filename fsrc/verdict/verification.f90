@@ -1,7 +1,7 @@
 !> How far a verdict can be trusted: the window of a scene held against the same window solved tighter.
-module certificate
+module verification
    use kinds, only: dp
-   use loudness, only: loudness_t
+   use vibration_severity, only: vibration_severity_t
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
    use quantities, only: quantity_rattle_class, quantity_word
    use problem, only: of_velocity
@@ -19,11 +19,11 @@ module certificate
    !> What the comparison says. The errors are those of the numbers beside them, never printed smaller than the tighter
    !> solution can tell. A relative error is a share of the smaller one of both numbers: a film that is told a hundred times too
    !> thin is 9900 % off, not 99 %.
-   type, public :: certificate_t
+   type, public :: verification_t
       !> Whether there was a tighter solution to compare with
       logical :: exists = .false.
-      !> The class stands
-      logical :: certified = .false.
+      !> The class is verified
+      logical :: verified = .false.
       !> Largest relative difference of the film over the window, its extremes included [-]
       real(dp) :: film_error = 0.0_dp
       !> Errors of the smallest and largest film [m]
@@ -33,15 +33,15 @@ module certificate
       real(dp) :: acceleration_minimum_error = 0.0_dp
       real(dp) :: acceleration_maximum_error = 0.0_dp
       real(dp) :: acceleration_error = 0.0_dp
-      !> Largest relative error of the numbers of loudness [-]
-      real(dp) :: loudness_error = 0.0_dp
+      !> Largest relative error of the numbers of severity [-]
+      real(dp) :: severity_error = 0.0_dp
       !> Whether the impacts are the same
       type(impact_agreement_t) :: impacts = impact_agreement_t()
-      !> Errors of the lines [m/s2]
+      !> Errors of the harmonics [m/s2]
       real(dp), allocatable :: harmonic_errors(:)
-      !> Why it is not certified, or that it is
+      !> Why it is not verified, or that it is
       character(:), allocatable :: reason
-   end type certificate_t
+   end type verification_t
 
    !> Errors in units of the difference from the tighter solution, which has an error of its own.
    real(dp), parameter :: margin = 2.0_dp
@@ -53,18 +53,18 @@ module certificate
    real(dp), parameter :: closing_share = 1.0e-3_dp
    !> Windows behind the one that is judged, and periods of them together, at least, in which a motion has to be irregular too.
    integer, parameter :: least_windows_behind = 4, least_periods_behind = 32
-   !> Reversals of the acceleration that an irregular window holds at least, four strikes: of fewer the next window, or the
+   !> Reversals of the acceleration that an irregular window holds at least, four impacts: of fewer the next window, or the
    !> same one solved otherwise, may hold none.
    real(dp), parameter :: least_reversals = 8.0_dp
 
-   public :: compare_windows, loudness_error, no_certificate, certificate_word, closing_sentence, doubt_of_strikes, &
+   public :: compare_windows, severity_error, no_verification, verification_word, closing_sentence, doubt_of_impacts, &
              doubt_of_return, windows_behind, doubt_behind
 
 contains
 
-   !> Certificate of a window by a tighter one of the same samples.
+   !> Verification of a window by a tighter one of the same samples.
    pure subroutine compare_windows(films, tight_films, extremes, tight_extremes, verdict, tight_verdict, unclosed, choice, &
-                                   tolerance, tight_accuracy, tight_noise, certificate)
+                                   tolerance, tight_accuracy, tight_noise, verification)
       !> Films of the scene and of its tighter solution: sample, flank [m]. Their errors count against the thinner film of both
       !> flanks.
       real(dp), intent(in) :: films(:, :)
@@ -79,46 +79,47 @@ contains
       character(*), intent(in) :: unclosed
       !> Limits of the classes
       type(spectrum_choice_t), intent(in) :: choice
-      !> Film error up to which a regular motion is certified [-]
+      !> Film error up to which a regular motion is verified [-]
       real(dp), intent(in) :: tolerance
       !> Relative accuracy of the tighter solution [-]
       real(dp), intent(in) :: tight_accuracy
       !> Acceleration that its errors explain [m/s2]
       real(dp), intent(in) :: tight_noise
-      type(certificate_t), intent(out) :: certificate
+      type(verification_t), intent(out) :: verification
       real(dp), allocatable :: differences(:)
       real(dp) :: peaks(2), errors(2), film_difference, reached
       integer :: lines
 
-      certificate%exists = .true.
+      verification%exists = .true.
       reached = tight_accuracy
       ! The coast film is what the other one leaves of the backlash, whose last digit is a share of a thin one.
       if (size(films, 2) > 1) reached = max(reached, epsilon(1.0_dp)*tight_extremes%highest(seen_film)%value/ &
                                             max(tiny(1.0_dp), tight_extremes%lowest(seen_coast_film)%value))
       errors = errors_of(seen_film, 0.0_dp)
-      certificate%film_minimum_error = errors(1)
-      certificate%film_maximum_error = errors(2)
+      verification%film_minimum_error = errors(1)
+      verification%film_maximum_error = errors(2)
       film_difference = max(maxval(maxval(abs(films - tight_films), dim=2)/minval(min(films, tight_films), dim=2)), &
                             error_in_film(seen_film))
       if (size(films, 2) > 1) film_difference = max(film_difference, error_in_film(seen_coast_film))
-      certificate%film_error = margin*film_difference
+      verification%film_error = margin*film_difference
       errors = errors_of(seen_acceleration, tight_noise)
-      certificate%acceleration_minimum_error = errors(1)
-      certificate%acceleration_maximum_error = errors(2)
+      verification%acceleration_minimum_error = errors(1)
+      verification%acceleration_maximum_error = errors(2)
       peaks = [peak_of(extremes), peak_of(tight_extremes)]
-      if (any(peaks > 0.0_dp)) certificate%acceleration_error = maxval(errors)/minval(peaks, mask=peaks > 0.0_dp)
-      lines = min(size(verdict%lines%harmonics), size(tight_verdict%lines%harmonics))
-      differences = abs(verdict%lines%harmonics(:lines) - tight_verdict%lines%harmonics(:lines))
-      differences = max(differences + tight_share*reached*tight_verdict%lines%harmonics(:lines), &
+      if (any(peaks > 0.0_dp)) verification%acceleration_error = maxval(errors)/minval(peaks, mask=peaks > 0.0_dp)
+      lines = min(size(verdict%spectrum%harmonics), size(tight_verdict%spectrum%harmonics))
+      differences = abs(verdict%spectrum%harmonics(:lines) - tight_verdict%spectrum%harmonics(:lines))
+      differences = max(differences + tight_share*reached*tight_verdict%spectrum%harmonics(:lines), &
                         least_share*maxval(differences)) &
-                    + max(verdict%lines%resolution_error, tight_verdict%lines%resolution_error) + tight_noise
-      certificate%harmonic_errors = margin*differences
+                    + max(verdict%spectrum%resolution_error, tight_verdict%spectrum%resolution_error) + tight_noise
+      verification%harmonic_errors = margin*differences
 
-      certificate%reason = doubt()
-      certificate%certified = len(certificate%reason) == 0
-      if (certificate%certified) certificate%reason = 'The class stands: solved tighter, it is the same, and no limit lies '// &
+      verification%reason = doubt()
+      verification%verified = len(verification%reason) == 0
+      if (verification%verified) verification%reason = 'The class is verified: a second solution with a tighter tolerance '// &
+         'agrees, and no limit lies '// &
                                                       'within the errors.'
-      if (certificate%certified .and. verdict%class == class_irregular) certificate%reason = certificate%reason// &
+      if (verification%verified .and. verdict%class == class_irregular) verification%reason = verification%reason// &
          ' '//parting_sentence(verdict%parting)//' It may settle later all the same.'
 
    contains
@@ -169,44 +170,45 @@ contains
             reason = unclosed
          else if (verdict%class == class_irregular) then
             ! Irregular motions part from each other; only that they are irregular can stand.
-            if (min(verdict%lines%irregular_fraction, tight_verdict%lines%irregular_fraction) < 2.0_dp*choice%irregular_limit) &
+            if (min(verdict%spectrum%irregular_fraction, tight_verdict%spectrum%irregular_fraction) &
+               < 2.0_dp*choice%irregular_limit) &
                reason = 'The irregular fraction is close to its limit.'
          else if (film_difference > tolerance) then
             reason = 'Solved tighter, the film differs by '//short_text(100.0_dp*film_difference, 2)//' %.'
-         else if (abs(verdict%lines%irregular_fraction - choice%irregular_limit) <= &
-                  abs(verdict%lines%irregular_fraction - tight_verdict%lines%irregular_fraction)) then
+         else if (abs(verdict%spectrum%irregular_fraction - choice%irregular_limit) <= &
+                  abs(verdict%spectrum%irregular_fraction - tight_verdict%spectrum%irregular_fraction)) then
             reason = 'The irregular fraction is within its error of its limit.'
-         else if (verdict%lines%moving .and. verdict%class /= class_subharmonic) then
+         else if (verdict%spectrum%moving .and. verdict%class /= class_subharmonic) then
             reason = doubt_of_limits(verdict, tight_verdict, differences, choice)
          end if
       end function doubt
 
    end subroutine compare_windows
 
-   !> Largest relative error of the numbers of loudness [-].
-   pure real(dp) function loudness_error(loudness, tight, tight_accuracy)
+   !> Largest relative error of the numbers of severity [-].
+   pure real(dp) function severity_error(severity, tight, tight_accuracy)
       !> Of the scene and of its tighter solution
-      type(loudness_t), intent(in) :: loudness
-      type(loudness_t), intent(in) :: tight
+      type(vibration_severity_t), intent(in) :: severity
+      type(vibration_severity_t), intent(in) :: tight
       !> Relative accuracy of the tighter solution [-]
       real(dp), intent(in) :: tight_accuracy
 
-      associate (numbers => numbers_of(loudness))
-         loudness_error = margin*(tight_share*tight_accuracy + &
+      associate (numbers => numbers_of(severity))
+         severity_error = margin*(tight_share*tight_accuracy + &
                                   maxval(abs(numbers - numbers_of(tight))/max(abs(numbers), tiny(1.0_dp))))
       end associate
 
    contains
 
       !> All of them.
-      pure function numbers_of(loudness) result(numbers)
-         type(loudness_t), intent(in) :: loudness
+      pure function numbers_of(severity) result(numbers)
+         type(vibration_severity_t), intent(in) :: severity
          real(dp) :: numbers(4)
 
-         numbers = [loudness%acceleration_rms, loudness%acceleration_kurtosis, loudness%film_force_rms, loudness%dissipated_energy]
+         numbers = [severity%acceleration_rms, severity%acceleration_kurtosis, severity%film_force_rms, severity%dissipated_energy]
       end function numbers_of
 
-   end function loudness_error
+   end function severity_error
 
    !> Why a window does not close, empty if it does.
    pure function closing_sentence(record, frequency, mass, noise_floor) result(reason)
@@ -234,7 +236,7 @@ contains
    end function closing_sentence
 
    !> Why a window is too short to tell an irregular motion, empty if it is not, or the motion is another one.
-   pure function doubt_of_strikes(verdict, tight_verdict, periods) result(reason)
+   pure function doubt_of_impacts(verdict, tight_verdict, periods) result(reason)
       !> Verdicts of a scene and of its tighter solution
       type(rattle_verdict_t), intent(in) :: verdict
       type(rattle_verdict_t), intent(in) :: tight_verdict
@@ -245,8 +247,8 @@ contains
       reason = ''
       if (verdict%class /= class_irregular .or. tight_verdict%class /= class_irregular) return
       if (min(verdict%reversals_per_period, tight_verdict%reversals_per_period)*real(periods, dp) < least_reversals) &
-         reason = 'The window holds too few strikes to tell an irregular motion; more of spectrum.periods would.'
-   end function doubt_of_strikes
+         reason = 'The window holds too few impacts to tell an irregular motion; more of spectrum.periods would.'
+   end function doubt_of_impacts
 
    !> Why a window of one period is not that of a motion that repeats after it, empty if it is, or the window has more: there the
    !> power off the harmonics tells.
@@ -256,7 +258,7 @@ contains
       integer, intent(in) :: periods
       !> Films where the window begins and where it ends: state, flank [m]
       real(dp), intent(in) :: films(:, :)
-      !> Difference of films up to which a regular motion is certified [-]
+      !> Difference of films up to which a regular motion is verified [-]
       real(dp), intent(in) :: tolerance
       character(:), allocatable :: reason
       real(dp) :: differences(size(films, 2))
@@ -272,7 +274,7 @@ contains
                   'More of spectrum.periods would tell more.'
    end function doubt_of_return
 
-   !> How many windows behind the one that is judged a motion has to be irregular in too. One that strikes now and then may be
+   !> How many windows behind the one that is judged a motion has to be irregular in too. One that hits a flank now and then may be
    !> quiet for a window and irregular in the next: then the class is that of the window, not of the motion.
    pure integer function windows_behind(periods)
       !> Periods of a window
@@ -323,7 +325,7 @@ contains
                 error_text(parting%standard_error, parting%exponent, 2)//' a period, over '//counted(parting%periods, 'period')//'.'
    end function parting_sentence
 
-   !> Whether a limit of the classes lies within the errors of the lines.
+   !> Whether a limit of the classes lies within the errors of the harmonics.
    pure function doubt_of_limits(verdict, tight_verdict, errors, choice) result(reason)
       type(rattle_verdict_t), intent(in) :: verdict
       type(rattle_verdict_t), intent(in) :: tight_verdict
@@ -336,10 +338,10 @@ contains
       integer :: first, known, fewest, most, i
 
       reason = ''
-      associate (lines => verdict%lines, a => verdict%lines%harmonics)
-         first = lines%largest_forced
+      associate (spectrum => verdict%spectrum, a => verdict%spectrum%harmonics)
+         first = spectrum%largest_forced
          if (.not. a(first) > errors(first)) then
-            reason = 'The largest line at a harmonic of the force is as small as its error.'
+            reason = 'The largest harmonic at a harmonic of the force is as small as its error.'
             if (first == 1) reason = 'The first harmonic is as small as its error.'
             return
          end if
@@ -347,50 +349,52 @@ contains
          unforced = errors
          where (choice%forced(:known)) unforced(:known) = 0.0_dp
          forced_error = sqrt(max(0.0_dp, sum((errors - unforced)**2)))
-         distortion_error = max((sqrt(unforced(1)**2 + sum(unforced(2:)**2)) + lines%harmonic_distortion*forced_error)/ &
-                                (lines%forced_amplitude - forced_error), &
-                                abs(lines%harmonic_distortion - tight_verdict%lines%harmonic_distortion))
-         if (abs(lines%harmonic_distortion - choice%quiet_limit) <= distortion_error) then
+         distortion_error = max((sqrt(unforced(1)**2 + sum(unforced(2:)**2)) + spectrum%harmonic_distortion*forced_error)/ &
+                                (spectrum%forced_amplitude - forced_error), &
+                                abs(spectrum%harmonic_distortion - tight_verdict%spectrum%harmonic_distortion))
+         if (abs(spectrum%harmonic_distortion - choice%quiet_limit) <= distortion_error) then
             reason = 'The harmonic distortion is within its error of the quiet limit.'
             return
          end if
-         if (lines%harmonic_distortion < choice%quiet_limit) then
-            if (lines%distortion_is_bound .or. tight_verdict%lines%distortion_is_bound) &
-               reason = 'The harmonic distortion is a lower bound: more lines than are resolved may lift it over the quiet limit.'
+         if (spectrum%harmonic_distortion < choice%quiet_limit) then
+            if (spectrum%distortion_is_bound .or. tight_verdict%spectrum%distortion_is_bound) &
+               reason = 'The harmonic distortion is a lower bound: more harmonics than are resolved may lift it over the '// &
+                  'quiet limit.'
             return
          end if
-         threshold = choice%line_threshold
+         threshold = choice%harmonic_threshold
          others = [(i, i=1, size(errors))]
          others = pack(others, others == first .or. [.not. choice%forced(:known), spread(.true., 1, size(errors) - known)])
          fewest = count(a(others) - errors(others) > threshold*(a(first) + errors(first)))
          most = count(a(others) + errors(others) > threshold*(a(first) - errors(first)))
-         if (fewest < choice%idle_lines .and. (lines%count_is_bound .or. tight_verdict%lines%count_is_bound)) then
-            reason = 'There are at least '//integer_text(fewest)//' lines, and beyond the highest resolved one there may be more.'
-         else if (fewest < choice%idle_lines .and. most >= choice%idle_lines) then
-            reason = 'Within their errors there are '//integer_text(fewest)//' to '//integer_text(most)//' lines.'
+         if (fewest < choice%idle_harmonics .and. (spectrum%count_is_bound .or. tight_verdict%spectrum%count_is_bound)) then
+            reason = 'There are at least '//integer_text(fewest)//' harmonics, and beyond the highest resolved one there may '// &
+               'be more.'
+         else if (fewest < choice%idle_harmonics .and. most >= choice%idle_harmonics) then
+            reason = 'Within their errors there are '//integer_text(fewest)//' to '//integer_text(most)//' harmonics.'
          end if
       end associate
    end function doubt_of_limits
 
-   !> Whether the class stands, in a word.
-   pure function certificate_word(certificate) result(word)
-      !> A certificate that exists
-      type(certificate_t), intent(in) :: certificate
+   !> Whether the class is verified, in a word.
+   pure function verification_word(verification) result(word)
+      !> A verification that exists
+      type(verification_t), intent(in) :: verification
       character(:), allocatable :: word
 
       word = 'uncertain'
-      if (certificate%certified) word = 'certified'
-   end function certificate_word
+      if (verification%verified) word = 'verified'
+   end function verification_word
 
-   !> Certificate of a class that could not be put to the test.
-   pure function no_certificate(reason) result(certificate)
+   !> Verification of a class that could not be put to the test.
+   pure function no_verification(reason) result(verification)
       !> Why not
       character(*), intent(in) :: reason
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
 
-      certificate%exists = .true.
-      certificate%reason = reason
-      allocate (certificate%harmonic_errors(0))
-   end function no_certificate
+      verification%exists = .true.
+      verification%reason = reason
+      allocate (verification%harmonic_errors(0))
+   end function no_verification
 
-end module certificate
+end module verification

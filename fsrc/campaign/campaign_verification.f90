@@ -1,13 +1,13 @@
 !> Which classes of a group of scenes stand: all of them solved again from their start, tighter and side by side, and every window
-!> held against the tighter one by the certificate of the single scene.
+!> held against the tighter one by the verification of the single scene.
 !>
 !> A single scene that is solved until it is steady is held against the same periods from its start. In a campaign both solutions go
 !> on until the motion repeats, the tighter one within its own accuracy, and their forecasts may save different periods: the
 !> orbits are held against each other, beginning with whichever of their periods fits best.
-module campaign_certificate
-   use certificate, only: certificate_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_strikes, &
+module campaign_verification
+   use verification, only: verification_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_impacts, &
       windows_behind
-   use certify_scene, only: nearby_orbit, tighten
+   use verify_scene, only: nearby_orbit, tighten
    use engine, only: motion_state_t, request_t, start_of
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film, seen_load, seen_net_load, seen_quantities
@@ -28,12 +28,12 @@ module campaign_certificate
    !> Extremes that windows are compared by
    integer, parameter, public :: compared(3) = [seen_film, seen_coast_film, seen_acceleration]
 
-   public :: certify_group
+   public :: verify_group
 
 contains
 
    !> Whether the classes of a group stand. After a signal to stop the answer is of no use.
-   subroutine certify_group(resolved, choices, request, group, tight, stands, agree)
+   subroutine verify_group(resolved, choices, request, group, tight, stands, agree)
       !> What follows from the scenes, and the limits of their classes
       type(resolved_scene_t), intent(in) :: resolved(:)
       type(spectrum_choice_t), intent(in) :: choices(:)
@@ -95,7 +95,7 @@ contains
       tested = tested(irregular)
       call look_behind(resolved(tested)%problem, choices(tested), noise(tested), tighter, tested, &
                        tight%endings(irregular)%motion_state_t, tight, stands)
-   end subroutine certify_group
+   end subroutine verify_group
 
    !> Whether the class of a scene stands as far as its window tells. One thread at a time makes these texts: gfortran keeps
    !> the length of a text that a function allocates for all of them.
@@ -111,7 +111,7 @@ contains
       real(dp), intent(in) :: tight_noise
       type(scene_group_t), intent(in) :: group
       type(scene_group_t), intent(in) :: tight
-      type(certificate_t) :: certificate
+      type(verification_t) :: verification
       character(:), allocatable :: unclosed
       integer, allocatable :: same(:)
 
@@ -121,14 +121,15 @@ contains
          !$omp critical (sentences)
          unclosed = closing_sentence(record, problem%frequency, problem%mass, resolved%noise_floor)
          if (len(unclosed) == 0) unclosed = closing_sentence(tight_record, problem%frequency, problem%mass, tight_noise)
-         if (len(unclosed) == 0) unclosed = doubt_of_strikes(verdict, tight_verdict, samples/tighter%samples_per_period)
+         if (len(unclosed) == 0) unclosed = doubt_of_impacts(verdict, tight_verdict, samples/tighter%samples_per_period)
          if (len(unclosed) == 0) unclosed = &
             doubt_of_return(verdict, samples/tighter%samples_per_period, &
                             films_of(problem, reshape([tight_record%start%numbers, tight%endings(tight_place)%numbers], &
                                                       [2, size(tight_record%start%numbers)], order=[2, 1])), &
-                            choice%certificate_tolerance)
+                            choice%verification_tolerance)
          !$omp end critical (sentences)
-         class_stands = len(unclosed) == 0 .and. verdict%lines%sampling_sufficient .and. tight_verdict%lines%sampling_sufficient
+         class_stands = len(unclosed) == 0 .and. verdict%spectrum%sampling_sufficient .and. &
+            tight_verdict%spectrum%sampling_sufficient
          if (.not. class_stands) return
          same = same_phase(group%states(:samples, of_film, place), tight%states(:tight_samples, of_film, tight_place), &
                            tighter%samples_per_period, &
@@ -137,9 +138,9 @@ contains
          call compare_windows(films_of(problem, group%states(:samples, :, place)), &
                               films_of(problem, tight%states(same, :, tight_place)), extremes_of_record(record), &
                               extremes_of_record(tight_record), verdict, tight_verdict, unclosed, choice, &
-                              choice%certificate_tolerance, tighter%accuracy, tight_noise, certificate)
+                              choice%verification_tolerance, tighter%accuracy, tight_noise, verification)
          !$omp end critical (sentences)
-         class_stands = certificate%certified
+         class_stands = verification%verified
       end associate
    end function class_stands
 
@@ -206,4 +207,4 @@ contains
       end do
    end subroutine look_behind
 
-end module campaign_certificate
+end module campaign_verification
