@@ -124,6 +124,11 @@ def test_speeds_of_a_shaft_that_swing_too_far(run, tmp_path: Path) -> None:
     (tmp_path / "pair.nml").write_text(PAIR)
     words = ("--set", "shaft.speed_rpm=3000", "--set", "shaft.accelerations=5001")
     assert not warnings_of(run("--check", *words, "pair.nml", cwd=tmp_path).stdout)
+    # Of several orders the largest swing is told, wherever it stands.
+    swings = "orders = 2.0, 4.0, 6.0, accelerations = 300.0, 6000.0, 100.0"
+    (tmp_path / "pair.nml").write_text(PAIR.replace("orders = 2.0, accelerations = 600.0", swings))
+    (warning,) = warnings_of(run("--check", "pair.nml", cwd=tmp_path).stdout)
+    assert ": &shaft accelerations: 6000.0 rad/s2 of order 4.00 " in warning
 
 
 def test_log_summary_and_report_tell_it(run, tmp_path: Path) -> None:
