@@ -7,7 +7,8 @@ module test_regime_check
    use node_extremes, only: seen_pressure
    use problem, only: of_film, problem_t
    use regime, only: film_elastohydrodynamic, film_iso_viscous, film_piezo_viscous
-   use regime_check, only: check_regime, regime_sentence, regime_verdict_t, steady_alpha_p
+   use regime_check, only: check_regime, gap_both, gap_too_narrow, gap_too_wide, model_limit, regime_sentence, regime_verdict_t, &
+                           steady_alpha_p, within_model
    use scene_types, only: law_iso_viscous, law_piezo_viscous, model_reynolds, scene_t
    use window_extremes, only: extremes_of_samples, window_extremes_t
    implicit none(type, external)
@@ -33,6 +34,7 @@ contains
       call test_exact_piezo_viscous(checks)
       call test_deep(checks)
       call test_sentences(checks)
+      call test_model_limit(checks)
    end subroutine run_regime_check_tests
 
    !> B of a film thickness: 6 sqrt(2) (u eta0 alpha/R)/(h/R)^(3/2).
@@ -258,5 +260,16 @@ contains
       end subroutine expect
 
    end subroutine test_sentences
+
+   !> The widest film is held against a tenth of the radius, the thinnest one against 1 nm.
+   subroutine test_model_limit(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: radius = 0.01_dp
+
+      call checks%check(model_limit(1.0e-8_dp, 0.9e-3_dp, radius) == within_model, 'films that the model can mean')
+      call checks%check(model_limit(1.0e-8_dp, 1.1e-3_dp, radius) == gap_too_wide, 'too wide at its widest alone')
+      call checks%check(model_limit(0.9e-9_dp, 0.9e-3_dp, radius) == gap_too_narrow, 'too narrow at its thinnest alone')
+      call checks%check(model_limit(0.9e-9_dp, 1.1e-3_dp, radius) == gap_both, 'both')
+   end subroutine test_model_limit
 
 end module test_regime_check
