@@ -5,7 +5,7 @@ module run_threshold
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
    use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t, raise
-   use file_system, only: delete_file
+   use file_system, only: delete_file, path_exists
    use finished_files, only: place_files
    use key_table, only: key_name
    use kinds, only: dp, int64
@@ -167,6 +167,7 @@ contains
       type(summary_t) :: summary
       type(word_t), allocatable :: results(:)
       integer :: status
+      logical :: keeps_earlier
 
       call progress%finish(log)
       allocate (results(0))
@@ -189,16 +190,25 @@ contains
       call summary%add('scenes_failed', failed_scenes(outcome))
       call summary%add('scenes_of_a_grid', grid_scenes(scene, threshold))
       call summary%add('wall_seconds', wall_seconds() - started)
-      call summary%write_beside(summary_path(scene), summary_error)
-      if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
-      call place_files(results, summary_path(scene), error)
+      keeps_earlier = .false.
+      if (outcome%cut) keeps_earlier = path_exists(result_path(scene))
+      ! Where an earlier run left a result, its summary stays beside it: what was cut short has its state.
+      if (.not. keeps_earlier) then
+         call summary%write_beside(summary_path(scene), summary_error)
+         if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+         call place_files(results, summary_path(scene), error)
+      end if
       if (allocated(error)) then
          call log%line('  '//error%message)
       else if (outcome%cut) then
          call log%line('  cut short after '//integer_text(outcome%traces)//' of '// &
                        counted(int(threshold%traces%layout%scene_count), 'trace')//'; --resume goes on with these and '// &
                        counted(size(outcome%points), 'value')//' of the next, no result is written before')
-         call log%line('  '//summary_path(scene))
+         if (keeps_earlier) then
+            call log%line('  '//result_path(scene)//' and its summary are those of an earlier run')
+         else
+            call log%line('  '//summary_path(scene))
+         end if
       else
          call delete_file(state_path(scene))
          call report_ending(log, scene, threshold, outcome)

@@ -32,15 +32,16 @@ def solve(command: Sequence[str], settings: Sequence[str], text: str) -> subproc
         listed.flush()
         listed.seek(0)
         given = ["--set", f"@/dev/fd/{listed.fileno()}"] if settings else []
-        process = subprocess.Popen(
-            [command[0], *given, *command[1:]],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            pass_fds=(listed.fileno(),),
-            preexec_fn=_ending_with_parent(),
-        )
-        with _handed_on(process):
+        with _handed_on() as hand_to:
+            process = subprocess.Popen(
+                [command[0], *given, *command[1:]],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                pass_fds=(listed.fileno(),),
+                preexec_fn=_ending_with_parent(),
+            )
+            hand_to(process)
             said, complained = _talk(process, text.encode("utf-8", "surrogateescape"))
     return subprocess.CompletedProcess(
         process.args, process.returncode, os.fsdecode(said), os.fsdecode(complained)
@@ -77,22 +78,32 @@ def _ending_with_parent() -> Callable[[], None] | None:
 
 
 @contextmanager
-def _handed_on(process: subprocess.Popen[bytes]) -> Iterator[None]:
-    """Hand signals that would end this process to the program, and end once the program has."""
+def _handed_on() -> Iterator[Callable[[subprocess.Popen[bytes]], None]]:
+    """Hand signals that would end this process to the program, and end once the program has.
+
+    What is given takes the program. A signal that comes while it is being started is handed on then.
+    """
     caught: list[int] = []
+    running: list[subprocess.Popen[bytes]] = []
 
     def hand_on(number: int, _: FrameType | None) -> None:
         caught.append(number)
-        process.send_signal(number)
+        for process in running:
+            process.send_signal(number)
+
+    def hand_to(process: subprocess.Popen[bytes]) -> None:
+        running.append(process)
+        for number in caught:
+            process.send_signal(number)
 
     if threading.current_thread() is not threading.main_thread():
-        yield  # the handlers are those of the main thread
+        yield hand_to  # the handlers are those of the main thread
         return
     ours = [number for number in ENDING if signal.getsignal(number) is signal.SIG_DFL]
     for number in ours:
         signal.signal(number, hand_on)
     try:
-        yield
+        yield hand_to
     finally:
         for number in ours:
             signal.signal(number, signal.SIG_DFL)

@@ -406,6 +406,31 @@ def test_signals_of_batch_systems_keep_the_state(
     assert (results / "scene.rattle").read_bytes() == (tmp_path / "whole" / "scene.rattle").read_bytes()
 
 
+def test_a_finished_threshold_stays_when_it_is_solved_again_and_interrupted(
+    shim: Path, rattle: Path, run, scene_text, tmp_path: Path
+) -> None:
+    """What was cut short has no result: the summary beside the earlier one stays that of its run."""
+    (tmp_path / "scene.nml").write_text(TASKS["threshold"](scene_text))
+    assert run("scene.nml", cwd=tmp_path).returncode == 0
+    results = tmp_path / "results"
+    kept = {name: (results / name).read_bytes() for name in ("scene.rattle", "scene.summary.nml")}
+    environment = {**os.environ, "LD_PRELOAD": str(shim), "FAULT_FOLDER": "results/", "FAULT_KIND": "signal"}
+    environment |= {"FAULT_SIGNAL": str(int(signal.SIGTERM))}
+    command = [rattle, "--quiet", "--threads", "1", "--resume", "scene.nml"]
+    logs = []
+    for at in range(4, 100, 2):
+        # The signal comes before ever later calls, until the run has made all of them.
+        ended = subprocess.run(command, cwd=tmp_path, env={**environment, "FAULT_AT": str(at)}, check=False)
+        if ended.returncode == 0:
+            break
+        assert ended.returncode == 128 + signal.SIGTERM
+        assert kept == {name: (results / name).read_bytes() for name in kept}
+        logs.append((results / "scene.log").read_text())
+    assert any("scene.rattle and its summary are those of an earlier run" in text for text in logs)
+    assert (results / "scene.rattle").read_bytes() == kept["scene.rattle"]
+    assert package.read_summary(results / "scene.summary.nml")["status"] == "complete"
+
+
 def test_a_run_of_nohup_outlives_its_terminal(shim: Path, rattle: Path, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(scene_text())
     environment = {**os.environ, "LD_PRELOAD": str(shim), "FAULT_FOLDER": "results/", "FAULT_KIND": "signal"}

@@ -226,3 +226,26 @@ def test_a_python_that_is_killed_leaves_no_solver(code, number, tmp_path):
     process.communicate(timeout=600.0)
     assert nothing_left(process.pid)
     assert rattle.read_summary(tmp_path / "out" / "long.summary.nml")["status"] == "interrupted"
+
+
+def test_a_signal_while_the_solver_is_started_is_handed_on(tmp_path):
+    """The script ends after the solver, which has ended in good order."""
+    (tmp_path / "scene.nml").write_text(text_of(ENDLESS))
+    words = """
+import os, signal, subprocess, sys
+sys.path.insert(0, sys.argv[1])
+import rattle
+
+class Started(subprocess.Popen):
+    def __init__(self, *given, **named):
+        super().__init__(*given, **named)
+        os.kill(os.getpid(), signal.SIGTERM)
+
+subprocess.Popen = Started
+rattle.run("scene.nml", folder="results")
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", words, str(SCRIPTS)], cwd=tmp_path, check=False, timeout=120
+    )
+    assert ended.returncode == 128 + signal.SIGTERM
+    assert not [*(tmp_path / "results").glob("*.lock")]
