@@ -16,7 +16,7 @@ module run_campaign
    use rattle_class, only: class_irregular_so_far
    use ranks, only: abort_ranks, next_tickets, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
    use scene_report, only: law_sentence
-   use scene_summary, only: add_results
+   use scene_summary, only: add_notes, add_results
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
    use schedule, only: pace_t
@@ -295,6 +295,7 @@ contains
       call summary%add('name', trim(scene%name))
       call summary%add('program_version', program_version)
       call summary%add('status', status_name(status))
+      call add_notes(summary, scene, [scene%warnings, campaign%warnings])
       call add_results(summary, [word_t(result_path(scene))], status)
       call summary%add('scenes', campaign%layout%scene_count)
       call summary%add('scenes_done', progress%done_before + progress%done)

@@ -4,8 +4,8 @@ module text
    implicit none(type, external)
    private
 
-   public :: counted, integer_text, real_text, short_text, error_text, stated_error, logical_text, lower, quoted, quoted_words, &
-             edit_distance, is_word_character, printable
+   public :: counted, integer_text, real_text, short_text, error_text, stated_error, logical_text, lower, spaced, quoted, &
+             quoted_words, edit_distance, is_word_character, printable
 
    interface counted
       module procedure counted_default
@@ -213,6 +213,18 @@ contains
          if (mixed(i:i) >= 'A' .and. mixed(i:i) <= 'Z') text(i:i) = achar(iachar(mixed(i:i)) + 32)
       end do
    end function lower
+
+   !> A name as words: blanks for underscores.
+   pure function spaced(name) result(words)
+      character(*), intent(in) :: name
+      character(len(name)) :: words
+      integer :: i
+
+      words = name
+      do i = 1, len(name)
+         if (name(i:i) == '_') words(i:i) = ' '
+      end do
+   end function spaced
 
    !> Text in namelist quotes, quotes inside doubled.
    pure function quoted(plain) result(text)

@@ -16,7 +16,7 @@ module gearbox_table
    use scene_status, only: is_success, status_complete, status_interrupted, status_name
    use scene_types, only: scene_t
    use summary_file, only: checksum_in_summary, read_from_summary, summary_t
-   use text, only: counted, integer_text, short_text
+   use text, only: counted, integer_text, short_text, spaced
    use version, only: program_version
    use word_list, only: joined_words, word_t
    implicit none(type, external)
@@ -204,7 +204,7 @@ contains
       do i = 1, size(rows)
          associate (numbers => rows(i)%numbers)
             class = status_name(rows(i)%status)
-            if (.not. ieee_is_nan(numbers(1))) class = quantity_word(told(1), nint(numbers(1)))
+            if (.not. ieee_is_nan(numbers(1))) class = spaced(quantity_word(told(1), nint(numbers(1))))
             peak = numbers(place_maximum)
             ! What is unknown is compared with nothing.
             if (.not. ieee_is_nan(numbers(2))) class = class//trim(merge(', verified', '          ', numbers(2) > 0.0_dp))

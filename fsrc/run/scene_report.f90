@@ -18,7 +18,7 @@ module scene_report
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
    use scene_types, only: drag_computed, method_newmark, model_reynolds, scene_t, speed_mean, task_film
-   use text, only: error_text, integer_text, short_text
+   use text, only: error_text, integer_text, short_text, spaced
    use version, only: program_version
    implicit none(type, external)
    private
@@ -72,7 +72,7 @@ contains
       !> Part of the summary, a code of module quantities
       integer, intent(in) :: part
       character(:), allocatable :: words
-      integer :: i, k
+      integer :: i
 
       words = ''
       do i = 1, size(quantity_table)
@@ -80,10 +80,7 @@ contains
          if (ieee_is_nan(quantity_value(i, judged))) cycle
          words = words//', '//trim(quantity_table(i)%name)//' '//told_value(i, quantity_value(i, judged))
       end do
-      do k = 1, len(words)
-         if (words(k:k) == '_') words(k:k) = ' '
-      end do
-      if (len(words) > 0) call log%line('  '//words(3:))
+      if (len(words) > 0) call log%line('  '//spaced(words(3:)))
    end subroutine report_part
 
    !> A known value as a person says it.
@@ -284,10 +281,10 @@ contains
                'harmonic distortion '// &
                           at_least(spectrum%distortion_is_bound)//short_text(spectrum%harmonic_distortion, 3)//', '// &
                           short_text(rattle%reversals_per_period, 3)//' reversals a period: '// &
-                          quantity_word(quantity_rattle_class, rattle%class)// &
+                          spaced(quantity_word(quantity_rattle_class, rattle%class))// &
                           verified_in_brackets())
          else
-            call log%line('  no motion but rounding: '//quantity_word(quantity_rattle_class, rattle%class))
+            call log%line('  no motion but rounding: '//spaced(quantity_word(quantity_rattle_class, rattle%class)))
          end if
          ! Without a series, samples matter only where the harmonics are theirs.
          if (judged%series_coarse .and. (scene%output%series .or. .not. spectrum%sampling_sufficient)) &

@@ -13,7 +13,7 @@ module scene_summary
    use result_checksum, only: checksum_of_new_result
    use scene_report, only: acceleration_words, speed_meaning
    use scene_status, only: is_success, status_name, status_no_rigid_film, status_not_written, status_sentence
-   use scene_types, only: scene_t
+   use scene_types, only: scene_t, task_film
    use summary_file, only: summary_t
    use text, only: stated_error
    use version, only: program_version
@@ -21,7 +21,7 @@ module scene_summary
    implicit none(type, external)
    private
 
-   public :: write_scene_summary, add_head, add_results
+   public :: write_scene_summary, add_head, add_notes, add_results
 
 contains
 
@@ -47,7 +47,6 @@ contains
       call summary%add('model', choice_word('film', 'model', scene%film%model))
       call summary%add('speed_used', judged%resolved%problem%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))
-      if (scene%gear%given) call summary%add('acceleration_meaning', trim(adjustl(acceleration_words(scene))))
       call add_derived(summary, scene)
       call add_part(summary, judged, part_scene)
       if (judged%judged) then
@@ -184,8 +183,21 @@ contains
       else
          call summary%add('status_text', status_sentence(status))
       end if
-      if (allocated(scene%warnings)) call summary%add('input_warnings', scene%warnings)
+      call add_notes(summary, scene, scene%warnings)
    end subroutine add_head
+
+   !> What is odd about the input, and what its accelerations are.
+   subroutine add_notes(summary, scene, warnings)
+      type(summary_t), intent(inout) :: summary
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> Of this input; absent where none were looked for
+      type(word_t), intent(in), optional :: warnings(:)
+
+      if (present(warnings)) call summary%add('input_warnings', warnings)
+      if (scene%gear%given .and. scene%task /= task_film) &
+         call summary%add('acceleration_meaning', trim(adjustl(acceleration_words(scene))))
+   end subroutine add_notes
 
    !> The checksums by which a reader knows the results that a summary belongs to: the first is that of NAME.rattle, 0 where the
    !> run has left none, and that of the profiles follows.

@@ -9,7 +9,7 @@ module verification
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
    use scene_status, only: is_success, status_name
    use scene_types, only: spectrum_choice_t
-   use text, only: counted, error_text, integer_text, short_text
+   use text, only: counted, error_text, integer_text, short_text, spaced
    use window_extremes, only: window_extremes_t
    use window_impacts, only: impact_agreement_t
    use window_record, only: energy_gap, momentum_gap, window_record_t
@@ -163,7 +163,7 @@ contains
 
          reason = ''
          if (tight_verdict%class /= verdict%class) then
-            reason = 'Solved tighter, the class is '//quantity_word(quantity_rattle_class, tight_verdict%class)//'.'
+            reason = 'Solved tighter, the class is '//spaced(quantity_word(quantity_rattle_class, tight_verdict%class))//'.'
          else if (verdict%class == class_irregular_so_far) then
             reason = doubt_of_parting(verdict%parting)
          else if (len(unclosed) > 0) then
@@ -297,7 +297,7 @@ contains
          reason = 'Behind the window the motion ends as '//status_name(status)//'.'
       else if (.not. is_off_harmonics(verdict%class)) then
          reason = 'The class is that of this window: '//counted(windows, 'window')//' later the motion is '// &
-                  quantity_word(quantity_rattle_class, verdict%class)//'.'
+                  spaced(quantity_word(quantity_rattle_class, verdict%class))//'.'
       end if
    end function doubt_behind
 

@@ -74,6 +74,11 @@ def word(column: str, code: float) -> str:
     return words.get(int(code), f"{column} {int(code)}")
 
 
+def spoken(name: str) -> str:
+    """A word of a column, or a name, as people say it."""
+    return name.replace("_", " ")
+
+
 def attributes(name: str, unit: str) -> dict[str, Any]:
     """Unit, name and the meanings of codes, in the words that readers of NetCDF know."""
     found: dict[str, Any] = {"units": UDUNITS.get(unit, unit), "long_name": name.replace("_", " ")}

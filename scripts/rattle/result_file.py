@@ -87,6 +87,11 @@ class ResultFile:
             raise ResultError(f"The resolved input in {self.path} has no {group}.{key}.") from None
 
     @property
+    def has_gear(self) -> bool:
+        """Whether the input describes gear pairs, whose acceleration is relative to the shaft."""
+        return any(group.partition("(")[0] == "gear" for group in self.input)
+
+    @property
     def summary_path(self) -> Path:
         """Where the program writes the summary of this run."""
         return self.path.with_suffix(".summary.nml")

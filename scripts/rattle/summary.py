@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from rattle.checksums import checksum
-from rattle.codes import QUANTITIES
+from rattle.codes import QUANTITIES, spoken
 from rattle.former_names import present_summary
 from rattle.namelist import NamelistError, parse
 from rattle.result_header import checksum_of_head
@@ -98,7 +98,7 @@ def _cell(show: Callable[[Summary], str], summary: Summary) -> str:
 
 
 def _text(label: str, key: str) -> Row:
-    return label, lambda summary: str(summary[key]).strip()
+    return label, lambda summary: spoken(str(summary[key]).strip())
 
 
 def _number(label: str, quantity: str, form: str) -> Row:

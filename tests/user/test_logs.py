@@ -11,7 +11,7 @@ import campaign_runs
 import numpy as np
 import pytest
 from test_thresholds import threshold_text
-from told import ANY, assert_told, counted, short, stated_error
+from told import ANY, SPOKEN, assert_told, counted, short, stated_error
 
 import rattle
 
@@ -104,15 +104,19 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
     ]
 
 
+def class_words(told: Mapping[str, Any]) -> str:
+    return SPOKEN.get(told["rattle_class"], told["rattle_class"])
+
+
 def spectrum_words(told: Mapping[str, Any], verification: str) -> str:
     if "harmonic_distortion" not in told:
-        return f"  no motion but rounding: {told['rattle_class']}"
+        return f"  no motion but rounding: {class_words(told)}"
     bound = "at least " if told["harmonic_count_is_bound"] else ""
     share = "at least " if told["harmonic_distortion_is_bound"] else ""
     return (
         f"  {bound}{told['harmonic_count']} harmonics, harmonic distortion {share}"
         f"{short(told['harmonic_distortion'], 3)}, {short(told['reversals_per_period'], 3)} reversals a "
-        f"period: {told['rattle_class']}{verification}"
+        f"period: {class_words(told)}{verification}"
     )
 
 
@@ -261,7 +265,7 @@ UNITS = ("[um]", "[m/s2]", "[m/s2]", "rms [N]", "[W]")
 
 def told_by_the_table(gear: str, told: Mapping[str, Any]) -> list[str]:
     """The cells of a pair, as many as there are heads."""
-    word = told.get("rattle_class", told["status"])
+    word = class_words(told) if "rattle_class" in told else told["status"]
     flanks = {True: "yes", False: "no", None: "-"}[told.get("double_sided")]
     known = "acceleration_minimum" in told
     peak = max(-told["acceleration_minimum"], told["acceleration_maximum"]) if known else None

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from report_reader import FACTORS, Page, number, read_page
 from test_report import CALM, report, with_summary
-from told import stated_error
+from told import SPOKEN, stated_error
 
 import rattle
 from rattle import codes
@@ -359,7 +359,8 @@ def assert_motion(path: Path) -> None:
     odd = np.atleast_1d(told.get("input_warnings", [])).tolist()
     sentences += [f"{words[:1].upper()}{words[1:]}." for words in odd]
     assert_numbers(page, sentences, silent)
-    assert page.paragraphs[2] == told["rattle_class"] + told.get("verification", "not examined")
+    word = SPOKEN.get(told["rattle_class"], told["rattle_class"])
+    assert page.paragraphs[2] == word + told.get("verification", "not examined")
     assert page.badges == [told.get("verification", "not examined")]
 
 
@@ -459,6 +460,7 @@ def test_the_page_of_a_gearbox_is_its_table(run, repository, tmp_path):
 VARIED = ("Varied key", "First", "Last", "Scale", "Values")
 RANGES = ("Quantity", "Smallest", "Median", "Largest")
 CLASSES = ("Class", "Meaning")
+CLASSES_SPOKEN = {code: SPOKEN.get(name, name) for code, name in codes.CLASSES.items()}
 WORST = ("Scene", "force amplitude", "entrainment speed", "acceleration maximum")
 FLAGS = {"model_limit": 3.0, "stiffness_matters": 1.0, "double_sided": 1.0}
 
@@ -535,7 +537,7 @@ def test_the_page_of_a_campaign_is_its_rows(tmp_path, chosen, failures, undone):
     if classes:
         top = page.paragraphs[3 if undone else 2]
         known = columns["rattle_class"][np.isfinite(columns["rattle_class"])]
-        words = [codes.CLASSES[int(code)] for code in known]
+        words = [CLASSES_SPOKEN[int(code)] for code in known]
         common = max(dict.fromkeys(words), key=words.count)
         assert top == f"{common} in {share(words.count(common), int(done.sum()))} of the scenes"
         sentences.append(top)
@@ -558,7 +560,7 @@ def sentences_on_campaign(
         known = columns["rattle_class"][np.isfinite(columns["rattle_class"])]
         for code in np.unique(known):
             count = int((known == code).sum())
-            found.append(f"{codes.CLASSES[int(code)]} in {count} ({share(count, done)})")
+            found.append(f"{CLASSES_SPOKEN[int(code)]} in {count} ({share(count, done)})")
     else:
         found.append("The class was not recorded.")
     if "verified" in columns:
@@ -584,7 +586,7 @@ def sentences_on_campaign(
 
 def assert_classes(rows: Rows, column: np.ndarray | None) -> None:
     """The classes that are there, the most common first."""
-    known = [] if column is None else [codes.CLASSES[int(code)] for code in column[np.isfinite(column)]]
+    known = [] if column is None else [CLASSES_SPOKEN[int(code)] for code in column[np.isfinite(column)]]
     counts = [known.count(row[0]) for row in rows]
     assert counts == sorted(counts, reverse=True) and set(known) == {row[0] for row in rows}
 
@@ -612,7 +614,9 @@ def assert_worst(rows: Rows, good: Mapping[str, np.ndarray], extra: Sequence[str
         for cell, name in zip(row[4:], extra, strict=True):
             words = codes.words_of(name)
             code = good[name][place]
-            assert cell == (words[int(code)] if np.isfinite(code) else "unknown")
+            assert cell == (
+                SPOKEN.get(words[int(code)], words[int(code)]) if np.isfinite(code) else "unknown"
+            )
 
 
 # --- a film task ---------------------------------------------------------------------------------------

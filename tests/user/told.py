@@ -7,6 +7,8 @@ import re
 from decimal import ROUND_CEILING, Decimal
 
 SMALLEST_PLAIN, LARGEST_PLAIN = 1e-3, 1e6  # between which a log writes no exponent
+# The word of a code that people are told in other words.
+SPOKEN = {"irregular_so_far": "irregular so far"}
 ANY = "*"  # in an expected text: what no file tells, as the time that something took
 
 

@@ -16,7 +16,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC, SAMPLE, TABLE
 from rattle.campaign_result import Axis, Campaign
 from rattle.campaign_section import short_name
-from rattle.codes import STATUSES, SUCCESSES, words_of
+from rattle.codes import STATUSES, SUCCESSES, spoken, words_of
+from rattle.figures import style
 
 # From the palette of Okabe and Ito, ordered so that they also differ in lightness.
 CLASS_COLOURS = {1: "#DCE6EC", 2: "#56B4E9", 3: "#D55E00", 4: "#4B2E63", 5: "#E8C547", 6: "#EACCFC"}
@@ -82,7 +83,7 @@ def gaps(campaign: Campaign, column: str) -> list[Gap]:
         codes = np.unique(status[campaign.failed])
         for position, code in enumerate(code for code in codes if code not in SUCCESSES):
             scenes = campaign.done & (status == code)
-            words = STATUSES.get(int(code), f"status {int(code)}").replace("_", " ")
+            words = spoken(STATUSES.get(int(code), f"status {int(code)}"))
             found.append(Gap(words, HATCHES[position % len(HATCHES)], scenes))
             rest = rest & ~scenes
     if rest.any():
@@ -98,12 +99,14 @@ class Doubt:
     words: str
     hatch: str
     marker: str
+    colour: str = "none"  # of these scenes, where they have one in common
 
 
 def doubts(campaign: Campaign, column: str) -> list[Doubt]:
     """What maps of a column mark: scenes irregular so far, apart from others that are not verified."""
     if column in ("verified", "status"):
         return []
+    classes = column == "rattle_class"
     nowhere = np.zeros(campaign.row_count, dtype=bool)
     so_far, lacking = nowhere, nowhere
     if "rattle_class" in campaign:
@@ -112,14 +115,16 @@ def doubts(campaign: Campaign, column: str) -> list[Doubt]:
         lacking = campaign.done & (campaign["verified"] == 0.0) & ~so_far
     found = [
         Doubt(lacking, UNCERTAIN_WORDS, UNCERTAIN_HATCH, "o"),
-        Doubt(so_far, SO_FAR_WORDS, SO_FAR_HATCH, "D"),
+        Doubt(
+            so_far, SO_FAR_WORDS, SO_FAR_HATCH, "D", CLASS_COLOURS[IRREGULAR_SO_FAR] if classes else "none"
+        ),
     ]
     return [doubt for doubt in found if doubt.scenes.any()]
 
 
-def doubt_patch(words: str, hatch: str) -> Patch:
+def doubt_patch(words: str, doubt: Doubt) -> Patch:
     """What a scene that is not verified looks like in a legend: hatched, whatever its colour."""
-    return Patch(facecolor="none", edgecolor="black", hatch=hatch, linewidth=0.6, label=words)
+    return Patch(facecolor=doubt.colour, edgecolor="black", hatch=doubt.hatch, linewidth=0.6, label=words)
 
 
 def gap_patch(words: str, hatch: str) -> Patch:
@@ -149,7 +154,8 @@ def column_scale(campaign: Campaign, column: str) -> tuple[float, str]:
 def column_label(campaign: Campaign, column: str) -> str:
     """As in 'Acceleration maximum [m/s2]'."""
     unit = "" if words_of(column) else column_scale(campaign, column)[1]
-    return with_unit(short_name(column), unit)
+    relative = f"\n{style.RELATIVE}" if unit == "m/s2" and campaign.has_gear else ""
+    return with_unit(f"{short_name(column)}{relative}", unit)
 
 
 def axis_label(axis: Axis) -> str:

@@ -19,7 +19,7 @@ from matplotlib.tri import Triangulation
 
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import Section
-from rattle.codes import word
+from rattle.codes import spoken, word
 from rattle.figures import campaign_look as look
 from rattle.figures import style
 
@@ -60,15 +60,19 @@ def draw_pairs(
     figure = Figure(figsize=(style.WIDTH, 0.9 + 1.75 * shape[0]))
     panels = figure.subplots(*shape, sharex=True, sharey=True, squeeze=False)
     grid = panels.T if narrow else panels
-    handles: dict[str, object] = {}
+    handles: dict[str, Patch] = {}
     figure.get_layout_engine().set(w_pad=0.03)
     for place, (column, row) in enumerate(zip(columns, grid, strict=True)):
         drawn = []
-        for (name, section), axes in zip(sections.items(), row, strict=True):
+        for (pair, section), axes in zip(sections.items(), row, strict=True):
             entries, mesh = draw_cells(axes, section, column, colours)
             drawn += [mesh] if mesh else []
-            handles |= {patch.get_label().rpartition(" (")[0]: patch for patch in entries}
-            axes.set_title(name if place == 0 else "")
+            for patch in entries:
+                name = patch.get_label().rpartition(" (")[0]
+                # What is hatched in one map need not be there in the next.
+                if name not in handles or (patch.get_hatch() and not handles[name].get_hatch()):
+                    handles[name] = patch
+            axes.set_title(pair if place == 0 else "")
             axes.set_xlabel(axes.get_xlabel() if narrow and axes is row[-1] else "")
             axes.set_ylabel(axes.get_ylabel() if axes in panels[:, 0] else "")
             if not look.is_logarithmic(section.free[0]):
@@ -129,6 +133,7 @@ def draw_cells(
         handles += _hatch(axes, edges, section.mask(gap.scenes), gap.words, gap.hatch)
     handles += _hatch(axes, edges, ~done, "not done", look.NOT_DONE_HATCH)
     for doubt in look.doubts(campaign, column):
+        handles = without(handles, doubt.words)
         handles += _hatch_doubt(axes, edges, section.mask(doubt.scenes), doubt)
     look.set_axis(axes, "x", x, to_edges=True)
     look.set_axis(axes, "y", y, to_edges=True)
@@ -173,8 +178,8 @@ def scatter(
         ring = {"marker": marker, "facecolors": "none", "edgecolors": "black"}
         axes.scatter(campaign[x][scenes], campaign[y][scenes], s=3 * size, linewidths=0.7, zorder=3, **ring)
         words = f"{doubt.words} ({int(scenes.sum())})"
-        outline = {"linestyle": "", "color": "black", "fillstyle": "none"}
-        handles.append(Line2D([], [], marker=marker, label=words, **outline))
+        outline = {"linestyle": "", "color": "black", "markerfacecolor": doubt.colour}
+        handles = [*without(handles, doubt.words), Line2D([], [], marker=marker, label=words, **outline)]
     for which, key in (("x", x), ("y", y)):
         look.set_axis(axes, which, campaign.axis(key), to_edges=False)
     return handles, drawn
@@ -310,9 +315,14 @@ def _code_patches(column: str, values: np.ndarray, palette: Mapping[int, str], w
     for code, colour in palette.items():
         count = int((values == code).sum())
         if count or column == "rattle_class":
-            words = f"{word(column, code).replace('_', ' ')} ({look.share(count, whole)})"
+            words = f"{spoken(word(column, code))} ({look.share(count, whole)})"
             patches.append(Patch(facecolor=colour, edgecolor=look.HATCH_COLOUR, linewidth=0.5, label=words))
     return patches
+
+
+def without(handles: list, words: str) -> list:
+    """Legend entries but for those with these words, which an entry that says more takes the place of."""
+    return [handle for handle in handles if handle.get_label().rpartition(" (")[0] != words]
 
 
 def _hatch(axes: Axes, edges: Sequence[np.ndarray], where: np.ndarray, words: str, hatch: str) -> list[Patch]:
@@ -338,7 +348,7 @@ def _hatch_doubt(
         area.set(edgecolor=colour, linewidth=0.0, hatch_linewidth=width)
         axes.contour(*squares, levels=(0.5,), colors=[colour], linewidths=[width])
     words = f"{doubt.words} ({look.share(int(where.sum()), where.size)})"
-    return [look.doubt_patch(words, doubt.hatch)]
+    return [look.doubt_patch(words, doubt)]
 
 
 def _squares(edges: Sequence[np.ndarray], where: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from rattle.campaign_section import Section
-from rattle.codes import CLASSES, words_of
+from rattle.codes import CLASSES, spoken, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import style
 
@@ -50,7 +50,7 @@ def _draw_column(panel: Axes, section: Section, column: str) -> None:
     if words is not None:
         panel.plot(x, y, drawstyle="steps-mid", **line)
         codes = sorted(words)
-        panel.set_yticks(codes, [words[code].replace("_", " ") for code in codes])
+        panel.set_yticks(codes, [spoken(words[code]) for code in codes])
         panel.set_ylim(codes[0] - 0.4, codes[-1] + 0.4)
         return
     panel.plot(x, y, **line)
@@ -69,7 +69,7 @@ def _draw_bands(panel: Axes, section: Section, handles: dict[str, Patch]) -> Non
             colour = look.CLASS_COLOURS[code]
             for first, last in _runs(classes == code):
                 panel.axvspan(edges[first], edges[last], color=colour, alpha=LIGHTENED, linewidth=0, zorder=0)
-                handles.setdefault(words, Patch(facecolor=colour, alpha=LIGHTENED, label=words))
+                handles[spoken(words)] = Patch(facecolor=colour, alpha=LIGHTENED, label=spoken(words))
     column = "rattle_class" if "rattle_class" in campaign else "scene"
     gaps = [(gap.words, gap.hatch, section.mask(gap.scenes)) for gap in look.gaps(campaign, column)]
     gaps.append(("not done", look.NOT_DONE_HATCH, ~section.mask(campaign.done)))
@@ -89,7 +89,7 @@ def _draw_bands(panel: Axes, section: Section, handles: dict[str, Patch]) -> Non
         for first, last in _runs(section.mask(doubt.scenes)):
             area = {"facecolor": "none", "edgecolor": "black", "alpha": LIGHTENED, "linewidth": 0.0}
             panel.axvspan(edges[first], edges[last], hatch=doubt.hatch, zorder=0, **area)
-            handles.setdefault(doubt.words, look.doubt_patch(doubt.words, doubt.hatch))
+            handles[doubt.words] = look.doubt_patch(doubt.words, doubt)
 
 
 def _runs(where: np.ndarray) -> list[tuple[int, int]]:

@@ -15,7 +15,7 @@ from rattle import table
 from rattle.campaign_plan import GRID
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section, spaced_unit
-from rattle.codes import CLASSES, SUCCESSES, word
+from rattle.codes import CLASSES, SUCCESSES, spoken, word
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, style
 from rattle.rerun import scene_label
@@ -41,7 +41,7 @@ def draw(campaign: Campaign, worst: Worst) -> Figure:
     left, right = 0.11, 0.95
     head = figure.add_axes((left, 0.875, right - left, 0.09))
     maps = figure.add_gridspec(1, 2, left=left, right=right, bottom=0.55, top=0.805, wspace=0.32)
-    bars = figure.add_gridspec(1, 2, left=left, right=right, bottom=0.26, top=0.405, wspace=0.42)
+    bars = figure.add_gridspec(1, 2, left=left + 0.03, right=right, bottom=0.26, top=0.405, wspace=0.42)
     scenes = figure.add_axes((0.06, 0.03, right - 0.06, 0.175))
     _draw_head(head, campaign)
     _draw_classes_map(figure.add_subplot(maps[0]), campaign)
@@ -61,11 +61,11 @@ def _draw_head(axes: Axes, campaign: Campaign) -> None:
     for axis in campaign.axes:
         if axis.values.size:
             count = f", {axis.values.size} values" if campaign.kind == GRID else ""
-            span = f"{axis.values[0]:.4g} to {axis.values[-1]:.4g}{spaced_unit(axis.unit)}"
+            span = f"{axis.values[0]:.4g} to {axis.values[-1]:.4g}{spaced_unit(look.drawn_unit(axis.unit))}"
             keys.append(f"{look.short_name(axis.key)}: {span} ({axis.scale}{count})")
-    film = campaign.input.get("film", {})
-    words = " ".join(str(film[key]).strip() for key in ("model", "law") if key in film)
-    keys.append(f"base film: {words};  rattle {campaign.program_version}")
+    keys.append(f"{look.capital(style.film_words(campaign))};  rattle {campaign.program_version}")
+    if campaign.has_gear:
+        keys.append(f"Acceleration {style.RELATIVE}".replace("\n", " "))
     axes.text(0.0, 0.62, "\n".join(keys), fontsize=8, va="top", transform=axes.transAxes, linespacing=1.4)
 
 
@@ -152,7 +152,7 @@ def _draw_single_key(axes: Axes, campaign: Campaign, column: str) -> None:
         axes.scatter(
             campaign[key][rows], np.full(rows.sum(), code), s=14, color=colour, edgecolors="black", lw=0.3
         )
-    axes.set_yticks(list(palette), [word(column, code) for code in palette])
+    axes.set_yticks(list(palette), [spoken(word(column, code)) for code in palette])
     axes.set_ylim(min(palette) - 0.5, max(palette) + 0.5)
     look.set_axis(axes, "x", campaign.axis(key), to_edges=False)
 
@@ -164,7 +164,7 @@ def _draw_class_shares(axes: Axes, campaign: Campaign) -> None:
         return
     classes = campaign["rattle_class"][campaign.done]
     counts = [int((classes == code).sum()) for code in CLASSES]
-    names, colours = list(CLASSES.values()), [look.CLASS_COLOURS[code] for code in CLASSES]
+    names, colours = list(map(spoken, CLASSES.values())), [look.CLASS_COLOURS[code] for code in CLASSES]
     lacking = int(np.isnan(classes).sum())
     if lacking:
         names, counts, colours = [*names, "no class"], [*counts, lacking], [*colours, look.GAP_COLOUR]
@@ -179,7 +179,7 @@ def _draw_statuses(axes: Axes, campaign: Campaign) -> None:
         _say(axes, "status is not recorded")
         return
     codes, counts = np.unique(campaign["status"][campaign.done], return_counts=True)
-    names = [word("status", code).replace("_", " ") for code in codes]
+    names = [spoken(word("status", code)) for code in codes]
     colours = [BAR_COLOUR if code in SUCCESSES else FAILED_COLOUR for code in codes]
     left = campaign.row_count - int(campaign.done.sum())
     counts = counts.tolist()
@@ -228,7 +228,7 @@ def _draw_worst(axes: Axes, campaign: Campaign, worst: Worst) -> None:
     for row in worst.rows:
         line = [scene_label(campaign, row) + ".nml", *(f"{campaign[key][row]:.4g}" for key in keys)]
         line.append(f"{factor * campaign[worst.column][row]:.4g}")
-        lines.append([*line, *(word(name, campaign[name][row]) for name in extra)])
+        lines.append([*line, *(spoken(word(name, campaign[name][row])) for name in extra)])
     text = table.plain(lines)
     width = max(map(len, text.splitlines()))
     size = min(7.0, 7.0 * 122 / width)

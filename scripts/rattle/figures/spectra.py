@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from rattle.codes import spoken
 from rattle.figures import style
 from rattle.result import Result, ResultError
 from rattle.summary import Summary, read_summary
@@ -241,7 +242,7 @@ def _verdict_words(verdict: Mapping[str, Any] | None, summary: Summary | None) -
     if not verdict:
         return f"{style.FEW_SAMPLES}\nThe harmonics are those of the samples, not of the motion"
     bound = "at least " if verdict.get("harmonic_count_is_bound") else ""
-    words = f"{bound}{verdict['harmonic_count']} harmonics, class {verdict['rattle_class']}"
+    words = f"{bound}{verdict['harmonic_count']} harmonics, class {spoken(verdict['rattle_class'])}"
     if not summary:
         return words
     more_samples = f"of {summary['samples_per_period']} samples a period"

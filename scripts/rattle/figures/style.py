@@ -19,6 +19,7 @@ from rattle.command import CommandError, positive
 from rattle.figures.fit import fit
 from rattle.outputs import Writer
 from rattle.result import Result
+from rattle.result_file import ResultFile
 
 # The palette of Okabe and Ito, which colour-blind readers can tell apart.
 LAW_COLOURS = {"iso-viscous": "#0072B2", "piezo-viscous": "#D55E00"}
@@ -33,7 +34,7 @@ HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]  # of words o
 ACCELERATION_LABEL = r"Acceleration $\ddot{z}$ [m/s$^2$]"
 AMPLITUDE_LABEL = r"Amplitude of $\ddot{z}$ [m/s$^2$]"
 # What the acceleration of a gear pair is.
-TO_THE_SHAFT = "to the shaft, on line of action"
+RELATIVE = "relative to the shaft,\non line of action"
 FILM_LABEL = r"Film thickness $h$ [$\mathrm{\mu}$m]"
 FORCE_LABEL = r"Applied force $F$ [N]"
 RATIO_LABEL = r"Frequency ratio $f/f_\mathrm{exc}$"
@@ -185,10 +186,10 @@ def file_part(label: str) -> str:
     return re.sub(r"[^A-Za-z0-9._-]+", "_", label).strip("_")
 
 
-def film_words(result: Result) -> str:
+def film_words(result: ResultFile) -> str:
     """The film law and model, as in 'published iso-viscous film'."""
-    model = str(result.value("film", "model")).strip()
-    return f"{'Reynolds' if model == 'reynolds' else model} {result.law} film"
+    model, law = (str(result.value("film", key)).strip() for key in ("model", "law"))
+    return f"{'Reynolds' if model == 'reynolds' else model} {law} film"
 
 
 def title(subject: str, result: Result, label: str) -> str:
@@ -229,5 +230,5 @@ def _repeated(labels: Sequence[str]) -> list[bool]:
 
 def of_acceleration(label: str, results: Sequence[Result]) -> str:
     """The label of an axis: that of a gear is relative to the shaft, along the line of action."""
-    on_a_shaft = any(result.shaft_speed is not None for result in results)
-    return label.replace(" [", f" relative\n{TO_THE_SHAFT} [") if on_a_shaft else label
+    of_gears = any(result.has_gear for result in results)
+    return label.replace(" [", f"\n{RELATIVE} [") if of_gears else label

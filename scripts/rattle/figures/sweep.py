@@ -151,7 +151,7 @@ def draw(
     )
     handles = _draw_single(results[0], all_axes) if len(results) == 1 else _draw_overlay(results, all_axes)
     for name, axes in all_axes.items():
-        axes.set_ylabel(PANELS[name].label)
+        axes.set_ylabel(label_of(name, results))
         axes.margins(x=0.01)
     _dress(results, all_axes)
     first, last = all_axes[panels[0]], all_axes[panels[-1]]
@@ -175,12 +175,20 @@ def draw(
             fontsize=8,
             path_effects=style.HALO,
         )
-    single = f"Scene {results[0].scene_name}, {results[0].law} film"
+    single = f"Scene {results[0].scene_name}, {style.film_words(results[0])}"
     words = single if len(results) == 1 else f"{len(results)} sweeps"
     first.set_title(f"Steady motions along a sweep\n{words}")
     figure.align_ylabels()
     style.legend_below(figure, first, columns=2, labels=handles)
     return figure
+
+
+def label_of(name: str, results: Sequence[Result]) -> str:
+    """The label of a panel; the acceleration of gears is relative to the shaft."""
+    label = PANELS[name].label
+    if name == "acceleration" and any(result.has_gear for result in results):
+        return label.replace("\n", f"\n{style.RELATIVE}\n", 1)
+    return label
 
 
 def _draw_single(result: Result, all_axes: Mapping[str, Axes]) -> dict[str, object]:

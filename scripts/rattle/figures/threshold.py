@@ -20,7 +20,7 @@ from rattle import command
 from rattle.campaign_plan import GEAR, GRID, LINEAR, LOGARITHMIC, read_plan
 from rattle.campaign_result import Axis, is_varied
 from rattle.campaign_section import Section, new_section, short_name, spaced_unit
-from rattle.codes import CLASSES, STATUSES, SUCCESSES, quantity_of, word, words_of
+from rattle.codes import CLASSES, STATUSES, SUCCESSES, quantity_of, spoken, word, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, style
 from rattle.figures.campaign import held_key, one_each
@@ -93,9 +93,7 @@ class Thresholds:
     def _sides(self, side: str) -> list[str]:
         status, values = self.column(f"status{side}"), self.column(f"{self.quantity}{side}")
         return [
-            STATUSES.get(int(code), "failed").replace("_", " ")
-            if code not in SUCCESSES
-            else self._word(value)
+            spoken(STATUSES.get(int(code), "failed")) if code not in SUCCESSES else self._word(value)
             for code, value in zip(status, values, strict=True)
         ]
 
@@ -103,9 +101,9 @@ class Thresholds:
         if not np.isfinite(value):
             return "unknown"
         if words_of(self.quantity) is not None:
-            words = word(self.quantity, value).replace("_", " ")
+            words = spoken(word(self.quantity, value))
             wanted = str(self.result.value("threshold", "criterion")).strip()
-            if wanted in CLASSES.values() and words != wanted:
+            if wanted in CLASSES.values() and words != spoken(wanted):
                 return "another class"
             return words if self.quantity == "rattle_class" else f"{short_name(self.quantity)} {words}"
         level = float(self.result.number("threshold", "level"))
@@ -255,6 +253,8 @@ def draw(
         f"Scene {found.result.scene_name}, {style.film_words(found.result)}",
         f"Searched from {first} to {last}{spaced_unit(look.drawn_unit(found.range.unit))}",
     ]
+    if found.result.units[f"{found.quantity}_below"] == "m/s2" and found.result.has_gear:
+        lines.append("Acceleration relative to the shaft, along the line of action")
     axes.set_title("\n".join([*lines, *([", ".join(parts)] if parts else [])]))
     return figure
 
@@ -265,7 +265,7 @@ def words_of_criterion(found: Thresholds) -> str:
     if criterion == "class" or found.quantity == criterion == "rattle_class":
         return "change of class"
     if criterion in CLASSES.values():
-        return f"change into or out of {criterion}"
+        return f"change into or out of {spoken(criterion)}"
     if words_of(criterion) is not None:
         return f"change of {short_name(criterion)}"
     level = float(found.result.number("threshold", "level"))

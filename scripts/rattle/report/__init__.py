@@ -7,7 +7,7 @@ from pathlib import Path
 
 import rattle
 from rattle.campaign_result import Campaign
-from rattle.codes import QUANTITIES, words_of
+from rattle.codes import QUANTITIES, spoken, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import film, film_points
 from rattle.report import asked, campaign, motion, page, sweep, threshold
@@ -21,6 +21,10 @@ ABOUT = (
 )
 OF_MOTIONS = "how the tooth pair moves under the force given here, how it rattles"
 OF_THRESHOLDS = "where the tooth pair begins to move in another way"
+EARLIER_TABLE = (
+    "The table is that of an earlier version of rattle, which does not say how the film forces of all pairs "
+    "add; solve the input again to know that."
+)
 # Columns of the table of a gearbox.
 TOGETHER = (
     "film_minimum",
@@ -179,7 +183,7 @@ def overview(results: Sequence[ResultFile], names: Sequence[str], boxes: Mapping
     summaries = [summary for result in motions if (summary := motion.summary_of(result))]
     parts = [f"<nav>{links}</nav>"]
     for name, box in boxes.items():
-        parts += [page.heading(2, f"Gear pairs of {name}"), *together(box)]
+        parts += [page.heading(2, f"Gear pairs of {name}"), *together(box), *odd_numbers_of(box, summaries)]
     if len(summaries) > 1:
         head, *rows = comparison_table(summaries)
         for row in rows:
@@ -200,6 +204,21 @@ def gearboxes(results: Sequence[ResultFile]) -> dict[str, Summary]:
     return {str(summary["name"]): summary for summary in summaries if "gears" in summary}
 
 
+def odd_numbers_of(box: Summary, summaries: Sequence[Summary]) -> list[str]:
+    """What is odd about the input of the gear pairs, each line once, with the pairs that it is about."""
+    about: dict[str, list[str]] = {}
+    for summary in summaries:
+        gear = str(summary.get("gear", "")).strip()
+        if gear in box["gears"] and str(summary["name"]).strip() == f"{box['name']}.{gear}":
+            for line in motion.warnings_of(summary):
+                about.setdefault(line, []).append(gear)
+    lines = [
+        line if len(gears) == len(box["gears"]) else f"Gear {', '.join(gears)}: {line}"
+        for line, gears in about.items()
+    ]
+    return motion.notes_on(lines)
+
+
 def together(box: Summary) -> list[str]:
     """What the gear pairs of an input do, each and together."""
     heads = ("Gear", "Class", "Both flanks", *(look.capital(look.short_name(name)) for name in TOGETHER))
@@ -218,11 +237,13 @@ def together(box: Summary) -> list[str]:
             page.value(float(told[name]), QUANTITIES[name].unit, 4) if name in told else "-"
             for name in TOGETHER
         ]
-        rows.append([gear, str(told.get("rattle_class", "-")), flanks, *numbers])
+        rows.append([gear, spoken(str(told.get("rattle_class", "-"))), flanks, *numbers])
     known = {
         gear: float(told["film_force_rms"]) for gear, told in box["gears"].items() if "film_force_rms" in told
     }
-    words = f"Of the film forces, which the bearings of the shaft feel, {box['film_force_text']}."
+    words = EARLIER_TABLE
+    if "film_force_text" in box:
+        words = f"Of the film forces, which the bearings of the shaft feel, {box['film_force_text']}."
     if known:
         loudest = max(known, key=known.get)
         words = f"{loudest} is the loudest: it shakes its bearings with {known[loudest]:.3g} N rms. {words}"

@@ -12,7 +12,7 @@ from rattle import rerun
 from rattle.campaign_plan import GEAR, GRID
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
-from rattle.codes import QUANTITIES, word, words_of
+from rattle.codes import QUANTITIES, spoken, word, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, campaign_slice
 from rattle.report import motion, page
@@ -94,7 +94,7 @@ def counted(campaign: Campaign, column: str) -> Counter[str]:
     if column not in campaign:
         return Counter()
     codes = campaign[column][campaign.done]
-    return Counter(word(column, code) for code in codes[np.isfinite(codes)].tolist())
+    return Counter(spoken(word(column, code)) for code in codes[np.isfinite(codes)].tolist())
 
 
 def figures(campaign: Campaign) -> list[str]:
@@ -184,7 +184,11 @@ def worst(campaign: Campaign) -> str:
             for key in (*campaign.varied, WORST_BY)
         ]
         rows.append(
-            [str(int(campaign["scene"][row])), *numbers, *(word(name, campaign[name][row]) for name in extra)]
+            [
+                str(int(campaign["scene"][row])),
+                *numbers,
+                *(spoken(word(name, campaign[name][row])) for name in extra),
+            ]
         )
     kinds = ("number", *("number" for _ in campaign.varied), "number", *("" for _ in extra))
     return page.table(heads, rows, kinds=kinds)

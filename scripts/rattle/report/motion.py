@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from rattle.codes import QUANTITIES, STATUSES, SUCCESSES
+from rattle.codes import QUANTITIES, STATUSES, SUCCESSES, spoken
 from rattle.figures import histories, spectra, style
 from rattle.keys import unit_of
 from rattle.report import page
@@ -62,7 +62,7 @@ CLASS_MEANINGS = {
     "creep": "The tooth rolls through the oil film; few harmonics of the acceleration stand out.",
     "idle": "The tooth knocks: short impacts, many harmonics, a sound that reaches far up in frequency.",
     "irregular": "No period of the motion is like the one before, and neighbouring motions part for good.",
-    "irregular_so_far": "The motion did not repeat as long as it was followed, and it may settle.",
+    "irregular so far": "The motion did not repeat as long as it was followed, and it may settle.",
     "subharmonic": "The motion repeats only after several periods of the force.",
 }
 REGIMES = {
@@ -125,9 +125,15 @@ def summary_of(result: ResultFile) -> Summary | None:
 
 def odd_numbers(result: ResultFile) -> list[str]:
     """What the program found odd about the input, as numbers that were surely meant in another unit."""
-    summary = summary_of(result) or {}
+    return notes_on(warnings_of(summary_of(result) or {}))
+
+
+def warnings_of(summary: Summary) -> list[str]:
     told = summary.get("input_warnings", [])
-    lines = [told] if isinstance(told, str) else told
+    return [told] if isinstance(told, str) else list(told)
+
+
+def notes_on(lines: Iterable[str]) -> list[str]:
     return [page.paragraph(f"{line[:1].upper()}{line[1:]}.", "note") for line in lines]
 
 
@@ -140,7 +146,7 @@ def verdict(result: Result, summary: Summary | None) -> list[str]:
     word = str(summary.get("rattle_class", "no class")).strip()
     badge = badge_of(summary)
     ended = str(summary["status"]).strip() in _ended_well()
-    return [page.verdict_box(word, badge, sentences, doubt=not ended or badge[0] == "doubt")]
+    return [page.verdict_box(spoken(word), badge, sentences, doubt=not ended or badge[0] == "doubt")]
 
 
 def badge_of(summary: Summary) -> tuple[str, str]:
@@ -330,6 +336,7 @@ def computed(result: ResultFile, summary: Summary | None) -> list[str]:
             rows.append([label, page.value(given, unit)])
         elif name not in QUANTITIES and name not in (
             "name",
+            "input_warnings",
             "program_version",
             "status_text",
             "verification",

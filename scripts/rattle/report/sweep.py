@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rattle.codes import SUCCESSES, word
+from rattle.codes import SUCCESSES, spoken, word
 from rattle.figures import sweep as picture
 from rattle.report import motion, page
 from rattle.result import Result
@@ -37,7 +37,7 @@ def stretches(result: Result) -> list[Stretch]:
     values, failed = result[result.names[0]], ~np.isin(result["status"], SUCCESSES)
     words = np.array(
         [
-            f"failed: {word('status', status)}" if bad else word("rattle_class", code)
+            f"failed: {word('status', status)}" if bad else spoken(word("rattle_class", code))
             for bad, status, code in zip(failed, result["status"], result["rattle_class"], strict=True)
         ]
     )
