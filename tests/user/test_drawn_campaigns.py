@@ -116,9 +116,8 @@ def test_every_class_has_its_colour_and_its_share(made, tmp_path):
         handle.get_label().split(" (")[0]: to_hex(handle.get_facecolor()).upper()
         for handle in figure.legends[0].legend_handles
     }
-    # Those irregular so far have a second entry, their hatch.
-    assert {word: colours[word] for word in WORDS.values() if word != look.SO_FAR_WORDS} == {
-        WORDS[code]: look.CLASS_COLOURS[code] for code in CLASSES if code != look.IRREGULAR_SO_FAR
+    assert {word: colours[word] for word in WORDS.values()} == {
+        WORDS[code]: look.CLASS_COLOURS[code] for code in CLASSES
     }
 
 
@@ -154,8 +153,8 @@ def test_gaps_cover_the_scenes_that_failed_or_are_not_done(made, tmp_path):
     so_far = done & (shown_grid(made, "rattle_class") == look.IRREGULAR_SO_FAR)
     lacking = done & (shown_grid(made, "verified") == 0.0) & ~so_far
     gaps = [word for word in drawn.legend_words(figure) if word.split(" (")[0] not in CLASSES.values()]
-    # Once for the colour, once for the hatch.
-    assert gaps.pop() == gaps.pop(0) == f"irregular so far ({look.share(int(so_far.sum()), 300)})"
+    # Once, for colour and hatch.
+    assert gaps.pop() == f"irregular so far ({look.share(int(so_far.sum()), 300)})"
     assert gaps == [
         f"film lost ({look.share(int(lost.sum()), 300)})",
         f"no rigid film ({look.share(int(rigid.sum()), 300)})",
@@ -363,7 +362,7 @@ def test_the_page_counts_classes_and_endings(page, made):
     done = np.ones(300, dtype=bool)
     done[140:160] = False
     classes, status = made.column("rattle_class")[done], made.column("status")[done]
-    expected = {CLASSES[code]: int((classes == code).sum()) for code in CLASSES}
+    expected = {WORDS[code]: int((classes == code).sum()) for code in CLASSES}
     expected["no class"] = int(np.isnan(classes).sum())
     shares = panel(page, "Share of classes")
     assert drawn.lying_bars(shares) == expected
@@ -438,12 +437,12 @@ def test_the_page_of_one_key_shows_codes_over_it(tmp_path):
         )
     axes = panel(page, "Rattle class")
     dots = [one for one in axes.collections if isinstance(one, PathCollection)]
-    for marks, (code, word) in zip(dots, CLASSES.items(), strict=True):
+    for marks, code in zip(dots, CLASSES, strict=True):
         forces = FORCES.values[made.column("rattle_class") == code]
         np.testing.assert_allclose(marks.get_offsets(), np.column_stack([forces, np.full(forces.size, code)]))
         if forces.size:
             assert to_hex(marks.get_facecolor()[0]).upper() == look.CLASS_COLOURS[code]
-        assert axes.get_yticklabels()[code - 1].get_text() == word
+        assert axes.get_yticklabels()[code - 1].get_text() == WORDS[code]
     assert axes.get_xlabel() == "Force amplitude [N]"
 
 

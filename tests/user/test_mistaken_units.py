@@ -145,6 +145,39 @@ def test_log_summary_and_report_tell_it(run, tmp_path: Path) -> None:
     assert "28.07 deg if it was meant in rad." in read_page(page).words
 
 
+def test_campaigns_and_gearboxes_tell_it(run, tmp_path: Path) -> None:
+    """The report of a gearbox once, with the pairs that it is about; that of a campaign as its log."""
+    odd = PAIR.replace("28.96", "0.49")
+    varied = "vary = 'shaft.speed_rpm', first = 800.0, last = 900.0, count = 2"
+    plain = odd.replace(", certify = .false.", "")
+    (tmp_path / "two.nml").write_text(f"{plain}&scene task = 'campaign' /\n&campaign {varied} /\n")
+    ended = run("two.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    (warning,) = warnings_of(ended.stdout)
+    summary = package.read_summary(tmp_path / "results" / "two.summary.nml")
+    assert summary["input_warnings"] == warning.strip()
+    assert summary["acceleration_meaning"] == "relative to the shaft, along the line of action"
+    said = "28.07 deg if it was meant in rad."
+    page = tmp_path / "page.html"
+    assert call_script("report.py", tmp_path / "results" / "two.rattle", "--output", page).returncode == 0
+    assert said in read_page(page).words
+    first, rest = odd.split("/\n", 1)
+    second = first.replace("0.49", "28.96")
+    pairs = "".join(f"{gear} name = '{name}'\n/\n" for name, gear in (("1st", first), ("2nd", second)))
+    (tmp_path / "box.nml").write_text(pairs + rest)
+    assert run("box.nml", cwd=tmp_path).returncode == 0
+    results = [tmp_path / "results" / f"box.{name}.rattle" for name in ("1st", "2nd")]
+    assert call_script("report.py", *results, "--output", page, "--overwrite").returncode == 0
+    notes = [words for words in read_page(page).paragraphs if said in words]
+    assert notes[0].startswith("Gear 1st: warning: box.nml:2: ") and len(notes) == 2
+    # A table of an earlier version does not say how the forces of all pairs add.
+    table = tmp_path / "results" / "box.summary.nml"
+    kept = [line for line in table.read_text().splitlines(keepends=True) if "film_force_text" not in line]
+    table.write_text("".join(kept).partition("! checksum")[0])
+    assert call_script("report.py", *results, "--output", page, "--overwrite").returncode == 0
+    assert "that of an earlier version of rattle" in read_page(page).words
+
+
 def test_the_acceleration_of_a_gear_is_said_to_be_relative_to_its_shaft(
     run, scene_text, tmp_path: Path
 ) -> None:

@@ -11,7 +11,7 @@ import pytest
 from report_reader import figures, input_of, number, read_page
 from result_writer import write_motion, write_result
 from script_calls import call_script
-from told import stated_error
+from told import SPOKEN, stated_error
 
 import rattle
 from rattle import codes
@@ -116,7 +116,7 @@ def test_a_scene_that_was_not_verified_is_not_called_so(solved):
 def test_the_class_is_the_one_of_the_summary(motion, word):
     with_summary(motion, rattle_class=f"'{word}'", harmonic_count="17", orbit_period="3")
     verdict = read_page(report(motion)).verdicts[0]
-    assert verdict.strip().startswith(word)
+    assert verdict.strip().startswith(SPOKEN.get(word, word))
     named = {"quiet": "Quiet:", "creep": "Creep rattle:", "idle": "Idle rattle:"}
     named |= {"irregular": "Irregular rattle:", "subharmonic": "Subharmonic rattle:"}
     named |= {"irregular_so_far": "Irregular so far:"}
@@ -262,7 +262,7 @@ def test_a_campaign_is_counted(run, scene_text, tmp_path, record):
     assert "20 of 20 scenes are solved; 0 of them failed." in page.verdicts[0]
     for code, word in codes.CLASSES.items():
         count = int((campaign["rattle_class"] == code).sum())
-        assert (f"{word} in {count} (" in page.verdicts[0]) == (count > 0)
+        assert (f"{SPOKEN.get(word, word)} in {count} (" in page.verdicts[0]) == (count > 0)
     if with_verifications:
         verified = int((campaign["verified"] == 1.0).sum())
         assert f"verified in {verified} scenes" in page.verdicts[0]
