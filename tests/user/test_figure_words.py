@@ -55,13 +55,13 @@ def assert_says(figure: Figure, expected: Sequence[str | None]) -> None:
 
 
 def film_of(given: Mapping[str, Any]) -> str:
-    model = {"reynolds": "exact", "published": "published"}[given["film"]["model"]]
+    model = {"reynolds": "Reynolds", "published": "published"}[given["film"]["model"]]
     return f"{model} {given['film']['law']} film"
 
 
 # --- motions -------------------------------------------------------------------------------------------
 
-READY = ("idle", "engine_cycle", "loose_gear", "creep_forged_line", "creep_period_two")
+READY = ("idle", "engine_cycle", "loose_gear", "creep_false_harmonic", "creep_period_two")
 
 
 @pytest.fixture(scope="module")
@@ -170,17 +170,16 @@ def test_words_of_spectra(solved, name):
         ]
     )
     by_samples = not told["sampling_sufficient"]
-    bound = "at least " if told["line_count_is_bound"] else ""
-    verdict = (
-        f"{bound}{told['line_count']} lines, class {SPOKEN.get(told['rattle_class'], told['rattle_class'])}"
-    )
+    bound = "at least " if told["harmonic_count_is_bound"] else ""
+    name = SPOKEN.get(told["rattle_class"], told["rattle_class"])
+    verdict = f"{bound}{told['harmonic_count']} harmonics, class {name}"
     if by_samples:
-        verdict = "too few samples\nThe lines are those of the samples, not of the motion"
+        verdict = "too few samples\nThe harmonics are those of the samples, not of the motion"
     elif told["series_coarse"]:
         samples = f"of {told['samples_per_period']} samples a period"
-        source = "integrals over the steps" if told["lines_by_integrals"] else samples
-        verdict += f"\nSeries of too few samples; lines of the summary, {source}"
-    share = 100.0 * motion.given["spectrum"]["line_threshold"]
+        source = "integrals over the steps" if told["harmonics_by_integrals"] else samples
+        verdict += f"\nSeries of too few samples; harmonics of the summary, {source}"
+    share = 100.0 * motion.given["spectrum"]["harmonic_threshold"]
     reference = "the first harmonic" if not motion.forced else f"harmonic {largest_line(motion, lines)}"
     known = not (motion.forced and told["series_coarse"])
     amplitude = rf"Amplitude of $\ddot{{z}}${motion.relative} [m/s$^2$]"
@@ -225,21 +224,21 @@ def test_words_of_a_sweep(solved, run, repository, tmp_path, of_gear):
     relative = RELATIVE if of_gear else ""
     key = "Shaft speed [1/min]" if of_gear else "Stiffness of the teeth $k$ [N/m]"
     both = (result["direction"] < 0.0).any()
-    limit = result.input["spectrum"]["idle_lines"]
+    limit = result.input["spectrum"]["idle_harmonics"]
     assert_says(
         sweep.draw(result, panels=tuple(sweep.PANELS), marks=[(850.0, "here")]),
         [
             f"Steady motions along a sweep\nScene {result.scene_name}, {film_of(result.input)}",
             "Film, least and\nlargest [$\\mathrm{\\mu}$m]",
             f"Largest $|\\ddot{{z}}|${relative}\n[m/s$^2$]",
-            "Lines",
-            f"idle from {limit} lines on",
+            "Harmonics",
+            f"idle from {limit} harmonics on",
             "Period\n[$1/f_\\mathrm{exc}$]",
             "Largest Floquet\nmultiplier",
             key,
             "here",
-            "way there",
-            "way back" if both else None,
+            "increasing",
+            "decreasing" if both else None,
         ],
     )
 
@@ -274,8 +273,8 @@ def legend_of_map(rows: rattle.Campaign, column: str) -> list[str]:
     if not done.all():
         found.append(f"not done ({share(int((~done).sum()), whole)})")
     so_far = int((done & (classes == 6.0)).sum())
-    lacking = int((done & (rows["certified"] == 0.0) & (classes != 6.0)).sum())
-    found.append(f"not certified ({share(lacking, whole)})")
+    lacking = int((done & (rows["verified"] == 0.0) & (classes != 6.0)).sum())
+    found.append(f"not verified ({share(lacking, whole)})")
     if column != "rattle_class":
         found.append(f"irregular so far ({share(so_far, whole)})")
     return found
@@ -322,7 +321,7 @@ def test_words_of_a_slice(tmp_path):
     section = new_section(rows, (campaign_writer.FORCE,), {campaign_writer.SPEED: float(speed)})
     here = rows[campaign_writer.SPEED] == speed
     classes = {codes.CLASSES[int(code)] for code in rows["rattle_class"][here] if np.isfinite(code)}
-    doubt = (here & (rows["certified"] == 0.0) & (rows["rattle_class"] != 6.0)).any()
+    doubt = (here & (rows["verified"] == 0.0) & (rows["rattle_class"] != 6.0)).any()
     failed = {3.0: "film lost", 4.0: "no rigid film"}
     assert_says(
         campaign_slice.draw(section, ["acceleration_maximum", "film_minimum"]),
@@ -333,7 +332,7 @@ def test_words_of_a_slice(tmp_path):
             "Film minimum\n[\N{MICRO SIGN}m]",
             "Force amplitude [N]",
             *(SPOKEN.get(name, name) for name in classes),
-            "not certified" if doubt else None,
+            "not verified" if doubt else None,
             *(words for code, words in failed.items() if (here & (rows["status"] == code)).any()),
         ],
     )
@@ -347,12 +346,12 @@ def test_words_of_the_page_on_a_campaign(tmp_path):
     )
     texts = words_of(made)
     judged, lacking = (
-        int((rows.done & keep).sum()) for keep in (np.isfinite(rows["certified"]), rows["certified"] == 0.0)
+        int((rows.done & keep).sum()) for keep in (np.isfinite(rows["verified"]), rows["verified"] == 0.0)
     )
     failed = int(rows.failed.sum())
     heads = [
         f"Campaign map, {rows.row_count} scenes",
-        f"Certificate fails in {share(lacking, judged)} of {judged} scenes",
+        f"Verification fails in {share(lacking, judged)} of {judged} scenes",
         f"How scenes ended: {share(failed, rows.row_count)} failed",
         "Share of classes",
         "Rattle class",
@@ -382,7 +381,7 @@ def test_words_of_the_page_on_a_campaign(tmp_path):
         assert cells[1:4] == [f"{number:.4g}" for number in numbers]
         name = codes.CLASSES[int(rows["rattle_class"][row])]
         assert cells[4] == SPOKEN.get(name, name)
-        assert cells[6] == ("yes" if rows["certified"][row] else "no")
+        assert cells[6] == ("yes" if rows["verified"][row] else "no")
 
 
 # --- thresholds ----------------------------------------------------------------------------------------
@@ -412,7 +411,7 @@ def test_words_of_thresholds(tmp_path):
             "Force amplitude [N]",
             *(f"{kind} ({count})" for kind, count in kinds.items()),
             "from end to end",
-            f"not certified ({unsure})",
+            f"not verified ({unsure})",
             f"no change ({without})",
         ],
     )
@@ -421,6 +420,15 @@ def test_words_of_thresholds(tmp_path):
 def test_words_of_a_level(tmp_path):
     """What lies below the level is called so, wherever it stands."""
     result = level_result(tmp_path / "level.rattle")
+    order = [
+        [
+            "below" if result[f"film_force_rms_{side}"][row] < 100.0 else "at least"
+            for side in ("below", "above")
+        ]
+        for row in range(result.row_count)
+    ]
+    found = threshold.thresholds(result)
+    assert found.kinds.tolist() == [f"{one} 100 N to {other} 100 N" for one, other in order]
     quantity = str(result.value("threshold", "criterion")).strip()
     level, unit = float(result.value("threshold", "level")), result.units[f"{quantity}_below"]
     kinds: dict[str, int] = {}

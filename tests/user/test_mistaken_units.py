@@ -149,7 +149,7 @@ def test_campaigns_and_gearboxes_tell_it(run, tmp_path: Path) -> None:
     """The report of a gearbox once, with the pairs that it is about; that of a campaign as its log."""
     odd = PAIR.replace("28.96", "0.49")
     varied = "vary = 'shaft.speed_rpm', first = 800.0, last = 900.0, count = 2"
-    plain = odd.replace(", certify = .false.", "")
+    plain = odd.replace(", verify = .false.", "")
     (tmp_path / "two.nml").write_text(f"{plain}&scene task = 'campaign' /\n&campaign {varied} /\n")
     ended = run("two.nml", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
