@@ -217,7 +217,7 @@ contains
    !> A name as words: blanks for underscores.
    pure function spaced(name) result(words)
       character(*), intent(in) :: name
-      character(len(name)) :: words
+      character(:), allocatable :: words
       integer :: i
 
       words = name
