@@ -317,7 +317,7 @@ module quantities
       quantity_t(quantity_deflection, 'deflection', 'm', a_number, part_regime, needs_regime, 'summary campaign', &
          'Deflection (4) of the teeth at the largest pressure.'), &
       quantity_t(quantity_deflection_share, 'deflection_share', '-', a_number, part_regime, needs_deflection, 'summary campaign', &
-         'Compliance under the largest load; a rigid one as a steel tooth, 14 N/(um mm).'), &
+         'Deflection of the tooth as a share of the film, under the largest load; a rigid one as a steel tooth, 14 N/(um mm).'), &
       quantity_t(quantity_stiffness_matters, 'stiffness_matters', '-', a_flag, part_regime, needs_deflection, &
          'summary campaign', &
          'Whether deflection_share is above a tenth: rigid teeth are, or of elastic ones would be, no fair assumption.'), &
