@@ -90,10 +90,10 @@ def names_key(path: Path) -> bool:
 
 def unlike_modules() -> Iterator[str]:
     """Folders that the map in the README leaves out or puts in another order."""
-    house = Path("README.md").read_text().partition("## The layout")[2]
+    layout = Path("README.md").read_text().partition("## The layout")[2]
     told = [
         room
-        for row in re.findall(r"^\| `.*?\|", house, re.MULTILINE)
+        for row in re.findall(r"^\| `.*?\|", layout, re.MULTILINE)
         for room in re.findall(r"`(\w+)/`", row)
     ]
     if told != MODULES:

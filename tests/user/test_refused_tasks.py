@@ -69,7 +69,7 @@ def test_a_sweep_begins_anew_behind_a_motion_that_failed(run, scene_text, tmp_pa
 
 
 @pytest.mark.parametrize(("cells", "code"), [("64", 0), ("65", 2)])
-def test_the_referee_needs_an_even_number_of_cells(cells, code, run, scene_text, tmp_path: Path):
+def test_the_reference_solution_needs_an_even_number_of_cells(cells, code, run, scene_text, tmp_path: Path):
     groups = {"load": None, "solver": None, "spectrum": None, "kinematics": None}
     points = {"film_ratios": "70e-6", "speed_groups": "0.4e-6", "cells": cells}
     film = {"law": None, "model": "'numerical'"}

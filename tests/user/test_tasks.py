@@ -59,7 +59,7 @@ def test_film_task_computes_what_is_asked_for_only(run, scene_text, tmp_path: Pa
     assert not (tmp_path / "results" / "scene.profiles.rattle").exists()
 
 
-def test_film_referee_agrees_with_the_closed_forms(run, scene_text, tmp_path: Path) -> None:
+def test_reference_solution_agrees_with_the_closed_forms(run, scene_text, tmp_path: Path) -> None:
     """Extrapolated from 2048 and 4096 cells the finite volumes are good to 1e-8."""
     text = film_text(scene_text, squeeze_ratios="-5.0e-4, 0.0, 5.0e-4", speed_groups="0.4e-6")
     text = text.replace("&points", "&film model = 'numerical' /\n&points")
