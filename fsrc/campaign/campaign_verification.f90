@@ -5,7 +5,8 @@
 !> on until the motion repeats, the tighter one within its own accuracy, and their forecasts may save different periods: the
 !> orbits are held against each other, beginning with whichever of their periods fits best.
 module campaign_verification
-   use verification, only: verification_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_impacts, &
+   use doubt, only: doubt_t, first_doubt, is_doubted
+   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_closing, doubt_of_return, doubt_of_impacts, &
       windows_behind
    use verify_scene, only: nearby_orbit, tighten
    use engine, only: motion_state_t, request_t, start_of
@@ -97,8 +98,7 @@ contains
                        tight%endings(irregular)%motion_state_t, tight, stands)
    end subroutine verify_group
 
-   !> Whether the class of a scene stands as far as its window tells. One thread at a time makes these texts: gfortran keeps
-   !> the length of a text that a function allocates for all of them.
+   !> Whether the class of a scene stands as far as its window tells.
    logical function class_stands(resolved, choice, tighter, place, tight_place, tight_noise, group, tight)
       type(resolved_scene_t), intent(in) :: resolved
       type(spectrum_choice_t), intent(in) :: choice
@@ -112,34 +112,30 @@ contains
       type(scene_group_t), intent(in) :: group
       type(scene_group_t), intent(in) :: tight
       type(verification_t) :: verification
-      character(:), allocatable :: unclosed
+      type(doubt_t) :: unclosed
       integer, allocatable :: same(:)
 
       associate (record => group%records(place), tight_record => tight%records(tight_place), verdict => group%verdicts(place), &
                  tight_verdict => tight%verdicts(tight_place), problem => resolved%problem, &
                  samples => group%endings(place)%samples, tight_samples => tight%endings(tight_place)%samples)
-         !$omp critical (sentences)
-         unclosed = closing_sentence(record, problem%frequency, problem%mass, resolved%noise_floor)
-         if (len(unclosed) == 0) unclosed = closing_sentence(tight_record, problem%frequency, problem%mass, tight_noise)
-         if (len(unclosed) == 0) unclosed = doubt_of_impacts(verdict, tight_verdict, samples/tighter%samples_per_period)
-         if (len(unclosed) == 0) unclosed = &
-            doubt_of_return(verdict, samples/tighter%samples_per_period, &
-                            films_of(problem, reshape([tight_record%start%numbers, tight%endings(tight_place)%numbers], &
-                                                      [2, size(tight_record%start%numbers)], order=[2, 1])), &
-                            choice%verification_tolerance)
-         !$omp end critical (sentences)
-         class_stands = len(unclosed) == 0 .and. verdict%spectrum%sampling_sufficient .and. &
+         unclosed = first_doubt([doubt_of_closing(record, problem%frequency, problem%mass, resolved%noise_floor), &
+                                 doubt_of_closing(tight_record, problem%frequency, problem%mass, tight_noise), &
+                                 doubt_of_impacts(verdict, tight_verdict, samples/tighter%samples_per_period), &
+                                 doubt_of_return(verdict, samples/tighter%samples_per_period, &
+                                                 films_of(problem, reshape([tight_record%start%numbers, &
+                                                                            tight%endings(tight_place)%numbers], &
+                                                                           [2, size(tight_record%start%numbers)], order=[2, 1])), &
+                                                 choice%verification_tolerance)])
+         class_stands = .not. is_doubted(unclosed) .and. verdict%spectrum%sampling_sufficient .and. &
             tight_verdict%spectrum%sampling_sufficient
          if (.not. class_stands) return
          same = same_phase(group%states(:samples, of_film, place), tight%states(:tight_samples, of_film, tight_place), &
                            tighter%samples_per_period, &
                            group%endings(place)%status == status_steady .or. tight%endings(tight_place)%status == status_steady)
-         !$omp critical (sentences)
          call compare_windows(films_of(problem, group%states(:samples, :, place)), &
                               films_of(problem, tight%states(same, :, tight_place)), extremes_of_record(record), &
                               extremes_of_record(tight_record), verdict, tight_verdict, unclosed, choice, &
                               choice%verification_tolerance, tighter%accuracy, tight_noise, verification)
-         !$omp end critical (sentences)
          class_stands = verification%verified
       end associate
    end function class_stands
@@ -196,11 +192,9 @@ contains
          call solve_group(problems(left), starts, window, wants, group)
          call classify_group(problems(left), choices(left), noise_floors(left), window, group, class_alone=.true.)
          if (must_stop()) return
-         !$omp critical (sentences)
          do i = 1, size(left)
-            stands(place(left(i))) = len(doubt_behind(k, group%endings(i)%status, group%verdicts(i))) == 0
+            stands(place(left(i))) = .not. is_doubted(doubt_behind(k, group%endings(i)%status, group%verdicts(i)))
          end do
-         !$omp end critical (sentences)
          starts = pack(group%endings(:size(left))%motion_state_t, stands(place(left)))
          left = pack(left, stands(place(left)))
          if (size(left) == 0) return

@@ -1,7 +1,7 @@
 !> What the terminal and the log tell of a scene.
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use verification, only: verification_word
+   use verification, only: verification_sentence, verification_word
    use film_law, only: film_load, law_words, with_exact_film
    use force, only: inertia_ratio
    use judged_scene, only: judged_scene_t, quantity_value
@@ -372,7 +372,7 @@ contains
       type(judged_scene_t), intent(in) :: judged
 
       if (.not. judged%verification%exists) return
-      call log%line('  '//judged%verification%reason)
+      call log%line('  '//verification_sentence(judged%verification))
       if (size(judged%verification%harmonic_errors) > 0) &
          call log%line('  error of the film at most '//error_text(judged%verification%film_error, 1.0_dp, digits_of_extremes)// &
                        ' of it, of the extremes of the acceleration '// &

@@ -1,7 +1,7 @@
 !> Result of a scene as the &summary group.
 module scene_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use verification, only: verification_word
+   use verification, only: verification_sentence, verification_word
    use errors, only: error_t
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: choice_word
@@ -55,7 +55,7 @@ contains
          call add_part(summary, judged, part_class)
          if (judged%verification%exists) then
             call summary%add('verification', verification_word(judged%verification))
-            call summary%add('verification_text', judged%verification%reason)
+            call summary%add('verification_text', verification_sentence(judged%verification))
          end if
          call add_part(summary, judged, part_errors)
          call add_part(summary, judged, part_orbit)

@@ -2,7 +2,8 @@
 !> method solved it first, sampled finely enough for its harmonics; and the periodic motion behind it with its Floquet
 !> multipliers.
 module verify_scene
-   use verification, only: verification_t, closing_sentence, compare_windows, doubt_behind, doubt_of_return, doubt_of_impacts, &
+   use doubt, only: doubt_samples, doubt_t, doubt_tighter_ending, first_doubt, is_doubted
+   use verification, only: verification_t, compare_windows, doubt_behind, doubt_of_closing, doubt_of_return, doubt_of_impacts, &
       severity_error, no_verification, windows_behind
    use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
@@ -14,9 +15,8 @@ module verify_scene
    use problem, only: problem_t
    use rattle_class, only: class_irregular, class_irregular_so_far, note_known, note_orbit, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
-   use scene_status, only: is_success, status_name
+   use scene_status, only: is_success
    use scene_types, only: method_newmark, method_taylor, scene_t
-   use text, only: integer_text
    use text_output, only: lock_texts, unlock_texts
    use window_extremes, only: extremes_of_record, window_extremes_t
    use window_impacts, only: agreement_of, impacts_of_record, window_impacts_t
@@ -59,7 +59,7 @@ contains
       type(motion_state_t) :: start
       type(rattle_verdict_t) :: tight_verdict
       type(window_t) :: tight
-      character(:), allocatable :: unclosed
+      type(doubt_t) :: unclosed
       real(dp) :: accuracy
 
       start = start_of(resolved%problem)
@@ -70,7 +70,7 @@ contains
                               tight_verdict, ending, error)
       if (allocated(error)) return
       if (.not. is_success(ending%status)) then
-         verification = no_verification('The tighter solution ended as '//status_name(ending%status)//'.')
+         verification = no_verification(doubt_t(doubt_tighter_ending, counts=[ending%status, 0]))
          return
       end if
       if (present(orbit) .or. tight_verdict%class == class_irregular_so_far) then
@@ -79,19 +79,18 @@ contains
          if (present(orbit) .and. found%period > 0) orbit = found
       end if
       call note_known(tight_verdict, verdict)
-      unclosed = closing_sentence(window%record, resolved%problem%frequency, resolved%problem%mass, resolved%noise_floor)
-      if (len(unclosed) == 0) unclosed = &
-         closing_sentence(tight%record, resolved%problem%frequency, resolved%problem%mass, &
-                                                            resolved%noise_floor_at(accuracy))
-      if (len(unclosed) == 0 .and. .not. (verdict%spectrum%sampling_sufficient .and. tight_verdict%spectrum%sampling_sufficient)) &
-         unclosed = too_few_samples(scene, tight)
-      if (len(unclosed) == 0) unclosed = doubt_of_impacts(verdict, tight_verdict, window%periods)
-      if (len(unclosed) == 0) unclosed = &
-         doubt_of_return(verdict, window%periods, &
-                         films_of(resolved%problem, reshape([tight%record%start%numbers, ending%numbers], &
-                                                            [2, size(ending%numbers)], order=[2, 1])), &
-                         scene%spectrum%verification_tolerance)
-      if (len(unclosed) == 0 .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
+      associate (problem => resolved%problem)
+         unclosed = first_doubt([doubt_of_closing(window%record, problem%frequency, problem%mass, resolved%noise_floor), &
+                                 doubt_of_closing(tight%record, problem%frequency, problem%mass, &
+                                                  resolved%noise_floor_at(accuracy)), &
+                                 doubt_of_samples(scene, verdict, tight, tight_verdict), &
+                                 doubt_of_impacts(verdict, tight_verdict, window%periods), &
+                                 doubt_of_return(verdict, window%periods, &
+                                                 films_of(problem, reshape([tight%record%start%numbers, ending%numbers], &
+                                                                           [2, size(ending%numbers)], order=[2, 1])), &
+                                                 scene%spectrum%verification_tolerance)])
+      end associate
+      if (.not. is_doubted(unclosed) .and. verdict%class == class_irregular .and. tight_verdict%class == class_irregular) then
          call look_behind(scene, resolved%problem, accuracy, resolved%noise_floor_at(accuracy), tight, ending, unclosed, error)
          if (allocated(error)) return
       end if
@@ -138,7 +137,7 @@ contains
    end function nearby_orbit
 
    !> Whether a motion stays irregular behind its window.
-   subroutine look_behind(scene, problem, accuracy, noise_floor, judged, ending, reason, error)
+   subroutine look_behind(scene, problem, accuracy, noise_floor, judged, ending, doubt, error)
       !> Checked scene
       type(scene_t), intent(in) :: scene
       !> What moves
@@ -151,8 +150,8 @@ contains
       type(window_t), intent(in) :: judged
       !> Where it ends
       type(ending_t), intent(in) :: ending
-      !> Empty if the motion stays irregular
-      character(:), allocatable, intent(inout) :: reason
+      !> None if the motion stays irregular
+      type(doubt_t), intent(out) :: doubt
       !> Set if there is not enough memory
       type(error_t), allocatable, intent(out) :: error
       type(motion_state_t) :: start
@@ -168,27 +167,25 @@ contains
          start%periods = 0
          call solve_whole_window(scene, problem, start, accuracy, judged%periods, noise_floor, window, verdict, last, error)
          if (allocated(error)) return
-         reason = doubt_behind(i, last%status, verdict)
-         if (len(reason) > 0) return
+         doubt = doubt_behind(i, last%status, verdict)
+         if (is_doubted(doubt)) return
       end do
    end subroutine look_behind
 
-   !> That the samples are too few, and how many would do.
-   pure function too_few_samples(scene, tight) result(reason)
+   !> Whether the samples are too few, and how many would do.
+   pure type(doubt_t) function doubt_of_samples(scene, verdict, tight, tight_verdict) result(doubt)
       type(scene_t), intent(in) :: scene
+      type(rattle_verdict_t), intent(in) :: verdict
       !> The tighter solution
       type(window_t), intent(in) :: tight
-      character(:), allocatable :: reason
-      character(:), allocatable :: key
+      type(rattle_verdict_t), intent(in) :: tight_verdict
+      logical :: would_do
 
-      key = 'solver.samples_per_period'
-      if (scene%solver%method == method_newmark) key = 'solver.steps_per_period'
-      reason = 'The samples a period are too few for the harmonics: '//key
-      if (.not. tight%by_integrals .and. tight%samples_per_period > scene%solver%samples_per_period()) then
-         reason = reason//' = '//integer_text(tight%samples_per_period)//' would follow the motion.'
-      else
-         reason = reason//' would have to follow impacts that no equidistant samples follow; the default method does.'
-      end if
-   end function too_few_samples
+      doubt = doubt_t()
+      if (verdict%spectrum%sampling_sufficient .and. tight_verdict%spectrum%sampling_sufficient) return
+      would_do = .not. tight%by_integrals .and. tight%samples_per_period > scene%solver%samples_per_period()
+      doubt = doubt_t(doubt_samples, counts=[merge(tight%samples_per_period, 0, would_do), &
+                                             merge(1, 0, scene%solver%method == method_newmark)])
+   end function doubt_of_samples
 
 end module verify_scene

@@ -1,15 +1,15 @@
 !> How far a verdict can be trusted: the window of a scene held against the same window solved tighter.
 module verification
+   use doubt, only: doubt_class, doubt_class_behind, doubt_count, doubt_count_bound, doubt_distortion, doubt_distortion_bound, &
+      doubt_ending_behind, doubt_energy, doubt_film, doubt_fraction_close, doubt_fraction_error, doubt_impacts, &
+      doubt_largest_harmonic, doubt_momentum, doubt_parting, doubt_return, doubt_sentence, doubt_t, is_doubted, parting_sentence
    use kinds, only: dp
    use vibration_severity, only: vibration_severity_t
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
-   use quantities, only: quantity_rattle_class, quantity_word
    use problem, only: of_velocity
-   use lyapunov, only: draws_near, parting_t
    use rattle_class, only: class_irregular, class_irregular_so_far, class_subharmonic, is_off_harmonics, rattle_verdict_t
-   use scene_status, only: is_success, status_name
+   use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
-   use text, only: counted, error_text, integer_text, short_text, spaced
    use window_extremes, only: window_extremes_t
    use window_impacts, only: impact_agreement_t
    use window_record, only: energy_gap, momentum_gap, window_record_t
@@ -39,8 +39,8 @@ module verification
       type(impact_agreement_t) :: impacts = impact_agreement_t()
       !> Errors of the harmonics [m/s2]
       real(dp), allocatable :: harmonic_errors(:)
-      !> Why it is not verified, or that it is
-      character(:), allocatable :: reason
+      !> Why it is not verified; of a verified irregular motion, how a neighbouring one parts from it
+      type(doubt_t) :: doubt = doubt_t()
    end type verification_t
 
    !> Errors in units of the difference from the tighter solution, which has an error of its own.
@@ -57,7 +57,8 @@ module verification
    !> same one solved otherwise, may hold none.
    real(dp), parameter :: least_reversals = 8.0_dp
 
-   public :: compare_windows, severity_error, no_verification, verification_word, closing_sentence, doubt_of_impacts, &
+   public :: compare_windows, severity_error, no_verification, verification_word, verification_sentence, &
+             doubt_of_closing, doubt_of_impacts, &
              doubt_of_return, windows_behind, doubt_behind
 
 contains
@@ -75,8 +76,8 @@ contains
       !> Verdicts of both
       type(rattle_verdict_t), intent(in) :: verdict
       type(rattle_verdict_t), intent(in) :: tight_verdict
-      !> Why one of the windows does not close; empty if both do
-      character(*), intent(in) :: unclosed
+      !> What the windows leave to be doubted
+      type(doubt_t), intent(in) :: unclosed
       !> Limits of the classes
       type(spectrum_choice_t), intent(in) :: choice
       !> Film error up to which a regular motion is verified [-]
@@ -114,13 +115,9 @@ contains
                     + max(verdict%spectrum%resolution_error, tight_verdict%spectrum%resolution_error) + tight_noise
       verification%harmonic_errors = margin*differences
 
-      verification%reason = doubt()
-      verification%verified = len(verification%reason) == 0
-      if (verification%verified) verification%reason = 'The class is verified: a second solution with a tighter tolerance '// &
-         'agrees, and no limit lies '// &
-                                                      'within the errors.'
-      if (verification%verified .and. verdict%class == class_irregular) verification%reason = verification%reason// &
-         ' '//parting_sentence(verdict%parting)//' It may settle later all the same.'
+      verification%doubt = doubt_of_class()
+      verification%verified = .not. is_doubted(verification%doubt)
+      if (verification%verified .and. verdict%class == class_irregular) verification%doubt%parting = verdict%parting
 
    contains
 
@@ -157,31 +154,28 @@ contains
                                            least_share*maxval(differences/sizes)*sizes))
       end function errors_of
 
-      !> First reason to doubt the class, empty if there is none.
-      pure function doubt() result(reason)
-         character(:), allocatable :: reason
-
-         reason = ''
+      !> First reason to doubt the class.
+      pure type(doubt_t) function doubt_of_class() result(doubt)
+         doubt = doubt_t()
          if (tight_verdict%class /= verdict%class) then
-            reason = 'Solved tighter, the class is '//spaced(quantity_word(quantity_rattle_class, tight_verdict%class))//'.'
+            doubt = doubt_t(doubt_class, counts=[tight_verdict%class, 0])
          else if (verdict%class == class_irregular_so_far) then
-            reason = doubt_of_parting(verdict%parting)
-         else if (len(unclosed) > 0) then
-            reason = unclosed
+            doubt = doubt_t(doubt_parting, parting=verdict%parting)
+         else if (is_doubted(unclosed)) then
+            doubt = unclosed
          else if (verdict%class == class_irregular) then
             ! Irregular motions part from each other; only that they are irregular can stand.
             if (min(verdict%spectrum%irregular_fraction, tight_verdict%spectrum%irregular_fraction) &
-               < 2.0_dp*choice%irregular_limit) &
-               reason = 'The irregular fraction is close to its limit.'
+               < 2.0_dp*choice%irregular_limit) doubt = doubt_t(doubt_fraction_close)
          else if (film_difference > tolerance) then
-            reason = 'Solved tighter, the film differs by '//short_text(100.0_dp*film_difference, 2)//' %.'
+            doubt = doubt_t(doubt_film, numbers=[film_difference, 0.0_dp])
          else if (abs(verdict%spectrum%irregular_fraction - choice%irregular_limit) <= &
                   abs(verdict%spectrum%irregular_fraction - tight_verdict%spectrum%irregular_fraction)) then
-            reason = 'The irregular fraction is within its error of its limit.'
+            doubt = doubt_t(doubt_fraction_error)
          else if (verdict%spectrum%moving .and. verdict%class /= class_subharmonic) then
-            reason = doubt_of_limits(verdict, tight_verdict, differences, choice)
+            doubt = doubt_of_limits(verdict, tight_verdict, differences, choice)
          end if
-      end function doubt
+      end function doubt_of_class
 
    end subroutine compare_windows
 
@@ -210,8 +204,8 @@ contains
 
    end function severity_error
 
-   !> Why a window does not close, empty if it does.
-   pure function closing_sentence(record, frequency, mass, noise_floor) result(reason)
+   !> Why a window does not close.
+   pure type(doubt_t) function doubt_of_closing(record, frequency, mass, noise_floor) result(doubt)
       !> Record of the window; without one there is nothing to close
       type(window_record_t), intent(in) :: record
       !> Frequency of the force [Hz] and mass [kg]
@@ -219,40 +213,36 @@ contains
       real(dp), intent(in) :: mass
       !> Acceleration that the errors of the solution explain [m/s2]
       real(dp), intent(in) :: noise_floor
-      character(:), allocatable :: reason
 
-      reason = ''
+      doubt = doubt_t()
       if (record%periods == 0) return
       if (.not. momentum_gap(record, frequency)*record%acceleration_size <= &
           closing_share*record%acceleration_size + noise_floor*real(record%periods, dp)) then
-         reason = 'The window does not close: the mean of z" is '// &
-                  short_text(record%acceleration_sum/real(record%periods, dp), 3)//' m/s2, while the change of velocity gives '// &
-                  short_text((record%end_velocity - record%start%numbers(of_velocity)) &
-                             *frequency/real(record%periods, dp), 3)//' m/s2.'
+         doubt = doubt_t(doubt_momentum, numbers=[record%acceleration_sum, &
+                                                  (record%end_velocity - record%start%numbers(of_velocity))*frequency]/ &
+                         real(record%periods, dp))
       else if (.not. energy_gap(record, mass) <= closing_share) then
-         reason = 'The window does not close: the film takes '//short_text(-record%film_work, 3)//' J, the forces give '// &
-                  short_text(-record%force_work, 3)//' J.'
+         doubt = doubt_t(doubt_energy, numbers=-[record%film_work, record%force_work])
       end if
-   end function closing_sentence
+   end function doubt_of_closing
 
-   !> Why a window is too short to tell an irregular motion, empty if it is not, or the motion is another one.
-   pure function doubt_of_impacts(verdict, tight_verdict, periods) result(reason)
+   !> Whether a window is too short to tell an irregular motion; of other motions there is no doubt.
+   pure type(doubt_t) function doubt_of_impacts(verdict, tight_verdict, periods) result(doubt)
       !> Verdicts of a scene and of its tighter solution
       type(rattle_verdict_t), intent(in) :: verdict
       type(rattle_verdict_t), intent(in) :: tight_verdict
       !> Periods of the window
       integer, intent(in) :: periods
-      character(:), allocatable :: reason
 
-      reason = ''
+      doubt = doubt_t()
       if (verdict%class /= class_irregular .or. tight_verdict%class /= class_irregular) return
       if (min(verdict%reversals_per_period, tight_verdict%reversals_per_period)*real(periods, dp) < least_reversals) &
-         reason = 'The window holds too few impacts to tell an irregular motion; more of spectrum.periods would.'
+         doubt = doubt_t(doubt_impacts)
    end function doubt_of_impacts
 
-   !> Why a window of one period is not that of a motion that repeats after it, empty if it is, or the window has more: there the
-   !> power off the harmonics tells.
-   pure function doubt_of_return(verdict, periods, films, tolerance) result(reason)
+   !> Whether a window of one period is not that of a motion that repeats after it. Of longer windows there is no doubt: there
+   !> the power off the harmonics tells.
+   pure type(doubt_t) function doubt_of_return(verdict, periods, films, tolerance) result(doubt)
       type(rattle_verdict_t), intent(in) :: verdict
       !> Of the window
       integer, intent(in) :: periods
@@ -260,18 +250,14 @@ contains
       real(dp), intent(in) :: films(:, :)
       !> Difference of films up to which a regular motion is verified [-]
       real(dp), intent(in) :: tolerance
-      character(:), allocatable :: reason
       real(dp) :: differences(size(films, 2))
       integer :: flank
 
-      reason = ''
+      doubt = doubt_t()
       if (periods > 1 .or. is_off_harmonics(verdict%class) .or. verdict%class == class_subharmonic) return
       differences = abs(films(2, :) - films(1, :))/minval(films, dim=1)
       flank = maxloc(differences, dim=1)
-      if (differences(flank) > tolerance) &
-         reason = 'The window of one period begins with a film of '//short_text(films(1, flank), 3)//' m and ends with '// &
-                  short_text(films(2, flank), 3)//' m: the motion does not repeat after it. '// &
-                  'More of spectrum.periods would tell more.'
+      if (differences(flank) > tolerance) doubt = doubt_t(doubt_return, numbers=films(:2, flank))
    end function doubt_of_return
 
    !> How many windows behind the one that is judged a motion has to be irregular in too. One that hits a flank now and then may be
@@ -283,66 +269,38 @@ contains
       windows_behind = max(least_windows_behind, (least_periods_behind - 1)/periods + 1)
    end function windows_behind
 
-   !> Why a motion is not irregular behind its window, empty if it is.
-   pure function doubt_behind(windows, status, verdict) result(reason)
+   !> Whether a motion is not irregular behind its window.
+   pure type(doubt_t) function doubt_behind(windows, status, verdict) result(doubt)
       !> Windows behind the one that was judged
       integer, intent(in) :: windows
       !> How this one ended, and its verdict
       integer, intent(in) :: status
       type(rattle_verdict_t), intent(in) :: verdict
-      character(:), allocatable :: reason
 
-      reason = ''
+      doubt = doubt_t()
       if (.not. is_success(status)) then
-         reason = 'Behind the window the motion ends as '//status_name(status)//'.'
+         doubt = doubt_t(doubt_ending_behind, counts=[status, 0])
       else if (.not. is_off_harmonics(verdict%class)) then
-         reason = 'The class is that of this window: '//counted(windows, 'window')//' later the motion is '// &
-                  spaced(quantity_word(quantity_rattle_class, verdict%class))//'.'
+         doubt = doubt_t(doubt_class_behind, counts=[verdict%class, windows])
       end if
    end function doubt_behind
 
-   !> Why a motion is irregular only so far.
-   pure function doubt_of_parting(parting) result(reason)
-      !> How a neighbour parts from it
-      type(parting_t), intent(in) :: parting
-      character(:), allocatable :: reason
-
-      if (parting%periods == 0) then
-         reason = 'The motion does not repeat, and it could not be followed beside a neighbouring one.'
-      else if (draws_near(parting)) then
-         reason = parting_sentence(parting)//' The motion settles; more of solver.periods would tell to what.'
-      else
-         reason = parting_sentence(parting)//' That is not positive beyond its error: more of solver.periods would tell more.'
-      end if
-   end function doubt_of_parting
-
-   !> The Lyapunov exponent of a motion that was followed.
-   pure function parting_sentence(parting) result(sentence)
-      type(parting_t), intent(in) :: parting
-      character(:), allocatable :: sentence
-
-      sentence = 'Neighbouring motions part with a Lyapunov exponent of '//short_text(parting%exponent, 2)//' +- '// &
-                error_text(parting%standard_error, parting%exponent, 2)//' a period, over '//counted(parting%periods, 'period')//'.'
-   end function parting_sentence
-
    !> Whether a limit of the classes lies within the errors of the harmonics.
-   pure function doubt_of_limits(verdict, tight_verdict, errors, choice) result(reason)
+   pure type(doubt_t) function doubt_of_limits(verdict, tight_verdict, errors, choice) result(doubt)
       type(rattle_verdict_t), intent(in) :: verdict
       type(rattle_verdict_t), intent(in) :: tight_verdict
       real(dp), intent(in) :: errors(:)
       type(spectrum_choice_t), intent(in) :: choice
-      character(:), allocatable :: reason
       real(dp) :: unforced(size(errors))
       integer, allocatable :: others(:)
       real(dp) :: forced_error, distortion_error, threshold
       integer :: first, known, fewest, most, i
 
-      reason = ''
+      doubt = doubt_t()
       associate (spectrum => verdict%spectrum, a => verdict%spectrum%harmonics)
          first = spectrum%largest_forced
          if (.not. a(first) > errors(first)) then
-            reason = 'The largest harmonic at a harmonic of the force is as small as its error.'
-            if (first == 1) reason = 'The first harmonic is as small as its error.'
+            doubt = doubt_t(doubt_largest_harmonic, counts=[first, 0])
             return
          end if
          known = min(size(errors), size(choice%forced))
@@ -353,13 +311,12 @@ contains
                                 (spectrum%forced_amplitude - forced_error), &
                                 abs(spectrum%harmonic_distortion - tight_verdict%spectrum%harmonic_distortion))
          if (abs(spectrum%harmonic_distortion - choice%quiet_limit) <= distortion_error) then
-            reason = 'The harmonic distortion is within its error of the quiet limit.'
+            doubt = doubt_t(doubt_distortion)
             return
          end if
          if (spectrum%harmonic_distortion < choice%quiet_limit) then
             if (spectrum%distortion_is_bound .or. tight_verdict%spectrum%distortion_is_bound) &
-               reason = 'The harmonic distortion is a lower bound: more harmonics than are resolved may lift it over the '// &
-                  'quiet limit.'
+               doubt = doubt_t(doubt_distortion_bound)
             return
          end if
          threshold = choice%harmonic_threshold
@@ -368,10 +325,9 @@ contains
          fewest = count(a(others) - errors(others) > threshold*(a(first) + errors(first)))
          most = count(a(others) + errors(others) > threshold*(a(first) - errors(first)))
          if (fewest < choice%idle_harmonics .and. (spectrum%count_is_bound .or. tight_verdict%spectrum%count_is_bound)) then
-            reason = 'There are at least '//integer_text(fewest)//' harmonics, and beyond the highest resolved one there may '// &
-               'be more.'
+            doubt = doubt_t(doubt_count_bound, counts=[fewest, 0])
          else if (fewest < choice%idle_harmonics .and. most >= choice%idle_harmonics) then
-            reason = 'Within their errors there are '//integer_text(fewest)//' to '//integer_text(most)//' harmonics.'
+            doubt = doubt_t(doubt_count, counts=[fewest, most])
          end if
       end associate
    end function doubt_of_limits
@@ -386,14 +342,27 @@ contains
       if (verification%verified) word = 'verified'
    end function verification_word
 
+   !> Why the class is not verified, or that it is.
+   pure function verification_sentence(verification) result(sentence)
+      !> A verification that exists
+      type(verification_t), intent(in) :: verification
+      character(:), allocatable :: sentence
+
+      sentence = doubt_sentence(verification%doubt)
+      if (.not. verification%verified) return
+      sentence = 'The class is verified: a second solution with a tighter tolerance agrees, and no limit lies within the errors.'
+      if (verification%doubt%parting%periods > 0) &
+         sentence = sentence//' '//parting_sentence(verification%doubt%parting)//' It may settle later all the same.'
+   end function verification_sentence
+
    !> Verification of a class that could not be put to the test.
-   pure function no_verification(reason) result(verification)
+   pure function no_verification(doubt) result(verification)
       !> Why not
-      character(*), intent(in) :: reason
+      type(doubt_t), intent(in) :: doubt
       type(verification_t) :: verification
 
       verification%exists = .true.
-      verification%reason = reason
+      verification%doubt = doubt
       allocate (verification%harmonic_errors(0))
    end function no_verification
 

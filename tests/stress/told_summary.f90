@@ -1,7 +1,7 @@
 !> What the program tells a user of a scene: solved and judged as a single scene is, as a row of a campaign, or as a
 !> value of a sweep, without their files. The only file of this study that knows how the program does that.
 module told_summary
-   use verification, only: verification_word
+   use verification, only: verification_sentence, verification_word
    use controlled_engine, only: solve_controlled
    use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, request_t, start_of
    use errors, only: error_t
@@ -124,7 +124,7 @@ contains
       told%extreme_errors = huge(1.0_dp)
       associate (verification => result%verification)
          told%verified = verification_word(verification) == 'verified'
-         if (allocated(verification%reason)) told%reason = verification%reason
+         if (verification%exists) told%reason = verification_sentence(verification)
          if (.not. allocated(verification%harmonic_errors)) return
          n = min(n, size(verification%harmonic_errors))
          told%harmonic_errors(:n) = verification%harmonic_errors(:n)

@@ -3,6 +3,7 @@
 module test_campaign_verification
    use campaign_verification, only: verify_group
    use canonical_scenes, only: canonical_scene
+   use doubt, only: doubt_sentence, is_doubted
    use verification, only: doubt_behind, windows_behind
    use checks, only: check_list_t
    use engine, only: request_t, start_of
@@ -55,14 +56,14 @@ contains
       integer :: i
 
       verdict%class = class_irregular
-      call checks%check(doubt_behind(1, status_complete, verdict) == '', 'irregular still')
+      call checks%check(.not. is_doubted(doubt_behind(1, status_complete, verdict)), 'irregular still')
       verdict%class = class_irregular_so_far
-      call checks%check(doubt_behind(1, status_steady, verdict) == '', 'off the harmonics still')
-      call checks%check(doubt_behind(1, status_film_lost, verdict) == 'Behind the window the motion ends as film_lost.', &
+      call checks%check(.not. is_doubted(doubt_behind(1, status_steady, verdict)), 'off the harmonics still')
+call checks%check(doubt_sentence(doubt_behind(1, status_film_lost, verdict)) == 'Behind the window the motion ends as film_lost.', &
                         'a motion that ends')
       do i = 1, size(regular)
          verdict%class = regular(i)
-         call checks%check(doubt_behind(i, status_complete, verdict) == 'The class is that of this window: '// &
+         call checks%check(doubt_sentence(doubt_behind(i, status_complete, verdict)) == 'The class is that of this window: '// &
                            trim(merge('1 window ', achar(48 + i)//' windows', i == 1))//' later the motion is '// &
                            trim(words(i))//'.', 'no more irregular: '//trim(words(i)))
       end do

@@ -1,11 +1,13 @@
 !> Tests of the verification: what a tighter solution must share with a scene for its class to stand.
 module test_verification
-   use verification, only: verification_t, closing_sentence, compare_windows, doubt_of_return, no_verification
+  use verification, only: verification_t, compare_windows, doubt_of_closing, doubt_of_return, no_verification, verification_sentence
    use checks, only: check_list_t
+   use doubt, only: doubt_impacts, doubt_sentence, doubt_t, doubt_tighter_ending, is_doubted
    use engine, only: motion_state_t
    use kinds, only: dp
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_film
    use rattle_class, only: class_creep, class_idle, class_irregular, class_quiet, class_subharmonic, rattle_verdict_t
+   use scene_status, only: status_time_limit
    use scene_types, only: spectrum_choice_t
    use window_extremes, only: window_extremes_t
    use window_record, only: window_record_t
@@ -66,14 +68,13 @@ contains
       type(spectrum_choice_t), intent(in) :: choice !> Limits
       real(dp), intent(in) :: tolerance             !> Of the film [-]
       type(verification_t), intent(out) :: verification
-      character(*), optional, intent(in) :: unclosed !> Why a window does not close
+      type(doubt_t), optional, intent(in) :: unclosed !> What the windows leave to be doubted
 
-      character(:), allocatable :: reason
+      type(doubt_t) :: left
 
-      reason = ''
-      if (present(unclosed)) reason = unclosed
+      if (present(unclosed)) left = unclosed
       call compare_windows(one_flank(films), one_flank(tight_films), extremes_of(films, values), &
-         extremes_of(tight_films, tight_values), verdict, tight, reason, choice, tolerance, 0.0_dp, 0.0_dp, verification)
+         extremes_of(tight_films, tight_values), verdict, tight, left, choice, tolerance, 0.0_dp, 0.0_dp, verification)
    end subroutine compare
 
    !> Films of one flank.
@@ -110,7 +111,7 @@ contains
       call compare(films, films, values, values, verdict_of(class, harmonics, choice), &
          verdict_of(class, tight_harmonics, choice), choice, tolerance, verification)
       call checks%check(verification%exists .and. (verification%verified .eqv. words == stands), 'verified or not: '//words)
-      call checks%check(index(verification%reason, words) > 0, words//' (got: '//verification%reason//')')
+call checks%check(index(verification_sentence(verification), words) > 0, words//' (got: '//verification_sentence(verification)//')')
    end subroutine expect
 
    !> The errors themselves.
@@ -134,7 +135,8 @@ contains
       call checks%check(verification%verified, 'small errors far from the limits')
       tight%class = class_idle
       call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
-      call checks%check(.not. verification%verified .and. index(verification%reason, 'the class is idle') > 0, 'another class')
+      call checks%check(.not. verification%verified .and. index(verification_sentence(verification), 'the class is idle') > 0, &
+                        'another class')
    end subroutine test_errors
 
    !> A regular motion stands up to the tolerance of its film.
@@ -149,7 +151,7 @@ contains
       call compare(1.009_dp*films, films, values, values, verdict, verdict, choice, tolerance, verification)
       call checks%check(verification%verified, 'film: within the tolerance')
       call compare(1.011_dp*films, films, values, values, verdict, verdict, choice, tolerance, verification)
-      call checks%check(.not. verification%verified .and. index(verification%reason, 'the film differs by 1.1 %') > 0, &
+  call checks%check(.not. verification%verified .and. index(verification_sentence(verification), 'the film differs by 1.1 %') > 0, &
          'film: beyond the tolerance')
       ! A scene at rest has no harmonics to doubt.
       verdict = verdict_of(class_quiet, [1.0e-20_dp, 0.35e-20_dp], choice)
@@ -194,16 +196,16 @@ contains
       call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
       call checks%check(verification%verified, 'subharmonic: the limit is outside the error')
       call compare(1.011_dp*films, films, values, values, verdict, tight, choice, tolerance, verification)
-      call checks%check(.not. verification%verified .and. index(verification%reason, 'the film differs by 1.1 %') > 0, &
+  call checks%check(.not. verification%verified .and. index(verification_sentence(verification), 'the film differs by 1.1 %') > 0, &
          'subharmonic: beyond the tolerance of the film')
       tight%spectrum%irregular_fraction = 0.0145_dp
       call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
-      call checks%check(.not. verification%verified .and. index(verification%reason, 'irregular fraction') > 0, &
+      call checks%check(.not. verification%verified .and. index(verification_sentence(verification), 'irregular fraction') > 0, &
          'subharmonic: the limit is within the error')
       tight%class = class_irregular
       tight%spectrum%irregular_fraction = verdict%spectrum%irregular_fraction
       call compare(films, films, values, values, verdict, tight, choice, tolerance, verification)
-      call checks%check(.not. verification%verified .and. index(verification%reason, 'the class is irregular') > 0, &
+     call checks%check(.not. verification%verified .and. index(verification_sentence(verification), 'the class is irregular') > 0, &
          'subharmonic: irregular if solved tighter')
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
       verdict%spectrum%irregular_fraction = 0.009_dp
@@ -278,7 +280,8 @@ contains
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
       verdict%spectrum%count_is_bound = .true.
       call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification)
-      call checks%check(index(verification%reason, 'at least 2 harmonics') > 0, 'bounds: there may be more harmonics')
+    call checks%check(index(verification_sentence(verification), 'at least 2 harmonics') > 0, &
+                        'bounds: there may be more harmonics')
       verdict = verdict_of(class_idle, [1.0_dp, 0.5_dp, 0.4_dp], choice)
       verdict%spectrum%count_is_bound = .true.
       call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification)
@@ -286,7 +289,8 @@ contains
       verdict = verdict_of(class_quiet, [1.0_dp, 0.1_dp], choice)
       verdict%spectrum%distortion_is_bound = .true.
       call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification)
-      call checks%check(index(verification%reason, 'distortion is a lower bound') > 0, 'bounds: the distortion may be larger')
+      call checks%check(index(verification_sentence(verification), 'distortion is a lower bound') > 0, &
+         'bounds: the distortion may be larger')
       verdict = verdict_of(class_idle, [1.0_dp, 0.5_dp, 0.4_dp], choice)
       verdict%spectrum%distortion_is_bound = .true.
       call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification)
@@ -304,32 +308,32 @@ contains
       real(dp), parameter :: frequency = 15.0_dp, mass = 3.0_dp, noise = 1.0e-6_dp
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
-      call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification, 'It is open.')
-      call checks%check(verification%reason == 'It is open.' .and. .not. verification%verified, 'closing: the reason given')
-      call checks%check(doubt() == '', 'closing: no record, no doubt')
+      call compare(films, films, values, values, verdict, verdict, choice, tolerance, verification, doubt_t(doubt_impacts))
+      call checks%check(verification%doubt%code == doubt_impacts .and. .not. verification%verified, 'closing: the reason given')
+      call checks%check(reason() == '', 'closing: no record, no doubt')
       ! Two periods whose velocity grows by 4 m/s, of which the integral of z'' sees all, or 0.2 % less.
       record = window_record_t(periods=2, start=motion_state_t(numbers=[1.0_dp, 0.0_dp]), end_velocity=4.0_dp, &
                                acceleration_sum=4.0_dp*frequency, acceleration_size=10.0_dp*frequency)
-      call checks%check(doubt() == '', 'closing: momentum')
+      call checks%check(reason() == '', 'closing: momentum')
       record%acceleration_sum = 3.98_dp*frequency
-      call checks%check(index(doubt(), 'the mean of z"') > 0, 'closing: momentum is missing')
+      call checks%check(index(reason(), 'the mean of z"') > 0, 'closing: momentum is missing')
       record%acceleration_sum = 4.0_dp*frequency
       ! Kinetic energy 3 4**2/2 = 24 J.
       record%film_work = -6.0_dp
       record%force_work = -30.0_dp
       record%work_size = 36.0_dp
-      call checks%check(doubt() == '', 'closing: energy')
+      call checks%check(reason() == '', 'closing: energy')
       record%film_work = -6.04_dp
-      call checks%check(index(doubt(), 'J, the forces give') > 0, 'closing: energy is missing')
+      call checks%check(index(reason(), 'J, the forces give') > 0, 'closing: energy is missing')
 
    contains
 
       !> Why the window does not close.
-      pure function doubt() result(reason)
+      pure function reason()
          character(:), allocatable :: reason
 
-         reason = closing_sentence(record, frequency, mass, noise)
-      end function doubt
+         reason = doubt_sentence(doubt_of_closing(record, frequency, mass, noise))
+      end function reason
 
    end subroutine test_closing
 
@@ -361,7 +365,7 @@ contains
 
       verdict = verdict_of(class_creep, [1.0_dp, 0.5_dp], choice)
       call compare_windows(one_flank(films), one_flank(films), extremes_of(films, values), extremes_of(films, values), verdict, &
-         verdict, '', choice, tolerance, accuracy, noise, verification)
+         verdict, doubt_t(), choice, tolerance, accuracy, noise, verification)
       call checks%check(verification%film_error > accuracy, 'tighter errors: film')
       call checks%check(verification%film_minimum_error > accuracy*minval(films) .and. &
          verification%film_maximum_error > accuracy*maxval(films), 'tighter errors: extremes of the film')
@@ -419,7 +423,7 @@ contains
          real(dp), intent(in) :: coast_film(:) !> Of the scene [m]
 
          call compare_windows(reshape([films, coast_film], [3, 2]), reshape([films, coast], [3, 2]), extremes, tight_extremes, &
-            verdict, verdict, '', choice, tolerance, 0.0_dp, 0.0_dp, verification)
+            verdict, verdict, doubt_t(), choice, tolerance, 0.0_dp, 0.0_dp, verification)
       end subroutine compare_both
 
    end subroutine test_coast_film
@@ -435,11 +439,11 @@ contains
 
       idle = verdict_of(class_idle, [1.0_dp, 0.5_dp], choice)
       irregular = verdict_of(class_irregular, [1.0_dp, 0.5_dp], choice)
-      call checks%check(len(doubt_of_return(idle, 1, near, tolerance)) == 0, 'return: back again')
-      call checks%check(index(doubt_of_return(idle, 1, far, tolerance), '3.00E-6 m and ends with 2.90E-6 m') > 0, &
+      call checks%check(.not. is_doubted(doubt_of_return(idle, 1, near, tolerance)), 'return: back again')
+      call checks%check(index(doubt_sentence(doubt_of_return(idle, 1, far, tolerance)), '3.00E-6 m and ends with 2.90E-6 m') > 0, &
                         'return: elsewhere')
-      call checks%check(len(doubt_of_return(idle, 2, far, tolerance)) == 0, 'return: a longer window')
-      call checks%check(len(doubt_of_return(irregular, 1, far, tolerance)) == 0, 'return: of an irregular motion')
+      call checks%check(.not. is_doubted(doubt_of_return(idle, 2, far, tolerance)), 'return: a longer window')
+      call checks%check(.not. is_doubted(doubt_of_return(irregular, 1, far, tolerance)), 'return: of an irregular motion')
    end subroutine test_return
 
    !> Without a tighter solution nothing is verified.
@@ -448,9 +452,10 @@ contains
 
       type(verification_t) :: verification
 
-      verification = no_verification('It overflowed.')
+      verification = no_verification(doubt_t(doubt_tighter_ending, counts=[status_time_limit, 0]))
       call checks%check(verification%exists .and. .not. verification%verified, 'none: not verified')
-      call checks%check(verification%reason == 'It overflowed.' .and. size(verification%harmonic_errors) == 0, 'none: its reason')
+      call checks%check(verification_sentence(verification) == 'The tighter solution ended as time_limit.' .and. &
+                        size(verification%harmonic_errors) == 0, 'none: its reason')
    end subroutine test_none
 
 end module test_verification
