@@ -3,18 +3,16 @@ module solve_chunk
    use campaign_verification, only: verify_group, compared
    use campaign_record, only: record_row
    use engine, only: ending_t, request_t, reserved_periods, start_of
+   use judge_scene, only: note_record, note_regime
    use judged_scene, only: judged_scene_t
    use key_table, only: find_key
    use force, only: force_of, largest_oscillation
    use kinds, only: dp, int64
-   use vibration_severity, only: severity_of_record
    use memory_need, only: window_bytes
-   use node_extremes, only: seen_pressure, seen_quantities
-   use carried_loads, only: thinnest_film
+   use node_extremes, only: seen_quantities
    use periodic_orbit, only: periodic_orbit_t
    use quantities, only: asks_to_verify, need_count, needs_verification, needs_impacts, needs_of, needs_orbit, needs_regime, &
       needs_spectrum, needs_verified_impacts
-   use regime_check, only: check_regime
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use sampling, only: chunk_values, largest_value, sample_plan_t
    use scene_group, only: classify_group, find_orbits, follow_group, scene_group_t, solve_group
@@ -23,8 +21,7 @@ module solve_chunk
    use schedule, only: cost_order
    use signals, only: must_stop
    use varied_keys, only: is_valid_scene, set_varied_keys
-   use window_extremes, only: extremes_of_record
-   use window_impacts, only: impact_agreement_t, impacts_of_record
+   use window_impacts, only: impact_agreement_t
    implicit none(type, external)
    private
 
@@ -287,13 +284,8 @@ contains
       judged%repeats_after = group%repeat_after(place)
       if (.not. judged%judged) return
       if (any(needed([needs_spectrum, needs_verification]))) judged%rattle = group%verdicts(place)
-      associate (record => group%records(place), pressure => group%records(place)%highest(seen_pressure))
-         judged%extremes = extremes_of_record(record)
-         judged%severity = severity_of_record(record, resolved%problem%frequency)
-         judged%impacts = impacts_of_record(record, resolved%problem%frequency)
-         if (needed(needs_regime)) judged%regime = check_regime(resolved%problem%film, pressure%value, &
-                                                                thinnest_film(resolved%problem, pressure%state))
-      end associate
+      call note_record(group%records(place), judged)
+      if (needed(needs_regime)) call note_regime(judged)
       judged%verification%exists = needed(needs_verification)
       judged%verification%verified = stands
       judged%verification%impacts = agree

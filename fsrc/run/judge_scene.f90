@@ -10,7 +10,7 @@ module judge_scene
    use vibration_severity, only: severity_of_record, severity_of_samples
    use node_extremes, only: seen_pressure
    use carried_loads, only: thinnest_film
-   use problem, only: of_velocity, problem_t
+   use problem, only: of_velocity
    use rattle_class, only: note_orbit, rattle_verdict_t
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
@@ -23,7 +23,7 @@ module judge_scene
    implicit none(type, external)
    private
 
-   public :: note_ending, judge
+   public :: note_ending, judge, note_record, note_regime, follow_one
 
 contains
 
@@ -76,16 +76,14 @@ contains
       judged%judged = .not. allocated(error)
       if (.not. judged%judged) return
       call note_orbit(judged%rattle, judged%repeats_after)
-      call follow(judged%resolved%problem, ending, judged)
+      call follow_one(ending, judged)
       judged%judged = .not. must_stop()
       if (.not. judged%judged) return
       judged%window_periods = window%periods
       judged%samples_per_period = window%samples_per_period
       judged%harmonics_by_integrals = window%by_integrals
       if (window%record%periods > 0) then
-         judged%extremes = extremes_of_record(record)
-         judged%severity = severity_of_record(record, scene%excitation%frequency)
-         judged%impacts = impacts_of_record(record, scene%excitation%frequency)
+         call note_record(record, judged)
       else
          judged%extremes = extremes_of_samples(judged%resolved%problem, window%states, &
                                                window%accelerations)
@@ -97,29 +95,51 @@ contains
       if (scene%gearbox /= '') judged%film_force = &
          signal_of_window(judged%resolved%problem, window%accelerations, window%periods, judged%periods, &
                           judged%status == status_steady, judged%severity%film_force_rms)
-      associate (pressure => judged%extremes%highest(seen_pressure))
-         judged%regime = check_regime(judged%resolved%problem%film, pressure%value, &
-                                      thinnest_film(judged%resolved%problem, pressure%state))
-      end associate
+      call note_regime(judged)
       if (scene%spectrum%verify) call verify_motion(scene, judged%resolved, judged%periods, window, judged%extremes, &
                                                judged%severity, judged%impacts, judged%rattle, judged%verification, error, &
                                                judged%orbit)
       judged%judged = .not. allocated(error)
    end subroutine judge
 
-   !> Learn more of an irregular motion.
-   subroutine follow(problem, ending, judged)
-      type(problem_t), intent(in) :: problem
+   !> Note what the steps of a window tell.
+   pure subroutine note_record(record, judged)
+      !> Record of the window
+      type(window_record_t), intent(in) :: record
+      !> With what follows from the scene; extremes, severity and impacts are added
+      type(judged_scene_t), intent(inout) :: judged
+
+      associate (frequency => judged%resolved%problem%frequency)
+         judged%extremes = extremes_of_record(record)
+         judged%severity = severity_of_record(record, frequency)
+         judged%impacts = impacts_of_record(record, frequency)
+      end associate
+   end subroutine note_record
+
+   !> Note whether the film law held where the pressure was highest.
+   pure subroutine note_regime(judged)
+      !> With the extremes of its window
+      type(judged_scene_t), intent(inout) :: judged
+
+      associate (pressure => judged%extremes%highest(seen_pressure), problem => judged%resolved%problem)
+         judged%regime = check_regime(problem%film, pressure%value, thinnest_film(problem, pressure%state))
+      end associate
+   end subroutine note_regime
+
+   !> Learn more of a motion, if it is irregular.
+   subroutine follow_one(ending, judged)
+      !> How it ended
       type(ending_t), intent(in) :: ending
+      !> Its verdict and the periods after which it repeats are renewed
       type(judged_scene_t), intent(inout) :: judged
       type(rattle_verdict_t), allocatable :: verdicts(:)
       integer :: repeat_after(1)
 
       allocate (verdicts(1), source=judged%rattle)
       repeat_after = judged%repeats_after
-      call follow_irregular([problem], [ending], verdicts, repeat_after)
+      call follow_irregular([judged%resolved%problem], [ending], verdicts, repeat_after)
       judged%rattle = verdicts(1)
       judged%repeats_after = repeat_after(1)
-   end subroutine follow
+   end subroutine follow_one
 
 end module judge_scene

@@ -8,20 +8,19 @@ module run_sweep
    use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
-   use irregular_motion, only: follow_irregular
    use finished_files, only: place_files
+   use judge_scene, only: follow_one, note_record
    use judged_scene, only: judged_scene_t, quantity_value
    use key_table, only: keys
    use kinds, only: dp, int64
    use log_file, only: log_t
-   use vibration_severity, only: severity_of_record
    use output_place, only: log_path, result_path, summary_path
    use carried_loads, only: load_springs, spring_loads
    use problem, only: of_film, of_velocity
    use periodic_orbit, only: attracting_period, find_periodic_orbit
    use progress, only: progress_t
    use quantities, only: quantities_told_in, quantity_model_limit, quantity_table
-   use rattle_class, only: note_orbit, rattle_verdict_t
+   use rattle_class, only: note_orbit
    use resolved_scene, only: resolve
    use result_format, only: column_name_bytes, column_unit_bytes
    use result_reader, only: result_reader_t
@@ -34,8 +33,6 @@ module run_sweep
    use summary_file, only: summary_t
    use text, only: counted, integer_text, short_text
    use text_output, only: lock_texts, unlock_texts
-   use window_extremes, only: extremes_of_record
-   use window_impacts, only: impacts_of_record
    use word_list, only: word_t
    implicit none(type, external)
    private
@@ -206,8 +203,6 @@ contains
       type(motion_state_t) :: start
       type(ending_t) :: ending, window_ending
       type(window_t) :: window
-      type(rattle_verdict_t), allocatable :: verdicts(:)
-      integer :: repeat_after(1)
 
       judged%resolved = resolve(scene)
       associate (problem => judged%resolved%problem)
@@ -249,14 +244,8 @@ contains
       judged%orbit = find_periodic_orbit(judged%resolved%problem, ending%numbers, orbit_nearness)
       call lock_texts()
       call note_orbit(judged%rattle, max(ending%orbit, attracting_period(judged%orbit)))
-      allocate (verdicts(1), source=judged%rattle)
-      repeat_after = judged%repeats_after
-      call follow_irregular([judged%resolved%problem], [window_ending], verdicts, repeat_after)
-      judged%rattle = verdicts(1)
-      judged%repeats_after = repeat_after(1)
-      judged%extremes = extremes_of_record(window%record)
-      judged%severity = severity_of_record(window%record, scene%excitation%frequency)
-      judged%impacts = impacts_of_record(window%record, scene%excitation%frequency)
+      call follow_one(window_ending, judged)
+      call note_record(window%record, judged)
    end subroutine solve_value
 
    !> How the sweep ended, whose motions may have failed.
