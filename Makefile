@@ -92,7 +92,7 @@ help:
 	@echo 'make sanitize     unit tests and small inputs under the sanitizers of the compiler for addresses and undefined behaviour'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
 	@echo 'make compilers    gfortran 14 and flang 19 in a Debian 13 of their own, against the program of this machine'
-	@echo 'make pages        write input/README.md and scripts/rattle/quantities.csv anew from the tables'
+	@echo 'make pages        write the tables of input/README.md and scripts/rattle/quantities.csv anew'
 	@echo 'make pictures     draw the pictures of the README anew'
 	@echo 'make format       bring Fortran and Python into the one format'
 	@echo 'make install      install program, Python package, man page and completion below PREFIX=$(PREFIX)'
@@ -339,7 +339,8 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@cp $(PICTURE_RUNS)/film_fit.png $(PICTURES)/film_fit.png
 
 pages: $(BUILD)/rattle
-	@$(BUILD)/rattle --keys > input/README.md
+	@$(BUILD)/rattle --keys > $(BUILD)/tables.md
+	@sed -i -e '/^<!-- tables/,/^<!-- end of tables/{//!d}' -e '/^<!-- tables/r $(BUILD)/tables.md' input/README.md
 	@$(BUILD)/rattle --quantities > scripts/rattle/quantities.csv
 
 # A sample of the stress study: a silent failure fails it.

@@ -28,6 +28,7 @@ package=$tree/$packages/rattle
 mkdir -p "$package"
 tar -C scripts/rattle --dereference --exclude=__pycache__ --exclude='*.so' -cf - . | tar -C "$package" -xf -
 cp input/README.md "$package/keys.md"
+install -D -m 644 input/README.md "$tree/share/doc/rattle/keys.md"
 scripts/build_kernels.sh "$python" "$build/installed" "$objects" "$libraries" "$compiler" "$build" "$package"
 # Linux itself takes no blank and no more than 127 characters here; the shell reads the second line then, and to Python
 # this and the third are the beginning of the text that says what the script does.

@@ -222,7 +222,7 @@ contains
       text = 'rattle [options] FILE.nml [FILE.nml ...]      - reads standard input'//end_of_line// &
              '  --check                validate, show resolved and derived values, run nothing'//end_of_line// &
              '  --template [group]     print a commented input'//end_of_line// &
-             '  --keys                 print the page of all keys'//end_of_line// &
+             '  --keys                 print tables of all keys and quantities, which input/README.md explains'//end_of_line// &
              '  --quantities           print the table of quantities as CSV'//end_of_line// &
              '  --set group.key=value  override a key in every file; may be repeated; @FILE has one in each line'//end_of_line// &
              '  --output DIR           folder of the output files'//end_of_line// &

@@ -11,6 +11,7 @@ _HERE = Path(__file__).resolve().parent
 # Where an installed package has the page, and where the repository has it.
 PAGES = (_HERE / "keys.md", _HERE.parents[1] / "input" / "README.md")
 _GROUP = re.compile(r"## &(\w+)$")
+_CONDITIONS = re.compile(r"(Only with `.+`):$")
 _KEY = re.compile(r"\| `(\w+)` \|")
 
 
@@ -34,14 +35,16 @@ def key_table() -> dict[tuple[str, str], Key]:
 def read_page(text: str) -> dict[tuple[str, str], Key]:
     """The keys that a page of `rattle --keys` lists."""
     found: dict[tuple[str, str], Key] = {}
-    group = ""
+    group = conditions = ""
     for line in text.splitlines():
         if line.startswith("#"):
             head = _GROUP.match(line)
-            group = head[1] if head else ""
+            group, conditions = head[1] if head else "", ""
+        elif shared := _CONDITIONS.match(line):
+            conditions = f" {shared[1]}."
         elif group and (name := _KEY.match(line)):
             _, _, unit, default, allowed, _, meaning = (cell.strip() for cell in line.split("|", 6))
-            words = meaning.removesuffix("|").strip()
+            words = meaning.removesuffix("|").strip() + conditions
             found[group, name[1]] = Key(unit, default.strip("*"), allowed, words)
     return found
 

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rattle.keys import read_page
+
 GROUPS = (
     "scene",
     "contact",
@@ -128,15 +130,41 @@ def test_page_of_keys(run, repository: Path, tmp_path: Path) -> None:
     ended = run("--keys", cwd=tmp_path)
     assert (ended.returncode, ended.stderr) == (0, "")
     template = run("--template", cwd=tmp_path).stdout
-    keys = re.findall(r"^   (?:! )?(\w+) =", template, flags=re.MULTILINE)
+    keys, group = [], ""
+    for begun, key in re.findall(r"^(?:&(\w+)|   (?:! )?(\w+) =)", template, flags=re.MULTILINE):
+        group = begun or group
+        if key:
+            keys.append((group, key))
     assert len(keys) > 30
     page_of_keys, _, quantities = ended.stdout.partition("## Quantities")
-    assert re.findall(r"^\| `(\w+)` \|", page_of_keys, flags=re.MULTILINE) == keys
+    told = read_page(page_of_keys)
+    assert sorted(told) == sorted(keys)
+    assert len(re.findall(r"^\| `\w+` \|", page_of_keys, flags=re.MULTILINE)) == len(keys)
     table = run("--quantities", cwd=tmp_path).stdout.splitlines()
     assert [row.split(",")[0] for row in table[1:]] == re.findall(
         r"^\| `(\w+)` \|", quantities, flags=re.MULTILINE
     )
-    assert (repository / "input" / "README.md").read_text() == ended.stdout
+    page = (repository / "input" / "README.md").read_text()
+    assert re.findall(r"^<!-- tables.*?-->\n(.*)^<!-- end of tables -->", page, re.M | re.S) == [ended.stdout]
+
+
+def test_conditions_of_keys(run, tmp_path: Path) -> None:
+    """Under which conditions a key is used stands above its table, or in its row, and no two times."""
+    told = read_page(run("--keys", cwd=tmp_path).stdout)
+    motions = "`scene.task=motion or sweep or campaign or threshold"
+    for key, conditions in {
+        ("contact", "length"): [],
+        ("contact", "backlash"): [f"{motions}`"],
+        ("gear", "teeth_1"): [f"{motions}`"],
+        ("gear", "contact_lines"): [f"{motions}`", "`without gear.tip_diameter_1`"],
+        ("gear", "drag_scale"): ["`gear.bearing_mean_diameter or gear.drag_table`"],
+        ("gear", "bearing_width"): ["`gear.bearing_mean_diameter`"],
+        ("gear", "bearing_factor"): ["`gear.bearing_mean_diameter`", "`without gear.bearing_width`"],
+        ("shaft", "signal"): [f"{motions} & without shaft.table`"],
+        ("solver", "accuracy"): ["`solver.method=taylor`"],
+        ("output", "directory"): [],
+    }.items():
+        assert sorted(re.findall(r"Only (?:with )?(`.*?`)", told[key].meaning)) == sorted(conditions), key
 
 
 @pytest.mark.parametrize("scene", ["idle", "creep"])

@@ -107,7 +107,7 @@ def test_the_package_solves_reports_and_has_its_kernels(installed, repository, t
     assert html.escape(meaning.replace("`", "")) in page
 
 
-def test_the_man_page_has_every_option_and_key(installed, rattle, tmp_path):
+def test_the_man_page_has_every_option_and_key(installed, rattle, repository, tmp_path):
     page = (installed / "share" / "man" / "man1" / "rattle.1").read_text()
     plain = page.replace(r"\-", "-").replace(r"\&", "")
     options = re.findall(r"^  (--\w+)", call(rattle, "--help", cwd=tmp_path), re.MULTILINE)
@@ -118,6 +118,10 @@ def test_the_man_page_has_every_option_and_key(installed, rattle, tmp_path):
         part = plain.partition(f"\n.SS &{group}\n")[2].partition("\n.SS ")[0]
         assert rf"\fB{name}\fR" in part, (group, name)
         assert key.meaning.replace("`", "").replace("\\", r"\e") in part
+    assert (installed / "share/doc/rattle/keys.md").read_text() == (
+        repository / "input/README.md"
+    ).read_text()
+    assert "share/doc/rattle/keys.md" in plain
     if shutil.which("groff"):
         assert (
             call("groff", "-man", "-Tutf8", "-ww", "-z", installed / "share/man/man1/rattle.1", cwd=tmp_path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from html import escape
 from urllib.parse import quote
 
@@ -78,8 +79,8 @@ def inputs(result: ResultFile) -> list[str]:
         for name, given in keys.items():
             key = known.get((group.partition("(")[0], name))
             unit = key.unit if key else result.derived_units.get((group, name), "")
-            meaning = key.meaning.replace("`", "") if key else "Follows from gears, shaft and oil."
-            meaning = meaning.partition(" Only with ")[0].partition(" Follows from ")[0]
+            meaning = key.meaning if key else "Follows from gears, shaft and oil."
+            meaning = re.split(" Only (?:with )?`| Follows from `", meaning)[0].replace("`", "")
             rows.append([page.code(name), page.value(given, unit), meaning])
     return [
         page.paragraph("Every value that the run used, also those that were left at their defaults.", "note"),
