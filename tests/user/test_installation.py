@@ -19,7 +19,7 @@ from rattle.keys import key_table
 # They share a folder of the build: the tests of a file run one after another.
 pytestmark = pytest.mark.long
 
-SCRIPTS = ("campaign", "classify", "compare", "export", "plot", "report")
+SCRIPTS = ("calibrate", "campaign", "classify", "compare", "export", "plot", "report")
 
 
 def call(*command: object, cwd: Path, **environment: str) -> str:
