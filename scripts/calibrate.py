@@ -85,7 +85,7 @@ def span(text: str) -> tuple[float, float]:
 def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description="Fit gear.drag_scale to measured points. The CSV file has the columns speed_rpm, "
-        "temperature_celsius and either rattles (1 or 0) or a quantity such as acceleration_rms, film_force_rms "
+        "temperature_celsius and either rattles (1 or 0) or a quantity such as film_force_rms "
         "or drag_torque."
     )
     parser.add_argument("input", type=Path, help="input of a loose pair with computed or tabulated drag")
