@@ -55,7 +55,8 @@ WIDE_REGISTERS := $(shell $(FC) $(ARCHITECTURE) -Q --help=target 2>/dev/null | a
   $$1 == "-mavx512f" && $$2 == "[enabled]" { wide = 1 } \
   $$1 == "-mprefer-vector-width=" && $$2 ~ /^(128|256)$$/ { narrow = 1 } \
   END { print wide && !narrow ? ".true." : ".false." }')
-MODULES := $(filter-out bindings,$(shell cut -d' ' -f1 fsrc/MODULES))
+# The folders of fsrc, in the order of the table in fsrc/README.md.
+MODULES := $(filter-out bindings,$(shell sed -n 's/^| `\([a-z]*\)\/` |.*/\1/p' fsrc/README.md))
 # Folders within folders that this build takes.
 PARTS := film/coefficients campaign/$(if $(MPI),mpi,serial)
 FOLDERS := $(foreach room,$(MODULES),$(room) $(filter $(room)/%,$(PARTS)))
@@ -73,7 +74,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test test-long unit user user-long lint debug python bench bench-build bench-changed stress stress-sample faults faults-sample sanitize mutants test-cluster compilers clean install uninstall help format pages pictures FORCE
+.PHONY: all run test test-long unit user user-long lint debug python bench bench-build bench-changed stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -89,6 +90,7 @@ help:
 	@echo 'make stress       100000 random scenes: what users are told of them, and every engine (SCENES=N)'
 	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
 	@echo 'make faults       runs that meet kills, full disks, little memory, failing calls, other runs, damaged and foreign files'
+	@echo 'make touched      how many files a new law, quantity, key, task or figure takes, by toys in a scratch copy'
 	@echo 'make sanitize     unit tests and small inputs under the sanitizers of the compiler for addresses and undefined behaviour'
 	@echo 'make test-cluster campaigns under Open MPI and Slurm on this machine'
 	@echo 'make compilers    gfortran 14 and flang 19 in a Debian 13 of their own, against the program of this machine'
@@ -97,6 +99,8 @@ help:
 	@echo 'make format       bring Fortran and Python into the one format'
 	@echo 'make install      install program, Python package, man page and completion below PREFIX=$(PREFIX)'
 	@echo 'make uninstall    remove what make install put below PREFIX=$(PREFIX)'
+	@echo 'make doc          pages of every module and procedure, by FORD, as $(BUILD)/doc/index.html'
+	@echo 'make release-check  version, CHANGELOG, CITATION and tag agree; prints the text of the tag'
 	@echo 'make clean        remove everything that was built'
 
 # --- Python packages --------------------------------------------------------------------------------
@@ -184,7 +188,7 @@ run: $(BUILD)/rattle $(BUILD)/kernels/built
 
 # What takes long, a build in another place, a browser, faults and samples of the studies, is left to test-long.
 test: unit user
-test-long: user-long stress-sample faults-sample
+test-long: user-long touched stress-sample faults-sample
 
 unit: $(BUILD)/unit_tests
 	@echo 'unit tests, release build'
@@ -261,6 +265,11 @@ faults: $(BUILD)/rattle $(PYTHON_ENV)/installed
 faults-sample: $(BUILD)/rattle $(PYTHON_ENV)/installed
 	@echo 'faults, a sample'
 	@$(PYTHON) $(FAULTS) --tries 1
+
+# How many files a law, a quantity, a key, a task and a figure take: toys in a scratch copy.
+touched: $(BUILD)/kernels/built
+	@echo 'files that a change touches'
+	@$(PYTHON) tests/touched/run_touched.py $(BUILD)/touched
 
 # Addresses beyond what was allocated, and what the language leaves undefined: the unit tests, and inputs of every task.
 # What libraries and the runtime keep until the end is no fault of the program: leaks are not looked for.
@@ -342,6 +351,18 @@ pages: $(BUILD)/rattle
 	@$(BUILD)/rattle --keys > $(BUILD)/tables.md
 	@sed -i -e '/^<!-- tables/,/^<!-- end of tables/{//!d}' -e '/^<!-- tables/r $(BUILD)/tables.md' input/README.md
 	@$(BUILD)/rattle --quantities > scripts/rattle/quantities.csv
+
+release-check:
+	@python3 scripts/check_release.py
+
+# FORD is no test tool: it lives in an environment of its own. A warning of it fails.
+DOC_ENV := .venv-doc
+doc:
+	@[ -x $(DOC_ENV)/bin/ford ] || { python3 -m venv $(DOC_ENV) && $(DOC_ENV)/bin/pip install --quiet --no-input 'ford>=7.0.13'; }
+	@mkdir -p $(BUILD)
+	@warnings=$$($(DOC_ENV)/bin/ford --quiet --output_dir $(abspath $(BUILD)/doc) fsrc/ford.md 2>&1) && [ -z "$$warnings" ] || \
+	  { echo "$$warnings"; exit 1; }
+	@echo '$(BUILD)/doc/index.html'
 
 # A sample of the stress study: a silent failure fails it.
 stress-sample: $(BUILD)/stress_summaries $(BUILD)/stress_scenes

@@ -29,12 +29,12 @@ formatted() {
 
 tools=$(cd "$tools" && pwd)
 check 'compiler warnings' make --no-print-directory BUILD="$build/lint" STRICT=1 "$build/lint/rattle" "$build/lint/unit_tests"
-check 'layout: folders, names, imports, size' "$tools/python" scripts/check_layout.py
+check 'layout: folders, names, imports' "$tools/python" scripts/check_layout.py
+check 'release: version, changelog, citation' "$tools/python" scripts/check_release.py
 check 'style of Fortran' "$tools/fortitude" check --config .fortitude.toml fsrc tests
 check 'format of Fortran and Python' formatted
 check 'style of Python' "$tools/ruff" check scripts tests
 check 'page of all keys' sh -c "sed '1,/^<!-- tables/d; /^<!-- end of tables/,\$d' input/README.md > '$build/lint/tables.md'
     '$build/lint/rattle' --keys | diff - '$build/lint/tables.md'"
 check 'table of quantities' sh -c "'$build/lint/rattle' --quantities | diff - scripts/rattle/quantities.csv"
-"$tools/python" scripts/check_layout.py --counts
 exit $failed

@@ -1,8 +1,7 @@
 !> The list of film laws: what each of them has as coefficients, kernel, steady film and words, and what it may be believed in.
 !>
-!> To add a law: write its kernel in a file of its own, give it a word in the key table and a code in scene_types, and add it to
-!> every choice in this file; with a Taylor series, see module film_series. A choice that has forgotten a law refuses it: there is
-!> a load beyond `overflow_load`, no film that carries one, no kernel.
+!> fsrc/README.md says how a law is added. A choice that has forgotten a law refuses it: there is a load beyond `overflow_load`, no
+!> film that carries one, no kernel.
 module film_law
    use constants, only: pi
    use kinds, only: dp

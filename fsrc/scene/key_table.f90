@@ -1,12 +1,10 @@
 !> The one table of input keys. Reader, checker, nearest-key suggestion, template, the page of all keys
-!> and the keys that a campaign may vary all come from here. A new key is a new line in this file
-!> and a field in scene_types, with a case in set_number there if it is a number that campaigns may vary. Other values are
-!> read where their group is (scene_reader, task_reader); choices of their own have codes in scene_types.
+!> and the keys that a campaign may vary all come from here. fsrc/README.md says how a key is added.
 module key_table
    use input_key, only: integer_kind, key_t, list_kind, logical_kind, range_t, real_kind, reals_kind, table_kind, text_kind
    use kinds, only: dp
    use quantities, only: class_words, measurable, recordable
-   use scene_types, only: highest_order
+   use scene_types, only: highest_order, words_of_laws, words_of_tasks
    use text, only: edit_distance
    use word_list, only: split_words, word_t
    implicit none(type, external)
@@ -55,7 +53,7 @@ module key_table
    type(key_t), parameter :: keys_of_gears(*) = [ &
       key_t('scene', 'name', text_kind, '', '', any_number, '', '', &
             'Name of the scene and stem of its output files: letters, digits, . _ - only; absent: the stem of the input file.'), &
-      key_t('scene', 'task', text_kind, '', 'motion', any_number, 'motion film sweep campaign threshold', '', &
+      key_t('scene', 'task', text_kind, '', 'motion', any_number, words_of_tasks, '', &
             'What is computed: motion, of film and tooth; film, the oil film at given points; sweep, steady motions along a '// &
             'key, each from the one before; campaign, many motions that differ in some keys; threshold, where they change.'), &
       key_t('contact', 'radius', real_kind, 'm', '', positive, '', '', &
@@ -175,7 +173,7 @@ module key_table
             'Acceleration of free fall g.', &
             sensible=range_t(lower=0.0_dp, upper=100.0_dp), &
             computable=a_fall, given_by='gear'), &
-      key_t('film', 'law', text_kind, '', 'required', any_number, 'iso-viscous piezo-viscous', of_motions, &
+      key_t('film', 'law', text_kind, '', 'required', any_number, words_of_laws, of_motions, &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
             example='iso-viscous'), &
       key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical', '', &

@@ -1,6 +1,5 @@
 !> The one table of quantities: what is told of a judged scene in summaries, columns of sweeps, rows of campaigns and logs, and
-!> what the codes among them mean. Values are computed in judged_scene. A new quantity is a line of the enumeration, a line of
-!> the table, both in their place in the summary, and a case in judged_scene; then `make pages`.
+!> what the codes among them mean. Values are computed in judged_scene. fsrc/README.md says how a quantity is added.
 module quantities
    implicit none(type, external)
    public

@@ -7,10 +7,11 @@ module scene_types
    implicit none(type, external)
    private
 
-   ! The codes of a key count its choices in the order of the key table.
+   ! The codes of a key count its choices in the order of the key table, which takes words of tasks and laws from here.
 
-   !> What is computed.
+   !> What is computed, and what &scene task calls it.
    integer, parameter, public :: task_motion = 1, task_film = 2, task_sweep = 3, task_campaign = 4, task_threshold = 5
+   character(*), parameter, public :: words_of_tasks = 'motion film sweep campaign threshold'
    !> What a film task computes of every point.
    integer, parameter, public :: compute_rupture = 1, compute_load = 2, compute_stiffness = 3, compute_damping = 4, &
                                  compute_pressure = 5, compute_limits = 6, compute_profile = 7
@@ -18,8 +19,9 @@ module scene_types
    integer, parameter, public :: viscosity_barus = 1, viscosity_roelands = 2
    !> Which speed forms the groups of a film task.
    integer, parameter, public :: speed_mean = 1, speed_sum = 2
-   !> Film law of the motion.
+   !> Film law of the motion, and what &film law calls it.
    integer, parameter, public :: law_iso_viscous = 1, law_piezo_viscous = 2
+   character(*), parameter, public :: words_of_laws = 'iso-viscous piezo-viscous'
    !> Whose formulas.
    integer, parameter, public :: model_published = 1, model_reynolds = 2, model_numerical = 3
    !> Rupture angle in the squeeze term of (24).

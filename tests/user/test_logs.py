@@ -340,7 +340,7 @@ def test_the_log_of_a_film_task_is_its_summary(solve, repository):
     assert_told(
         log_of(path),
         [
-            "rattle 0.1.0, scene film: film task",
+            f"rattle {rattle.version}, scene film: film task",
             f"  {rows} points in {ANY} s: {told['status_text']}",
             f"  {path}",
             f"  {path.with_suffix('.profiles.rattle')}",
@@ -392,7 +392,7 @@ def test_the_log_of_a_sweep_is_its_rows(solve, scene_text, key, first, last, fai
     assert_told(
         found,
         [
-            f"rattle 0.1.0, scene {name}: sweep of {result.row_count} motions, "
+            f"rattle {rattle.version}, scene {name}: sweep of {result.row_count} motions, "
             + (
                 "Reynolds piezo-viscous film of rigid flanks"
                 if exact
@@ -439,7 +439,7 @@ def test_the_log_of_a_campaign_is_its_rows(solve, scene_text, name, last, change
     assert_told(
         [line for line in found if " s left, " not in line],
         [
-            f"rattle 0.1.0, campaign {name}: {count} scenes, {law}; 1 rank of 2 threads",
+            f"rattle {rattle.version}, campaign {name}: {count} scenes, {law}; 1 rank of 2 threads",
             f"  {count} of {count} scenes, {ANY} a second, {failed} failed, {doubts} not verified",
             f"  warning: {counted(beyond, 'scene')} beyond what the model can mean: films beyond a tenth of "
             "the radius or below 1 nm (column model_limit)"
@@ -483,7 +483,8 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
     assert_told(
         [line for line in log_of(path) if " s left, " not in line],
         [
-            f"rattle 0.1.0, threshold {rows.scene_name}: {counted(lines, 'trace')} of {given['key']}, "
+            f"rattle {rattle.version}, threshold {rows.scene_name}: {counted(lines, 'trace')} "
+            f"of {given['key']}, "
             f"{LAWS['published', 'iso-viscous']}; 1 rank of 2 threads",
             f"  {given['count']} values a trace, then halves down to {places} places; two changes "
             "between neighbours of the scan that cancel each other stay unseen: more &threshold count sees "
