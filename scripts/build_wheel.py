@@ -23,7 +23,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[1]
 # Packages of requirements.txt that every script needs, and those for tables and other formats.
 NEEDED = ("numpy", "matplotlib", "f90nml")
-TABLES = ("pandas", "xarray", "pyarrow", "netCDF4", "scipy")
+TABLES = ("pandas", "xarray", "pyarrow", "netCDF4", "scipy", "SALib")
 
 
 def build_wheel(

@@ -1,0 +1,61 @@
+"""Sobol indices as bars: how much of the variance of a quantity each varied key explains."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rattle.campaign_result import Campaign
+from rattle.campaign_section import short_name
+from rattle.figures import style
+from rattle.figures.campaign_look import capital
+from rattle.sensitivity import Indices, Study
+
+BAR, PANEL, MARGIN = 0.34, 0.62, 1.0
+KINDS = (("alone", "first", style.RUN_COLOURS[0]), ("with all others", "total", style.RUN_COLOURS[4]))
+
+
+def draw(campaign: Campaign, studies: Sequence[Study]) -> Figure:
+    """A row of panels for each pair, a panel for each quantity, a pair of bars for each key."""
+    names = list(dict.fromkeys(found.quantity for study in studies for found in study.found))
+    keys = studies[0].keys
+    figure = Figure(figsize=(style.WIDTH, MARGIN + len(studies) * (PANEL + BAR * len(keys))))
+    panels = figure.subplots(len(studies), max(len(names), 1), squeeze=False, sharex=True, sharey=True)
+    for row, study in zip(panels, studies, strict=True):
+        told = {found.quantity: found for found in study.found}
+        for axes, name in zip(row, names, strict=True):
+            if name in told:
+                _bars(axes, told[name])
+            else:
+                axes.text(
+                    0.5, 0.5, "the same\nat all points", ha="center", va="center", transform=axes.transAxes
+                )
+            if study is studies[0]:
+                axes.set_title(capital(textwrap.fill(short_name(name), 18)))
+        row[0].set_yticks(range(len(keys)), [short_name(key) for key in keys])
+        row[0].set_ylim(len(keys) - 0.5, -0.5)
+        row[0].set_ylabel(_label(study))
+    panels[0, 0].set_xlim(0.0, 1.1)
+    figure.supxlabel("Share of the variance", fontsize=9)
+    style.legend_below(figure, panels[0, 0], 2)
+    figure.suptitle(
+        f"{campaign.name}: what the spread of each key explains, alone and with all others", fontsize=9.5
+    )
+    return figure
+
+
+def _label(study: Study) -> str:
+    words = f"{study.pair}\n" if study.pair else ""
+    return words if study.probability is None else f"{words}impacts: {study.probability[0]:.0%}"
+
+
+def _bars(axes: Axes, found: Indices) -> None:
+    """Estimates scatter below 0 and above 1; bars end there, intervals go on."""
+    places = np.arange(len(found.first))
+    for offset, (label, name, colour) in zip((-0.2, 0.2), KINDS, strict=True):
+        values, errors = getattr(found, name), getattr(found, f"{name}_error")
+        axes.barh(places + offset, values, 0.36, xerr=errors, color=colour, label=label, error_kw={"lw": 0.8})

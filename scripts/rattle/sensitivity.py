@@ -1,0 +1,189 @@
+"""Sobol indices of what a campaign records, by Saltelli's design (SALib), and how likely a pair rattles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import f90nml
+import numpy as np
+from SALib.analyze import sobol as indices
+from SALib.sample import sobol as design
+
+from rattle.campaign_plan import LOGARITHMIC, SAMPLE
+from rattle.campaign_result import Campaign
+from rattle.codes import QUANTITIES
+from rattle.command import CommandError
+from rattle.namelist import NamelistError, parse_groups
+from rattle.outputs import Writer, text_writer
+
+# What a design records, and what is analysed of it unless others are named.
+RECORDED = (
+    "verdict",
+    "film_force_rms",
+    "impacts_per_period_drive",
+    "impacts_per_period_coast",
+    "inertia_ratio",
+)
+DIVIDERS = ("csv", "vary", "first", "last", "count", "scale", "values", "sample", "size", "seed")
+CONFIDENCE, RESAMPLES = 0.95, 200
+NORMAL = 1.959963984540054  # of the interval of a share
+LEAST_IMPACTS = 2  # verdict from which a pair rattles: impacts on one flank at least
+
+
+@dataclass(frozen=True)
+class Indices:
+    """First and total indices of a quantity over the varied keys, with half widths of their intervals."""
+
+    quantity: str
+    first: np.ndarray
+    first_error: np.ndarray
+    total: np.ndarray
+    total_error: np.ndarray
+
+
+@dataclass(frozen=True)
+class Study:
+    """What a design tells of one pair; `probability` of impacts with its interval, if known."""
+
+    pair: str
+    keys: tuple[str, ...]
+    blocks: int
+    left_out: int
+    found: tuple[Indices, ...]
+    constant: tuple[str, ...]
+    probability: tuple[float, float, float] | None
+
+
+def design_files(path: Path, count: int, seed: int, folder: Path) -> list[tuple[Path, Writer]]:
+    """A design of `count` blocks over the ranges of an input, and an input that reads it."""
+    try:
+        groups = parse_groups(path.read_text(encoding="utf-8"))
+    except NamelistError as fault:
+        raise CommandError(f"{path} cannot be read: {fault}") from None
+    if "campaign" not in groups:
+        raise CommandError(f"{path} has no group &campaign, whose vary, first and last are the ranges.")
+    keys, lows, highs, logarithmic = _ranges(groups["campaign"], path)
+    bounds = np.array([lows, highs], dtype=float)
+    bounds[:, logarithmic] = np.log(bounds[:, logarithmic])
+    problem = {"num_vars": len(keys), "names": keys, "bounds": bounds.T.tolist()}
+    points = design.sample(problem, count, calc_second_order=False, seed=seed)
+    points[:, logarithmic] = np.exp(points[:, logarithmic])
+    lines = [",".join(keys), *(",".join(map(repr, row)) for row in points.tolist()), ""]
+    stem = path.stem
+    for name in [name for name in groups["campaign"] if name in DIVIDERS]:
+        del groups["campaign"][name]
+        groups["campaign"].start_index.pop(name, None)
+    groups["campaign"]["csv"] = f"{stem}.design.csv"
+    groups["campaign"].setdefault("record", list(RECORDED))
+    scene = groups.setdefault("scene", f90nml.Namelist())
+    scene["name"], scene["task"] = f"{stem}_design", "campaign"
+    groups.end_comma = False
+    head = f"! Saltelli's design of {count} blocks, seed {seed}, over the ranges of {path.name}.\n\n"
+    return [
+        (folder / f"{stem}.design.csv", text_writer("\n".join(lines))),
+        (folder / f"{stem}_design.nml", text_writer(head + str(groups) + "\n")),
+    ]
+
+
+def _ranges(campaign: f90nml.Namelist, path: Path) -> tuple[list[str], list[float], list[float], np.ndarray]:
+    """Keys with both ends of their ranges, and which are spread by their logarithm."""
+    lists = {}
+    for name in ("vary", "first", "last", "scale"):
+        given = campaign.get(name)
+        lists[name] = given if isinstance(given, list) else [] if given is None else [given]
+    keys = [str(key).strip() for key in lists["vary"]]
+    lists["scale"] += ["linear"] * (len(keys) - len(lists["scale"]))
+    if not keys or any(
+        len(lists[name]) != len(keys) or not all(isinstance(end, int | float) for end in lists[name])
+        for name in ("first", "last")
+    ):
+        raise CommandError(f"{path}: &campaign needs vary with first and last for each key.")
+    logarithmic = np.array([str(scale).strip() == LOGARITHMIC for scale in lists["scale"]])
+    for key, low, high, is_log in zip(keys, lists["first"], lists["last"], logarithmic, strict=True):
+        if not low < high or (is_log and low <= 0.0):
+            raise CommandError(f"{path}: {key} goes from {low:g} to {high:g}, which is no range to sample.")
+    return keys, lists["first"], lists["last"], logarithmic
+
+
+def studies(campaign: Campaign, quantities: Sequence[str]) -> list[Study]:
+    """What a campaign over a design tells, pair by pair."""
+    known = [name for name in RECORDED[1:] if name in campaign] if not quantities else list(quantities)
+    for name in known:
+        kind = QUANTITIES[name].kind if name in QUANTITIES and name in campaign else ""
+        if kind not in ("number", "count", "flag"):
+            raise CommandError(f"{campaign.path} has no numbers of '{name}'.")
+    if not known and campaign.kind != SAMPLE:
+        raise CommandError(
+            f"{campaign.path} records none of {', '.join(RECORDED[1:])}: name others by --quantities."
+        )
+    return [_study(pair, known) for pair in campaign.pairs]
+
+
+def _study(campaign: Campaign, quantities: Sequence[str]) -> Study:
+    points = np.column_stack([np.array(campaign[key], dtype=float) for key in campaign.varied])
+    pair = campaign.name.rpartition(".")[2] if campaign.gears else ""
+    if campaign.kind == SAMPLE:
+        return Study(pair, tuple(campaign.varied), 0, 0, (), (), _probability(campaign, 1))
+    blocks = _blocks(points, campaign)
+    usable = np.all((campaign.done & ~campaign.failed).reshape(blocks.shape[:2]), axis=1)
+    found, constant = [], []
+    names = list(campaign.varied)
+    problem = {"num_vars": len(names), "names": names, "bounds": [[0.0, 1.0]] * len(names)}
+    for name in quantities:
+        values = np.array(campaign[name], dtype=float).reshape(blocks.shape[:2])
+        values = values[usable & np.all(np.isfinite(values), axis=1)]
+        if len(values) < 2 or np.ptp(values) <= 1e-12 * np.max(np.abs(values), initial=0.0):
+            constant.append(name)
+            continue
+        told = indices.analyze(
+            problem,
+            values.ravel(),
+            calc_second_order=False,
+            num_resamples=RESAMPLES,
+            conf_level=CONFIDENCE,
+            seed=1,
+        )
+        found.append(Indices(name, told["S1"], told["S1_conf"], told["ST"], told["ST_conf"]))
+    return Study(
+        pair,
+        tuple(campaign.varied),
+        len(blocks),
+        int(np.sum(~usable)),
+        tuple(found),
+        tuple(constant),
+        _probability(campaign, blocks.shape[1]),
+    )
+
+
+def _blocks(points: np.ndarray, campaign: Campaign) -> np.ndarray:
+    """The points by blocks: one of a first sample, each key of it from a second in turn, the second."""
+    size = points.shape[1] + 2
+    fault = CommandError(
+        f"{campaign.path} is no campaign over a design or a sample: 'sensitivity.py design' writes one."
+    )
+    if len(points) == 0 or len(points) % size:
+        raise fault
+    blocks = points.reshape(-1, size, points.shape[1])
+    for key in range(points.shape[1]):
+        expected = blocks[:, 0].copy()
+        expected[:, key] = blocks[:, -1, key]
+        if not np.array_equal(expected, blocks[:, key + 1]):
+            raise fault
+    return blocks
+
+
+def _probability(campaign: Campaign, size: int) -> tuple[float, float, float] | None:
+    """Share of the independent points at which the pair rattles, with Wilson's interval."""
+    if "verdict" not in campaign:
+        return None
+    independent = np.isin(np.arange(campaign.row_count) % size, (0, size - 1))
+    usable = independent & campaign.done & ~campaign.failed
+    count = int(np.sum(usable))
+    if count == 0:
+        return None
+    share = float(np.mean(np.array(campaign["verdict"], dtype=float)[usable] >= LEAST_IMPACTS))
+    centre = share + NORMAL**2 / (2 * count)
+    half = NORMAL * np.sqrt(share * (1.0 - share) / count + NORMAL**2 / (4 * count**2))
+    return share, *(float((centre + side * half) / (1.0 + NORMAL**2 / count)) for side in (-1.0, 1.0))

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Which of several keys matter, and how much: designs of campaigns, and Sobol indices of their results."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import rattle
+from rattle import command, outputs, sensitivity, table
+from rattle.figures import style
+from rattle.figures.sensitivity import draw
+
+
+def main() -> int:
+    return design() if sys.argv[1:2] == ["design"] else analyse()
+
+
+def design() -> int:
+    """Write the design of a campaign and an input that runs it."""
+    parser = argparse.ArgumentParser(
+        prog=f"{Path(sys.argv[0]).name} design",
+        description="Write Saltelli's design over the ranges of a campaign's input, NAME.design.csv, and an "
+        "input that runs it, NAME_design.nml, both beside the input, whose tables they share.",
+    )
+    parser.add_argument("input", type=Path, help="input with &campaign vary, first and last")
+    parser.add_argument(
+        "--blocks",
+        type=power_of_two,
+        default=256,
+        metavar="N",
+        help="blocks, each of as many scenes as keys and two more; a power of two (256)",
+    )
+    parser.add_argument("--seed", type=command.positive, default=1, metavar="N", help="of the sample (1)")
+    outputs.add_option(parser)
+    options = parser.parse_args(sys.argv[2:])
+    files = sensitivity.design_files(options.input, options.blocks, options.seed, options.input.parent)
+    for path in outputs.write(files, overwrite=options.overwrite, inputs=[options.input]):
+        print(path)
+    return command.COMPLETE
+
+
+def analyse() -> int:
+    """Tell the indices of a result, and draw them."""
+    parser = argparse.ArgumentParser(
+        description="Tell how much of the variance of what a campaign recorded each varied key explains: "
+        "alone (first order) and with all others (total), with 95 % intervals; and how likely a pair is to "
+        "rattle. 'sensitivity.py design INPUT' writes the campaign; of one with a sample only the "
+        "probability is told."
+    )
+    parser.add_argument("result", type=Path, help="result of a campaign over a design")
+    parser.add_argument(
+        "--quantities",
+        type=command.names,
+        default=[],
+        metavar="NAMES",
+        help="what is analysed, between commas",
+    )
+    parser.add_argument("--output", type=Path, metavar="FOLDER", help="draw bars there, as PNG and PDF")
+    outputs.add_option(parser)
+    options = command.parse(parser)
+    campaign = rattle.read_campaign(options.result)
+    found = sensitivity.studies(campaign, options.quantities)
+    for study in found:
+        print("\n".join(words(study)))
+    if options.output and any(study.found for study in found):
+        options.format, options.dpi = ("png", "pdf"), 200
+        options.width = options.font_size = options.xlim = options.ylim = None
+        options.no_title = False
+        with style.house_style():
+            for path in style.save([(f"sensitivity_{campaign.name}", draw(campaign, found))], options):
+                print(path)
+    return command.COMPLETE
+
+
+def words(study: sensitivity.Study) -> list[str]:
+    """A study as lines."""
+    sample = f"{study.blocks} blocks of a design" if study.blocks else "a sample"
+    lines = [f"{study.pair}, {sample}" if study.pair else sample]
+    if study.left_out:
+        lines.append(f"{study.left_out} blocks are left out, since scenes of them failed")
+    if study.probability:
+        share, low, high = study.probability
+        lines.append(f"probability of impacts {share:.3f}, 95% interval {low:.3f} to {high:.3f}")
+    for found in study.found:
+        rows = [[found.quantity, "first order", "+-", "total", "+-"]]
+        for place, key in enumerate(study.keys):
+            numbers = (found.first, found.first_error, found.total, found.total_error)
+            rows.append([key, *(f"{column[place]:.3f}" for column in numbers)])
+        lines += [table.plain(rows), ""]
+    if study.constant:
+        lines.append(f"the same at all points: {', '.join(study.constant)}")
+    return lines
+
+
+def power_of_two(text: str) -> int:
+    number = command.positive(text)
+    if number < 2 or number & (number - 1):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a power of two from 2 on")
+    return number
+
+
+if __name__ == "__main__":
+    command.run(main)
