@@ -10,8 +10,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 import rattle
-from rattle import command
-from rattle.figures import histories, spectra, style
+from rattle import command, outputs
+from rattle.figures import animation, histories, spectra, style
 from rattle.result import Result, ResultError
 
 DESCRIPTION = (
@@ -72,6 +72,11 @@ def add_options(parser: ArgumentParser) -> None:
         help="amplitudes of the acceleration linear and logarithmic, or as levels in dB re 1e-6 m/s2",
     )
     parser.add_argument("--overlay", action="store_true", help="draw all results in the same figures")
+    parser.add_argument(
+        "--animate",
+        action="store_true",
+        help="write moving pictures instead, motion_NAME.gif: the tooth between its flanks, a period in 10 s",
+    )
 
 
 def run(options: Namespace) -> None:
@@ -79,6 +84,9 @@ def run(options: Namespace) -> None:
     for result in results:
         result.require_rows("motion")
         command.note_open(result)
+    if options.animate:
+        _animate(results, options)
+        return
     if options.shaft_speed is not None and options.frequency != "order":
         raise command.CommandError("--shaft-speed belongs to --frequency order.")
     if options.frequency == "order" and options.shaft_speed is None:
@@ -94,6 +102,20 @@ def run(options: Namespace) -> None:
             numbers = ", ".join(map(str, options.figures))
             raise command.CommandError(f"Nothing to draw: {laws} results give no figure {numbers}.")
         print(*style.save(drawn, options), sep="\n")
+
+
+def _animate(results: Sequence[Result], options: Namespace) -> None:
+    if options.overlay:
+        raise command.CommandError("Moving pictures show one motion each: leave out --overlay.")
+    with style.house_style():
+        files = [
+            (
+                options.output / f"motion_{style.file_part(label)}.gif",
+                animation.moving_pictures(result, label),
+            )
+            for result, label in zip(results, style.run_labels(results), strict=True)
+        ]
+    print(*outputs.write(files, overwrite=options.overwrite, inputs=options.results), sep="\n")
 
 
 def single_figures(
