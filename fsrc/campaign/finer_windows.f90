@@ -1,6 +1,6 @@
 !> Windows of scenes whose samples are too few for their harmonics. Integrals over the steps tell most of what samples do, for much
-!> less. Where they leave more open than the count of many harmonics, windows are solved again from where they begin, as those of
-!> single scenes are: with twice as many samples until these are enough, but side by side.
+!> less. Where they leave more open than the count of many harmonics, or creep rests on that count, windows are solved again from
+!> where they begin, as those of single scenes are: with twice as many samples until these are enough, but side by side.
 module finer_windows
    use carried_loads, only: accelerations_of_samples
    use engine, only: ending_t, motion_state_t, request_t
@@ -10,7 +10,7 @@ module finer_windows
    use many_motions, only: solve_motions
    use memory_need, only: expect_window_memory
    use problem, only: problem_t, state_size
-   use rattle_class, only: classify_steps, is_off_harmonics, rattle_verdict_t
+   use rattle_class, only: class_creep, classify_steps, is_off_harmonics, rattle_verdict_t
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
    use signals, only: must_stop
@@ -61,7 +61,7 @@ contains
             left = pack([(i, i=1, size(problems))], spectrum%irregular_is_bound .and. .not. is_off_harmonics(verdicts%class))
          else
             left = pack([(i, i=1, size(problems))], spectrum%irregular_is_bound .or. spectrum%distortion_is_bound .or. &
-                                                    .not. spectrum%count_is_bound)
+                                                    .not. spectrum%count_is_bound .or. verdicts%class == class_creep)
          end if
       end associate
       samples_per_period = asked%samples_per_period
