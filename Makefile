@@ -60,7 +60,10 @@ MODULES := $(filter-out bindings,$(shell sed -n 's/^| `\([a-z]*\)\/` |.*/\1/p' f
 # Folders within folders that this build takes.
 PARTS := film/coefficients campaign/$(if $(MPI),mpi,serial)
 FOLDERS := $(foreach room,$(MODULES),$(room) $(filter $(room)/%,$(PARTS)))
-SOURCES := $(foreach folder,$(FOLDERS),$(sort $(wildcard fsrc/$(folder)/*.f90)))
+SOURCES := $(foreach folder,$(FOLDERS),$(sort $(wildcard fsrc/$(folder)/*.f90))) $(BUILD)/ready_inputs.f90
+# What rattle --template NAME prints.
+READY_INPUTS := motion=input/loose_pair.nml gearbox=input/gearbox.nml film=input/film.nml sweep=input/sweep.nml \
+  campaign=input/map.nml threshold=input/threshold.nml
 OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(SOURCES)))
 UNIT_SOURCES := $(sort $(wildcard tests/unit/*.f90)) $(BUILD)/unit_suites.f90
 UNIT_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(UNIT_SOURCES)))
@@ -156,7 +159,11 @@ $(BUILD)/unit_suites.f90: FORCE
 	@tests/unit/write_suites.sh > $@.new
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
-$(BUILD)/unit_suites.o: $(BUILD)/unit_suites.f90 $(BUILD)/flags
+$(BUILD)/ready_inputs.f90: scripts/write_ready_inputs.sh Makefile $(foreach pair,$(READY_INPUTS),$(lastword $(subst =, ,$(pair))))
+	@mkdir -p $(BUILD)
+	@scripts/write_ready_inputs.sh $(READY_INPUTS) > $@
+
+$(BUILD)/unit_suites.o $(BUILD)/ready_inputs.o: $(BUILD)/%.o: $(BUILD)/%.f90 $(BUILD)/flags
 	@echo 'compile $<'
 	@$(FC) $(FFLAGS) -J$(BUILD) -c $< -o $@
 

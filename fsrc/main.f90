@@ -5,9 +5,10 @@ program main
    use command_line, only: command_t, read_arguments, usage_text
    use errors, only: exit_bad_input, exit_complete, exit_scene_failed, exit_system, fault_list_t
    use key_page, only: page_text, quantities_text, template_text
-   use key_table, only: known_group, nearest_group
+   use key_table, only: nearest_group
    use ranks, only: parallel_words
    use lane_rows, only: wide_registers
+   use ready_inputs, only: ready_input
    use run_tasks, only: run_all_tasks
    use signals, only: catch_signals
    use text_output, only: lost_text, put_line, put_text
@@ -19,9 +20,9 @@ program main
 
    exit_code = exit_complete
    call read_arguments(command, faults)
-   if (command%template .and. command%template_group /= '' .and. .not. known_group(command%template_group)) &
-      call faults%add('--template', 0, command%template_group, '', &
-                      'unknown group; the nearest known group is &'//nearest_group(command%template_group))
+   if (command%template .and. len(template_of(command%template_name)) == 0) &
+      call faults%add('--template', 0, command%template_name, '', &
+                      'unknown group; the nearest known group is &'//nearest_group(command%template_name))
    if (faults%count() > 0) then
       call print_faults(faults)
       exit_code = exit_bad_input
@@ -33,7 +34,7 @@ program main
                                                                'for registers of four numbers ', wide_registers))// &
                     ', by '//compiler_version())
    else if (command%template) then
-      call put_text(template_text(command%template_group))
+      call put_text(template_of(command%template_name))
    else if (command%page) then
       call put_text(page_text())
    else if (command%quantities) then
@@ -52,4 +53,16 @@ program main
       if (exit_code == exit_complete .or. exit_code == exit_scene_failed) exit_code = exit_system
    end if
    stop exit_code, quiet = .true.
+
+contains
+
+   !> A ready input, or every key, or those of a group. A group that has the name of a ready input is told by its &.
+   function template_of(name) result(text)
+      character(*), intent(in) :: name
+      character(:), allocatable :: text
+
+      text = ready_input(name)
+      if (len(text) == 0) text = template_text(name(verify(name//' ', '&'):))
+   end function template_of
+
 end program main

@@ -90,7 +90,7 @@ def man_page(help_text: str, keys: Keys, version: str) -> Iterator[str]:
 def completion(help_text: str, keys: Keys, version: str) -> Iterator[str]:
     """The lines of the bash completion."""
     options = " ".join(option for option, _, _ in options_of(help_text))
-    groups = " ".join(dict.fromkeys(group for group, _ in keys))
+    templates = " ".join(dict.fromkeys(["gearbox", "motion", *(group for group, _ in keys)]))
     names = " ".join(f"{group}.{name}=" for group, name in keys)
     yield f"""# bash completion of rattle {version}
 _rattle() {{
@@ -103,7 +103,7 @@ _rattle() {{
             COMPREPLY=($(compgen -W '{names}' -- "$word"))
             return ;;
         --template)
-            COMPREPLY=($(compgen -W '{groups}' -- "$word"))
+            COMPREPLY=($(compgen -W '{templates}' -- "$word"))
             return ;;
         --output)
             compopt -o filenames

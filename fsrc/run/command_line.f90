@@ -20,8 +20,8 @@ module command_line
       logical :: version = .false., help = .false.
       !> Threads of a campaign, scenes that run side by side; 0: as many as there are cores
       integer :: threads = 0
-      !> Group of --template, empty for all
-      character(:), allocatable :: template_group
+      !> What --template is to print: a ready input or a group, empty for all groups
+      character(:), allocatable :: template_name
    end type command_t
 
    !> Largest file of settings
@@ -42,7 +42,7 @@ contains
       logical :: options_over
 
       allocate (command%files(0), command%overrides(0))
-      command%template_group = ''
+      command%template_name = ''
       options_over = .false.
       i = 0
       do while (i < command_argument_count())
@@ -80,7 +80,7 @@ contains
                command%template = .true.
                if (i < command_argument_count()) then
                   i = i + 1
-                  command%template_group = lower(argument_text(i))
+                  command%template_name = lower(argument_text(i))
                end if
             case ('--set')
                if (value_follows()) then
@@ -221,7 +221,8 @@ contains
 
       text = 'rattle [options] FILE.nml [FILE.nml ...]      - reads standard input'//end_of_line// &
              '  --check                validate, show resolved and derived values, run nothing'//end_of_line// &
-             '  --template [group]     print a commented input'//end_of_line// &
+             '  --template [NAME]      commented input: gearbox, motion, film, sweep, campaign, threshold, or one &group'// &
+             end_of_line// &
              '  --keys                 print tables of all keys and quantities, which input/README.md explains'//end_of_line// &
              '  --quantities           print the table of quantities as CSV'//end_of_line// &
              '  --set group.key=value  override a key in every file; may be repeated; @FILE has one in each line'//end_of_line// &

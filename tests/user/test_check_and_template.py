@@ -102,10 +102,36 @@ def test_template_with_every_key_uncommented_names_only_known_keys(run, tmp_path
 @pytest.mark.parametrize("group", [*GROUPS, "LOAD"])
 def test_template_of_one_group(group: str, run, tmp_path: Path) -> None:
     whole = run("--template", cwd=tmp_path).stdout
-    part = run("--template", group, cwd=tmp_path)
+    part = run("--template", f"&{group}", cwd=tmp_path)
     assert part.returncode == 0
     assert re.findall(r"^&(\w+)$", part.stdout, flags=re.MULTILINE) == [group.lower()]
     assert part.stdout in whole
+
+
+READY = {
+    "gearbox": "gearbox",
+    "motion": "loose_pair",
+    "film": "film",
+    "sweep": "sweep",
+    "campaign": "map",
+    "threshold": "threshold",
+}
+
+
+@pytest.mark.parametrize("name", READY)
+def test_template_of_a_ready_input_is_valid_as_it_is(name: str, run, repository, tmp_path: Path) -> None:
+    template = run("--template", name, cwd=tmp_path)
+    assert (template.returncode, template.stderr) == (0, "")
+    assert template.stdout == (repository / "input" / f"{READY[name]}.nml").read_text()
+    (tmp_path / f"{name}.nml").write_text(template.stdout)
+    checked = run("--check", f"{name}.nml", cwd=tmp_path)
+    assert (checked.returncode, checked.stderr) == (0, "")
+
+
+def test_template_of_a_group_needs_no_sign_but_where_a_ready_input_has_its_name(run, tmp_path: Path) -> None:
+    assert run("--template", "load", cwd=tmp_path).stdout == run("--template", "&load", cwd=tmp_path).stdout
+    film = run("--template", "&film", cwd=tmp_path).stdout
+    assert film.startswith("&film\n") and film != run("--template", "film", cwd=tmp_path).stdout
 
 
 def test_version(run, repository: Path, tmp_path: Path) -> None:
