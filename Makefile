@@ -77,7 +77,7 @@ STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 VPATH := $(addprefix fsrc/,$(FOLDERS)) fsrc tests/unit tests/benchmarks tests/stress
 
 .DEFAULT_GOAL := all
-.PHONY: all run test test-long unit user user-long lint debug python bench bench-build bench-changed stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
+.PHONY: all run test test-long unit user user-long lint debug python bench bench-build bench-changed trends stress stress-sample faults faults-sample touched sanitize mutants release-check doc test-cluster compilers clean install uninstall help format pages pictures FORCE
 
 all: $(BUILD)/rattle
 
@@ -89,6 +89,7 @@ help:
 	@echo 'make lint         compiler warnings, rules of the layout, style of Fortran and Python'
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
 	@echo 'make python       Python environment and the module of the Fortran kernels'
+	@echo 'make trends       trends that test stands report, as the program has them'
 	@echo 'make bench        speed of the program beside that of others, as tables; make bench-changed: its last'
 	@echo 'make stress       100000 random scenes: what users are told of them, and every engine (SCENES=N)'
 	@echo 'make mutants      break the code in one place at a time: does a test notice? (PART=1/20)'
@@ -245,6 +246,10 @@ bench: bench-build
 
 bench-changed: bench-build
 	$(call against_peers,work_precision_changed,--changed --finest 1e-8 --only 'heyoka 8' --only CVODE)
+
+# What the program says of the trends that test stands report: table and picture of tests/trends.
+trends: $(BUILD)/rattle $(BUILD)/kernels/built
+	@$(PYTHON) tests/trends/run_trends.py
 
 bench-build: $(PYTHON_ENV)/installed
 	@$(MAKE) --no-print-directory BUILD=$(NATIVE_BUILD) NATIVE=1 $(addprefix $(NATIVE_BUILD)/,rattle $(NATIVE_BENCHES))
