@@ -1,15 +1,4 @@
-!> Least squares of the film-thickness law of eq (32),
-!>
-!>     ln h* = ln c + a ln u* + b ln Wbar + s w* ,   h* = h0/R ,  u* = u eta0 alpha/R ,  w* = w/u ,
-!>
-!> and the error of any such law against given points. Wbar is the group of eq (20), W h0/(12 l u eta0 R),
-!> which holds h0 itself: inverted with the printed coefficients,
-!>
-!>     Wbar = c^(5/2) u*^(7/4) h*^(-5/2) exp(5 s w*/2)
-!>     W    = 12 l u eta0 R/h0 Wbar = 12 c^(5/2) l (u eta0)^(11/4) (R alpha)^(7/4) h0^(-7/2) exp(5 s w*/2)
-!>
-!> has the exponents 11/4, 7/4, -7/2 and the constants 12 * 0.787^2.5 = 6.59 and 5/2 * 281.2 = 703 of eq (37).
-!> A group without h0, W/(E' R l) or W/(l u eta0), would give h0^(-5/2).
+!> Least squares of the film-thickness law (32) and the error of any such law against given points (fsrc/THEORY.md, section 2).
 !>
 !> Points to be fitted are films of the Reynolds piezo-viscous law over a window of alpha p. The load Psi depends on
 !> A = 4 w*/sqrt(2 h*) and B = f 6 sqrt(2) u*/h*^(3/2) alone, and alpha p_max = B/B_crit(A) with the p of eq (31). So a window is

@@ -1,21 +1,5 @@
-!> Which lubrication regime a line contact is in: contact groups of eqs (2) to (4), Grubin's film (33), the
-!> regime map of Johnson (1970) and the rule by which a computed film is called iso-viscous, piezo-viscous or
-!> elastohydrodynamic.
-!>
-!> Regime map, with w = W/l, U = (u1 + u2)/2 and E' = 2/((1-nu1^2)/E1 + (1-nu2^2)/E2), which is E* =
-!> E/(1-nu^2) of eq (3) for two bodies of one material:
-!>
-!>     h^ = h w/(eta0 U R) ,   g_v = alpha sqrt(w^3/(eta0 U R^2)) ,   g_e = w/sqrt(eta0 U E' R)
-!>
-!>     rigid, iso-viscous       h^ = 4.9                          Martin (1916), minimum film
-!>     rigid, piezo-viscous     h^ = 1.66 g_v^(2/3)               Blok (1950), film of unbounded reduced load
-!>     elastic, iso-viscous     h^ = 3.10 g_e^0.8                 Herrebrugh (1968), minimum film
-!>     elastic, piezo-viscous   h^ = 2.65 g_v^0.54 g_e^0.06       Dowson (1968), minimum film
-!>
-!> The four limits are drawn into one map, and the largest film taken to rule, by K. L. Johnson, Regimes of
-!> elastohydrodynamic lubrication, J. Mech. Eng. Sci. 12 (1970) 9-16, and C. J. Hooke, The elastohydrodynamic
-!> lubrication of heavily loaded contacts, J. Mech. Eng. Sci. 19 (1977) 149-156. With u1 + u2 in place of U
-!> the first two coefficients read 2.45 and 1.05, the third 2.05.
+!> Which lubrication regime a line contact is in (fsrc/THEORY.md, section 9): contact groups of eqs (2) to (4), Grubin's film (33), the
+!> regime map of Johnson (1970) and the rule by which a computed film is called iso-viscous, piezo-viscous or elastohydrodynamic.
 module regime
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: dp

@@ -1,15 +1,7 @@
-!> Exact iso-viscous film: Reynolds equation of a rigid cylinder over a plane with Swift-Stieber rupture.
+!> Reynolds film of rigid flanks and iso-viscous oil (fsrc/THEORY.md, section 2): rupture (18), load (20) and (21), corrected, as
+!> functions of A = 4 w*/sqrt(2 h*) alone, with w the squeeze velocity [m/s] and u = u1 + u2 the sum of the surface speeds [m/s].
 !>
-!> Everything depends on A = 4 w*/sqrt(2 h*), w* = w/u, h* = h0/R, with w the squeeze velocity [m/s] and
-!> u = u1 + u2 the sum of the surface speeds [m/s]. In the film angle x, t = tan x, the pressure group is
-!>
-!>    p*(x) = J(x) - t_e**2 K(x) - A (cos(x)**4/4 + t_e K(x)),   p = 6 sqrt(2 R) u eta0 h0**(-3/2) p*
-!>    J = integral of sin**2 cos**2,   K = integral of cos**4,   both from -pi/2
-!>
-!> Rupture angle x_e: p*(x_e) = 0, eq (18) with its signs corrected. Load: W = 12 l u eta0 R/h0 Phi(A),
-!> Phi = cos(x_e)**2/4 - (A/8)(x_e + pi/2 + sin x_e cos x_e), eq (20) and (21) corrected. These closed forms
-!> cancel near x_e = -pi/2 (large A), so the kernels sum tables whose asymptotes are divided out:
-!> Phi -> -pi A/8 and 16/(81 A**2), t_e -> -A and -3 A/8, as A -> -infinity and +infinity.
+!> The closed forms cancel near x_e = -pi/2 (large A), so the kernels sum tables whose asymptotes are divided out.
 !>
 !> Every finite A is valid; relative errors are a few epsilon (t_e: relative to max(1, |t_e|)). What falls off
 !> on separation underflows to zero at last (Phi beyond A = 1e153). NaN or infinite A: the answer is NaN.

@@ -1,19 +1,8 @@
-!> Exact piezo-viscous film: Barus oil, eta = eta0 exp(alpha p), in the film of module reynolds_iso_viscous.
+!> Reynolds film of rigid flanks and Barus oil (fsrc/THEORY.md, section 2): Psi(A, B) by a table over sigma = sqrt(1 - B/B_crit).
 !>
-!> With p = -ln(1 - alpha q)/alpha, eq (31), q the iso-viscous pressure, the rupture stays where it is and the
-!> load is W = 12 l u eta0 R/h0 Psi(A, B),
-!>
-!>    Psi = (1/B) integral of -ln(1 - B p*) dt,   t = tan x from -infinity to t_e,   B p* = alpha q,
-!>    B = 6 sqrt(2 R) alpha u eta0 h0**(-3/2).
-!>
-!> Psi exists for B < B_crit(A) = 1/max p*. There it stays bounded but rises with infinite slope; beyond,
-!> there is no rigid piezo-viscous film. In sigma = sqrt(1 - B/B_crit) it is analytic, and the kernels take
-!> Psi = Phi (1 + (1 - sigma) S) with S(A, sigma) from a table; S lies between 0.55 and 1.36.
-!>
-!> Valid: finite A, 0 <= B < B_crit(A). Any other B gives NaN in all three answers and raises no
-!> floating-point exception; so does a NaN or infinite A or a NaN B, which may raise the invalid one. Where
-!> numbers leave the range of their kind: from A = 3.4e102 on B_crit is above the largest number, and infinite;
-!> dPsi/dB underflows beyond A = 1e61 and overflows below A = -1e153.
+!> Valid: finite A, 0 <= B < B_crit(A). Any other B gives NaN in all three answers and raises no floating-point exception; so does
+!> a NaN or infinite A or a NaN B, which may raise the invalid one. Where numbers leave the range of their kind: from A = 3.4e102
+!> on B_crit is above the largest number, and infinite; dPsi/dB underflows beyond A = 1e61 and overflows below A = -1e153.
 !> Relative error: Psi 1e-14, slopes 1e-12, both growing as epsilon/(1 - B/B_crit) towards B_crit.
 !> A film gets the same bits from the scalar and the array procedure, wherever it stands in the array.
 module reynolds_piezo_viscous

@@ -1,11 +1,8 @@
 !> Whether the motion of a lane repeats, asked at the end of every period: within the accuracy, so that a run until steady ends;
 !> to the last bit, so that what follows is known; and where a motion that settles slowly will come to rest.
 !>
-!> Near a motion that repeats after p periods the map of p periods is linear, and the differences of successive states
-!> follow d_(n+1) = M d_n. Two of them span the plane of film and momentum; the third gives the characteristic polynomial of
-!> M, lambda**2 - alpha lambda - beta, and with it the fixed point: x = x_n + (alpha d_n + beta (d_n + d_(n-1)))/(1 - alpha -
-!> beta), minimal polynomial extrapolation (Cabay and Jackson 1976). Where the differences are parallel, because the motion
-!> forgets all but one direction at once, lambda alone does (Aitken). It costs no period more.
+!> The forecast is an extrapolation of three successive differences (fsrc/THEORY.md, section 7); where they are parallel, because
+!> the motion forgets all but one direction at once, one ratio does (Aitken). It costs no period more.
 !>
 !> A forecast is no proof: the motion goes on from there, and repeats or not by its own states (module repetition);
 !> if not, it goes back to where it was. A forecast is made only where it is safe: multipliers inside

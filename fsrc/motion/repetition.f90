@@ -1,40 +1,11 @@
-!> Does a motion repeat? It is asked in four ways, each for a purpose of its own:
+!> Does a motion repeat? It is asked in four ways, each for a purpose of its own (fsrc/THEORY.md, section 7):
 !>
 !>    to the last bit        this module, `look_back`: the periods in between come again for ever and need not be computed;
 !>    within the accuracy    this module, `note_state`: a run until steady ends, with a bound of what the motion is still away;
-!>    in some periods        module lane_repetition, `forecast_rest`: a campaign jumps to where a slow motion will come to rest,
-!>                           and the motion has to repeat there by itself;
-!>    if it were followed    module periodic_orbit: Newton's method on the period map, for multipliers and for the verification,
-!>                           stable or not.
+!>    in some periods        module lane_repetition, `forecast_rest`: a campaign jumps to where a slow motion will come to rest;
+!>    if it were followed    module periodic_orbit: Newton's method on the period map, for multipliers and for the verification.
 !>
-!> To the last bit. Film and momentum at the start of a period decide all that follows (lane_block, start_period). Where both have
-!> the very bits of an earlier period, the periods in between will return again and again: there is nothing left to compute.
-!> Floating-point numbers are finite in number, so a motion that settles gets there, most after ten to forty periods. No
-!> tolerance enters: the motion is the one that would have been computed. A state is compared with the one a period before, and
-!> with marks that are set anew after so many periods, the last of them after more and more: a cycle of any length is found once a
-!> mark that stays for so long lies on it (Brent 1980).
-!>
-!> Within the accuracy. The states x_n follow from one another by one map, the same for every period. With d_n the distance of x_n
-!> from x_(n-p), and q a bound of the ratios of successive d, the motion is still
-!>
-!>     d_(n+p) + d_(n+2p) + ... <= d_n q/(1 - q)
-!>
-!> away from the one that repeats after p periods. It counts as repeating once that is below the tolerance. A
-!> small d_n alone proves nothing: a film that rises ever more slowly for hundreds of periods has q near one,
-!> and its bound stays large. q is the largest ratio of several; a single small one may be chance, as a state
-!> computed with one step more than the one before is off by up to the accuracy.
-!>
-!> The plane of film and momentum has two directions, and the motion may settle along one of them at once while it creeps
-!> along the other: the distances fall by the fast ratio until the slow direction is all that is left of them. Three
-!> differences of successive states, a, b and c, tell the second ratio. Where the map is linear it turns a, b into b, c and
-!> the area of their parallelogram shrinks by the product of both ratios; what of c stands across b belongs to the slow
-!> direction, and has its own sum to come.
-!>
-!> Where the film takes many periods to settle, its steps may stay below the errors of the states all along, and their ratios mean
-!> nothing; nor does it help that a state is met again to the last bit, for it may move by less. But there the force moves the
-!> film little in a period, and its law tells how far it has to go (module problem): with steps of film and velocity d_h
-!> and d_v, damping d and stiffness k, the mean force is off by d_v + d d_h, the film by that over k, and the film swings about
-!> its rest by d_h over the root of k.
+!> A small step alone proves nothing: a film that rises ever more slowly has a ratio of steps near one, and its bound stays large.
 module repetition
    use kinds, only: dp, int64
    use problem, only: of_film, of_velocity, settling_t

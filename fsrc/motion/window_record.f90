@@ -1,18 +1,8 @@
 !> What the steps of a window tell, whatever samples are taken of it: the extremes of the motion, the sums by which the
-!> window must close, and, where they are asked for, its Fourier integrals.
+!> window must close, and, where they are asked for, its Fourier integrals (fsrc/THEORY.md, sections 8 and 10).
 !>
-!> An impact may be a millionth of a period long. The steps of the engine follow it, equidistant samples do not. With the
-!> nodes of all steps (module step_nodes)
-!>
-!>     integral of z'' dt  =  change of z'                           (the mean of z'' of a periodic motion is zero)
-!>     integral of W dh - integral of (F + m g) dh  =  change of m z'**2/2     (gears: dissipated energy = work of the force)
-!>
-!> hold within the errors of the steps, and the Fourier coefficients of z'' are
-!>
-!>     c_n = 1/T (change of z' + 2 pi i n/T integral of z' exp(-2 pi i n t/T) dt)
-!>
-!> for one period T, by parts: the velocity of an impact is a step, and no integral misses it. The harmonic at n times the frequency
-!> is 2 |mean of c_n over the periods|, and what the c_n vary by from period to period is power off the harmonics.
+!> An impact may be a millionth of a period long. The steps of the engine follow it, equidistant samples do not; by parts, the
+!> velocity of an impact is a step, and no integral misses it.
 module window_record
    use constants, only: two_pi
    use engine, only: motion_state_t

@@ -84,9 +84,7 @@ COEFFICIENTS = """         case (kernel_plates)
 
 def change(tree: Tree) -> None:
     tree.add("fsrc/film/parallel_plates.f90", KERNEL)
-    types = "fsrc/scene/scene_types.f90"
-    tree.change(types, "law_piezo_viscous = 2\n", "law_piezo_viscous = 2, law_plates = 3\n")
-    tree.change(types, "'iso-viscous piezo-viscous'", "'iso-viscous piezo-viscous parallel-plates'")
+    scene.add_law(tree, "law_plates", "parallel-plates")
     tree.put(LAW, "   use published_iso_viscous", "   use parallel_plates, only: plate_damping, plate_load\n")
     tree.change(
         LAW, "law_piezo_viscous, model_published", "law_piezo_viscous, law_plates, &\n      model_published"

@@ -52,6 +52,9 @@ class Tree:
         self.touched.add(name)
         return self.root / name
 
+    def text(self, name: str) -> str:
+        return self._path(name).read_text()
+
     def add(self, name: str, text: str) -> None:
         """A new file."""
         path = self._path(name)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from typing import Any
 
 import f90nml
+from run_touched import Tree
 
 MASS, STEADY_FORCE, GRAVITY = 3.0, 199.2, 9.80665
 # Coefficient of 1/h in (23) [N m]
@@ -40,6 +42,17 @@ def scene_text(law: str = "iso-viscous", more: str = "") -> str:
 /
 {more}
 """
+
+
+def add_law(tree: Tree, code: str, word: str) -> None:
+    """A further law in the list of codes and words of `scene_types.f90`."""
+    types = "fsrc/scene/scene_types.f90"
+    words = re.search(r"words_of_laws = '(.+)'\n", tree.text(types))
+    last = re.search(
+        r"(law_\w+ = (\d+))\n   character\(\*\), parameter, public :: words_of_laws", tree.text(types)
+    )
+    tree.change(types, f"{last[1]}\n", f"{last[1]}, &\n      {code} = {int(last[2]) + 1}\n")
+    tree.change(types, f"'{words[1]}'", f"'{words[1]} {word}'")
 
 
 def read_summary(path: Path) -> dict[str, Any]:

@@ -108,6 +108,14 @@ def test_template_of_one_group(group: str, run, tmp_path: Path) -> None:
     assert part.stdout in whole
 
 
+def test_every_ready_input_is_in_the_list_of_the_page(repository: Path) -> None:
+    page = (repository / "input" / "README.md").read_text()
+    listed = page.partition("## Ready inputs")[2].partition("\n## ")[0]
+    assert set(re.findall(r"`(\w+\.nml)`", listed)) == {
+        path.name for path in (repository / "input").glob("*.nml")
+    }
+
+
 READY = {
     "gearbox": "gearbox",
     "motion": "loose_pair",
