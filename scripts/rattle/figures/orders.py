@@ -1,0 +1,209 @@
+"""Order cuts as a test bench gives them: levels of engine orders over speed, also as Campbell picture."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import rattle
+from rattle import command
+from rattle.campaign_result import Campaign
+from rattle.figures import style
+from rattle.figures.campaign_look import cell_edges, headline
+from rattle.figures.spectra import LEVEL_LABEL, REFERENCE
+
+DESCRIPTION = (
+    "Draw the level of the acceleration at each engine order over the speed of the shaft, as orders_NAME: "
+    "curves over a Campbell picture. The result is a campaign that varies shaft.speed_rpm alone and records "
+    "harmonics. --measured lays order cuts of a test bench over it and tells by how much they differ."
+)
+SPEED = "shaft.speed_rpm"
+MOST_CURVES = 4
+ORDER_COLUMN = re.compile(r"order_([\d.]+)")
+
+
+@dataclass(frozen=True)
+class Cuts:
+    """Amplitudes over speed: a row for each speed, a column for each engine order [m/s2]."""
+
+    speeds: np.ndarray
+    orders: tuple[float, ...]
+    amplitudes: np.ndarray
+
+    def at(self, order: float) -> np.ndarray | None:
+        """The cut of an order, None where there is none."""
+        for place, own in enumerate(self.orders):
+            if math.isclose(own, order, rel_tol=1e-6):
+                return self.amplitudes[:, place]
+        return None
+
+
+def add_options(parser: ArgumentParser) -> None:
+    parser.add_argument("result", type=Path, metavar="RESULT", help="result of a campaign, NAME.rattle")
+    parser.add_argument(
+        "--measured",
+        type=Path,
+        metavar="FILE.csv",
+        help="measured cuts: columns speed_rpm and order_O with amplitudes of order O [m/s2], as in order_2",
+    )
+
+
+def run(options: Namespace) -> None:
+    campaign = rattle.read_campaign(options.result)
+    measured = None if options.measured is None else read_measured(options.measured)
+    pairs = [(pair, computed(pair)) for pair in campaign.pairs]
+    if measured is not None and not any(
+        cuts.at(order) is not None for _, cuts in pairs for order in measured.orders
+    ):
+        raise command.CommandError(
+            f"{options.measured} has orders {_words(measured.orders)}, "
+            f"the campaign {_words(pairs[0][1].orders)}."
+        )
+    with style.house_style():
+        drawn = [(f"orders_{pair.name}", draw(pair, cuts, measured)) for pair, cuts in pairs]
+        print(*style.save(drawn, options), sep="\n")
+    if measured is not None:
+        for pair, cuts in pairs:
+            print(*comparison(pair.name, cuts, measured), sep="\n")
+
+
+def computed(campaign: Campaign) -> Cuts:
+    """The order cuts of a campaign over speed."""
+    if campaign.varied != (SPEED,):
+        raise command.CommandError(f"{campaign.path} varies {', '.join(campaign.varied)}, not {SPEED} alone.")
+    names = [name for name in campaign.names if re.fullmatch(r"harmonic_\d+", name)]
+    if not names:
+        raise command.CommandError(f"{campaign.path} has no harmonics: name 'harmonics' in campaign.record.")
+    base = re.search(r"^! derived: load\.frequency = (\S+)", campaign.input_text, re.MULTILINE)
+    speed = campaign.input.get("shaft", {}).get("speed_rpm")
+    if base is None or not speed:
+        raise command.CommandError(f"{campaign.path} has no &shaft whose orders could count.")
+    # All harmonics are multiples of the common divisor of the engine orders, at every speed.
+    first = float(base[1]) * 60.0 / float(speed)
+    order = np.argsort(campaign[SPEED])
+    usable = campaign.done & ~campaign.failed
+    amplitudes = np.column_stack(
+        [np.where(usable, np.array(campaign[name], dtype=float), np.nan) for name in names]
+    )
+    orders = tuple(round(first * int(name.rpartition("_")[2]), 9) for name in names)
+    return Cuts(np.array(campaign[SPEED])[order], orders, amplitudes[order])
+
+
+def read_measured(path: Path) -> Cuts:
+    """Measured order cuts; an empty field is a gap."""
+    with path.open(newline="", encoding="utf-8-sig") as stream:
+        rows = [row for row in csv.reader(stream) if any(field.strip() for field in row)]
+    head = [name.strip() for name in rows[0]] if rows else []
+    orders = [ORDER_COLUMN.fullmatch(name) for name in head[1:]]
+    if head[:1] != ["speed_rpm"] or not orders or not all(orders):
+        raise command.CommandError(
+            f"{path}: the head has to be speed_rpm,order_O,... as in speed_rpm,order_2."
+        )
+    numbers = []
+    for place, row in enumerate(rows[1:], 2):
+        try:
+            if len(row) != len(head):
+                raise ValueError
+            numbers.append([float(field) if field.strip() else math.nan for field in row])
+        except ValueError:
+            raise command.CommandError(
+                f"{path}, row {place}: '{','.join(row)}' is not {len(head)} numbers or empty fields."
+            ) from None
+    table = np.array(numbers, dtype=float).reshape(-1, len(head))
+    if len(table) < 2 or not np.all(np.diff(table[:, 0]) > 0.0):
+        raise command.CommandError(f"{path} needs two speeds at least, ascending.")
+    if np.any(table[:, 1:] < 0.0):
+        raise command.CommandError(f"{path}: an amplitude is negative.")
+    return Cuts(table[:, 0], tuple(float(found[1]) for found in orders if found), table[:, 1:])
+
+
+def comparison(name: str, cuts: Cuts, measured: Cuts) -> list[str]:
+    """By how much computed levels differ from measured ones, between the speeds that both have."""
+    lines = []
+    for order in measured.orders:
+        own = cuts.at(order)
+        if own is None:
+            lines.append(f"{name}, order {order:g}: measured, not computed")
+            continue
+        differences = _level(np.interp(measured.speeds, cuts.speeds, own, left=np.nan, right=np.nan))
+        differences -= _level(measured.at(order))
+        differences = differences[np.isfinite(differences)]
+        if not differences.size:
+            lines.append(f"{name}, order {order:g}: no speed in common")
+            continue
+        lines.append(
+            f"{name}, order {order:g}: computed less measured {np.mean(differences):+.1f} dB in the mean, "
+            f"{differences.min():+.1f} to {differences.max():+.1f} dB at {differences.size} speeds"
+        )
+    return lines
+
+
+def draw(campaign: Campaign, cuts: Cuts, measured: Cuts | None) -> Figure:
+    """Cuts of the strongest orders, or of those that were measured, above the Campbell picture."""
+    figure = Figure(figsize=(style.WIDTH, 6.0))
+    above, below = figure.subplots(2, 1)
+    for place, order in enumerate(_chosen(cuts, measured)):
+        line = style.run_line(place)
+        above.plot(cuts.speeds, _level(cuts.at(order)), label=f"order {order:g}", **line)
+        if measured is not None and measured.at(order) is not None:
+            look = {"linestyle": "none", "marker": "o", "markersize": 3.5, "markerfacecolor": "none"}
+            label = f"order {order:g}, measured"
+            above.plot(measured.speeds, _level(measured.at(order)), color=line["color"], label=label, **look)
+    relative = f"\n{style.RELATIVE}" if campaign.has_gear else ""
+    above.set_ylabel(f"{LEVEL_LABEL}{relative}")
+    above.set_xlim(cuts.speeds[0], cuts.speeds[-1])
+    above.set_xlabel("Shaft speed [1/min]")
+    above.set_title(f"Engine orders over speed\n{headline(campaign)}")
+    style.legend_below(figure, above, 4)
+    _campbell(figure, below, campaign, cuts)
+    return figure
+
+
+def _campbell(figure: Figure, axes: Axes, campaign: Campaign, cuts: Cuts) -> None:
+    """Every order as a ray of frequency over speed, coloured by its level."""
+    levels = _level(cuts.amplitudes)
+    top = np.nanmax(levels, initial=0.0)
+    edges = cell_edges(campaign.axes[0])
+    for place, order in enumerate(cuts.orders):
+        half = 0.5 * cuts.orders[0]
+        frequencies = np.outer([order - half, order + half], edges / 60.0)
+        mesh = axes.pcolormesh(
+            np.tile(edges, (2, 1)),
+            frequencies,
+            levels[None, :, place],
+            vmin=top - 60.0,
+            vmax=top,
+            cmap="viridis",
+        )
+        axes.text(edges[-1], order * edges[-1] / 60.0, f" {order:g}", va="center", fontsize=7, clip_on=False)
+    axes.set_xlim(edges[0], edges[-1])
+    axes.set_ylim(0.0, (cuts.orders[-1] + 0.5 * cuts.orders[0]) * edges[-1] / 60.0)
+    axes.set_xlabel("Shaft speed [1/min]; engine orders at the right")
+    axes.set_ylabel("Frequency [Hz]")
+    figure.colorbar(mesh, ax=axes, label=LEVEL_LABEL, pad=0.05)
+
+
+def _chosen(cuts: Cuts, measured: Cuts | None) -> list[float]:
+    if measured is not None:
+        return [order for order in measured.orders if cuts.at(order) is not None]
+    strongest = np.argsort(-np.nan_to_num(np.nanmax(cuts.amplitudes, axis=0)), kind="stable")[:MOST_CURVES]
+    return sorted(cuts.orders[place] for place in strongest)
+
+
+def _level(amplitudes: np.ndarray) -> np.ndarray:
+    """Level of an amplitude [dB]."""
+    with np.errstate(divide="ignore"):
+        levels = 20.0 * np.log10(np.asarray(amplitudes) / REFERENCE)
+    return np.where(np.isfinite(levels), levels, np.nan)
+
+
+def _words(orders: tuple[float, ...]) -> str:
+    return ", ".join(f"{order:g}" for order in orders)

@@ -1,0 +1,124 @@
+"""plot.py orders: cuts are the harmonics of single scenes, and measured ones lie where they were measured."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from outcomes import summary_of
+from script_calls import called_here
+
+import rattle as package
+from rattle.figures import orders, style
+
+GEAR = """&gear
+   teeth_1 = 19, teeth_2 = 37, normal_module = 2.2e-3, helix_angle_deg = 28.0, face_width = 0.016
+   centre_distance = 0.070, loose_inertia = 8.9e-4, backlash = 9e-5, drag_torque = 0.08
+/
+&shaft speed_rpm = 900.0, orders = 2.0, 3.0, accelerations = 600.0, 100.0, phases = 0.0, 0.8 /
+&oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 50.0 /
+&film law = 'iso-viscous', model = 'reynolds' /
+&solver periods = 6, accuracy = 1e-6, samples_per_period = 2048 /
+&spectrum periods = 2 /
+"""
+CAMPAIGN = """&campaign
+   vary = 'shaft.speed_rpm', first = 800.0, last = 1200.0, count = 5, samples_per_period = 2048
+   record = 'harmonics'
+/
+"""
+
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory, rattle: Path) -> Path:
+    folder = tmp_path_factory.mktemp("orders")
+    solved = package.run(GEAR + CAMPAIGN + "&scene task = 'campaign', name = 'run_up' /\n", folder=folder)
+    return solved.result.path
+
+
+def test_cuts_are_the_harmonics_of_single_scenes(result: Path, tmp_path: Path) -> None:
+    """The orders 2 and 3 have the common order 1: harmonic n is engine order n at every speed."""
+    cuts = orders.computed(package.read_campaign(result))
+    assert cuts.orders == tuple(map(float, range(1, 9)))
+    assert list(cuts.speeds) == [800.0, 900.0, 1000.0, 1100.0, 1200.0]
+    for row, speed in ((0, 800.0), (3, 1100.0)):
+        package.run(
+            GEAR + "&scene name = 'one' /\n", set={"shaft.speed_rpm": speed}, folder=tmp_path, overwrite=True
+        )
+        alone = summary_of(tmp_path / "one.summary.nml")["harmonics"][:8]
+        assert cuts.amplitudes[row] == pytest.approx(alone, rel=1e-6)
+
+
+def test_curves_and_colours_are_levels_of_the_cuts(result: Path) -> None:
+    campaign = package.read_campaign(result)
+    cuts = orders.computed(campaign)
+    measured = orders.Cuts(np.array([850.0, 950.0]), (2.0,), np.array([[1.0], [10.0]]))
+    with style.house_style():
+        figure = orders.draw(campaign, cuts, measured)
+    above, below = figure.axes[:2]
+    curve, marks = above.lines
+    assert curve.get_label() == "order 2" and marks.get_label() == "order 2, measured"
+    assert curve.get_ydata() == pytest.approx(20.0 * np.log10(np.array(campaign["harmonic_2"]) / 1e-6))
+    assert list(marks.get_xdata()) == [850.0, 950.0]
+    assert marks.get_ydata() == pytest.approx([120.0, 140.0])
+    for order, mesh in enumerate(below.collections, 1):
+        expected = 20.0 * np.log10(np.array(campaign[f"harmonic_{order}"]) / 1e-6)
+        assert np.ma.getdata(mesh.get_array()).ravel() == pytest.approx(expected)
+        # The middle of a cell at 1000 1/min lies at its order times 1000/60 Hz.
+        corners = mesh.get_coordinates()
+        middle = corners[:, 2:4].mean(axis=(0, 1))
+        assert middle == pytest.approx([1000.0, order * 1000.0 / 60.0])
+
+
+def test_differences_are_told_in_decibels(result: Path, tmp_path: Path) -> None:
+    cuts = orders.computed(package.read_campaign(result))
+    own = cuts.at(2.0).tolist()
+    (tmp_path / "bench.csv").write_text(
+        f"speed_rpm,order_2,order_11\n700,1,1\n800,{own[0] / 10.0!r},\n1000,{own[2] / 10.0!r},1\n"
+    )
+    code, said, complained = called_here(
+        "plot.py", "orders", result, "--measured", "bench.csv", "--format", "png", cwd=tmp_path
+    )
+    assert code == 0, complained
+    lines = said.splitlines()
+    assert lines[0] == "orders_run_up.png"
+    assert lines[1:] == [
+        "run_up, order 2: computed less measured +20.0 dB in the mean, +20.0 to +20.0 dB at 2 speeds",
+        "run_up, order 11: measured, not computed",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    (
+        ("", "the head has to be"),
+        ("speed,order_2\n1,2\n", "the head has to be"),
+        ("speed_rpm,level\n1,2\n", "the head has to be"),
+        ("speed_rpm,order_2\n800,x\n900,1\n", "row 2: '800,x' is not 2 numbers"),
+        ("speed_rpm,order_2\n800,1\n", "two speeds at least"),
+        ("speed_rpm,order_2\n900,1\n800,1\n", "ascending"),
+        ("speed_rpm,order_2\n800,1\n900,-1\n", "an amplitude is negative"),
+        ("speed_rpm,order_11\n800,1\n900,1\n", "has orders 11, the campaign 1, 2,"),
+    ),
+)
+def test_bad_measurements_are_refused(text: str, words: str, result: Path, tmp_path: Path) -> None:
+    (tmp_path / "bad.csv").write_text(text)
+    code, _, complained = called_here("plot.py", "orders", result, "--measured", "bad.csv", cwd=tmp_path)
+    assert code == 2 and words in complained and "Traceback" not in complained
+
+
+def test_other_campaigns_are_refused(tmp_path: Path, rattle: Path) -> None:
+    for change, words in (
+        (("'harmonics'", "'acceleration_rms'"), "has no harmonics"),
+        (
+            (
+                "'shaft.speed_rpm', first = 800.0, last = 1200.0",
+                "'oil.temperature_celsius', first = 20, last = 60",
+            ),
+            "varies",
+        ),
+    ):
+        text = GEAR + CAMPAIGN.replace(*change) + "&scene task = 'campaign', name = 'other' /\n"
+        solved = package.run(text, folder=tmp_path, overwrite=True)
+        code, _, complained = called_here("plot.py", "orders", solved.result.path, cwd=tmp_path)
+        assert code == 2 and words in complained
