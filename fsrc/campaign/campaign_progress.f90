@@ -6,6 +6,7 @@ module campaign_progress
    use file_system, only: is_terminal
    use kinds, only: dp, int64
    use log_file, only: log_t
+   use ranks, only: sum_over_ranks
    use summary_file, only: summary_t
    use text, only: integer_text, short_text
    implicit none(type, external)
@@ -32,6 +33,7 @@ module campaign_progress
       procedure :: add
       procedure :: is_due
       procedure :: tell
+      procedure :: add_up
       procedure :: finish
    end type campaign_progress_t
 
@@ -134,6 +136,19 @@ contains
          flush (output_unit, iostat=ignored)
       end if
    end subroutine tell_line
+
+   !> Add up the counts of all ranks.
+   subroutine add_up(self)
+      class(campaign_progress_t), intent(inout) :: self
+
+      self%done = sum_over_ranks(self%done)
+      self%failed = sum_over_ranks(self%failed)
+      self%beyond_model = sum_over_ranks(self%beyond_model)
+      self%undersampled = sum_over_ranks(self%undersampled)
+      self%tested = sum_over_ranks(self%tested)
+      self%uncertain = sum_over_ranks(self%uncertain)
+      self%irregular_so_far = sum_over_ranks(self%irregular_so_far)
+   end subroutine add_up
 
    !> The last word.
    subroutine finish(self, log)

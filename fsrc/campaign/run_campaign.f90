@@ -1,21 +1,21 @@
-!> A campaign from input to file: plan, chunks to threads and ranks, rows in the order of the scenes.
+!> A campaign: chunks of scenes to threads and ranks, rows in the order of the scenes. table_task runs it.
 module run_campaign
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use campaign_file, only: campaign_file_t
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
+   use core_time, only: core_time_sentence
    use earlier_files, only: check_lone_summary
-   use errors, only: error_t, exit_complete, exit_scene_failed, exit_system, fault_list_t, raise
+   use errors, only: error_t, exit_system, fault_list_t, raise
    use finished_files, only: bring_back, drop_aside, set_aside
    use file_system, only: file_state_t, path_exists, state_of_path
    use kinds, only: dp, int64
-   use log_file, only: log_magic, log_t
-   use output_lock, only: expect_own_lock, output_lock_t
-   use output_place, only: claim_output_place, log_path, progress_path, result_path, stem, summary_path
+   use log_file, only: log_t
+   use output_lock, only: expect_own_lock
+   use output_place, only: result_path, stem, summary_path
    use prepared_campaign, only: campaign_t, prepare_campaign
    use rattle_class, only: class_irregular_so_far
-   use ranks, only: abort_ranks, next_tickets, rank_count, share_number, sum_over_ranks, this_rank, wait_for_ranks
-   use scene_report, only: law_sentence
+   use ranks, only: next_tickets, rank_count, this_rank
    use scene_summary, only: add_notes, add_results
    use scene_status, only: is_success, status_complete, status_interrupted, status_name, status_not_written
    use scene_types, only: scene_t
@@ -23,6 +23,7 @@ module run_campaign
    use signals, only: caught_signal
    use solve_chunk, only: chunk_space_t, solve_scenes
    use summary_file, only: summary_t
+   use table_task, only: table_task_t
    use text, only: counted, integer_text, short_text
    use version, only: program_version
    use word_list, only: word_t
@@ -30,116 +31,105 @@ module run_campaign
    implicit none(type, external)
    private
 
-   public :: run_one_campaign
+   !> A campaign, or one part of it.
+   type, extends(table_task_t), public :: campaign_task_t
+      private
+      type(campaign_t) :: campaign
+      type(campaign_file_t) :: results
+      !> Chunks of an earlier run that were damaged
+      integer(int64) :: spoilt = 0_int64
+   contains
+      procedure :: prepare
+      procedure :: check_lines
+      procedure :: open_files
+      procedure :: heading
+      procedure :: report_start
+      procedure :: solve
+      procedure :: close_files
+   end type campaign_task_t
 
 contains
 
-   !> Run a campaign and write its files. All ranks call this.
-   subroutine run_one_campaign(scene, file, carry_on, quiet, faults, exit_code, error)
-      !> Checked base scene
-      type(scene_t), intent(in) :: scene
-      !> Its input, for the faults
+   subroutine prepare(self, file, hurried, faults)
+      class(campaign_task_t), intent(inout) :: self
       character(*), intent(in) :: file
-      !> Go on with the file of an earlier run, if there is one
-      logical, intent(in) :: carry_on
-      !> Nothing to the terminal
-      logical, intent(in) :: quiet
-      !> Faults of the input are appended; nothing has run then
+      logical, intent(in) :: hurried
       type(fault_list_t), intent(inout) :: faults
-      !> Exit code of the program
-      integer, intent(out) :: exit_code
-      !> Set if files could not be written
+
+      call prepare_campaign(self%scene, file, hurried, self%campaign, faults)
+      if (faults%count() == 0) self%warnings = self%campaign%warnings
+   end subroutine prepare
+
+   !> How many scenes, how large the result, how long it may take; what was not looked at for lack of time is told.
+   function check_lines(self) result(words)
+      class(campaign_task_t), intent(in) :: self
+      character(:), allocatable :: words
+      integer(int64) :: chunks
+      character(:), allocatable :: among
+
+      associate (campaign => self%campaign, layout => self%campaign%layout)
+         chunks = (layout%scene_count + layout%chunk_rows - 1_int64)/layout%chunk_rows
+         among = ''
+         if (campaign%seen < layout%scene_count) among = ' among the first '//integer_text(campaign%seen)// &
+                                                         '; there was no time to look at more'
+         ! Where a table is so long that its traces could not even be counted, none of its scenes was looked at.
+         words = '! scenes             '//trim(merge(' at least', '         ', campaign%seen == 0_int64 .and. chunks > 0_int64))// &
+                 ' '//integer_text(layout%scene_count)//' ('//integer_text(campaign%invalid)//' invalid'//among//')'// &
+                 new_line('a')//'! result size         '// &
+                 short_text(8.0e-6_dp*real(size(layout%names), dp)*real(layout%scene_count, dp), 3)//' MB'//new_line('a')// &
+                 '! chunks              '//integer_text(chunks)//' of at most '//counted(layout%chunk_rows, 'scene')// &
+                 new_line('a')//'! core time, '//core_time_sentence(self%scene, campaign)
+      end associate
+   end function check_lines
+
+   !> A new result, or that of an earlier run; the summary of an earlier run goes before its result does.
+   subroutine open_files(self, error)
+      class(campaign_task_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error
-      type(campaign_t) :: campaign
-      type(campaign_file_t) :: results
-      type(campaign_progress_t) :: progress
-      type(log_t) :: log
-      type(output_lock_t) :: lock
-      type(error_t), allocatable :: close_error
-      type(word_t), allocatable :: warnings(:), summaries(:)
-      integer(int64) :: spoilt
-      integer :: i
-      real(dp) :: started
+      character(:), allocatable :: path
+      type(word_t), allocatable :: summaries(:)
       type(file_state_t) :: earlier
 
-      started = wall_seconds()
-      call prepare_campaign(scene, file, .false., campaign, faults)
-      exit_code = faults%exit_code
-      spoilt = 0_int64
-      if (this_rank() == 0) then
-         call claim_output_place(scene, file, lock, faults, error)
-         if (caught_signal() /= 0) then
-            ! The look at the scenes was cut short: there may be faults that are not known.
-            exit_code = 128 + caught_signal()
-         else if (allocated(error)) then
-            exit_code = error%exit_code
-         else if (faults%count() == 0) then
-            earlier = state_of_path(result_path(scene))
-            if (carry_on) call check_lone_summary(scene, error)
-            summaries = [word_t(summary_path(scene))]
-            if (.not. allocated(error)) call set_aside(summaries)
-            if (allocated(error)) then
-               continue
-            else if (carry_on .and. earlier%bytes > 0_int64) then
-               call results%resume(result_path(scene), campaign%layout, spoilt, error)
-            else
-               call results%create(result_path(scene), campaign%layout, scene%output%overwrite .and. .not. carry_on, error)
-            end if
-            if (allocated(error)) call bring_back(summaries)
-            call drop_aside(summaries)
-            if (.not. allocated(error)) call log%open(log_path(scene), quiet, error)
-            exit_code = exit_complete
-            if (allocated(error)) exit_code = error%exit_code
-         end if
-      end if
-      call share_number(exit_code)
-      if (exit_code /= exit_complete) then
-         call lock%release(.true.)
-         return
-      end if
-      ! Memory may lack on the machine of this rank alone.
-      if (faults%count() > 0) then
-         call raise(error, faults%exit_code, faults%sentence(1))
-      else if (this_rank() > 0) then
-         call results%join(result_path(scene), campaign%layout, error)
-      end if
+      path = result_path(self%scene)
+      earlier = state_of_path(path)
+      if (self%carry_on) call check_lone_summary(self%scene, error)
+      summaries = [word_t(summary_path(self%scene))]
+      if (.not. allocated(error)) call set_aside(summaries)
       if (allocated(error)) then
-         call abort_ranks(error)
-         return
+         continue
+      else if (self%carry_on .and. earlier%bytes > 0_int64) then
+         call self%results%resume(path, self%campaign%layout, self%spoilt, error)
+      else
+         call self%results%create(path, self%campaign%layout, self%scene%output%overwrite .and. .not. self%carry_on, error)
       end if
-      call wait_for_ranks()
+      if (allocated(error)) call bring_back(summaries)
+      call drop_aside(summaries)
+      self%scenes = self%campaign%layout%scene_count
+      if (.not. allocated(error)) self%done_before = done_scenes(self%results)
+   end subroutine open_files
 
-      if (this_rank() == 0) then
-         call log%line(log_magic//program_version//', campaign '//trim(scene%name)//': '// &
-                       integer_text(campaign%layout%scene_count)// &
-                       ' scenes, '//law_sentence(scene)//'; '//counted(rank_count(), 'rank')//' of '// &
-                       counted(omp_get_max_threads(), 'thread'))
-         warnings = [scene%warnings, campaign%warnings]
-         do i = 1, size(warnings)
-            call log%line('  '//warnings(i)%text)
-         end do
-         if (spoilt > 0) call log%line('  '//integer_text(spoilt)//' chunks of the earlier run were damaged; they are solved again')
-         if (len(lock%warning) > 0) call log%line('  '//lock%warning)
-      end if
-      call progress%start(progress_path(scene), campaign%layout%scene_count, done_scenes(results), quiet)
-      call solve_chunks(scene, campaign, results, progress, log, error)
-      if (allocated(error)) call abort_ranks(error)
-      call wait_for_ranks()
-      progress%done = sum_over_ranks(progress%done)
-      progress%failed = sum_over_ranks(progress%failed)
-      progress%beyond_model = sum_over_ranks(progress%beyond_model)
-      progress%undersampled = sum_over_ranks(progress%undersampled)
-      progress%tested = sum_over_ranks(progress%tested)
-      progress%uncertain = sum_over_ranks(progress%uncertain)
-      progress%irregular_so_far = sum_over_ranks(progress%irregular_so_far)
-      if (this_rank() == 0) then
-         call close_campaign(scene, campaign, started, results, progress, log, allocated(error), exit_code, close_error)
-         if (allocated(error)) exit_code = error%exit_code
-         if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
-      end if
-      call lock%release(allocated(error))
-      call share_number(exit_code)
-   end subroutine run_one_campaign
+   function heading(self) result(words)
+      class(campaign_task_t), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = 'campaign '//trim(self%scene%name)//': '//integer_text(self%campaign%layout%scene_count)//' scenes'
+   end function heading
+
+   subroutine report_start(self)
+      class(campaign_task_t), intent(in) :: self
+
+      if (self%spoilt > 0) call self%log%line('  '//integer_text(self%spoilt)// &
+                                              ' chunks of the earlier run were damaged; they are solved again')
+   end subroutine report_start
+
+   subroutine solve(self, error)
+      class(campaign_task_t), intent(inout) :: self
+      type(error_t), allocatable, intent(out) :: error
+
+      if (this_rank() > 0) call self%results%join(result_path(self%scene), self%campaign%layout, error)
+      if (.not. allocated(error)) &
+         call solve_chunks(self%scene, self%campaign, self%results, self%progress, self%log, error)
+   end subroutine solve
 
    !> Chunks until none is left, or a signal asks to stop: a thread takes as many at a time as a few seconds of work are.
    subroutine solve_chunks(scene, campaign, results, progress, log, error)
@@ -270,52 +260,78 @@ contains
       end do
    end function flagged
 
-   !> Close the file and say what became of the campaign.
-   subroutine close_campaign(scene, campaign, started, results, progress, log, not_written, exit_code, error)
-      type(scene_t), intent(in) :: scene
-      type(campaign_t), intent(in) :: campaign
-      real(dp), intent(in) :: started
-      type(campaign_file_t), intent(inout) :: results
-      type(campaign_progress_t), intent(inout) :: progress
-      type(log_t), intent(inout) :: log
-      !> Whether chunks could not be written
-      logical, intent(in) :: not_written
-      integer, intent(out) :: exit_code
-      type(error_t), allocatable, intent(out) :: error
+   !> Close the result, write the summary, and say what became of the campaign.
+   subroutine close_files(self, error)
+      class(campaign_task_t), intent(inout) :: self
+      type(error_t), allocatable, intent(inout) :: error
+      type(error_t), allocatable :: close_error
       type(summary_t) :: summary
-      type(error_t), allocatable :: overtaken, summary_error
       integer :: status
-      logical :: finished, stands
+      logical :: finished
 
-      call results%close(finished, error)
-      call expect_own_lock(stem(scene), overtaken)
+      call self%results%close(finished, close_error)
+      self%is_cut = .not. finished
+      self%has_failures = self%progress%failed > 0
       status = merge(status_complete, status_interrupted, finished)
-      if (allocated(error) .or. not_written) status = status_not_written
-      call progress%finish(log)
-      call summary%add('name', trim(scene%name))
+      if (allocated(error) .or. allocated(close_error)) status = status_not_written
+      call self%progress%finish(self%log)
+      call add_counts(summary, self, status)
+      call write_summary(self%scene, summary, close_error)
+      if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
+      call report_ending(self%log, self%scene, self%progress)
+   end subroutine close_files
+
+   subroutine add_counts(summary, task, status)
+      type(summary_t), intent(inout) :: summary
+      class(campaign_task_t), intent(in) :: task
+      integer, intent(in) :: status
+
+      call summary%add('name', trim(task%scene%name))
       call summary%add('program_version', program_version)
       call summary%add('status', status_name(status))
-      call add_notes(summary, scene, [scene%warnings, campaign%warnings])
-      call add_results(summary, [word_t(result_path(scene))], status)
-      call summary%add('scenes', campaign%layout%scene_count)
-      call summary%add('scenes_done', progress%done_before + progress%done)
-      call summary%add('scenes_invalid', campaign%invalid)
-      call summary%add('scenes_failed_in_this_run', progress%failed)
-      call summary%add('scenes_beyond_model_in_this_run', progress%beyond_model)
-      call summary%add('scenes_undersampled_in_this_run', progress%undersampled)
-      if (any(campaign%layout%names == 'verified')) &
-         call summary%add('scenes_not_verified_in_this_run', progress%uncertain)
-      if (any(campaign%layout%names == 'rattle_class')) &
-         call summary%add('scenes_irregular_so_far_in_this_run', progress%irregular_so_far)
-      call summary%add('wall_seconds', wall_seconds() - started)
+      call add_notes(summary, task%scene, [task%scene%warnings, task%warnings])
+      call add_results(summary, [word_t(result_path(task%scene))], status)
+      associate (progress => task%progress)
+         call summary%add('scenes', task%scenes)
+         call summary%add('scenes_done', progress%done_before + progress%done)
+         call summary%add('scenes_invalid', task%campaign%invalid)
+         call summary%add('scenes_failed_in_this_run', progress%failed)
+         call summary%add('scenes_beyond_model_in_this_run', progress%beyond_model)
+         call summary%add('scenes_undersampled_in_this_run', progress%undersampled)
+         if (any(task%campaign%layout%names == 'verified')) &
+            call summary%add('scenes_not_verified_in_this_run', progress%uncertain)
+         if (any(task%campaign%layout%names == 'rattle_class')) &
+            call summary%add('scenes_irregular_so_far_in_this_run', progress%irregular_so_far)
+      end associate
+      call summary%add('wall_seconds', wall_seconds() - task%started)
+   end subroutine add_counts
+
+   !> Put the summary beside the result, unless another run has taken that place.
+   subroutine write_summary(scene, summary, error)
+      type(scene_t), intent(in) :: scene
+      type(summary_t), intent(in) :: summary
+      !> In: what went wrong with the result; out: also if the summary could not be written, or another run has the place
+      type(error_t), allocatable, intent(inout) :: error
+      type(error_t), allocatable :: overtaken, summary_error
+      logical :: stands
+
+      call expect_own_lock(stem(scene), overtaken)
       if (allocated(overtaken)) then
          call move_alloc(overtaken, error)
-      else
-         call summary%write(summary_path(scene), summary_error)
-         if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
-         stands = path_exists(result_path(scene))
-         if (.not. (stands .or. allocated(error))) call raise(error, exit_system, result_path(scene)//' was taken away')
+         return
       end if
+      call summary%write(summary_path(scene), summary_error)
+      if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
+      stands = path_exists(result_path(scene))
+      if (.not. (stands .or. allocated(error))) call raise(error, exit_system, result_path(scene)//' was taken away')
+   end subroutine write_summary
+
+   !> What has to be known about the scenes of this run, and where the files are.
+   subroutine report_ending(log, scene, progress)
+      type(log_t), intent(in) :: log
+      type(scene_t), intent(in) :: scene
+      type(campaign_progress_t), intent(in) :: progress
+
       if (progress%beyond_model > 0) call log%line('  warning: '//counted(progress%beyond_model, 'scene')//' beyond what the '// &
          'model can mean: films beyond a tenth of the radius or below 1 nm (column model_limit)')
       if (progress%undersampled > 0) call log%line('  warning: the lines of '//counted(progress%undersampled, 'scene')// &
@@ -326,12 +342,7 @@ contains
          ' irregular so far: without repetition, and no neighbouring motion parts for good (rattle_class)')
       call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
-      call log%close()
-      exit_code = exit_complete
-      if (progress%failed > 0) exit_code = exit_scene_failed
-      if (.not. finished) exit_code = 128 + caught_signal()
-      if (allocated(error)) exit_code = error%exit_code
-   end subroutine close_campaign
+   end subroutine report_ending
 
    !> Scenes in chunks that are done.
    integer(int64) function done_scenes(results)

@@ -1,7 +1,6 @@
 !> What a call asks for: a campaign or threshold, or scenes one after the other.
 module run_tasks
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use check_campaign, only: check_one_campaign, check_one_threshold
    use batch, only: print_faults, run_batch
    use command_line, only: command_t, most_threads
    use completed_scene, only: complete_scene
@@ -9,11 +8,12 @@ module run_tasks
    use gearbox, only: base_of_pairs
    use key_table, only: choice_word
    use ranks, only: end_ranks, is_foreign_job, rank_count, start_ranks, this_rank
-   use run_campaign, only: run_one_campaign
-   use run_threshold, only: run_one_threshold
+   use run_campaign, only: campaign_task_t
+   use run_threshold, only: threshold_task_t
    use scene_reader, only: read_scenes
    use scene_types, only: scene_t, task_campaign, task_threshold
    use signals, only: caught_signal
+   use table_task, only: check_table_task, run_table_task, table_task_t
    use text, only: integer_text
    use text_output, only: put_line, put_text
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_set_num_threads
@@ -75,11 +75,26 @@ contains
       end if
    end subroutine run_all_tasks
 
+   !> The tasks whose work threads and ranks share.
+   subroutine make_table_task(code, task)
+      !> Code of a task
+      integer, intent(in) :: code
+      !> Not allocated for the other tasks
+      class(table_task_t), allocatable, intent(out) :: task
+
+      select case (code)
+      case (task_campaign)
+         allocate (campaign_task_t :: task)
+      case (task_threshold)
+         allocate (threshold_task_t :: task)
+      end select
+   end subroutine make_table_task
+
    !> Whether threads and ranks share the work of an input.
    elemental logical function is_shared(scene)
       type(scene_t), intent(in) :: scene
 
-      is_shared = scene%task == task_campaign .or. scene%task == task_threshold
+      is_shared = any(scene%task == [task_campaign, task_threshold])
    end function is_shared
 
    !> Put scenes behind others.
@@ -121,19 +136,17 @@ contains
       type(command_t), intent(in) :: command
       type(scene_t), intent(inout) :: scene
       integer, intent(out) :: exit_code
+      class(table_task_t), allocatable :: task
       type(fault_list_t) :: faults
       type(error_t), allocatable :: error
       character(:), allocatable :: lines
       integer :: i
 
+      call make_table_task(scene%task, task)
       exit_code = exit_complete
       call start_ranks()
       if (command%check) then
-         if (scene%task == task_threshold) then
-            call check_one_threshold(scene, scene%source, lines, faults)
-         else
-            call check_one_campaign(scene, scene%source, lines, faults)
-         end if
+         call check_table_task(task, scene, scene%source, lines, faults)
          if (caught_signal() /= 0) then
             exit_code = 128 + caught_signal()
          else if (faults%count() > 0) then
@@ -147,11 +160,7 @@ contains
             call put_text(scene%resolved_input)
          end if
       else
-         if (scene%task == task_threshold) then
-            call run_one_threshold(scene, scene%source, command%resume, command%quiet, faults, exit_code, error)
-         else
-            call run_one_campaign(scene, scene%source, command%resume, command%quiet, faults, exit_code, error)
-         end if
+         call run_table_task(task, scene, scene%source, command%resume, command%quiet, faults, exit_code, error)
          if (this_rank() == 0 .and. allocated(error)) write (error_unit, '(a)') error%message
       end if
       if (this_rank() == 0 .and. faults%count() > 0) call print_faults(faults)

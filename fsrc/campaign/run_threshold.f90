@@ -1,30 +1,28 @@
-!> Thresholds from input to file: a scan of every trace, then passes over all traces together, each the middles of all brackets
-!> that are still wide, then the verifications of their ends, all solved as the scenes of a campaign are. Some traces are searched
-!> at a time; NAME.state keeps what was found, for --resume.
+!> Thresholds: a scan of every trace, then passes over all traces together, each the middles of all brackets that are still wide,
+!> then the verifications of their ends, all solved as the scenes of a campaign are. Some traces are searched at a time; NAME.state
+!> keeps what was found, for --resume. table_task runs them.
 module run_threshold
-   use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
-   use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t, raise
+   use core_time, only: core_time_sentence
+   use errors, only: error_t, fault_list_t
    use file_system, only: delete_file, path_exists
    use finished_files, only: place_files
    use key_table, only: key_name
    use kinds, only: dp, int64
-   use log_file, only: log_magic, log_t
-   use output_lock, only: output_lock_t
-   use output_place, only: claim_output_place, log_path, progress_path, result_path, state_path, summary_path
-   use prepared_threshold, only: prepare_threshold, prepared_threshold_t
-   use ranks, only: abort_ranks, rank_count, share_number, sum_over_ranks, this_rank
-   use scene_report, only: law_sentence
+   use log_file, only: log_t
+   use output_place, only: result_path, state_path, summary_path
+   use prepared_campaign, only: campaign_t
+   use prepared_threshold, only: points_plan, prepare_threshold, prepared_threshold_t
+   use ranks, only: rank_count, share_number, this_rank
    use scene_status, only: status_complete, status_interrupted, status_not_written
    use scene_summary, only: add_head, add_results
    use scene_types, only: scene_t
-   use signals, only: caught_signal
    use solve_threshold, only: search_lines
    use summary_file, only: summary_t
+   use table_task, only: table_task_t
    use text, only: counted, integer_text, short_text
    use threshold_outcome, only: failed_scenes, load_outcome, outcome_t, save_outcome, share_points, solved_scenes, &
                                 check_earlier_threshold, start_outcome, write_rows_of
-   use version, only: program_version
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads
    implicit none(type, external)
@@ -33,114 +31,122 @@ module run_threshold
    !> Scenes of a scan for each thread that are solved at a time: traces beyond them wait for those before
    integer(int64), parameter :: scanned_together = 4096_int64
 
-   public :: run_one_threshold, grid_scenes
+   !> The thresholds of all traces, or of one part of these.
+   type, extends(table_task_t), public :: threshold_task_t
+      private
+      type(prepared_threshold_t) :: threshold
+      type(outcome_t) :: outcome
+   contains
+      procedure :: prepare
+      procedure :: check_lines
+      procedure :: open_files
+      procedure :: heading
+      procedure :: report_start
+      procedure :: solve
+      procedure :: close_files
+   end type threshold_task_t
+
+   public :: grid_scenes
 
 contains
 
-   !> Find thresholds and write their files. All ranks call this.
-   subroutine run_one_threshold(scene, file, carry_on, quiet, faults, exit_code, error)
-      !> Checked base scene
-      type(scene_t), intent(in) :: scene
-      !> Its input, for the faults
+   subroutine prepare(self, file, hurried, faults)
+      class(threshold_task_t), intent(inout) :: self
       character(*), intent(in) :: file
-      !> Go on from the state of an earlier run, if there is one
-      logical, intent(in) :: carry_on
-      !> Nothing to the terminal
-      logical, intent(in) :: quiet
-      !> Faults of the input are appended; nothing has run then
+      logical, intent(in) :: hurried
       type(fault_list_t), intent(inout) :: faults
-      !> Exit code of the program
-      integer, intent(out) :: exit_code
-      !> Set if files could not be written
+
+      call prepare_threshold(self%scene, file, hurried, self%threshold, faults)
+      if (faults%count() == 0) self%warnings = self%threshold%traces%warnings
+   end subroutine prepare
+
+   !> How many traces and scenes, and how long the scan may take.
+   function check_lines(self) result(words)
+      class(threshold_task_t), intent(in) :: self
+      character(:), allocatable :: words
+      type(campaign_t) :: scan
+      integer(int64) :: trace_count, looked_at, trace
+      integer :: i, scanned
+
+      associate (threshold => self%threshold)
+         trace_count = threshold%traces%layout%scene_count
+         scanned = size(threshold%scan)
+         scan = threshold%traces
+         looked_at = min(trace_count, max(1_int64, 512_int64/scanned))
+         scan%first = 1_int64
+         scan%seen = looked_at*scanned
+         call points_plan(threshold, threshold%traces%first + [((trace, i=1, scanned), trace=0_int64, looked_at - 1_int64)], &
+                          [((threshold%scan(i), i=1, scanned), trace=1_int64, looked_at)], scan%plan)
+         scan%layout%scene_count = trace_count*scanned
+         scan%layout%names = [scan%layout%names, scan%layout%names(1)]
+         words = '! traces              '//integer_text(trace_count)//new_line('a')// &
+                 '! scenes of the scan  '//integer_text(scan%layout%scene_count)//new_line('a')// &
+                 '! a grid as fine has  '//integer_text(nint(grid_scenes(self%scene, threshold), int64))//' scenes'// &
+                 new_line('a')//'! core time of the scan, '//core_time_sentence(self%scene, scan)
+      end associate
+   end function check_lines
+
+   !> The state of an earlier run; its result is written over once all is found.
+   subroutine open_files(self, error)
+      class(threshold_task_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error
-      type(prepared_threshold_t) :: threshold
-      type(campaign_progress_t) :: progress
-      type(outcome_t) :: outcome
-      type(log_t) :: log
-      type(output_lock_t) :: lock
-      real(dp) :: started
+
+      if (self%carry_on) call load_outcome(self%scene, self%threshold, self%outcome, error)
+      if (self%carry_on .and. .not. allocated(error) .and. .not. allocated(self%outcome%rows)) &
+         call check_earlier_threshold(self%scene, self%threshold, error)
+      if (allocated(error)) return
+      call start_outcome(self%scene, self%threshold, self%outcome)
+      self%done_before = solved_scenes(self%outcome)
+      ! How many more there will be is not known.
+      self%scenes = self%done_before
+   end subroutine open_files
+
+   function heading(self) result(words)
+      class(threshold_task_t), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = 'threshold '//trim(self%scene%name)//': '//counted(int(self%threshold%traces%layout%scene_count), 'trace')// &
+              ' of '//key_name(self%threshold%axis%position)
+   end function heading
+
+   !> What an earlier run has found, and what a scan does not see.
+   subroutine report_start(self)
+      class(threshold_task_t), intent(in) :: self
+
+      if (self%done_before > 0_int64) then
+         call self%log%line('  carried on after '//integer_text(self%outcome%traces)//' traces of the earlier run and '// &
+                            integer_text(size(self%outcome%points))//' values of those under way')
+      else if (self%carry_on) then
+         call self%log%line('  there is no state of an earlier run; all is solved from the start')
+      end if
+      call self%log%line('  '//integer_text(size(self%threshold%scan))//' values a trace, then halves down to '// &
+                         integer_text(self%threshold%axis%count)//' places; two changes between neighbours of the scan that '// &
+                         'cancel each other stay unseen: more &threshold count sees them')
+      if (self%scene%spectrum%verify) call self%log%line('  the ends of a crossing go apart again until both are verified')
+   end subroutine report_start
+
+   subroutine solve(self, error)
+      class(threshold_task_t), intent(inout) :: self
+      type(error_t), allocatable, intent(out) :: error
       integer(int64) :: first, last, last_trace, together
       integer :: traces_before
 
-      started = wall_seconds()
-      call prepare_threshold(scene, file, .false., threshold, faults)
-      exit_code = faults%exit_code
-      if (this_rank() == 0) then
-         call claim_output_place(scene, file, lock, faults, error)
-         if (faults%count() == 0 .and. .not. allocated(error) .and. carry_on) call load_outcome(scene, threshold, outcome, error)
-         if (faults%count() == 0 .and. .not. allocated(error) .and. carry_on .and. .not. allocated(outcome%rows)) &
-            call check_earlier_threshold(scene, threshold, error)
-         if (faults%count() == 0 .and. .not. allocated(error)) call log%open(log_path(scene), quiet, error)
-         exit_code = merge(faults%exit_code, exit_complete, faults%count() > 0)
-         if (allocated(error)) exit_code = error%exit_code
-         if (caught_signal() /= 0) exit_code = 128 + caught_signal()
-      end if
-      call share_number(exit_code)
-      if (exit_code /= exit_complete) then
-         call lock%release(.true.)
-         return
-      end if
-      ! Memory may lack on the machine of this rank alone.
-      if (faults%count() > 0) then
-         call raise(error, faults%exit_code, faults%sentence(1))
-         call abort_ranks(error)
-         return
-      end if
-      call start_outcome(scene, threshold, outcome)
-      call share_points(scene, threshold, outcome)
-      if (this_rank() == 0) call report_start(log, scene, threshold, carry_on, outcome)
-      if (this_rank() == 0) then
-         if (len(lock%warning) > 0) call log%line('  '//lock%warning)
-      end if
-      if (this_rank() == 0 .and. .not. carry_on) call delete_file(state_path(scene))
-      traces_before = int(outcome%traces)
+      call start_outcome(self%scene, self%threshold, self%outcome)
+      call share_points(self%scene, self%threshold, self%outcome)
+      if (this_rank() == 0 .and. .not. self%carry_on) call delete_file(state_path(self%scene))
+      traces_before = int(self%outcome%traces)
       call share_number(traces_before)
-      last_trace = threshold%traces%first + threshold%traces%layout%scene_count - 1_int64
-      call progress%start(progress_path(scene), solved_scenes(outcome), solved_scenes(outcome), quiet)
-      together = max(1_int64, scanned_together*rank_count()*omp_get_max_threads()/size(threshold%scan, kind=int64))
-      do first = threshold%traces%first + traces_before, last_trace, together
-         last = min(last_trace, first + together - 1_int64)
-         call search_lines(scene, threshold, first, last, progress, log, outcome)
-         if (outcome%cut) exit
-      end do
-      if (this_rank() == 0 .and. outcome%cut) call save_outcome(scene, threshold, outcome, log)
-      progress%done = sum_over_ranks(progress%done)
-      progress%failed = sum_over_ranks(progress%failed)
-      if (this_rank() == 0) call close_threshold(scene, threshold, started, progress, log, outcome, exit_code, error)
-      call lock%release(allocated(error))
-      call share_number(exit_code)
-   end subroutine run_one_threshold
-
-   !> What will be done.
-   subroutine report_start(log, scene, threshold, carry_on, outcome)
-      type(log_t), intent(in) :: log
-      type(scene_t), intent(in) :: scene
-      type(prepared_threshold_t), intent(in) :: threshold
-      logical, intent(in) :: carry_on
-      !> What an earlier run has found
-      type(outcome_t), intent(in) :: outcome
-      integer :: i
-
-      call log%line(log_magic//program_version//', threshold '//trim(scene%name)//': '// &
-                    counted(int(threshold%traces%layout%scene_count), 'trace')//' of '//key_name(threshold%axis%position)//', '// &
-                    law_sentence(scene)//'; '//counted(rank_count(), 'rank')//' of '//counted(omp_get_max_threads(), 'thread'))
-      do i = 1, size(scene%warnings)
-         call log%line('  '//scene%warnings(i)%text)
-      end do
-      do i = 1, size(threshold%traces%warnings)
-         call log%line('  '//threshold%traces%warnings(i)%text)
-      end do
-      if (solved_scenes(outcome) > 0_int64) then
-         call log%line('  carried on after '//integer_text(outcome%traces)//' traces of the earlier run and '// &
-                       integer_text(size(outcome%points))//' values of those under way')
-      else if (carry_on) then
-         call log%line('  there is no state of an earlier run; all is solved from the start')
-      end if
-      call log%line('  '//integer_text(size(threshold%scan))//' values a trace, then halves down to '// &
-                    integer_text(threshold%axis%count)//' places; two changes between neighbours of the scan that cancel each '// &
-                    'other stay unseen: more &threshold count sees them')
-      if (scene%spectrum%verify) call log%line('  the ends of a crossing go apart again until both are verified')
-   end subroutine report_start
+      associate (scene => self%scene, threshold => self%threshold, outcome => self%outcome)
+         last_trace = threshold%traces%first + threshold%traces%layout%scene_count - 1_int64
+         together = max(1_int64, scanned_together*rank_count()*omp_get_max_threads()/size(threshold%scan, kind=int64))
+         do first = threshold%traces%first + traces_before, last_trace, together
+            last = min(last_trace, first + together - 1_int64)
+            call search_lines(scene, threshold, first, last, self%progress, self%log, outcome)
+            if (outcome%cut) exit
+         end do
+         if (this_rank() == 0 .and. outcome%cut) call save_outcome(scene, threshold, outcome, self%log)
+      end associate
+   end subroutine solve
 
    !> Scenes of a grid that finds brackets as narrow.
    pure real(dp) function grid_scenes(scene, threshold)
@@ -153,15 +159,8 @@ contains
    end function grid_scenes
 
    !> Write the files and say what became of the thresholds. What was cut short leaves no result.
-   subroutine close_threshold(scene, threshold, started, progress, log, outcome, exit_code, error)
-      type(scene_t), intent(in) :: scene
-      type(prepared_threshold_t), intent(in) :: threshold
-      real(dp), intent(in) :: started
-      type(campaign_progress_t), intent(inout) :: progress
-      type(log_t), intent(inout) :: log
-      type(outcome_t), intent(in) :: outcome
-      integer, intent(out) :: exit_code
-      !> In: what has failed so far; out: also if a file could not be written
+   subroutine close_files(self, error)
+      class(threshold_task_t), intent(inout) :: self
       type(error_t), allocatable, intent(inout) :: error
       type(error_t), allocatable :: summary_error
       type(summary_t) :: summary
@@ -169,56 +168,74 @@ contains
       integer :: status
       logical :: keeps_earlier
 
-      call progress%finish(log)
+      self%is_cut = self%outcome%cut
+      self%has_failures = failed_scenes(self%outcome) > 0_int64
+      call self%progress%finish(self%log)
       allocate (results(0))
       status = status_complete
-      if (outcome%cut) then
+      if (self%is_cut) then
          status = status_interrupted
       else if (.not. allocated(error)) then
-         results = [word_t(result_path(scene))]
-         call write_rows_of(result_path(scene), scene, threshold, outcome%rows, error)
+         results = [word_t(result_path(self%scene))]
+         call write_rows_of(result_path(self%scene), self%scene, self%threshold, self%outcome%rows, error)
       end if
       if (allocated(error)) status = status_not_written
-      call add_head(summary, scene, status)
-      call add_results(summary, results, status)
-      call summary%add('traces', threshold%traces%layout%scene_count)
-      call summary%add('crossings', outcome%crossings)
-      call summary%add('traces_without_crossing', outcome%uncrossed)
-      if (scene%spectrum%verify) call summary%add('crossings_uncertain', outcome%uncertain)
-      if (scene%spectrum%verify) call summary%add('crossings_wide', outcome%wide)
-      call summary%add('scenes', solved_scenes(outcome))
-      call summary%add('scenes_failed', failed_scenes(outcome))
-      call summary%add('scenes_of_a_grid', grid_scenes(scene, threshold))
-      call summary%add('wall_seconds', wall_seconds() - started)
+      call add_counts(summary, self, results, status)
       keeps_earlier = .false.
-      if (outcome%cut) keeps_earlier = path_exists(result_path(scene))
+      if (self%is_cut) keeps_earlier = path_exists(result_path(self%scene))
       ! Where an earlier run left a result, its summary stays beside it: what was cut short has its state.
       if (.not. keeps_earlier) then
-         call summary%write_beside(summary_path(scene), summary_error)
+         call summary%write_beside(summary_path(self%scene), summary_error)
          if (.not. allocated(error) .and. allocated(summary_error)) call move_alloc(summary_error, error)
-         call place_files(results, summary_path(scene), error)
+         call place_files(results, summary_path(self%scene), error)
       end if
       if (allocated(error)) then
-         call log%line('  '//error%message)
-      else if (outcome%cut) then
-         call log%line('  cut short after '//integer_text(outcome%traces)//' of '// &
-                       counted(int(threshold%traces%layout%scene_count), 'trace')//'; --resume goes on with these and '// &
-                       counted(size(outcome%points), 'value')//' of the next, no result is written before')
-         if (keeps_earlier) then
-            call log%line('  '//result_path(scene)//' and its summary are those of an earlier run')
-         else
-            call log%line('  '//summary_path(scene))
-         end if
+         call self%log%line('  '//error%message)
+      else if (self%is_cut) then
+         call report_cut(self, keeps_earlier)
       else
-         call delete_file(state_path(scene))
-         call report_ending(log, scene, threshold, outcome)
+         call delete_file(state_path(self%scene))
+         call report_ending(self%log, self%scene, self%threshold, self%outcome)
       end if
-      call log%close()
-      exit_code = exit_complete
-      if (failed_scenes(outcome) > 0_int64) exit_code = exit_scene_failed
-      if (outcome%cut) exit_code = 128 + caught_signal()
-      if (allocated(error)) exit_code = error%exit_code
-   end subroutine close_threshold
+   end subroutine close_files
+
+   subroutine add_counts(summary, task, results, status)
+      type(summary_t), intent(inout) :: summary
+      class(threshold_task_t), intent(in) :: task
+      !> Paths of what was written
+      type(word_t), intent(in) :: results(:)
+      integer, intent(in) :: status
+
+      call add_head(summary, task%scene, status)
+      call add_results(summary, results, status)
+      associate (scene => task%scene, outcome => task%outcome)
+         call summary%add('traces', task%threshold%traces%layout%scene_count)
+         call summary%add('crossings', outcome%crossings)
+         call summary%add('traces_without_crossing', outcome%uncrossed)
+         if (scene%spectrum%verify) call summary%add('crossings_uncertain', outcome%uncertain)
+         if (scene%spectrum%verify) call summary%add('crossings_wide', outcome%wide)
+         call summary%add('scenes', solved_scenes(outcome))
+         call summary%add('scenes_failed', failed_scenes(outcome))
+         call summary%add('scenes_of_a_grid', grid_scenes(scene, task%threshold))
+      end associate
+      call summary%add('wall_seconds', wall_seconds() - task%started)
+   end subroutine add_counts
+
+   !> How far a run came that was cut short.
+   subroutine report_cut(task, keeps_earlier)
+      class(threshold_task_t), intent(in) :: task
+      !> Whether result and summary of an earlier run stand
+      logical, intent(in) :: keeps_earlier
+
+      call task%log%line('  cut short after '//integer_text(task%outcome%traces)//' of '// &
+                         counted(int(task%threshold%traces%layout%scene_count), 'trace')//'; --resume goes on with these and '// &
+                         counted(size(task%outcome%points), 'value')//' of the next, no result is written before')
+      if (keeps_earlier) then
+         call task%log%line('  '//result_path(task%scene)//' and its summary are those of an earlier run')
+      else
+         call task%log%line('  '//summary_path(task%scene))
+      end if
+   end subroutine report_cut
 
    !> What was found, and what it took.
    subroutine report_ending(log, scene, threshold, outcome)

@@ -92,8 +92,9 @@ NEAREST_TESTS = {
     "fsrc/run/run_sweep": ("coarse_series", "logs", "tasks", "carrying_on", "run_endings"),
     "fsrc/run/judged_scene": ("logs", "impacts", "separation", "rows_and_summaries", "tasks"),
     "fsrc/campaign/threshold": ("thresholds", "logs"),
-    "fsrc/campaign/run_campaign": ("logs", "campaigns", "carrying_on"),
-    "fsrc/campaign/check_campaign": ("campaigns", "check_and_template", "commands", "thresholds"),
+    "fsrc/campaign/run_campaign": ("logs", "campaigns", "carrying_on", "check_and_template", "commands"),
+    "fsrc/campaign/core_time": ("campaigns", "check_and_template", "commands", "thresholds"),
+    "fsrc/campaign/table_task": ("run_endings", "campaigns", "thresholds"),
     "fsrc/campaign/campaign_progress": ("campaigns", "logs", "carrying_on", "run_endings"),
     "fsrc/campaign": (
         "varied_keys",

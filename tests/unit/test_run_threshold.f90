@@ -11,9 +11,10 @@ module test_run_threshold
    use output_place, only: log_path, progress_path, result_path, state_path, summary_path
    use prepared_threshold, only: prepared_threshold_t
    use result_reader, only: result_reader_t
-   use run_threshold, only: grid_scenes, run_one_threshold
+   use run_threshold, only: grid_scenes, threshold_task_t
    use scene_texts, only: input_path
    use scene_types, only: scene_t
+   use table_task, only: run_table_task
    use text, only: counted, integer_text
    use threshold_cases, only: crossings, failed, grid, traces, new_outcome, prepare, solved, uncertain, uncrossed, wide
    use threshold_outcome, only: add_traces, outcome_t, save_outcome
@@ -54,6 +55,7 @@ contains
       type(scene_t) :: scene
       type(prepared_threshold_t) :: threshold
       type(outcome_t) :: outcome, whole
+      type(threshold_task_t) :: task
       type(fault_list_t) :: faults
       type(error_t), allocatable :: error
       type(log_t) :: log
@@ -71,7 +73,7 @@ contains
       call save_outcome(scene, threshold, outcome, log)
       ! A run that is carried on may replace what it goes on from.
       scene%output%overwrite = .true.
-      call run_one_threshold(scene, input_path, .true., .true., faults, exit_code, error)
+      call run_table_task(task, scene, input_path, .true., .true., faults, exit_code, error)
       call checks%check(faults%count() == 0 .and. .not. allocated(error), 'carried on to its end')
       if (faults%count() > 0) print '(a)', faults%sentence(1)
       if (allocated(error)) print '(a)', error%message
