@@ -11,7 +11,7 @@ module run_tasks
    use run_campaign, only: campaign_task_t
    use run_threshold, only: threshold_task_t
    use scene_reader, only: read_scenes
-   use scene_types, only: scene_t, task_campaign, task_threshold
+   use scene_types, only: is_shared_task, scene_t, task_threshold
    use signals, only: caught_signal
    use table_task, only: check_table_task, run_table_task, table_task_t
    use text, only: integer_text
@@ -46,7 +46,7 @@ contains
             call faults%take(found)
          end do
          if (faults%count() > before) cycle
-         if (is_shared(pairs(1))) then
+         if (is_shared_task(pairs(1)%task)) then
             call append(scenes, [base_of_pairs(pairs)])
          else
             call append(scenes, pairs)
@@ -60,7 +60,7 @@ contains
                                                     ' are allowed on this machine')
       if (faults%count() == 0 .and. size(scenes) > 1) then
          do i = 1, size(scenes)
-            if (is_shared(scenes(i))) call faults%add(scenes(i)%source, 0, 'scene', 'task', 'a '// &
+            if (is_shared_task(scenes(i)%task)) call faults%add(scenes(i)%source, 0, 'scene', 'task', 'a '// &
                                                       choice_word('scene', 'task', scenes(i)%task)// &
                                                       ' must be the only input of a call')
          end do
@@ -68,7 +68,7 @@ contains
       if (faults%count() > 0) then
          call print_faults(faults)
          exit_code = faults%exit_code
-      else if (any(is_shared(scenes))) then
+      else if (any(is_shared_task(scenes%task))) then
          call run_shared_task(command, scenes(1), exit_code)
       else
          call run_alone(command, scenes, exit_code)
@@ -77,25 +77,17 @@ contains
 
    !> The tasks whose work threads and ranks share.
    subroutine make_table_task(code, task)
-      !> Code of a task
+      !> Code of such a task
       integer, intent(in) :: code
-      !> Not allocated for the other tasks
       class(table_task_t), allocatable, intent(out) :: task
 
       select case (code)
-      case (task_campaign)
-         allocate (campaign_task_t :: task)
       case (task_threshold)
          allocate (threshold_task_t :: task)
+      case default
+         allocate (campaign_task_t :: task)
       end select
    end subroutine make_table_task
-
-   !> Whether threads and ranks share the work of an input.
-   elemental logical function is_shared(scene)
-      type(scene_t), intent(in) :: scene
-
-      is_shared = any(scene%task == [task_campaign, task_threshold])
-   end function is_shared
 
    !> Put scenes behind others.
    subroutine append(scenes, more)

@@ -5,7 +5,7 @@ module output_place
    use log_file, only: log_magic
    use output_lock, only: lock_magic, lock_path, output_lock_t
    use result_format, only: result_magic
-   use scene_types, only: compute_profile, scene_t, task_campaign, task_film, task_motion, task_threshold
+   use scene_types, only: compute_profile, is_shared_task, scene_t, task_film, task_motion, task_threshold
    use summary_file, only: summary_magic
    use text, only: integer_text
    implicit none(type, external)
@@ -110,8 +110,7 @@ contains
          call check_kind(profiles_path(scene), result_magic, .false.)
       if (scene%task == task_motion .or. scene%task == task_threshold) call check_kind(state_path(scene), result_magic, .false.)
       call check_kind(summary_path(scene), summary_magic, .false.)
-      if (scene%task == task_campaign .or. scene%task == task_threshold) &
-         call check_kind(progress_path(scene), summary_magic, .false.)
+      if (is_shared_task(scene%task)) call check_kind(progress_path(scene), summary_magic, .false.)
       call check_kind(log_path(scene), log_magic, .false.)
       call check_kind(lock_path(stem(scene)), lock_magic, .true.)
 
@@ -137,7 +136,7 @@ contains
             return
          end if
          way_on = ''
-         if (scene%task == task_campaign .or. scene%task == task_threshold) way_on = '--resume continues it, '
+         if (is_shared_task(scene%task)) way_on = '--resume continues it, '
          state = state_of_path(path)
          got = 0
          if (.not. state%exists) return

@@ -411,7 +411,7 @@ module scene_types
       end function fma
    end interface
 
-   public :: forced_orders, set_number
+   public :: forced_orders, is_shared_task, set_number
 
 contains
 
@@ -621,5 +621,13 @@ contains
 
       samples_per_period = merge(self%steps_per_period, self%kept_per_period, self%method == method_newmark)
    end function samples_per_period
+
+   !> Whether threads and ranks share the work of a task, which --resume goes on with: a table of many scenes.
+   elemental logical function is_shared_task(task)
+      !> Code of a task
+      integer, intent(in) :: task
+
+      is_shared_task = any(task == [task_campaign, task_threshold])
+   end function is_shared_task
 
 end module scene_types
