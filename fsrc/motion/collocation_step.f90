@@ -1,25 +1,8 @@
-!> Implicit steps by collocation, for a block of lanes: any film law, any stiffness.
+!> Implicit steps by collocation, for a block of lanes: any film law, any stiffness (fsrc/THEORY.md, section 6).
 !>
-!> Within a step of length s from x the acceleration K = H'' is a polynomial in c = 0..1 that satisfies the
-!> equation of motion at the seven nodes of Radau. With its values K_i as unknowns,
-!>
-!>     V_i = V + s sum(once_ij K_j) ,   H_i = H + c_i s V + s**2 sum(twice_ij K_j) ,
-!>     K_i = W(H_i, V_i) - F(x + c_i s)
-!>
-!> are seven equations, solved by Newton's method with the slopes of the film law,
-!>
-!>     (1 - s**2 W_H twice - s W_V once) dK = W - F - K .
-!>
-!> A film law resists approach and motion, W_H <= 0 and W_V <= 0, which keeps the matrix regular, and its
-!> pivots need no search. First iterate: the polynomial of the step before, carried on.
-!>
-!> The error is taken from the Legendre coefficients k of the polynomial: one of them moves the film by about
-!> s**2 k/(4*49) and the momentum by s k/14. The state at the end of a smooth step is far better than the
-!> polynomial, and the last coefficient counts little there. The film within the step, and the momentum at
-!> the end of a stiff one (a tooth that leaves its film behind), are no better than the polynomial: they are
-!> off by the first coefficient left out, which is taken to follow from the last ones as they follow from each
-!> other. The measure of these is that of the Taylor series (taylor_step_control), with the least damping rate
-!> of the step and the least film that counts as one at its nodes.
+!> A film law resists approach and motion, which keeps the matrix of Newton's method regular, and its pivots need no search.
+!> First iterate: the polynomial of the step before, carried on. The measure of the error is that of the Taylor series
+!> (taylor_step_control), with the least damping rate of the step and the least film that counts as one at its nodes.
 module collocation_step
    use collocation_newton, only: allowed, correct, newton_pass_t, residual_and_matrix, scaled_load, solve_lanes, stage_states, &
       thinner

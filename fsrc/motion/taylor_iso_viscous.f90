@@ -1,27 +1,8 @@
-!> Taylor series of the motion with the published iso-viscous film (35), for a block of lanes.
+!> Taylor series of the motion with the published iso-viscous film (35), for a block of lanes, on one flank or between two
+!> (fsrc/THEORY.md, section 4: names and equations are those of (35) there).
 !>
-!> With x = f_exc t and H = h/h_s, eq (1) reads
-!>
-!>     H'' = a/H - b H' H^(-3/2) - q - f cos(2 pi x)
-!>
-!> (a: rolling, b: squeeze, q: static load, f: force amplitude, all in units of m h_s f_exc^2). The squeeze
-!> term is an exact derivative: with r = H^(-1/2) it is 2 b r'. In Lienard's form, V = H' - 2 b r,
-!>
-!>     H' = V + 2 b r ,   V' = a p - q - f cos(2 pi x) ,   p = 1/H = r**2
-!>
-!> and the coefficients follow from one another by two sums of products, the second symmetric:
-!>
-!>     (k+1) H_(k+1) = V_k + 2 b r_k                     p_k = -(sum of H_j p_(k-j), j = 1..k)/H_0
-!>     (k+1) V_(k+1) = a p_k - q - f cos_k               r_k = (p_k - sum of r_j r_(k-j), j = 1..k-1)/(2 r_0)
-!>
-!> V stays well-conditioned however heavy the damping: there H' is the small difference of V and -2 b r, but
-!> the film depends on V alone.
-!>
-!> Between two flanks B apart the film of the coast flank, C = B - H, pulls the other way: with p_c = 1/C and r_c = C^(-1/2)
-!>
-!>     V = H' - 2 b (r - r_c) ,   V' = a (p - p_c) - q - f cos(2 pi x) ,
-!>
-!> and the coefficients of p_c and r_c are sums like those of p and r, C_k being -H_k.
+!> The momentum is Lienard's V = H' - 2 b r, which stays well-conditioned however heavy the damping: there H' is the small
+!> difference of V and -2 b r, but the film depends on V alone.
 module taylor_iso_viscous
    use kinds, only: dp
    use lane_force, only: factor

@@ -1,22 +1,6 @@
-!> Taylor series of the motion with the published piezo-viscous film (37), for a block of lanes.
-!>
-!> With x = f_exc t and H = h/h_s, eq (1) reads
-!>
-!>     H' = V ,   V' = S - q - f cos(2 pi x) ,   S = a H^(-7/2) exp(-c V)
-!>
-!> (a: load coefficient, q: static load, f: force amplitude, in units of m h_s f_exc^2; c: exponent rate). One
-!> power and one exponential at the point of expansion are enough: with y = H'/H,
-!>
-!>     S' = g S ,   g = -7/2 y - c V' ,   y H = V
-!>
-!> gives
-!>
-!>     (k+1) H_(k+1) = V_k                     y_k = (V_k - sum of H_j y_(k-j), j = 1..k)/H_0
-!>     (k+1) V_(k+1) = S_k - q - f cos_k       g_k = -7/2 y_k - c (k+1) V_(k+1)
-!>                                             (k+1) S_(k+1) = sum of g_j S_(k-j), j = 0..k
-!>
-!> Between two flanks the load of the coast film, of thickness B - H and velocity -V, is subtracted from S; its series follow in
-!> the same way with H_k and V_k of the other sign.
+!> Taylor series of the motion with the published piezo-viscous film (37), for a block of lanes, on one flank or between two
+!> (fsrc/THEORY.md, section 4: names and equations are those of (37) there). One power and one exponential at the point of
+!> expansion are enough.
 module taylor_piezo_viscous
    use kinds, only: dp
    use lane_force, only: factor

@@ -1,19 +1,8 @@
-!> Taylor series of the motion with the Reynolds piezo-viscous film, for a block of lanes.
+!> Taylor series of the motion with the Reynolds piezo-viscous film, for a block of lanes, on one flank or between two
+!> (fsrc/THEORY.md, section 4).
 !>
-!> With x = f_exc t and H = h/h_s, eq (1) reads
-!>
-!>     H' = V ,   V' = a p Psi(A, B) - q - f cos(2 pi x) ,   p = 1/H ,   r = H^(-1/2) ,   A = c V r ,   B = b p r .
-!>
-!> Psi has infinite slope where the film ceases to exist, but not in s = sqrt(1 - B max p*(A)). Module
-!> reynolds_piezo_expansion gives max p* in powers of z, the deviation of A over the unit e, and Psi in powers of z and y, the
-!> deviation of s:
-!>
-!>     max p* = sum of pi_i z**i ,   Psi = F_0 ,   F_j = G_j + y F_(j+1) ,   G_j = sum of psi_ij z**i .
-!>
-!> All these sums share the powers of z, series of their own, each the product of two lower ones. As z and y begin with the
-!> first power of x, F_j is needed up to order n - 1 - j only.
-!>
-!> Between two flanks the load of the coast film, of thickness B - H and velocity -V, is subtracted; its series are those of a film.
+!> Psi has infinite slope where the film ceases to exist, but not in s = sqrt(1 - B max p*(A)): module reynolds_piezo_expansion
+!> gives it in two variables. All sums share the powers of z, series of their own, each the product of two lower ones.
 module taylor_reynolds_piezo
    use kinds, only: dp
    use lane_force, only: factor

@@ -1,20 +1,8 @@
 !> Taylor series of the motion with an iso-viscous film whose rupture follows from (18), for a block of lanes: the Reynolds film,
-!> and the published one (24) with x_e solved.
+!> and the published one (24) with x_e solved, on one flank or between two (fsrc/THEORY.md, section 4).
 !>
-!> With x = f_exc t and H = h/h_s, eq (1) reads
-!>
-!>     H' = V ,   V' = a p Phi(A) - q - f cos(2 pi x) ,   p = 1/H ,   A = c V r ,   r = H^(-1/2) .
-!>
-!> Phi has no closed form, but module load_expansion gives its Taylor series about any A. With z, the deviation of A from
-!> there over the unit e of the series, even and odd powers are nested in pairs,
-!>
-!>     Phi = T_0 ,   T_i = phi_2i + phi_(2i+1) z + z**2 T_(i+1) ,
-!>
-!> and as z begins with the first power of x, T_i is needed up to order n - 1 - 2 i only: for n = 12 all of them together take
+!> Phi has no closed form, but module load_expansion gives its Taylor series about any A. For n = 12 the nested pairs together take
 !> as many products of coefficients as two products of whole series.
-!>
-!> Between two flanks the film of the coast flank is one of the same law, of thickness B - H and velocity -V, whose load is
-!> subtracted: its series are those of a film with the coefficients of B - H.
 module taylor_rupture
    use kinds, only: dp
    use lane_force, only: factor

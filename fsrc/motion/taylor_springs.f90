@@ -1,32 +1,9 @@
 !> Taylor series of the motion of elastic teeth, for a block of lanes: with the published films (35) and (37), with the
-!> iso-viscous films whose rupture follows from (18), the exact one and (24), and with the Reynolds piezo-viscous film.
+!> iso-viscous films whose rupture follows from (18), the exact one and (24), and with the Reynolds piezo-viscous film
+!> (fsrc/THEORY.md, section 4).
 !>
-!> With x = f_exc t and H = h/h_s, a spring of compliance kappa between the gear and the film carries W = d/kappa and is
-!> compressed as the film law, solved for the velocity of the film, tells:
-!>
-!>     d' = H' - V ,   V' = d/kappa - q - f(x) ,
-!>     (35)   H' = sqrt(H) (a - W H)/b        (37)   H' = ln(a/(W H^(7/2)))/c
-!>
-!> (a, b, c as in modules taylor_iso_viscous and taylor_piezo_viscous). With r = sqrt(H), or with y = H'/H and w = W'/W, each order
-!> takes a product of series and a half, or two:
-!>
-!>     2 b (k+1) r_(k+1) = -(sum of d_j H_(k-j))/kappa     y_k = (H'_k - sum of H_j y_(k-j), j = 1..k)/H_0
-!>     H_k = sum of r_j r_(k-j)                            w_k = ((k+1) d_(k+1) - sum of d_j w_(k-j), j = 1..k)/d_0
-!>                                                         c (k+1) H'_(k+1) = -w_k - 7/2 y_k
-!>
-!> Films with rupture carry W = a Phi(A)/H, A = c H'/sqrt(H). Phi falls with A, so it can be inverted: module load_expansion
-!> gives A in powers of z, the deviation of the load group P = W H/a from where it is expanded, over a unit. Even and odd powers are
-!> nested in pairs, as in module taylor_rupture:
-!>
-!>     P = d H/(kappa a) ,   A = T_0 ,   T_i = a_2i + a_(2i+1) z + z**2 T_(i+1) ,   H' = r A/c ,   r = sqrt(H) .
-!>
-!> The Reynolds piezo-viscous film carries W = a Psi(A, B)/H. The series are those of module taylor_reynolds_piezo but that the
-!> load is known and A is not: at every order Psi is linear in the newest coefficient of z, the deviation of A,
-!>
-!>     P_k = (sums of lower orders) + (dPsi/dA) z_k ,   H' = sqrt(H) A/c .
-!>
-!> On the coast flank, whose film C = B - H + d_1 + d_2 has a spring of its own, V counts with the other sign, and its load is
-!> subtracted. Errors count as those of the films: an error of d moves a film by as much.
+!> The load of a film is that of its spring, so film laws are taken inverted, as the velocity under a load. Errors count as those of
+!> the films: an error of a compression d moves a film by as much.
 module taylor_springs
    use elementary_functions, only: logarithm
    use kinds, only: dp

@@ -1,23 +1,7 @@
-!> Step size of the Taylor series and its evaluation, for a block of lanes.
+!> Step size of the Taylor series and its evaluation, for a block of lanes (fsrc/THEORY.md, section 5).
 !>
-!> Local error. Two unknowns are advanced, the scaled film H = h/h_s (h_s: the film that carries the static
-!> load) and a momentum V whose x-derivative is the sum of the forces. A momentum that is off by e moves the
-!> film by about e/(g + d): d is the damping rate, within 1/d the film forgets the momentum, and g one over
-!> the time it can act where there is no damping, taken as half a period. The same error changes the load by d
-!> e; where that is much, the film law is not linear any more in e, and the acceleration is lost: it is held
-!> below 100 times the accuracy, in units of the force P = q + f. So the size of a term of the series is
-!>
-!>     max(|H_k|, |V_k| max(1/(2 + d), d w/(100 P))) x^k
-!>
-!> and it is held against accuracy*w, w = H/(1 + H**2). For thin films that is the relative accuracy of the
-!> film. A thick film falls freely and an error of H is an error of the time of impact, which returns
-!> magnified in the thin film that follows: H**2 stands for that. Without either of the two, a tooth thrown to
-!> 8 h_s has errors 1000 times the accuracy; with them the error stays close to it whatever the force.
-!>
-!> Errors add up: a step may use up the share of it that its length has in a period, and no less than
-!> rounding.
-!>
-!> The step is the smaller of those that bring the terms of order n and n-1 to that size (Jorba and Zou 2005).
+!> Of the weight of a thick film: without the square of H a tooth thrown to 8 h_s has errors 1000 times the accuracy; with it
+!> the error stays close to the accuracy whatever the force.
 module taylor_step_control
    use kinds, only: dp
    use lane_functions, only: coarse_log, coarse_power, lanes

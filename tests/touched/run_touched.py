@@ -44,9 +44,11 @@ class Tree:
     listed: list[str]
     touched: set[str]
 
-    def _path(self, name: str) -> Path:
-        # NAME stands for one that is chosen.
-        patterns = [re.escape(entry).replace("NAME", r"\w+") for entry in self.listed]
+    def _path(self, name: str, *, new: bool = False) -> Path:
+        # NAME stands for that of a new file.
+        patterns = [
+            re.escape(entry).replace("NAME", r"\w+") for entry in self.listed if ("NAME" in entry) == new
+        ]
         if not any(re.fullmatch(pattern, name) for pattern in patterns):
             raise ToyError(f"it edits {name}, which its list in fsrc/README.md does not name")
         self.touched.add(name)
@@ -57,7 +59,7 @@ class Tree:
 
     def add(self, name: str, text: str) -> None:
         """A new file."""
-        path = self._path(name)
+        path = self._path(name, new=True)
         if path.exists():
             raise ToyError(f"{name} exists")
         path.write_text(text)
@@ -79,33 +81,38 @@ def main() -> int:
     parser.add_argument("scratch", type=Path, help="folder of the scratch copy, which is made anew")
     parser.add_argument("--only", choices=TOYS.values(), help="one toy alone")
     options = parser.parse_args()
-    options.scratch = options.scratch.resolve()
-    copy(REPOSITORY, options.scratch)
-    lists = {found["what"]: found for found in LIST.finditer((REPOSITORY / "fsrc/README.md").read_text())}
+    scratch = options.scratch.resolve()
+    copy(REPOSITORY, scratch)
+    chosen = [options.only] if options.only else list(TOYS.values())
+    taken, faults = add_toys(scratch, chosen)
+    print("\n".join(taken))
+    faults = faults or build(scratch)
+    if not faults:
+        for what, toy in TOYS.items():
+            faults += use(what, toy, scratch) if toy in chosen else []
+    print("\n".join(faults), end="\n" if faults else "")
+    return bool(faults)
+
+
+def add_toys(scratch: Path, chosen: list[str]) -> tuple[list[str], list[str]]:
+    """Let the chosen toys edit the copy: how many files each took, and what is wrong with that."""
+    lists = {found["what"]: found for found in LIST.finditer((scratch / "fsrc/README.md").read_text())}
     if lists.keys() != TOYS.keys():
-        print(f"fsrc/README.md has lists for {', '.join(lists)}; there are toys for {', '.join(TOYS)}")
-        return 1
-    taken, faults = {}, []
-    chosen = {what: toy for what, toy in TOYS.items() if options.only in (None, toy)}
-    for what, toy in chosen.items():
-        tree = Tree(options.scratch, LISTED.findall(lists[what]["text"]), set())
+        return [], [f"fsrc/README.md has lists for {', '.join(lists)}; there are toys for {', '.join(TOYS)}"]
+    taken, faults = [], []
+    for what, toy in TOYS.items():
+        if toy not in chosen:
+            continue
+        tree = Tree(scratch, LISTED.findall(lists[what]["text"]), set())
         try:
             importlib.import_module(toy).change(tree)
         except ToyError as fault:
             faults.append(f"{what}: {fault}")
-        taken[what] = len(tree.touched)
-    if not faults:
-        faults += build(options.scratch)
-    if not faults:
-        for what, toy in chosen.items():
-            faults += use(what, toy, options.scratch)
-    for what, count in taken.items():
-        most = int(lists[what]["most"])
-        print(f"{what:32}{count:3d} files, at most {most}{'' if count <= most else '  MISSED'}")
+        count, most = len(tree.touched), int(lists[what]["most"])
+        taken.append(f"{what:36}{count:3d} files, at most {most}")
         if count > most:
             faults.append(f"{what}: {count} files, more than {most}")
-    print("\n".join(faults), end="\n" if faults else "")
-    return bool(faults)
+    return taken, faults
 
 
 def copy(repository: Path, scratch: Path) -> None:
