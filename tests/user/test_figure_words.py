@@ -5,13 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import campaign_writer
 import numpy as np
 import pytest
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from figure_words import RELATIVE, assert_says, film_of, words_of
 from test_drawn_thresholds import ROWS, level_result, written
 from told import SPOKEN
 
@@ -29,34 +27,7 @@ from rattle.figures import (
     threshold,
 )
 
-RELATIVE = "\nrelative to the shaft,\non line of action"
 PERIODS = 4
-
-
-def words_of(figure: Figure) -> list[str]:
-    """Every text of a figure that is not a number at a tick, in the order of the alphabet."""
-    axes = [*figure.axes, *(child for one in figure.axes for child in one.child_axes)]
-    found = [text for one in axes for text in texts_of(one)]
-    legends = [*figure.legends, *(one.get_legend() for one in axes)]
-    for legend in filter(None, legends):
-        found += [legend.get_title().get_text(), *(text.get_text() for text in legend.get_texts())]
-    found += [text.get_text() for text in figure.texts]
-    return sorted(text for text in found if text)
-
-
-def texts_of(axes: Axes) -> list[str]:
-    titles = [axes.get_title(loc=place) for place in ("left", "center", "right")]
-    return [*titles, axes.get_xlabel(), axes.get_ylabel(), *(text.get_text() for text in axes.texts)]
-
-
-def assert_says(figure: Figure, expected: Sequence[str | None]) -> None:
-    """The figure has these texts, and no others."""
-    assert words_of(figure) == sorted(text for text in expected if text)
-
-
-def film_of(given: Mapping[str, Any]) -> str:
-    model = {"reynolds": "Reynolds", "published": "published"}[given["film"]["model"]]
-    return f"{model} {given['film']['law']} film"
 
 
 # --- motions -------------------------------------------------------------------------------------------
