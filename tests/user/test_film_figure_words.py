@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from figure_words import assert_says, power, words_of
+from figure_words import RELATIVE, assert_says, power, words_of
 from result_writer import write_motion
+from told import SPOKEN
 
 import rattle
 from rattle.figures import film_fit, film_points, film_pressures, film_slopes, regime_map, style, tolerance
@@ -239,7 +240,10 @@ def test_words_of_the_map_of_regimes(run, repository, tmp_path):
 
 @pytest.mark.parametrize("count", (1, 2))
 @pytest.mark.parametrize("narrow", (False, True))
-def test_words_of_a_loose_tolerance(tmp_path, count, narrow):
+def test_words_of_a_loose_tolerance(tmp_path, monkeypatch, count, narrow):
+    """The acceleration of a gear, in the narrow figure, is said to be relative to the shaft."""
+    monkeypatch.setattr(rattle.Result, "has_gear", narrow)
+    relative = f"{RELATIVE} [" if narrow else " ["
     loose = rattle.read(write_motion(tmp_path / "l.rattle", lines={1.0: 4.0, 2.5: 9.0}, tolerance=2.5e-7))
     tight = rattle.read(write_motion(tmp_path / "t.rattle", lines={1.0: 5.0, 3.0: 1.0}))
     pairs = [
@@ -256,12 +260,12 @@ def test_words_of_a_loose_tolerance(tmp_path, count, narrow):
             told = judge_samples(result, 16)
             expected.append(
                 rf"$\varepsilon = {eps}$ m: {told['reversals_per_period']:.3g} reversals a period, "
-                f"class {told['rattle_class']}"
+                f"class {SPOKEN.get(told['rattle_class'], told['rattle_class'])}"
             )
         expected += [
             "Time within the last 3 excitation periods [ms]",
-            r"Acceleration $\ddot{z}$ [m/s$^2$]",
+            r"Acceleration $\ddot{z}$ [m/s$^2$]".replace(" [", relative),
             r"Frequency ratio $f/f_\mathrm{exc}$",
-            r"Amplitude of $\ddot{z}$ [m/s$^2$]",
+            r"Amplitude of $\ddot{z}$ [m/s$^2$]".replace(" [", relative),
         ]
     assert_says(tolerance.draw(pairs, 3, 16, narrow), expected)

@@ -54,7 +54,7 @@ def add_options(parser: ArgumentParser) -> None:
         type=contour_names,
         default=list(campaign_map.CONTOURS),
         metavar="NAMES",
-        help="harmonics over a map: frequency,damping (default), one of them, or none",
+        help="contours over a map: frequency,damping (default), one of them, or none",
     )
     parser.add_argument(
         "--colours",

@@ -202,7 +202,7 @@ def cell_edges(axis: Axis) -> np.ndarray:
 
 
 def _widened(axis: Axis) -> np.ndarray:
-    """The ends of an axis with some folder, so that dots at the ends are whole."""
+    """The ends of an axis with some room, so that dots at the ends are whole."""
     ends = np.log(axis.values[[0, -1]]) if is_logarithmic(axis) else axis.values[[0, -1]]
     room = 0.03 * (ends[1] - ends[0])
     ends = ends + np.array([-room, room])

@@ -24,7 +24,7 @@ from rattle.figures import campaign_look as look
 from rattle.figures import style
 
 RATIO_LEVELS = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0)
-# Dashes, words, form of the labels, and where these stand along a harmonic.
+# Dashes, words, form of the labels, and where these stand along a contour.
 CONTOUR_LOOKS = {
     "frequency": ("-", r"natural frequency $f_n/f_\mathrm{exc}$", "%g", 0.85),
     "damping": ("--", r"damping ratio $\zeta$", r"$\zeta$ %g", 0.15),
@@ -186,8 +186,7 @@ def scatter(
 
 
 def draw_contours(axes: Axes, section: Section, names: Sequence[str]) -> list[Line2D]:
-    """Harmonics of equal frequency ratio and damping ratio over the cells of a grid; returns legend
-    entries."""
+    """Contours of frequency ratio and damping ratio over the cells of a grid; returns legend entries."""
     x, y = section.free
     if min(x.values.size, y.values.size) < 2:
         return []
@@ -294,7 +293,7 @@ def _label(axes: Axes, lines: ContourSet, name: str) -> None:
 
 
 def _length(axes: Axes, segment: np.ndarray) -> np.ndarray:
-    """Length of a harmonic up to each of its points, in pixels."""
+    """Length of a line up to each of its points, in pixels."""
     seen = axes.transData.transform(segment)
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(seen, axis=0).T))])
 

@@ -60,7 +60,7 @@ def _draw_column(panel: Axes, section: Section, column: str) -> None:
 
 
 def _draw_bands(panel: Axes, section: Section, handles: dict[str, Patch]) -> None:
-    """The class of each scene as a band behind the harmonic; gaps and what is not verified are hatched."""
+    """The class of each scene as a band behind the line; gaps and what is not verified are hatched."""
     campaign = section.campaign
     edges = look.cell_edges(section.free[0])
     if "rattle_class" in campaign:

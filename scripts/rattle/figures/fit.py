@@ -185,7 +185,7 @@ def wrap_words(figure: Figure, words: Mapping[Text, str]) -> None:
 
 
 def broken(figure: Figure, text: Text, words: str, room: float) -> str:
-    """The words in the type of a text, broken where a line is longer than the folder [pixels]."""
+    """The words in the type of a text, broken where a line is longer than the room [pixels]."""
     lines = []
     for line in words.split("\n"):
         rest: list[str] = []

@@ -27,7 +27,7 @@ FLOOR = 1e-5  # of the largest harmonic; below it the logarithmic panel ends
 GROUP_WIDTH = 0.4  # of runs side by side, less than the distance of half-integer harmonics
 ROOM_FOR_LINES = 100.0  # points that harmonics may cover, also in a column
 SMALLEST_LAST_RATIO = 10.0
-LARGEST_FAINT_RATIO = 40.0  # up to which harmonics below the threshold have folder
+LARGEST_FAINT_RATIO = 40.0  # up to which harmonics below the threshold have room
 FREQUENCY_LABELS = {"ratio": style.RATIO_LABEL, "hz": "Frequency [Hz]", "order": "Engine order [-]"}
 REFERENCE = 1e-6  # m/s2, of levels
 LEVEL_LABEL = r"Level of the amplitude of $\ddot{z}$" "\n" r"[dB re 10$^{-6}$ m/s$^2$]"
@@ -260,7 +260,7 @@ def _harmonics_of_force(result: Result) -> np.ndarray:
 
 
 def _last_harmonic(result: Result) -> float:
-    """The last harmonic of a force; 0 of a cosine, which needs no folder of its own."""
+    """The last harmonic of a force; 0 of a cosine, which needs no room of its own."""
     return float(_harmonics_of_force(result).max(initial=0))
 
 

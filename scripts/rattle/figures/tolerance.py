@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 import rattle
 from rattle import command
+from rattle.codes import spoken
 from rattle.figures import style
 from rattle.figures.fit import is_narrow
 from rattle.figures.histories import last_periods, period_rules, time_label
@@ -109,7 +110,7 @@ def _draw_histories(axes: Axes, pair: Pair, periods: int, window: int | None) ->
         axes.plot(*last_periods(result, "acceleration", periods), label=_words(result, window), **line)
     period_rules(axes, [pair.loose, pair.tight], periods)
     axes.set_xlabel(time_label([pair.loose, pair.tight], periods))
-    axes.set_ylabel(style.ACCELERATION_LABEL)
+    axes.set_ylabel(style.of_acceleration(style.ACCELERATION_LABEL, [pair.loose]))
 
 
 def _draw_spectra(axes: Axes, pair: Pair, window: int | None) -> None:
@@ -122,7 +123,7 @@ def _draw_spectra(axes: Axes, pair: Pair, window: int | None) -> None:
     axes.set_xlim(0.0, pair.last_ratio + 0.1)
     axes.set_ylim(0.0, 1.08 * largest if largest > 0.0 else 1.0)
     axes.set_xlabel(style.RATIO_LABEL)
-    axes.set_ylabel(style.AMPLITUDE_LABEL)
+    axes.set_ylabel(style.of_acceleration(style.AMPLITUDE_LABEL, [pair.loose]))
 
 
 def _words(result: Result, window: int | None) -> str:
@@ -130,7 +131,7 @@ def _words(result: Result, window: int | None) -> str:
     return (
         f"{_power(result.number('solver', 'tolerance'))}: "
         f"{verdict['reversals_per_period']:.3g} reversals a period, "
-        f"class {verdict['rattle_class']}"
+        f"class {spoken(verdict['rattle_class'])}"
     )
 
 
