@@ -9,7 +9,7 @@ module batch
    use judged_scene, only: judged_scene_t
    use memory_need, only: expect_scene_memory, scenes_that_fit
    use output_lock, only: output_lock_t
-   use output_place, only: check_output_place, claim_output_place, stem
+   use output_place, only: check_output_place, claim_output_place
    use resolved_scene, only: resolve
    use resume, only: load_state
    use run_film, only: run_film_task
@@ -34,6 +34,8 @@ module batch
       integer :: failed = 0
       !> Of the table, where the scene is a pair of a gearbox
       type(pair_row_t) :: row
+      !> Of the whole gearbox, kept with the first of its pairs until the table is written
+      type(output_lock_t) :: gearbox_lock
       !> Faults of the place of its files, trouble with them
       type(fault_list_t) :: faults
       type(error_t), allocatable :: error
@@ -100,7 +102,7 @@ contains
          begun = begun + 1
          place = begun
          call speak_for(place)
-         call run_place(scenes(place), command, outcomes(place))
+         call run_place(command, scenes, place, outcomes(place))
          is_ending = is_ending .or. has_trouble(outcomes(place)) .or. outcomes(place)%status == status_interrupted &
                      .or. caught_signal() /= 0
          outcomes(place)%is_over = .true.
@@ -116,18 +118,30 @@ contains
       call unlock_texts()
       !$omp end parallel
       call share_output(0)
+      do place = 1, size(scenes)
+         call outcomes(place)%gearbox_lock%release(.true.)
+      end do
    end subroutine run_all
 
-   !> Run a scene while no other run can write its files.
-   subroutine run_place(scene, command, outcome)
-      type(scene_t), intent(in) :: scene
+   !> Run a scene while no other run can write its files. The first pair of a gearbox takes the lock of the table as well, so that
+   !> another run of the gearbox is refused before it changes a pair.
+   subroutine run_place(command, scenes, place, outcome)
       type(command_t), intent(in) :: command
+      type(scene_t), intent(in) :: scenes(:)
+      !> Which of them
+      integer, intent(in) :: place
       type(outcome_t), intent(inout) :: outcome
       type(judged_scene_t) :: judged
       type(output_lock_t) :: lock
-      type(scene_t) :: warned
+      type(scene_t) :: scene, warned
 
-      call claim_output_place(scene, scene%source, lock, outcome%faults, outcome%error)
+      scene = scenes(place)
+      if (is_pair(scene) .and. first_pair(scenes, place) == place) then
+         call claim_output_place(whole_gearbox(scene), scene%source, outcome%gearbox_lock, outcome%faults, outcome%error)
+         if (.not. has_trouble(outcome) .and. command%resume) &
+            call check_earlier_table(whole_gearbox(scene), names_of_gears(scenes), outcome%error)
+      end if
+      if (.not. has_trouble(outcome)) call claim_output_place(scene, scene%source, lock, outcome%faults, outcome%error)
       warned = scene
       if (allocated(lock%warning)) then
          if (len(lock%warning) > 0) call warn(warned, lock%warning)
@@ -135,8 +149,8 @@ contains
       if (.not. has_trouble(outcome) .and. command%resume .and. scene%task /= task_motion) &
          call check_earlier_run(scene, outcome%error)
       if (.not. has_trouble(outcome)) call run_task(warned, command, judged, outcome%status, outcome%failed, outcome%error)
-      call lock%release(has_trouble(outcome))
       if (is_pair(scene) .and. .not. has_trouble(outcome)) outcome%row = row_of_pair(scene, judged)
+      call lock%release(has_trouble(outcome))
    end subroutine run_place
 
    !> Add a warning to those of a scene.
@@ -168,17 +182,14 @@ contains
       !> Whether there was trouble with files: the first of it decides, and nothing follows
       logical, intent(inout) :: in_trouble
       integer, intent(inout) :: exit_code
-      type(output_lock_t) :: lock
 
       if (in_trouble) return
       associate (outcome => outcomes(place))
          if (is_pair(scenes(place)) .and. .not. has_trouble(outcome)) rows = [rows, outcome%row]
          if (size(rows) > 0 .and. (is_last_pair(scenes, place) .or. is_last_begun) .and. .not. has_trouble(outcome)) then
-            call lock%take(stem(whole_gearbox(scenes(place))), outcome%error)
-            if (.not. allocated(outcome%error)) &
-               call write_table(whole_gearbox(scenes(place)), count(scenes%gearbox == scenes(place)%gearbox), rows, command%quiet, &
-                                outcome%error)
-            call lock%release(allocated(outcome%error))
+            call write_table(whole_gearbox(scenes(place)), count(scenes%gearbox == scenes(place)%gearbox), rows, command%quiet, &
+                             outcome%error)
+            call outcomes(first_pair(scenes, place))%gearbox_lock%release(allocated(outcome%error))
             rows = rows(:0)
          end if
          in_trouble = has_trouble(outcome)
@@ -219,6 +230,14 @@ contains
       is_last_pair = is_pair(scenes(place))
       if (is_last_pair .and. place < size(scenes)) is_last_pair = scenes(place + 1)%gearbox /= scenes(place)%gearbox
    end function is_last_pair
+
+   !> Place of the first pair of the gearbox of a pair.
+   pure integer function first_pair(scenes, place)
+      type(scene_t), intent(in) :: scenes(:)
+      integer, intent(in) :: place
+
+      first_pair = findloc(scenes%gearbox, scenes(place)%gearbox, dim=1)
+   end function first_pair
 
    !> Run a scene, a film task or a sweep.
    subroutine run_task(scene, command, judged, status, failed, error)
@@ -286,16 +305,23 @@ contains
       type(scene_t), intent(in) :: scenes(:)
       type(fault_list_t), intent(inout) :: faults
       type(error_t), allocatable :: error
-      integer :: i, j
+      integer :: i
 
       do i = 1, size(scenes)
          call check_earlier_run(scenes(i), error)
          if (.not. allocated(error) .and. is_last_pair(scenes, i)) &
-            call check_earlier_table(whole_gearbox(scenes(i)), &
-                                     [(word_t(trim(scenes(j)%gear%name)), j=1, size(scenes))], error)
+            call check_earlier_table(whole_gearbox(scenes(i)), names_of_gears(scenes), error)
          if (allocated(error)) call faults%add(scenes(i)%source, 0, '', '', error%message)
       end do
    end subroutine check_earlier_runs
+
+   pure function names_of_gears(scenes) result(names)
+      type(scene_t), intent(in) :: scenes(:)
+      type(word_t), allocatable :: names(:)
+      integer :: i
+
+      names = [(word_t(trim(scenes(i)%gear%name)), i=1, size(scenes))]
+   end function names_of_gears
 
    subroutine check_earlier_run(scene, error)
       type(scene_t), intent(in) :: scene

@@ -18,6 +18,9 @@ from waiting import PATIENCE, until
 
 import rattle as package
 
+BOX = GEARBOX + "&scene name = 'scene' /\n"
+SLOWER_BOX = BOX.replace("speed_rpm = 800.0", "speed_rpm = 700.0")
+
 
 @pytest.fixture
 def begun(rattle: Path, tmp_path: Path):
@@ -82,9 +85,8 @@ def test_files_that_are_taken_away_are_missed(
 
 def test_pairs_that_are_taken_away_are_missed(begun, run, shim: Path, tmp_path: Path) -> None:
     """The first pair is complete when the folder goes; the second says so."""
-    text = GEARBOX + "&scene name = 'scene' /\n"
     ended = begun(
-        text, shim, "fsync scene.4th.state.new", lambda: (tmp_path / "results").rename(tmp_path / "gone")
+        BOX, shim, "fsync scene.4th.state.new", lambda: (tmp_path / "results").rename(tmp_path / "gone")
     )
     assert ended.returncode == 3
     assert "results/scene.4th" in ended.stderr and "cannot be written" in ended.stderr
@@ -377,6 +379,53 @@ def test_a_campaign_that_loses_at_once_replaces_nothing(
     assert package.read_summary(results / "scene.summary.nml")["status"] == "complete"
     assert "viscosity = 0.25" in package.read(results / "scene.rattle").input_text
     assert package.read(results / "scene.rattle").closed
+
+
+@pytest.mark.parametrize("kind", ["resumed", "edited and overwriting", "of other pairs"])
+def test_of_two_runs_of_a_gearbox_the_later_one_is_refused(
+    kind: str, begun, shim: Path, run, tmp_path: Path
+) -> None:
+    """The first pair of the first run is in its place: the later run changes nothing, whatever it would do."""
+    results = tmp_path / "results"
+    text, option = {
+        "resumed": (BOX, "--resume"),
+        "edited and overwriting": (SLOWER_BOX, "--overwrite"),
+        "of other pairs": (BOX.replace("'1st'", "'2nd'").replace("'4th'", "'5th'"), "--overwrite"),
+    }[kind]
+    (tmp_path / "later.nml").write_text(text)
+
+    def meanwhile() -> None:
+        before = contents(results)
+        assert "scene.1st.summary.nml" in before and "scene.summary.nml" not in before
+        ended = run("--quiet", option, "later.nml", cwd=tmp_path)
+        assert ended.returncode == 3
+        assert ended.stderr.startswith("results/scene is being written by another run; wait for its end, or ")
+        assert contents(results) == before
+
+    ended = begun(BOX, shim, "fsync scene.4th.state.new", meanwhile)
+    assert ended.returncode == 0, ended.stderr
+    assert list(package.read_summary(results / "scene.summary.nml")["gears"]) == ["1st", "4th"]
+    assert not list(results.glob("*.lock"))
+
+
+def test_of_two_runs_of_a_gearbox_without_locks_the_later_one_writes_the_table(
+    stopped, begun, shim: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first run has both pairs when the later one has replaced the first of them."""
+    first = stopped(BOX, "close scene.4th.lock (deleted)")
+    monkeypatch.setenv("FAULT_FLOCK", str(errno.ENOLCK))
+    table = tmp_path / "results" / "scene.summary.nml"
+
+    def meanwhile() -> None:
+        first.send_signal(signal.SIGCONT)
+        assert "results/scene is being written by another run" in first.communicate(timeout=60)[1]
+        assert first.returncode == 3
+        assert not table.exists()
+
+    ended = begun(SLOWER_BOX, shim, "fsync scene.4th.state.new", meanwhile, "--overwrite")
+    assert ended.returncode == 0, ended.stderr
+    assert list(package.read_summary(table)["gears"]) == ["1st", "4th"]
+    assert not list(table.parent.glob("*.lock"))
 
 
 # --- signals ---------------------------------------------------------------------------------------------
