@@ -93,6 +93,8 @@ class Key:
 FORCES = Key(FORCE, 20.0, 400.0, 20)
 SPEEDS = Key(SPEED, 0.5, 5.0, 15, "logarithmic")
 VISCOSITIES = Key(VISCOSITY, 0.0, 0.0, 0, listed=(0.1, 0.3, 0.9))
+# Forces and speeds of the scenes of a CSV file.
+LISTED = ((100.0, 1.0), (300.0, 1.5), (250.0, 4.0))
 
 
 @dataclass
@@ -181,8 +183,8 @@ def sample(size: int = 300, name: str = "cloud", failures: bool = False) -> Made
     return _made(name, [FORCE, SPEED], points, lines, failures, 64)
 
 
-def csv_table(name: str = "list") -> Made:
-    points = np.array([[100.0, 1.0], [300.0, 1.5], [250.0, 4.0]])
+def csv_table(name: str = "list", points: Sequence[Sequence[float]] = LISTED) -> Made:
+    points = np.array(points)
     return _made(name, [FORCE, SPEED], points, "   csv = 'scenes.csv'\n", False, 2)
 
 

@@ -144,6 +144,16 @@ def test_a_campaign_that_is_no_grid_is_drawn_as_dots(tmp_path, made):
     assert "is no grid" in refused.stderr
 
 
+@pytest.mark.parametrize("last", [(400.0, 5.0), (400.0, 0.5), (20.0, 5.0)], ids=["both", "force", "speed"])
+def test_scenes_on_one_straight_line_are_drawn_as_dots(last, tmp_path):
+    """No triangles lie between them, and so no contours either."""
+    made = csv_table(points=np.linspace((20.0, 0.5), last, 12).tolist())
+    path = made.write(tmp_path / "a.rattle")
+    drawn = draw(path, "--columns", "harmonic_distortion")
+    assert drawn.returncode == 0, drawn.stderr
+    assert call_script("report.py", path, "--output", tmp_path / "page.html").returncode == 0
+
+
 def test_summary_page_says_where_verifications_fail(run, repository, tmp_path):
     """The verifications of a campaign that the program solved loosely."""
     recorded = "campaign.record='rattle_class', 'acceleration_maximum', 'verified'"

@@ -31,6 +31,8 @@ CONTOUR_LOOKS = {
 }
 CONTOURS = tuple(CONTOUR_LOOKS)
 SHORTEST_LABELLED = 60.0  # pixels
+# Scenes that are spread less across a line than this share of its length lie on it.
+SMALLEST_WIDTH = 1e-6
 
 
 @dataclass(frozen=True)
@@ -218,8 +220,9 @@ def _point_contours(axes: Axes, campaign: Campaign, x: str, y: str, names: Seque
             continue
         known = campaign.done & np.isfinite(column)
         levels = _levels(column[known], name)
-        if levels and known.sum() >= 10:
-            draw_lines = partial(axes.tricontour, _triangles(campaign, x, y, known), column[known], zorder=3)
+        triangles = _triangles(campaign, x, y, known) if levels and known.sum() >= 10 else None
+        if triangles is not None:
+            draw_lines = partial(axes.tricontour, triangles, column[known], zorder=3)
             handles.append(_draw_lines(axes, draw_lines, levels, name))
     return handles
 
@@ -234,13 +237,19 @@ def _draw_lines(
     return Line2D([], [], color="black", linewidth=0.9, linestyle=dashes, label=words)
 
 
-def _triangles(campaign: Campaign, x: str, y: str, known: np.ndarray) -> Triangulation:
-    """Triangles between scenes that are neighbours in the picture, whatever the units of its axes."""
+def _triangles(campaign: Campaign, x: str, y: str, known: np.ndarray) -> Triangulation | None:
+    """Triangles between scenes that are neighbours in the picture, whatever the units of its axes.
+
+    None if the scenes lie on a straight line there.
+    """
     places = []
     for key in (x, y):
         axis, values = campaign.axis(key), campaign[key][known]
         seen = np.log(values) if look.is_logarithmic(axis) else values
         places.append((seen - seen.min()) / (np.ptp(seen) or 1.0))
+    across = np.linalg.svd(np.array(places) - np.mean(places, axis=1, keepdims=True), compute_uv=False)
+    if across[1] <= SMALLEST_WIDTH * across[0]:
+        return None
     return Triangulation(campaign[x][known], campaign[y][known], Triangulation(*places).triangles)
 
 
