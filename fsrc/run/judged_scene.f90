@@ -319,7 +319,7 @@ contains
       end select
    end function flank_value
 
-   !> By which share of the film a tooth gives way under the largest load of it, at the flank where that is more [-].
+   !> By which share of the film a tooth deflects under the largest load of it, at the flank where that is more [-].
    pure real(dp) function deflection_share(judged) result(share)
       type(judged_scene_t), intent(in) :: judged
       real(dp) :: coast(1)

@@ -31,7 +31,7 @@ module resolved_scene
       real(dp) :: pressure_group = 0.0_dp
       !> Largest alpha p at the steady film, exact [-]
       real(dp) :: alpha_p = 0.0_dp
-      !> By how much a tooth gives way under a load; one that is taken for rigid as a steel tooth [m/N]
+      !> By how much a tooth deflects under a load; one that is taken for rigid as a steel tooth [m/N]
       real(dp) :: tooth_compliance = 0.0_dp
       !> Amplitude of acceleration that rounding and the accuracy of the scene's own method explain [m/s2]
       real(dp) :: noise_floor = 0.0_dp

@@ -325,7 +325,7 @@ contains
       type(scene_t), intent(in) :: scene
       !> Under which load
       character(*), intent(in) :: when
-      !> Share of the film by which the tooth gives way then [-]
+      !> Share of the film by which the tooth deflects then [-]
       real(dp), intent(in) :: share
       character(:), allocatable :: warning
 
@@ -333,7 +333,7 @@ contains
       if (scene%contact%stiffness > 0.0_dp .or. share <= deflection_limit) return
       warning = short_text(100.0_dp*share, 2)//' % of'
       if (share > 1.0_dp) warning = short_text(share, 2)//' times'
-      warning = 'warning: '//when//' a steel tooth gives way by '//warning//' the film, while these teeth are rigid '// &
+      warning = 'warning: '//when//' a steel tooth deflects by '//warning//' the film, while these teeth are rigid '// &
                 '(stiffness_matters). Elastic teeth may move otherwise, and fall into another class: steel ones have '
       if (scene%gear%given) then
          warning = warning//'gear.tooth_stiffness = '//short_text(steel_tooth, 2)//' N/m2'

@@ -81,7 +81,7 @@ module key_table
       key_t('contact', 'poisson_ratio', real_kind, '-', '0.3', poisson, '', '', &
             'Poisson ratio of the teeth; E* = E/(1 - nu^2) (3).'), &
       key_t('contact', 'backlash', real_kind, 'm', '', positive, '', of_motions, &
-            'Backlash, the play between drive and coast flank along their normal, the sum of both gaps; absent: the drive '// &
+            'Backlash, the clearance between drive and coast flank along their normal, the sum of both gaps; absent: the drive '// &
                'flank alone.', &
             sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
             computable=a_play, given_by='gear'), &
@@ -300,7 +300,7 @@ module key_table
             sensible=range_t(lower=-10.0_dp, upper=10.0_dp), &
             computable=range_t(-1.0e6_dp, .false., 1.0e6_dp, .false.)), &
       key_t('gear', 'backlash', real_kind, 'm', '', positive, '', of_motions, &
-            'Backlash, the play between both flanks along their normal; absent: the drive flank alone.', &
+            'Backlash, the clearance between both flanks along their normal; absent: the drive flank alone.', &
             sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
             computable=a_play), &
       key_t('gear', 'tooth_stiffness', real_kind, 'N/m2', '', positive, '', of_motions, &

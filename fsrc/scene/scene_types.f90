@@ -58,7 +58,7 @@ module scene_types
       !> Young's modulus E [Pa] and Poisson ratio [-] of the teeth
       real(dp) :: young_modulus = 0.0_dp
       real(dp) :: poisson_ratio = 0.0_dp
-      !> Backlash, the play between the two flanks along their normal [m]; 0: there is one flank only
+      !> Backlash, the clearance between the two flanks along their normal [m]; 0: there is one flank only
       real(dp) :: backlash = 0.0_dp
       !> Stiffness of a flank and its tooth, in series with the film [N/m]; 0: rigid
       real(dp) :: stiffness = 0.0_dp
@@ -178,7 +178,7 @@ module scene_types
       real(dp) :: immersion_depth = 0.0_dp
       !> Speed of the shaft that carries the loose gear over that of the shaft that drives it
       real(dp) :: own_shaft_ratio = 0.0_dp
-      !> Play along the normal of the flanks [m], 0: one flank; stiffness of the teeth for each width [N/m2], 0: rigid
+      !> Backlash along the normal of the flanks [m], 0: one flank; stiffness of the teeth for each width [N/m2], 0: rigid
       real(dp) :: backlash = 0.0_dp
       real(dp) :: tooth_stiffness = 0.0_dp
    contains

@@ -90,7 +90,7 @@ contains
       if (verdict%alpha_p_maximum >= rigid_limit) then
          sentence = sentence//'; from 1 on there is no piezo-viscous film of rigid flanks'
       else if (verdict%deflection > deflection_limit*verdict%film) then
-         sentence = sentence//'; the flanks give way by '//short_text(100.0_dp*verdict%deflection/verdict%film, 2)// &
+         sentence = sentence//'; the flanks deflect by '//short_text(100.0_dp*verdict%deflection/verdict%film, 2)// &
                     ' % of the film, limit '//short_text(100.0_dp*deflection_limit, 2)//' %'
       else if (verdict%alpha_p_maximum < iso_viscous_limit) then
          sentence = sentence//'; below '//short_text(iso_viscous_limit, 1)//' pressure hardly thickens the oil'

@@ -1,4 +1,4 @@
-!> How loud a motion is: what its acceleration and the force of its film amount to over the window, and what the film takes
+!> How severe a vibration is: what its acceleration and the force of its film amount to over the window, and what the film takes
 !> from it.
 !>
 !> Work is that of what the film carries beyond the static load, which does no work in a motion that repeats:

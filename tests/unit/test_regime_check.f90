@@ -216,7 +216,7 @@ contains
       end do
    end subroutine test_exact_piezo_viscous
 
-   !> Soft flanks give way by more than a tenth of the film long before alpha p = 1.
+   !> Soft flanks deflect by more than a tenth of the film long before alpha p = 1.
    subroutine test_deep(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
@@ -236,7 +236,7 @@ contains
    subroutine test_sentences(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      call expect(0.05_dp, 2.0e-7_dp, 'alpha p = 0.0500; the flanks give way by 20 % of the film, limit 10 %')
+      call expect(0.05_dp, 2.0e-7_dp, 'alpha p = 0.0500; the flanks deflect by 20 % of the film, limit 10 %')
       call expect(0.05_dp, 0.9e-7_dp, 'alpha p = 0.0500; below 0.1 pressure hardly thickens the oil')
       call expect(0.5_dp, 0.9e-7_dp, 'alpha p = 0.500; from 0.1 on pressure thickens the oil')
       call expect(1.0_dp, 0.9e-7_dp, 'alpha p = 1.00; from 1 on there is no piezo-viscous film of rigid flanks')

@@ -385,7 +385,7 @@ def test_a_campaign_that_loses_at_once_replaces_nothing(
 def test_of_two_runs_of_a_gearbox_the_later_one_is_refused(
     kind: str, begun, shim: Path, run, tmp_path: Path
 ) -> None:
-    """The first pair of the first run is in its place: the later run changes nothing, whatever it would do."""
+    """The first pair of the first run is in its place: the later run changes nothing, however it goes."""
     results = tmp_path / "results"
     text, option = {
         "resumed": (BOX, "--resume"),

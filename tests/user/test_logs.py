@@ -164,7 +164,7 @@ def regime_words(told: Mapping[str, Any]) -> str:
     if reached >= 1.0:
         return words + "from 1 on there is no piezo-viscous film of rigid flanks"
     if told["film_regime"] == "elastohydrodynamic":
-        return words + f"the flanks give way by {ANY} % of the film, limit 10 %"
+        return words + f"the flanks deflect by {ANY} % of the film, limit 10 %"
     return words + (
         "below 0.1 pressure hardly thickens the oil"
         if reached < 0.1
@@ -173,7 +173,7 @@ def regime_words(told: Mapping[str, Any]) -> str:
 
 
 def stiffness_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str | None:
-    """A warning where teeth are rigid and steel ones would give way by more than a tenth of the film."""
+    """A warning where teeth are rigid and steel ones would deflect by more than a tenth of the film."""
     if "stiffness" in given["contact"] or not told["stiffness_matters"]:
         return None
     share = told["deflection_share"]
@@ -182,7 +182,7 @@ def stiffness_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str | 
     if "gear" not in given:
         steel = f"contact.stiffness = {short(STEEL * given['contact']['length'], 2)} N/m"
     return (
-        f"  warning: under its largest load a steel tooth gives way by {words} the film, while these teeth "
+        f"  warning: under its largest load a steel tooth deflects by {words} the film, while these teeth "
         "are rigid (stiffness_matters). Elastic teeth may move otherwise, and fall into another class: "
         f"steel ones have {steel}"
     )

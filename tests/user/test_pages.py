@@ -250,8 +250,8 @@ def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str]
         found.append("1 nm" if "narrow" in told["model_limit"] else "a tenth of the radius")
     share, elastic = told["deflection_share"], "stiffness" in given["contact"]
     amount = f"{share:.3g} times the thickness of" if share > 1.0 else f"{100.0 * share:.2g} % of"
-    would = "give" if elastic else "would give"
-    found.append(f"{would} way by {amount} the film")
+    would = "deflect" if elastic else "would deflect"
+    found.append(f"{would} by {amount} the film")
     choose(found, silent, told["stiffness_matters"], "no fair assumption", "a fair assumption")
     choose(found, silent, told["law_contradicted"], "is not the one of that regime", "Never.")
     impacts = {
@@ -443,8 +443,8 @@ def test_the_page_of_a_gearbox_is_its_table(run, repository, tmp_path):
                 assert cell == "-"
     forces = {gear: told["film_force_rms"] for gear, told in box["gears"].items() if "film_force_rms" in told}
     assert len(forces) == 3
-    loudest = max(forces, key=lambda gear: forces[gear])
-    words = f"{loudest} is the loudest: it shakes its bearings with {forces[loudest]:.3g} N rms."
+    severest = max(forces, key=lambda gear: forces[gear])
+    words = f"{severest} is the most severe: it loads its bearings with {forces[severest]:.3g} N rms."
     assert any(words in paragraph for paragraph in page.paragraphs)
     summaries = [rattle.read_summary(path.with_suffix(".summary.nml")) for path in paths]
     assert ["", *(summary["name"] for summary in summaries)] in page.rows
@@ -576,7 +576,7 @@ def sentences_on_campaign(
             found.append(f"{codes.CODES['film_regime'][code]} in {count}")
     for name, words in (
         ("model_limit", "scenes the film leaves what the model can mean: below 1 nm, or beyond a tenth of"),
-        ("stiffness_matters", "scenes the teeth give way, or if they are rigid those of steel would"),
+        ("stiffness_matters", "scenes the teeth deflect, or if they are rigid those of steel would"),
         ("double_sided", "scenes the tooth hits both flanks of its gap."),
     ):
         if name in columns:

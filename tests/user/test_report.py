@@ -144,8 +144,8 @@ def test_regime_and_law_are_told_as_the_summary_has_them(motion, regime, contrad
         ("orbit_stability", "'unstable'", "unstable"),
         ("status", "'film_lost'", "did not reach its end"),
         ("harmonic_count_is_bound", ".true.", "At least"),
-        ("stiffness_matters", ".true.", "rigid, which is no fair assumption: steel ones would give way by"),
-        ("stiffness_matters", ".false.", "rigid, which is a fair assumption: steel ones would give way by"),
+        ("stiffness_matters", ".true.", "rigid, which is no fair assumption: steel ones would deflect by"),
+        ("stiffness_matters", ".false.", "rigid, which is a fair assumption: steel ones would deflect by"),
         ("verdict", "'double-sided impacts'", "hits both flanks"),
         ("verdict", "'single-sided impacts'", "hits one flank"),
         ("verdict", "'separation'", "leaves its drive flank, without an impact"),
@@ -386,16 +386,16 @@ def test_lines_are_harmonics_where_there_is_no_shaft(motion):
         (
             9.1997,
             True,
-            "rigid, which is no fair assumption: steel ones would give way by 9.2 times the thickness of the "
+            "rigid, which is no fair assumption: steel ones would deflect by 9.2 times the thickness of the "
             "film.",
-            "The teeth give way by 9.2 times the thickness of the film, as this scene reckons with; rigid "
+            "The teeth deflect by 9.2 times the thickness of the film, as this scene reckons with; rigid "
             "ones would be no fair assumption.",
         ),
         (
             0.0123,
             False,
-            "rigid, which is a fair assumption: steel ones would give way by 1.2 % of the film.",
-            "The teeth give way by 1.2 % of the film; rigid ones would be a fair assumption as well.",
+            "rigid, which is a fair assumption: steel ones would deflect by 1.2 % of the film.",
+            "The teeth deflect by 1.2 % of the film; rigid ones would be a fair assumption as well.",
         ),
     ),
 )

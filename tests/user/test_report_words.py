@@ -56,7 +56,7 @@ def test_every_sentence_on_a_campaign_counts_its_rows(counted) -> None:
         "3 of 9 scenes are not verified.",
         "In 7 scenes the film law is not the one of the regime that the motion reaches.",
         "In 5 scenes the film leaves what the model can mean: below 1 nm, or beyond a tenth of the radius.",
-        "In 4 scenes the teeth give way, or if they are rigid those of steel would, by more than a tenth of "
+        "In 4 scenes the teeth deflect, or if they are rigid those of steel would, by more than a tenth of "
         "the film: rigid teeth are no fair assumption there.",
         "In 3 scenes the tooth hits both flanks of its gap.",
     ]

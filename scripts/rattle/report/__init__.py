@@ -245,7 +245,9 @@ def together(box: Summary) -> list[str]:
     if "film_force_text" in box:
         words = f"Of the film forces, which the bearings of the shaft feel, {box['film_force_text']}."
     if known:
-        loudest = max(known, key=known.get)
-        words = f"{loudest} is the loudest: it shakes its bearings with {known[loudest]:.3g} N rms. {words}"
+        severest = max(known, key=known.get)
+        words = (
+            f"{severest} is the most severe: it loads its bearings with {known[severest]:.3g} N rms. {words}"
+        )
     kinds = ("", "", "", *("number" for _ in TOGETHER))
     return [page.paragraph(words), page.table(heads, rows, kinds=kinds, kind="dense")]

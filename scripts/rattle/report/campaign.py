@@ -24,7 +24,7 @@ DRAWN = {
     "verified": "Whether the class is verified: a second solution with a tighter tolerance agrees.",
     "acceleration_maximum": "Largest acceleration: how hard the tooth is thrown back by the film.",
     "film_minimum": "Thinnest film: how close the flanks come.",
-    "film_force_rms": "Fluctuation of the force on the bearings of the shaft: how loud.",
+    "film_force_rms": "Fluctuation of the force on the bearings of the shaft: how severe the rattle is.",
 }
 WORST_BY = "acceleration_maximum"
 WORST_COUNT = 10
@@ -74,7 +74,7 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
         ),
         (
             "stiffness_matters",
-            "In {count} scenes the teeth give way, or if they are rigid those of steel would, by more than a "
+            "In {count} scenes the teeth deflect, or if they are rigid those of steel would, by more than a "
             "tenth of the film: rigid teeth are no fair assumption there.",
         ),
         ("double_sided", "In {count} scenes the tooth hits both flanks of its gap."),

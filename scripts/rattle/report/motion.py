@@ -87,27 +87,27 @@ LIMITS = {
 STABILITIES = {
     "unstable": "A periodic motion was found, but it is unstable: small disturbances lead away from it."
 }
-# By how much teeth give way under the largest load, by whether they are elastic and whether that matters.
+# By how much teeth deflect under the largest load, by whether they are elastic and whether that matters.
 STIFFNESS = {
     (
         False,
         True,
-    ): "The teeth of this scene are rigid, which is no fair assumption: steel ones would give way by "
+    ): "The teeth of this scene are rigid, which is no fair assumption: steel ones would deflect by "
     "{share} of the film.",
     (
         False,
         False,
-    ): "The teeth of this scene are rigid, which is a fair assumption: steel ones would give way by "
+    ): "The teeth of this scene are rigid, which is a fair assumption: steel ones would deflect by "
     "{share} of the film.",
     (
         True,
         True,
-    ): "The teeth give way by {share} of the film, as this scene reckons with; rigid ones would be no "
+    ): "The teeth deflect by {share} of the film, as this scene reckons with; rigid ones would be no "
     "fair assumption.",
     (
         True,
         False,
-    ): "The teeth give way by {share} of the film; rigid ones would be a fair assumption as well.",
+    ): "The teeth deflect by {share} of the film; rigid ones would be a fair assumption as well.",
 }
 # What the verdict on separation and impacts says.
 VERDICTS = {
