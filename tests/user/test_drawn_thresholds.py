@@ -19,6 +19,7 @@ from script_calls import call_script
 
 import rattle as package
 from rattle.figures import style, threshold
+from rattle.thresholds import thresholds
 
 SIDES = ("verified_below", "verified_above")
 NAN = np.nan
@@ -95,7 +96,7 @@ def written(path: Path, rows=ROWS, axes=("kinematics.entrainment_speed",), crite
 
 def figure(result, **options) -> Figure:
     with style.house_style():
-        return threshold.draw(threshold.thresholds(result), **options)
+        return threshold.draw(thresholds(result), **options)
 
 
 def test_kinds_of_change_are_curves_of_their_own(tmp_path):
@@ -162,7 +163,7 @@ def test_curves_lie_over_the_map_that_they_divide(tmp_path):
     done = call_script("plot.py", "threshold", result.path, "--map", path, "--output", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     assert sorted(contents(tmp_path / "out")) == ["threshold_edge.pdf", "threshold_edge.png"]
-    section = threshold.behind(threshold.thresholds(result), path, {})
+    section = threshold.behind(thresholds(result), path, {})
     made = figure(result, section=section)
     assert [axis.key for axis in section.free] == [SPEED, FORCE]
     assert any(words.startswith("creep (") for words in drawn.legend_words(made))
@@ -248,7 +249,7 @@ def level_result(path: Path):
 
 
 def test_sides_of_a_level_are_named_for_what_they_are(tmp_path):
-    found = threshold.thresholds(level_result(tmp_path / "edge.rattle"))
+    found = thresholds(level_result(tmp_path / "edge.rattle"))
     assert found.kinds.tolist() == ["below 100 N to at least 100 N", "at least 100 N to below 100 N"]
     assert found.uncertain.tolist() == [False, True]
     made = figure(found.result)

@@ -26,6 +26,7 @@ from rattle.figures import (
     sweep,
     threshold,
 )
+from rattle.thresholds import thresholds
 
 PERIODS = 4
 
@@ -374,7 +375,7 @@ def test_words_of_thresholds(tmp_path):
         unsure += sides != [1.0, 1.0]
     without = sum(row[2] == 0.0 for row in ROWS)
     assert_says(
-        threshold.draw(threshold.thresholds(result)),
+        threshold.draw(thresholds(result)),
         [
             "Force amplitude: change of class\nScene edge, published iso-viscous film\n"
             "Searched from 5 to 100 N",
@@ -398,7 +399,7 @@ def test_words_of_a_level(tmp_path):
         ]
         for row in range(result.row_count)
     ]
-    found = threshold.thresholds(result)
+    found = thresholds(result)
     assert found.kinds.tolist() == [f"{one} 100 N to {other} 100 N" for one, other in order]
     quantity = str(result.value("threshold", "criterion")).strip()
     level, unit = float(result.value("threshold", "level")), result.units[f"{quantity}_below"]
@@ -411,7 +412,7 @@ def test_words_of_a_level(tmp_path):
             ]
             kinds[" to ".join(words)] = kinds.get(" to ".join(words), 0) + 1
     assert kinds and all("below" in kind and "at least" in kind for kind in kinds)
-    texts = words_of(threshold.draw(threshold.thresholds(result)))
+    texts = words_of(threshold.draw(thresholds(result)))
     assert {f"{kind} ({count})" for kind, count in kinds.items()} <= set(texts)
     (title,) = (text for text in texts if "Searched from" in text)
     first, last = (float(result.value("threshold", end)) for end in ("first", "last"))
@@ -424,7 +425,7 @@ def test_a_class_against_all_others_is_called_by_its_name(tmp_path, code):
     name = codes.CLASSES[code]
     rows = [[*row[:5], float(code), 1.0 if code > 1 else 2.0, *row[7:]] for row in ROWS if row[2] == 1.0]
     result = written(tmp_path / "edge.rattle", rows=rows, criterion=name)
-    texts = words_of(threshold.draw(threshold.thresholds(result)))
+    texts = words_of(threshold.draw(thresholds(result)))
     words = SPOKEN.get(name, name)
     assert any(f"change into or out of {words}\n" in text for text in texts)
     assert f"{words} to another class ({len(rows)})" in texts

@@ -18,6 +18,7 @@ import rattle
 from rattle import codes
 from rattle.campaign_section import new_section
 from rattle.figures import campaign_look, campaign_map, histories, spectra, style, sweep, threshold
+from rattle.thresholds import thresholds
 
 PERIODS = 3
 TIME = f"Time within the last {PERIODS} excitation periods [ms]"
@@ -262,7 +263,7 @@ def title_of_edge(crossing: str = "", held: str = "") -> str:
 def test_words_of_threshold_curves(tmp_path):
     rows = [row for row in PLANE if row[2] <= 3.0]
     rows[4] = [*rows[4][:-1], 0.0]
-    made = threshold.draw(threshold.thresholds(written(tmp_path / "few.rattle", rows, MASS)))
+    made = threshold.draw(thresholds(written(tmp_path / "few.rattle", rows, MASS)))
     assert_says(
         made,
         [
@@ -281,7 +282,7 @@ def test_words_of_a_threshold_surface(tmp_path, crossing, ordinal):
     rows = [list(row) for row in PLANE]
     rows[7][-1] = rows[30][-2] = 0.0
     rows[50][3] = 0.0
-    found = threshold.thresholds(written(tmp_path / "many.rattle", rows, MASS))
+    found = thresholds(written(tmp_path / "many.rattle", rows, MASS))
     made = threshold.draw(found, crossing=crossing)
     unsure = sum(row[3] == crossing and 0.0 in row[-2:] for row in rows)
     without = sum(row[3] != crossing for row in rows)
@@ -308,7 +309,7 @@ def test_words_of_a_threshold_surface(tmp_path, crossing, ordinal):
 
 
 def test_words_of_a_threshold_at_a_held_key(tmp_path):
-    found = threshold.thresholds(written(tmp_path / "held.rattle", PLANE, MASS))
+    found = thresholds(written(tmp_path / "held.rattle", PLANE, MASS))
     made = threshold.draw(*threshold.cut(found, {"load.mass": 4.2}, 1))
     count = sum(row[2] == 4.0 for row in PLANE)
     assert_says(
@@ -327,7 +328,7 @@ def test_words_of_thresholds_over_a_map(tmp_path):
     keys = Key(campaign_writer.SPEED, 1.0, 8.0, 6), Key(campaign_writer.FORCE, 5.0, 100.0, 5)
     path = campaign_writer.grid(*keys).write(tmp_path / "map.rattle")
     rows = rattle.read_campaign(path)
-    found = threshold.thresholds(written(tmp_path / "edge.rattle"))
+    found = thresholds(written(tmp_path / "edge.rattle"))
     made = threshold.draw(found, section=threshold.behind(found, path, {}))
     crossed = [row for row in ROWS if row[2] > 0.0]
     ends = {1.0: "quiet", 2.0: "creep", 3.0: "idle"}

@@ -16,6 +16,7 @@ from waiting import let_work, until
 import rattle as package
 from rattle.campaign_plan import read_plan
 from rattle.figures import threshold
+from rattle.thresholds import thresholds
 
 THRESHOLD = {"key": "'load.force_amplitude'", "first": "5.0", "last": "455.0", "count": "17"}
 SPEEDS = {"vary": "'kinematics.entrainment_speed'", "values(:, 1)": "0.8, 1.9, 9.5"}
@@ -516,6 +517,6 @@ def test_every_gear_of_a_box_has_its_curve(run, repository: Path, tmp_path: Path
     assert ended.returncode == 0, ended.stderr
     alone = package.read(tmp_path / "results" / "alone.rattle").frame()
     np.testing.assert_array_equal(alone["lower"], rows["lower"][3:6])
-    found, held = threshold.cut(threshold.thresholds(result), {}, 2)
+    found, held = threshold.cut(thresholds(result), {}, 2)
     words = [text.get_text() for text in threshold.draw(found, held).legends[0].get_texts()]
     assert words[:4] == [f"gear {name}" for name in read_plan(result.input_text).gears]

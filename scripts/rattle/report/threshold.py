@@ -11,18 +11,18 @@ from rattle.campaign_section import short_name
 from rattle.command import CommandError
 from rattle.figures import threshold as picture
 from rattle.figures.campaign_look import capital
-from rattle.figures.threshold import Thresholds
 from rattle.report import motion, page
 from rattle.result import Result
 from rattle.rounding import stated_error
 from rattle.summary import Summary
+from rattle.thresholds import Thresholds, thresholds, words_of_criterion
 
 MOST_ROWS = 100
 MOST_KINDS = 12
 
 
 def verdict(result: Result, summary: Summary | None) -> list[str]:
-    found = picture.thresholds(result)
+    found = thresholds(result)
     crossings = int((found.column("crossing") > 0).sum())
     head = "1 threshold" if crossings == 1 else f"{crossings} thresholds" if crossings else "no threshold"
     box = page.verdict_box(head, None, list(sentences_on(found, summary)), doubt=bool(found.uncertain.any()))
@@ -40,7 +40,7 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
     keys = " and ".join(map(short_name, found.varied))
     of_lines = "" if lines == 1 else f", on {lines} traces, one for each value of {keys}"
     yield (
-        f"Looked for: {picture.words_of_criterion(found)}, along the {short_name(found.key)} from {first} to "
+        f"Looked for: {words_of_criterion(found)}, along the {short_name(found.key)} from {first} to "
         f"{last}{of_lines}."
     )
     for kind, count in Counter(found.kinds[crossed]).most_common(3):
@@ -83,7 +83,7 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
 
 def tables(result: Result) -> list[str]:
     """Each kind of change and where it is least and largest; then every threshold."""
-    found = picture.thresholds(result)
+    found = thresholds(result)
     unit, crossed = found.range.unit, found.column("crossing") > 0
     rows = []
     for kind, count in Counter(found.kinds[crossed]).most_common(MOST_KINDS):
@@ -122,7 +122,7 @@ def figures(result: Result) -> list[str]:
         "not verified."
     )
     try:
-        found, held = picture.cut(picture.thresholds(result), {}, 2)
+        found, held = picture.cut(thresholds(result), {}, 2)
     except CommandError:
         return [page.paragraph("Thresholds of one trace, or of a sample of traces, have no curve.", "note")]
     return [page.drawing(lambda: picture.draw(found, held), caption, f"{result.scene_name} threshold")]
