@@ -384,7 +384,8 @@ def test_resume_refuses_the_state_of_an_earlier_version(method: str, run, scene_
     names = list(state.columns)[:7]
     assert names[0] == "periods" and names[-1] == "cuts"
     columns = [(name, state.units[name]) for name in names]
-    write_result(path, columns, [[state[name][0] for name in names]], input_text=state.input_text)
+    told = {"input_text": state.input_text, "program_version": state.program_version}
+    write_result(path, columns, [[state[name][0] for name in names]], **told)
     before = {file.name: digest(file) for file in path.parent.iterdir()}
     ended = run("--resume", "--set", "solver.periods=90", "scene.nml", cwd=tmp_path)
     assert ended.returncode == 2
