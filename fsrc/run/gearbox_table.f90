@@ -11,7 +11,8 @@ module gearbox_table
    use output_place, only: log_path, summary_path
    use quantities, only: a_code, a_flag, quantity_acceleration_maximum, quantity_acceleration_minimum, &
                          quantity_acceleration_rms, quantity_verified, quantity_dissipated_power, quantity_double_sided, &
-                         quantity_film_force_rms, quantity_film_minimum, quantity_rattle_class, quantity_table, quantity_word
+                         quantity_film_force_rms, quantity_film_minimum, quantity_rattle_class, quantity_table, quantity_verdict, &
+                         quantity_word
    use scene_report, only: acceleration_words
    use scene_status, only: is_success, status_complete, status_interrupted, status_name
    use scene_types, only: scene_t
@@ -22,11 +23,12 @@ module gearbox_table
    implicit none(type, external)
    private
 
-   !> What is told of a pair, in the order of the columns.
-   integer, parameter :: told(9) = [quantity_rattle_class, quantity_verified, quantity_double_sided, quantity_film_minimum, &
+   !> What is told of a pair.
+   integer, parameter :: told(10) = [quantity_rattle_class, quantity_verified, quantity_double_sided, quantity_film_minimum, &
                                     quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_acceleration_rms, &
-                                    quantity_film_force_rms, quantity_dissipated_power]
-   integer, parameter :: place_minimum = 5, place_maximum = 6, place_rms = 7, place_force = 8, place_power = 9
+                                    quantity_film_force_rms, quantity_dissipated_power, quantity_verdict]
+   integer, parameter :: place_minimum = 5, place_maximum = 6, place_rms = 7, place_force = 8, place_power = 9, &
+                         place_verdict = 10
 
    !> A row of the table: what is told of a pair, NaN where it is unknown.
    type, public :: pair_row_t
@@ -186,41 +188,61 @@ contains
       end if
    end function together
 
-   !> A line for each pair, and what all do together.
+   !> A line for each pair, the largest film force first, and what all do together.
    subroutine report_rows(log, gearbox, rows, sums)
       type(log_t), intent(in) :: log
       type(scene_t), intent(in) :: gearbox
       type(pair_row_t), intent(in) :: rows(:)
       type(together_t), intent(in) :: sums
-      character(:), allocatable :: class
+      character(:), allocatable :: class, verdict
       real(dp) :: peak
+      integer, allocatable :: order(:)
       integer :: i, width
 
       width = max(12, maxval(len_trim(rows%name)) + 2)
-      call log%line('  '//cell('gear', width)//cell('class', 24)//cell('both flanks', 13)//cell('least film', 12)// &
+      call log%line('  '//cell('gear', width)//cell('verdict', 24)//cell('class', 28)//cell('least film', 12)// &
                     cell('peak', 12)//cell('rms', 12)//cell('film force', 12)//'power')
-      call log%line('  '//cell('', width + 37)//cell('[um]', 12)//cell('[m/s2]', 12)//cell('[m/s2]', 12)// &
+      call log%line('  '//cell('', width + 52)//cell('[um]', 12)//cell('[m/s2]', 12)//cell('[m/s2]', 12)// &
                     cell('rms [N]', 12)//'[W]')
+      order = by_force(rows)
       do i = 1, size(rows)
-         associate (numbers => rows(i)%numbers)
-            class = status_name(rows(i)%status)
+         associate (row => rows(order(i)), numbers => rows(order(i))%numbers)
+            verdict = status_name(row%status)
+            class = '-'
+            if (.not. ieee_is_nan(numbers(place_verdict))) &
+               verdict = quantity_word(quantity_verdict, nint(numbers(place_verdict)))
             if (.not. ieee_is_nan(numbers(1))) class = spaced(quantity_word(told(1), nint(numbers(1))))
             peak = numbers(place_maximum)
             ! What is unknown is compared with nothing.
             if (.not. ieee_is_nan(numbers(2))) class = class//trim(merge(', verified', '          ', numbers(2) > 0.0_dp))
             if (.not. ieee_is_nan(peak)) peak = max(abs(numbers(place_minimum)), abs(peak))
-            call log%line('  '//cell(trim(rows(i)%name), width)//cell(class, 24)//cell(flag_cell(numbers(3)), 13)// &
+            call log%line('  '//cell(trim(row%name), width)//cell(verdict, 24)//cell(class, 28)// &
                           cell(number_cell(1.0e6_dp*numbers(4)), 12)//cell(number_cell(peak), 12)// &
                           cell(number_cell(numbers(place_rms)), 12)//cell(number_cell(numbers(place_force)), 12)// &
                           number_cell(numbers(place_power)))
          end associate
       end do
-      call log%line('  '//cell('together, uncorrelated', width + 73)//cell(number_cell(sums%force_uncorrelated), 12)// &
+      call log%line('  '//cell('together, uncorrelated', width + 88)//cell(number_cell(sums%force_uncorrelated), 12)// &
                     number_cell(sums%power))
-      call log%line('  '//cell('together, in phase', width + 73)//number_cell(sums%force_in_phase))
+      call log%line('  '//cell('together, in phase', width + 88)//number_cell(sums%force_in_phase))
       call log%line('  '//sums%words)
       call log%line('  peak and rms of the acceleration'//acceleration_words(gearbox))
    end subroutine report_rows
+
+   !> The rows by their film force, the largest first, those without one last.
+   pure function by_force(rows) result(order)
+      type(pair_row_t), intent(in) :: rows(:)
+      integer :: order(size(rows))
+      real(dp) :: forces(size(rows))
+      integer :: i
+
+      forces = rows%numbers(place_force)
+      where (ieee_is_nan(forces)) forces = -1.0_dp
+      do i = 1, size(rows)
+         order(i) = maxloc(forces, dim=1)
+         forces(order(i)) = -2.0_dp
+      end do
+   end function by_force
 
    !> Words with blanks behind them up to a width; one at least.
    pure function cell(words, width)
@@ -238,13 +260,5 @@ contains
       words = '-'
       if (.not. ieee_is_nan(number)) words = short_text(number, 4)
    end function number_cell
-
-   pure function flag_cell(number) result(words)
-      real(dp), intent(in) :: number
-      character(:), allocatable :: words
-
-      words = '-'
-      if (.not. ieee_is_nan(number)) words = trim(merge('yes', 'no ', number > 0.0_dp))
-   end function flag_cell
 
 end module gearbox_table

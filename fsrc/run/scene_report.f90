@@ -12,7 +12,7 @@ module scene_report
    use problem, only: reference_film
    use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_deflection_share, &
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
-                         quantity_t, quantity_table, quantity_word
+                         quantity_t, quantity_table, quantity_verdict, quantity_verdict_verified, quantity_word
    use regime, only: deflection_limit, iso_viscous_limit, rigid_limit, steel_tooth
    use regime_check, only: model_limit, model_limit_sentence, regime_sentence, within_model
    use resolved_scene, only: resolve, resolved_scene_t
@@ -25,6 +25,8 @@ module scene_report
 
    !> Significant digits of films and accelerations
    integer, parameter :: digits_of_extremes = 5
+   !> Acceleration of level 0 dB, by ISO 1683 [m/s2]
+   real(dp), parameter :: level_reference = 1.0e-6_dp
 
    public :: acceleration_words, report_head, report_start, report_ending, law_sentence, resolved_lines, speed_meaning
 
@@ -269,6 +271,7 @@ contains
       character(:), allocatable :: warning
       integer :: limit
 
+      call log%line('  '//verdict_sentence(judged))
       associate (lowest => judged%extremes%lowest, highest => judged%extremes%highest)
          call log%line('  film '//micrometres(lowest(seen_film)%value)//' to '//micrometres(highest(seen_film)%value)// &
                        ' um, acceleration '// &
@@ -319,6 +322,22 @@ contains
       end function verified_in_brackets
 
    end subroutine report_window
+
+   !> What the tooth does in its gap, how sure that is, and how hard it is for the bearings.
+   pure function verdict_sentence(judged) result(sentence)
+      type(judged_scene_t), intent(in) :: judged
+      character(:), allocatable :: sentence
+      real(dp) :: verified
+
+      sentence = quantity_word(quantity_verdict, nint(quantity_value(quantity_verdict, judged)))
+      verified = quantity_value(quantity_verdict_verified, judged)
+      if (.not. ieee_is_nan(verified)) &
+         sentence = sentence//trim(merge(' (verified) ', ' (uncertain)', verified > 0.0_dp))
+      sentence = sentence//': film force rms '//short_text(judged%severity%film_force_rms, 4)//' N, acceleration rms '// &
+                 short_text(judged%severity%acceleration_rms, 4)//' m/s2'
+      if (judged%severity%acceleration_rms > 0.0_dp) sentence = sentence//' ('// &
+         short_text(20.0_dp*log10(judged%severity%acceleration_rms/level_reference), 4)//' dB re 1e-6 m/s2)'
+   end function verdict_sentence
 
    !> That rigid teeth are no fair assumption; empty where they are, or where the teeth have a stiffness.
    pure function stiffness_warning(scene, when, share) result(warning)

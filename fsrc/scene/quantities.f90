@@ -127,7 +127,7 @@ module quantities
       quantity_t(quantity_load_maximum, 'load_maximum', 'N', a_number, part_window, needs_load_range, 'summary campaign', &
          'Largest load of the film over the window.'), &
       quantity_t(quantity_acceleration_rms, 'acceleration_rms', 'm/s2', a_number, part_window, needs_nothing, &
-         'summary sweep campaign log', &
+         'summary sweep campaign', &
          'Root of the mean square of the acceleration over the window; with a &gear relative to the shaft, along the line of '// &
          'action.', digits=4), &
       quantity_t(quantity_crest_factor, 'crest_factor', '-', a_number, part_window, needs_acceleration_range, &
@@ -137,7 +137,7 @@ module quantities
          'summary campaign', &
          'Fourth central moment of the acceleration over the square of its variance; of a cosine 1.5.'), &
       quantity_t(quantity_film_force_rms, 'film_force_rms', 'N', a_number, part_window, needs_nothing, &
-         'summary sweep campaign log', &
+         'summary sweep campaign', &
          'Root of the mean square by which the film force leaves its mean: what the bearings feel.', digits=4), &
       quantity_t(quantity_dissipated_energy, 'dissipated_energy', 'J', a_number, part_window, needs_nothing, &
          'summary campaign', &
@@ -202,7 +202,7 @@ module quantities
       quantity_t(quantity_double_sided, 'double_sided', '-', a_flag, part_window, needs_impacts, &
          'summary flanks campaign log', &
          'Whether there are impacts on both flanks in the window.'), &
-      quantity_t(quantity_verdict, 'verdict', '-', a_code, part_window, needs_impacts, 'summary sweep campaign log', &
+      quantity_t(quantity_verdict, 'verdict', '-', a_code, part_window, needs_impacts, 'summary sweep campaign', &
          'What the tooth does in its gap: separation is no impact, and impacts on one flank are not yet rattle between both.', &
          'no separation|separation|single-sided impacts|double-sided impacts'), &
       quantity_t(quantity_impact_periods, 'impact_periods', '-', a_count, part_window, needs_impacts, 'summary', &

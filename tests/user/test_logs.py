@@ -91,6 +91,7 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
     relative = f" {RELATIVE}" if "gear" in given else ""
     contradicted = "  warning: the film law of the scene does not fit this regime (law_contradicted)"
     return [
+        verdict_words(told),
         f"  film {um(told['film_minimum'], 5).removesuffix(' um')} to {um(told['film_maximum'], 5)}, "
         f"acceleration {short(told['acceleration_minimum'], 5)} to "
         f"{short(told['acceleration_maximum'], 5)} m/s2{relative}",
@@ -102,6 +103,16 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
         contradicted if told["law_contradicted"] else None,
         stiffness_words(told, given),
     ]
+
+
+def verdict_words(told: Mapping[str, Any]) -> str:
+    sure = {True: " (verified)", False: " (uncertain)", None: ""}[told.get("verdict_verified")]
+    rms = told["acceleration_rms"]
+    level = f" ({short(20.0 * np.log10(rms / 1e-6), 4)} dB re 1e-6 m/s2)" if rms > 0.0 else ""
+    force = short(told["film_force_rms"], 4)
+    return (
+        f"  {told['verdict']}{sure}: film force rms {force} N, acceleration rms {short(rms, 4)} m/s2{level}"
+    )
 
 
 def class_words(told: Mapping[str, Any]) -> str:
@@ -190,15 +201,9 @@ def stiffness_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str | 
 
 def ending_of_motion(told: Mapping[str, Any]) -> str | None:
     """Vibration severity and impacts, as far as they are known."""
-    parts = [
-        f"{name.replace('_', ' ')} {short(told[name], 4)} {unit}"
-        for name, unit in (("acceleration_rms", "m/s2"), ("film_force_rms", "N"), ("dissipated_power", "W"))
-        if name in told
-    ]
+    parts = [f"dissipated power {short(told['dissipated_power'], 4)} W"] if "dissipated_power" in told else []
     if "double_sided" in told:
         parts.append(f"double sided {'yes' if told['double_sided'] else 'no'}")
-    if "verdict" in told:
-        parts.append(f"verdict {told['verdict']}")
     return f"  {', '.join(parts)}" if parts else None
 
 
@@ -259,20 +264,20 @@ def test_the_log_of_a_ready_scene_is_its_summary(run, repository, tmp_path, name
     assert_told(found, lines_of_motion(path))
 
 
-HEADS = ("gear", "class", "both flanks", "least film", "peak", "rms", "film force", "power")
+HEADS = ("gear", "verdict", "class", "least film", "peak", "rms", "film force", "power")
 UNITS = ("[um]", "[m/s2]", "[m/s2]", "rms [N]", "[W]")
 
 
 def told_by_the_table(gear: str, told: Mapping[str, Any]) -> list[str]:
     """The cells of a pair, as many as there are heads."""
-    word = class_words(told) if "rattle_class" in told else told["status"]
-    flanks = {True: "yes", False: "no", None: "-"}[told.get("double_sided")]
+    word = class_words(told) if "rattle_class" in told else "-"
     known = "acceleration_minimum" in told
     peak = max(-told["acceleration_minimum"], told["acceleration_maximum"]) if known else None
     least = 1e6 * told["film_minimum"] if "film_minimum" in told else None
     loud = [told.get(name) for name in ("acceleration_rms", "film_force_rms", "dissipated_power")]
     numbers = ["-" if number is None else short(number, 4) for number in (least, peak, *loud)]
-    return [gear, word + (", verified" if told.get("verified") else ""), flanks, *numbers]
+    verdict = told.get("verdict", told["status"])
+    return [gear, verdict, word + (", verified" if told.get("verified") else ""), *numbers]
 
 
 @pytest.mark.parametrize(
@@ -297,7 +302,8 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
     )
     assert head == f"rattle {table['program_version']}, gearbox box: {len(table['gears'])} pairs"
     cells = [[cell for cell in re.split("  +", row.strip()) if cell] for row in rows]
-    assert cells == [told_by_the_table(gear, told) for gear, told in table["gears"].items()]
+    ranked = sorted(table["gears"].items(), key=lambda pair: -pair[1].get("film_force_rms", -1.0))
+    assert cells == [told_by_the_table(gear, told) for gear, told in ranked]
     assert tuple(re.split("  +", heads.strip())) == HEADS and tuple(re.split("  +", units.strip())) == UNITS
     # Every unit, and the words of "together", stand under their head.
     starts = [heads.index(name, heads.index("film force") if name == "power" else 0) for name in HEADS]

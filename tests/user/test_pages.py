@@ -399,7 +399,7 @@ def test_every_sentence_on_a_motion_holds_what_its_summary_says(solved, changes)
 # --- a gearbox -----------------------------------------------------------------------------------------
 
 PAIRS = (
-    *("Gear", "Class", "Both flanks", "Film minimum", "Acceleration minimum", "Acceleration maximum"),
+    *("Gear", "Class", "Verdict", "Film minimum", "Acceleration minimum", "Acceleration maximum"),
     *("Acceleration rms", "Film force rms", "Dissipated power"),
 )
 COLUMNS = {
@@ -423,7 +423,7 @@ def test_the_page_of_a_gearbox_is_its_table(run, repository, tmp_path):
     kept = [
         line
         for line in bare
-        if not re.match(r"   (rattle_class|double_sided|film_force_rms|film_minimum) ", line)
+        if not re.match(r"   (rattle_class|double_sided|verdict|film_force_rms|film_minimum) ", line)
     ]
     (tmp_path / "gearbox.summary.nml").write_text(table[:first] + "\n".join(kept) + "\n" + table[second:])
     box = rattle.read_summary(tmp_path / "gearbox.summary.nml")
@@ -435,7 +435,7 @@ def test_the_page_of_a_gearbox_is_its_table(run, repository, tmp_path):
     loud[0]["dissipated_power"] = box["dissipated_power"]
     for row, told in zip(rows, (*box["gears"].values(), *loud), strict=True):
         assert row[1] == told.get("rattle_class", "-")
-        assert row[2] == {True: "yes", False: "no", None: "-"}[told.get("double_sided")]
+        assert row[2] == told.get("verdict", "-")
         for cell, (name, unit) in zip(row[3:], COLUMNS.items(), strict=True):
             if name in told:
                 assert_shows(cell, told[name], unit, 4)

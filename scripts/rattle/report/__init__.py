@@ -221,7 +221,7 @@ def odd_numbers_of(box: Summary, summaries: Sequence[Summary]) -> list[str]:
 
 def together(box: Summary) -> list[str]:
     """What the gear pairs of an input do, each and together."""
-    heads = ("Gear", "Class", "Both flanks", *(look.capital(look.short_name(name)) for name in TOGETHER))
+    heads = ("Gear", "Class", "Verdict", *(look.capital(look.short_name(name)) for name in TOGETHER))
     rows = []
     sums = {
         f"together, {word}": f"film_force_rms_{word.replace(' ', '_')}"
@@ -232,12 +232,14 @@ def together(box: Summary) -> list[str]:
     ]
     told_together[0][1].update({name: box[name] for name in ("dissipated_power",) if name in box})
     for gear, told in (*box["gears"].items(), *told_together):
-        flanks = {True: "yes", False: "no"}.get(told.get("double_sided"), "-")
+        # Tables of earlier versions tell of double-sided impacts alone.
+        earlier = {True: "double-sided impacts", False: "no double-sided impacts"}
+        verdict = str(told.get("verdict", earlier.get(told.get("double_sided"), "-")))
         numbers = [
             page.value(float(told[name]), QUANTITIES[name].unit, 4) if name in told else "-"
             for name in TOGETHER
         ]
-        rows.append([gear, spoken(str(told.get("rattle_class", "-"))), flanks, *numbers])
+        rows.append([gear, spoken(str(told.get("rattle_class", "-"))), verdict, *numbers])
     known = {
         gear: float(told["film_force_rms"]) for gear, told in box["gears"].items() if "film_force_rms" in told
     }
