@@ -95,7 +95,7 @@ def reader_of_keys(given: Mapping[str, Mapping[str, Any]]) -> Callable[[Rows], N
                     expected.append((name, value, DRAWING[name], "Follows from gears, shaft and oil."))
                     continue
                 key = key_table()[group.partition("(")[0], name]
-                meaning = key.meaning.replace("`", "").partition(" Only with ")[0]
+                meaning = re.split(" Only with(?:out)? ", key.meaning.replace("`", ""))[0]
                 expected.append((name, value, key.unit, meaning.partition(" Follows from ")[0]))
         assert [row[0] for row in rows] == [name for name, *_ in expected]
         for row, (name, value, unit, meaning) in zip(rows, expected, strict=True):
