@@ -33,7 +33,8 @@ LIBRARIES := $(if $(FFTW_ROOT),-L$(FFTW_ROOT)/lib) $(if $(CONDA_PREFIX),-L$(COND
 # Not -ffast-math: it drops the tests for NaN, and at link time sets flush-to-zero for the whole process.
 # -flto lets the film kernels become part of the loops over time, which live in other files.
 # The loops over lanes run in full registers as they stand; made part of the loop over steps, gfortran 12 leaves some of
-# them scalar. Elementary functions run so only as part of the loops that call them, which gfortran finds too long.
+# them scalar. Elementary functions run so only as part of the loops that call them, which gfortran finds too long. What films
+# with a state of their own need stays apart from the steps of those without.
 ifneq ($(findstring flang,$(FC)),)
   WARNINGS := -std=f2018
   RELEASE_FLAGS := -O3 $(ARCHITECTURE) -fopenmp -fPIC
@@ -44,6 +45,7 @@ else
   DEBUG_FLAGS := -O1 -g -fcheck=all,no-array-temps -finit-real=snan -ffpe-trap=invalid,overflow,zero -fbacktrace -fopenmp -fPIC
   LANE_FLAGS := $(if $(DEBUG),,-fno-inline)
   ELEMENTARY_FLAGS := -finline-limit=4000
+  APART_FLAGS := -fno-lto
   WIDENING := -Wconversion-extra
 endif
 STRICT_FLAGS := -O1 -fopenmp
@@ -145,6 +147,7 @@ $(BUILD)/film_series.o $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o $(BUI
 # gfortran 12 negates the stride, never set, of an optional array that is absent and handed on; nobody reads what comes of it.
 $(BUILD)/lane_integration.o: private FFLAGS += $(if $(SANITIZE),-fno-sanitize=signed-integer-overflow)
 $(BUILD)/lane_functions.o $(BUILD)/elementary_functions.o: private FFLAGS += $(ELEMENTARY_FLAGS)
+$(BUILD)/inner_equations.o: private FFLAGS += $(APART_FLAGS)
 
 $(BUILD)/lane_rows.o: private FFLAGS += -cpp -DWIDE_REGISTERS=$(WIDE_REGISTERS)
 $(BUILD)/version.o: private FFLAGS += -cpp -DPROGRAM_VERSION='"$(VERSION)"'

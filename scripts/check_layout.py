@@ -17,6 +17,13 @@ MODULES = re.findall(r"^\| `(\w+)/` \|", Path("fsrc/README.md").read_text(), re.
 TOP_LEVEL = {"Makefile", "fsrc", "input", "scripts", "tests", "README.md"}
 TOP_LEVEL |= {"LICENSE", "CHANGELOG.md", "CITATION.cff", "pyproject.toml", "build", "results"}
 MAIN_LINES = 80
+# The only files below problem that know film laws: the list of those with a series, and what tells of films.
+KNOW_LAWS = {
+    "fsrc/motion/film_series.f90",
+    "fsrc/verdict/regime_check.f90",
+    "fsrc/run/run_film.f90",
+    "fsrc/run/scene_report.f90",
+}
 
 MODULE = re.compile(r"^\s*module\s+(?!procedure\b)(\w+)", re.IGNORECASE)
 USE = re.compile(r"^\s*use\s*(?:,\s*\w+\s*)?(?:::)?\s*(\w+)", re.IGNORECASE)
@@ -25,6 +32,10 @@ STOP = re.compile(r"^\s*(?:if\s*\(.*\)\s*)?(?:error\s+)?stop\b", re.IGNORECASE)
 
 def module_of(path: Path) -> str:
     return path.relative_to("fsrc").parts[0]
+
+
+def below_problem(room: str) -> bool:
+    return MODULES.index(room) > MODULES.index("problem") and room != "bindings"
 
 
 def faults() -> list[str]:
@@ -45,6 +56,8 @@ def faults() -> list[str]:
             other = home.get(use[1].lower()) if (use := USE.match(line)) else None
             if other in MODULES and MODULES.index(other) > MODULES.index(room):
                 found.append(f"{place}: {room} uses {use[1]} of {other}, a folder below it")
+            if below_problem(room) and use and use[1].lower() == "film_law" and str(path) not in KNOW_LAWS:
+                found.append(f"{place}: {room} knows film laws, which problem and its contacts keep from it")
             if STOP.match(line):
                 found.append(f"{place}: a library routine stops the program")
     if len(Path("fsrc/main.f90").read_text().splitlines()) > MAIN_LINES:

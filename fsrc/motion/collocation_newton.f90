@@ -1,7 +1,8 @@
 !> Newton's method for the equations of collocation (collocation_step), for a block of lanes: states at the
 !> nodes, load and slopes there, linear equations, corrections.
 module collocation_newton
-   use film_law, only: film_load, film_t, mixed_film_loads, overflow_load
+   use film_state, only: load_t
+   use flank_contact, only: flank_contact_t, is_costly, load_of_contact, mixed_loads, overflow_load
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: half_block, lanes
@@ -57,71 +58,59 @@ contains
       end do
    end subroutine stage_states
 
-   !> Net load and its slopes in scaled units.
-   pure subroutine scaled_load(film_law, block, lane, film, momentum, load, by_film, by_momentum)
-      type(film_t), intent(in) :: film_law
+   !> Net load of films without a state of their own, and its slopes in H and V, in scaled units.
+   pure type(load_t) function scaled_load(contact, block, lane, film, momentum) result(load)
+      type(flank_contact_t), intent(in) :: contact
       type(lane_block_t), intent(in) :: block
       integer, intent(in) :: lane
       !> H [-]
       real(dp), intent(in) :: film
       !> V = H' [-]
       real(dp), intent(in) :: momentum
-      !> Load [-], its slope in H, its slope in V
-      real(dp), intent(out) :: load
-      real(dp), intent(out) :: by_film
-      real(dp), intent(out) :: by_momentum
+      real(dp), parameter :: none(0) = [real(dp) ::]
+      type(load_t) :: coast
 
-      real(dp) :: coast_load, coast_by_film, coast_by_momentum
-
-      call film_load(film_law, film*block%film_scale(lane), momentum*block%velocity_scale(lane), load, &
-                     by_film, by_momentum)
-      call scale_load(block, lane, load, by_film, by_momentum)
+      load = load_of_contact(contact, film*block%film_scale(lane), momentum*block%velocity_scale(lane), none)
+      call scale_load(block, lane, load)
       if (.not. block%backlash(lane) < huge(1.0_dp)) return
-      call film_load(film_law, (block%backlash(lane) - film)*block%film_scale(lane), -momentum*block%velocity_scale(lane), &
-                     coast_load, coast_by_film, coast_by_momentum)
-      call scale_load(block, lane, coast_load, coast_by_film, coast_by_momentum)
-      call subtract_coast(coast_load, coast_by_film, coast_by_momentum, load, by_film, by_momentum)
-   end subroutine scaled_load
+      coast = load_of_contact(contact, (block%backlash(lane) - film)*block%film_scale(lane), &
+                              -momentum*block%velocity_scale(lane), none)
+      call scale_load(block, lane, coast)
+      call subtract_coast(coast, load)
+   end function scaled_load
 
    !> Load and slopes from physical units to scaled ones; a load that is none stays as it is.
-   pure subroutine scale_load(block, lane, load, by_film, by_momentum)
+   pure subroutine scale_load(block, lane, load)
       type(lane_block_t), intent(in) :: block
       integer, intent(in) :: lane
-      !> Load [N], then [-], its slopes in the film and in the velocity
-      real(dp), intent(inout) :: load
-      real(dp), intent(inout) :: by_film
-      real(dp), intent(inout) :: by_momentum
+      type(load_t), intent(inout) :: load
 
-      if (abs(load) < overflow_load) then
-         load = load/block%force_scale(lane)
-         by_film = by_film*(block%film_scale(lane)/block%force_scale(lane))
-         by_momentum = by_momentum*(block%velocity_scale(lane)/block%force_scale(lane))
+      if (abs(load%load) < overflow_load) then
+         load%load = load%load/block%force_scale(lane)
+         load%by_film = load%by_film*(block%film_scale(lane)/block%force_scale(lane))
+         load%by_velocity = load%by_velocity*(block%velocity_scale(lane)/block%force_scale(lane))
       end if
    end subroutine scale_load
 
    !> Take the load of the coast film off that of the drive film; where there is none of it there is no net load.
-   pure subroutine subtract_coast(coast_load, coast_by_film, coast_by_momentum, load, by_film, by_momentum)
-      !> Load of the coast film [-], its slopes in its own thickness and velocity
-      real(dp), intent(in) :: coast_load
-      real(dp), intent(in) :: coast_by_film
-      real(dp), intent(in) :: coast_by_momentum
-      !> Of the drive film, then of both
-      real(dp), intent(inout) :: load
-      real(dp), intent(inout) :: by_film
-      real(dp), intent(inout) :: by_momentum
+   pure subroutine subtract_coast(coast, load)
+      !> Of the coast film, with its slopes in its own thickness and velocity [-]
+      type(load_t), intent(in) :: coast
+      !> Of the drive film, then of both [-]
+      type(load_t), intent(inout) :: load
 
-      if (abs(load) < overflow_load .and. abs(coast_load) < overflow_load) then
-         load = load - coast_load
-         by_film = by_film + coast_by_film
-         by_momentum = by_momentum + coast_by_momentum
+      if (abs(load%load) < overflow_load .and. abs(coast%load) < overflow_load) then
+         load%load = load%load - coast%load
+         load%by_film = load%by_film + coast%by_film
+         load%by_velocity = load%by_velocity + coast%by_velocity
       else
-         load = 2.0_dp*overflow_load
+         load%load = 2.0_dp*overflow_load
       end if
    end subroutine subtract_coast
 
    !> Net loads at the nodes of all busy lanes, up to the first node where there is no film.
-   pure subroutine loads_of_stages(films, film, momentum, block, busy, load, by_film, by_momentum)
-      type(film_t), intent(in) :: films(lanes)
+   pure subroutine loads_of_stages(contacts, film, momentum, block, busy, load, by_film, by_momentum)
+      type(flank_contact_t), intent(in) :: contacts(lanes)
       real(dp), intent(in) :: film(lanes, stages)
       real(dp), intent(in) :: momentum(lanes, stages)
       type(lane_block_t), intent(in) :: block
@@ -130,7 +119,8 @@ contains
       real(dp), intent(out) :: load(lanes, stages)
       real(dp), intent(out) :: by_film(lanes, stages)
       real(dp), intent(out) :: by_momentum(lanes, stages)
-      real(dp), dimension(lanes*stages) :: thickness, velocity, loads, by_thickness, by_velocity
+      real(dp), dimension(lanes*stages) :: thickness, velocity
+      type(load_t) :: loads(lanes*stages), net
       integer :: lane_of(lanes*stages), stage_of(lanes*stages)
       integer :: l, i, n
 
@@ -149,13 +139,13 @@ contains
             velocity(n) = momentum(l, i)*block%velocity_scale(l)
          end do
       end do
-      call mixed_film_loads(films, lane_of(:n), thickness(:n), velocity(:n), loads(:n), by_thickness(:n), by_velocity(:n))
+      call mixed_loads(contacts, lane_of(:n), thickness(:n), velocity(:n), loads(:n))
       do i = 1, n
          l = lane_of(i)
-         call scale_load(block, l, loads(i), by_thickness(i), by_velocity(i))
-         load(l, stage_of(i)) = loads(i)
-         by_film(l, stage_of(i)) = by_thickness(i)
-         by_momentum(l, stage_of(i)) = by_velocity(i)
+         call scale_load(block, l, loads(i))
+         load(l, stage_of(i)) = loads(i)%load
+         by_film(l, stage_of(i)) = loads(i)%by_film
+         by_momentum(l, stage_of(i)) = loads(i)%by_velocity
       end do
       n = 0
       do l = 1, lanes
@@ -170,12 +160,15 @@ contains
          end do
       end do
       if (n == 0) return
-      call mixed_film_loads(films, lane_of(:n), thickness(:n), velocity(:n), loads(:n), by_thickness(:n), by_velocity(:n))
+      call mixed_loads(contacts, lane_of(:n), thickness(:n), velocity(:n), loads(:n))
       do i = 1, n
          l = lane_of(i)
-         call scale_load(block, l, loads(i), by_thickness(i), by_velocity(i))
-         call subtract_coast(loads(i), by_thickness(i), by_velocity(i), load(l, stage_of(i)), by_film(l, stage_of(i)), &
-                             by_momentum(l, stage_of(i)))
+         call scale_load(block, l, loads(i))
+         net = load_t(load(l, stage_of(i)), by_film(l, stage_of(i)), by_momentum(l, stage_of(i)))
+         call subtract_coast(loads(i), net)
+         load(l, stage_of(i)) = net%load
+         by_film(l, stage_of(i)) = net%by_film
+         by_momentum(l, stage_of(i)) = net%by_velocity
       end do
    end subroutine loads_of_stages
 
@@ -191,8 +184,8 @@ contains
 
    !> Newton's equations of all busy lanes; a lane whose film law has no value is given up, and gets equations
    !> that change nothing, as do the lanes that are done beside busy ones.
-   pure subroutine residual_and_matrix(films, force, k, film, momentum, block, busy, residual, matrix)
-      type(film_t), intent(in) :: films(lanes)
+   pure subroutine residual_and_matrix(contacts, force, k, film, momentum, block, busy, residual, matrix)
+      type(flank_contact_t), intent(in) :: contacts(lanes)
       real(dp), intent(in) :: force(lanes, stages)
       real(dp), intent(in) :: k(lanes, stages)
       real(dp), intent(in) :: film(lanes, stages)
@@ -207,7 +200,7 @@ contains
       integer :: half, l, i, j
 
       residual = 0.0_dp
-      call loads_of_stages(films, film, momentum, block, busy, load, by_film, by_momentum)
+      call loads_of_stages(contacts, film, momentum, block, busy, load, by_film, by_momentum)
       do l = 1, lanes
          do i = 1, stages
             if (.not. busy(l)) exit
@@ -284,8 +277,8 @@ contains
    end subroutine solve_half
 
    !> Apply Newton's correction; lanes whose correction is small enough are done, those that diverge given up.
-   pure subroutine correct(films, busy, pass, imbalance, correction, last, block, k)
-      type(film_t), intent(in) :: films(lanes)
+   pure subroutine correct(contacts, busy, pass, imbalance, correction, last, block, k)
+      type(flank_contact_t), intent(in) :: contacts(lanes)
       logical, intent(inout) :: busy(lanes)
       !> Number of this pass
       integer, intent(in) :: pass
@@ -313,7 +306,7 @@ contains
          ! corrections fall fast by its square, if the slopes of the film law are the total ones. But not where a
          ! correction went too far, to where the film is stiff: the ones that lead back are small, and many.
          ratio = merge(1.0_dp, min(1.0_dp, max(change/last%change(l), imbalance(l)/last%imbalance(l))), pass == 1)
-         if (ratio < fast .and. films(l)%costly) ratio = ratio*ratio
+         if (ratio < fast .and. is_costly(contacts(l))) ratio = ratio*ratio
          busy(l) = film_change*ratio > pass_share
          if (busy(l) .and. pass > 3 .and. change > 2.0_dp*last%change(l)) then
             busy(l) = .false.

@@ -6,7 +6,8 @@
 module collocation_step
    use collocation_newton, only: allowed, correct, newton_pass_t, residual_and_matrix, scaled_load, solve_lanes, stage_states, &
       thinner
-   use film_law, only: film_t
+   use film_state, only: load_t
+   use flank_contact, only: flank_contact_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_force, only: force_values, total_forces
@@ -33,9 +34,9 @@ module collocation_step
 contains
 
    !> Try one step in every lane that has a scene.
-   pure subroutine take_collocation_step(films, occupied, block)
-      !> Film laws
-      type(film_t), intent(in) :: films(lanes)
+   pure subroutine take_collocation_step(contacts, occupied, block)
+      !> Contacts of the lanes
+      type(flank_contact_t), intent(in) :: contacts(lanes)
       !> Lanes with a scene
       logical, intent(in) :: occupied(lanes)
       !> The block; leaves the film and momentum that the step leads to, whether they are to be trusted, and
@@ -49,15 +50,15 @@ contains
 
       call choose_steps(block)
       call forces_of_stages(block, force)
-      call first_iterate(films, occupied, block, k)
+      call first_iterate(contacts, occupied, block, k)
       busy = occupied
       block%trust = merge(1.0_dp, 0.0_dp, occupied)
       do pass = 1, most_passes
          call stage_states(busy, block, k, film, momentum)
-         call residual_and_matrix(films, force, k, film, momentum, block, busy, residual, matrix)
+         call residual_and_matrix(contacts, force, k, film, momentum, block, busy, residual, matrix)
          imbalance = maxval(abs(residual), dim=2)
          call solve_lanes(busy, matrix, residual)
-         call correct(films, busy, pass, imbalance, residual, last, block, k)
+         call correct(contacts, busy, pass, imbalance, residual, last, block, k)
          if (.not. any(busy)) exit
       end do
       where (busy) block%trust = 0.0_dp
@@ -94,14 +95,15 @@ contains
    end subroutine forces_of_stages
 
    !> The polynomial of the step before at the new nodes, or its last value where it would be carried too far.
-   pure subroutine first_iterate(films, occupied, block, k)
-      type(film_t), intent(in) :: films(lanes)
+   pure subroutine first_iterate(contacts, occupied, block, k)
+      type(flank_contact_t), intent(in) :: contacts(lanes)
       logical, intent(in) :: occupied(lanes)
       !> The acceleration at the start of a first step is set
       type(lane_block_t), intent(inout) :: block
       !> Accelerations at the nodes [-]
       real(dp), intent(out) :: k(lanes, stages)
-      real(dp) :: ratio, place, load, by_film, by_momentum, oscillation(lanes)
+      type(load_t) :: load
+      real(dp) :: ratio, place, oscillation(lanes)
       integer :: l, i, j
 
       k = 0.0_dp
@@ -109,8 +111,8 @@ contains
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          if (.not. block%last_step(l) > 0.0_dp) then
-            call scaled_load(films(l), block, l, block%film(l, 0), block%momentum(l, 0), load, by_film, by_momentum)
-            block%acceleration(l) = load - block%static_load(l) - oscillation(l)
+            load = scaled_load(contacts(l), block, l, block%film(l, 0), block%momentum(l, 0))
+            block%acceleration(l) = load%load - block%static_load(l) - oscillation(l)
          end if
          if (block%last_step(l) > 0.0_dp .and. block%step(l) < most_extrapolation*block%last_step(l)) then
             ratio = block%step(l)/block%last_step(l)

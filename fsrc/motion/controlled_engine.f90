@@ -51,7 +51,7 @@ contains
       integer :: periods, window
 
       started = wall_seconds()
-      ending%status = problem%film%status_without_load
+      ending%status = problem%contact%film%status_without_load
       if (.not. problem%initial_film > 0.0_dp) return
       ending%status = status_complete
       ending%count%evaluations = checkpoint%count%evaluations

@@ -1,4 +1,5 @@
-!> Implicit steps by collocation for elastic teeth, lane by lane: any film law, any stiffness, one flank or two.
+!> Implicit steps by collocation for contacts with numbers of their own, lane by lane: elastic teeth, films with a state, of any
+!> law and stiffness, one flank or two.
 !>
 !> A spring stands between the gear and each film. Within a step of length s the loads W_1 and W_2 are polynomials in c = 0..1
 !> through their values at the seven nodes of Radau. They move the gear, the springs follow them, and the films are what gear and
@@ -9,18 +10,22 @@
 !>
 !> for the coast film with the signs of Z and V turned. The film law at each node is solved for the loads by Newton's method with
 !> its slopes: as H_i' = w(H_i, W_i) where its load tells its velocity, else as W(H_i, H_i') = W_i. Nothing here grows with the
-!> stiffness: at kappa = 0 these are the equations of module collocation_step.
+!> stiffness: at kappa = 0 these are the equations of module collocation_step. A state of a film is taken out of these equations
+!> contact by contact (module inner_step), and brought after once the loads are corrected.
 !>
 !> The error is that of module collocation_step, of the polynomial of the acceleration; a load that is off moves its film by
 !> kappa as well, and so counts the first coefficient of its polynomial that is left out.
 module elastic_step
    use collocation_step, only: choose_steps, forces_of_stages, highest_terms
-   use film_law, only: film_load, film_t, never_pulls, overflow_load, squeeze_velocity
+   use film_state, only: load_t
+   use flank_contact, only: carries_positive_loads, equation_of_film, film_equation_t, flank_contact_t, load_of_contact
+   use inner_equations, only: can_extrapolate, error_of_states, first_states, follow_films, inner_imbalances, inner_matrix, &
+      last_share, most_growth, most_rows, series_of_states, sign_of, trial_inner_t, trial_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
-   use radau_nodes, only: node, once, power, slope, stages, start_alone, twice
-   use squeeze_of_load, only: load_carried, load_too_large
+   use lane_inner, only: lane_inner_t
+   use radau_nodes, only: meet_start, node, once, power, powers_of_place, slope, stages, twice
    use taylor_step_control, only: film_weight, free_rate
    implicit none(type, external)
    private
@@ -31,26 +36,14 @@ module elastic_step
    real(dp), parameter :: fast_fall = 1.0e-2_dp
    !> Share of the accuracy at which the iterations end
    real(dp), parameter, public :: pass_share = 1.0e-2_dp
-   !> and for the last coefficient of a polynomial and the first one left out
-   real(dp), parameter :: last_share = 40.0_dp, next_share = 2.0_dp
+   !> and for the first coefficient of a polynomial left out
+   real(dp), parameter :: next_share = 2.0_dp
    !> Corrections that fall by less than this in a pass, after some, lead nowhere
    real(dp), parameter :: slowest_fall = 0.9_dp
 
-   !> Step over the one before, least and most, and its share of what the error allows. A rejected step costs as much as an accepted
-   !> one; a step of twice the length before, whose loads cannot be extrapolated, takes twice the iterations.
-   real(dp), parameter :: least_growth = 0.1_dp, most_growth = 1.99_dp, step_share = 0.7_dp
-
-   !> Rows of a matrix, those of zeros included that fill up the last four
-   integer, parameter :: most_rows = 2*stages + modulo(-2*stages, 4)
-
-   !> A step under way: values at the nodes, of one or two flanks [-].
-   type :: trial_t
-      integer :: flanks = 1
-      !> Loads W, films H, film velocities H', and the films at the start
-      real(dp) :: load(stages, 2) = 0.0_dp, film(stages, 2) = 0.0_dp, velocity(stages, 2) = 0.0_dp, start(2) = 0.0_dp
-      !> A, and of the gear V and Z - Z at the start
-      real(dp) :: acceleration(stages) = 0.0_dp, momentum(stages) = 0.0_dp, way(stages) = 0.0_dp
-   end type trial_t
+   !> Step over the one before, at least (at most it is most_growth), and its share of what the error allows. A rejected step costs
+   !> as much as an accepted one; a step of twice the length before, whose loads cannot be extrapolated, takes twice the iterations.
+   real(dp), parameter :: least_growth = 0.1_dp, step_share = 0.7_dp
 
    !> Slopes of the equations at the nodes, of one flank after the other: by the film, by its velocity and by its load [-]
    type :: slopes_t
@@ -75,26 +68,23 @@ module elastic_step
    !> too small.
    real(dp), parameter :: last_rise = 0.5_dp
 
-   !> Slope of the load over the velocity of a film without squeeze, over that slope where it tells no velocity any more
-   real(dp), parameter :: flattest = 1.0e3_dp
-
-   !> Signs of the gear's motion in the films
-   real(dp), parameter :: sign_of(2) = [1.0_dp, -1.0_dp]
-
-   public :: take_elastic_step, advance_springs
+   public :: take_elastic_step, advance_contacts
 
 contains
 
    !> Try one step in every lane that has a scene.
-   pure subroutine take_elastic_step(films, occupied, block)
-      !> Film laws
-      type(film_t), intent(in) :: films(lanes)
+   pure subroutine take_elastic_step(contacts, occupied, block, inner)
+      !> Contacts of the lanes
+      type(flank_contact_t), intent(in) :: contacts(lanes)
       !> Lanes with a scene
       logical, intent(in) :: occupied(lanes)
       !> The block; leaves the state that the step leads to, whether it is to be trusted, and series for the samples
       type(lane_block_t), intent(inout) :: block
+      !> and the same of the states of the films
+      type(lane_inner_t), intent(inout) :: inner(lanes)
       real(dp) :: force(lanes, stages)
       type(trial_t) :: trial
+      type(trial_inner_t) :: states
       integer :: l
 
       call choose_steps(block)
@@ -105,35 +95,62 @@ contains
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          trial%flanks = merge(2, 1, block%backlash(l) < huge(1.0_dp))
-         call first_loads(l, block, never_pulls(films(l)), trial%flanks, trial%load)
-         call solve(films(l), l, force(l, :), block, trial)
-         call judge(l, trial, block)
+         if (inner(l)%count > 0) call first_states(l, block, trial%flanks, inner(l), states)
+         call first_loads(l, block, contacts(l), inner(l), trial%flanks, trial%load)
+         call solve(contacts(l), l, force(l, :), block, inner(l), trial, states)
+         call judge(l, trial, block, inner(l), states)
       end do
    end subroutine take_elastic_step
 
-   !> Advance the springs of all lanes whose step is accepted.
-   pure subroutine advance_springs(block)
+   !> Advance the springs and the states of films of all lanes whose step is accepted.
+   pure subroutine advance_contacts(block, inner)
       type(lane_block_t), intent(inout) :: block
+      type(lane_inner_t), intent(inout) :: inner(lanes)
       integer :: l
 
       do l = 1, lanes
          if (block%trust(l) > 0.0_dp) block%compression(l, :, 0) = block%next_compression(l, :)
       end do
-   end subroutine advance_springs
+      do l = 1, lanes
+         if (inner(l)%count > 0 .and. block%trust(l) > 0.0_dp) inner(l)%now(:) = inner(l)%next
+      end do
+   end subroutine advance_contacts
 
-   !> First iterate: the polynomials of the step before, or the loads at its end where they would be carried too far.
-   pure subroutine first_loads(lane, block, positive, flanks, load)
+   !> Load at the start of the step: that of the spring, or of a rigid film.
+   pure real(dp) function start_load(lane, block, contact, inner, flank) result(load)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
-      !> Whether the films carry positive loads only
-      logical, intent(in) :: positive
+      type(flank_contact_t), intent(in) :: contact
+      type(lane_inner_t), intent(in) :: inner
+      integer, intent(in) :: flank
+      type(load_t) :: carried
+      real(dp) :: film
+
+      if (block%compliance(lane) > 0.0_dp) then
+         load = block%compression(lane, flank, 0)/block%compliance(lane)
+      else
+         film = block%film(lane, 0)
+         if (flank == 2) film = block%backlash(lane) - film
+         carried = load_of_contact(contact, film*block%film_scale(lane), &
+                                   sign_of(flank)*block%momentum(lane, 0)*block%velocity_scale(lane), &
+                                   inner%now(inner%count*(flank - 1) + 1:inner%count*flank))
+         load = carried%load/block%force_scale(lane)
+      end if
+   end function start_load
+
+   !> First iterate: the polynomials of the step before, or the loads at its end where they would be carried too far.
+   pure subroutine first_loads(lane, block, contact, inner, flanks, load)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      type(flank_contact_t), intent(in) :: contact
+      type(lane_inner_t), intent(in) :: inner
       integer, intent(in) :: flanks
       real(dp), intent(inout) :: load(stages, 2)
       real(dp) :: place
       integer :: flank, i, j
 
       do flank = 1, flanks
-         if (block%last_step(lane) > 0.0_dp .and. block%step(lane) <= most_growth*block%last_step(lane)) then
+         if (can_extrapolate(lane, block)) then
             do i = 1, stages
                place = 1.0_dp + 2.0_dp*block%step(lane)/block%last_step(lane)*node(i)
                load(i, flank) = 0.0_dp
@@ -142,27 +159,29 @@ contains
                end do
             end do
          else
-            load(:, flank) = block%compression(lane, flank, 0)/block%compliance(lane)
+            load(:, flank) = start_load(lane, block, contact, inner, flank)
          end if
          ! Between nodes a polynomial may fall below what a film that never pulls can carry.
-         if (.not. positive) cycle
-         where (.not. load(:, flank) > 0.0_dp) load(:, flank) = block%compression(lane, flank, 0)/block%compliance(lane)
+         if (.not. carries_positive_loads(contact)) cycle
+         where (.not. load(:, flank) > 0.0_dp) load(:, flank) = start_load(lane, block, contact, inner, flank)
       end do
    end subroutine first_loads
 
    !> Newton's method for the loads.
-   pure subroutine solve(film_law, lane, force, block, trial)
-      type(film_t), intent(in) :: film_law
+   pure subroutine solve(contact, lane, force, block, inner, trial, inner_trial)
+      type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
       !> F at the nodes [-]
       real(dp), intent(in) :: force(stages)
       type(lane_block_t), intent(inout) :: block
+      type(lane_inner_t), intent(in) :: inner
       type(trial_t), intent(inout) :: trial
+      type(trial_inner_t), intent(inout) :: inner_trial
       type(trial_t) :: before
       type(slopes_t) :: slopes
       type(factors_t) :: factors
       real(dp) :: matrix(most_rows, 2*stages), right(2*stages), correction(2*stages), loads(2*stages)
-      real(dp) :: change, last_change, ratio, reach, share
+      real(dp) :: change, last_change, ratio, reach, share, state_change
       integer :: pass, n, flank, i
       logical :: found, stalled, rising, anew
 
@@ -173,15 +192,24 @@ contains
       call states(lane, force, block, trial)
       anew = .true.
       do pass = 1, most_passes
-         call imbalances(film_law, lane, block, trial, right, slopes, found)
+         if (inner%count > 0) then
+            call inner_imbalances(contact, lane, block, trial, inner_trial, right, found)
+            anew = .true.
+         else
+            call imbalances(contact, lane, block, trial, right, slopes, found)
+         end if
          if (.not. found) return
          if (anew) then
-            call newton_matrix(lane, block, trial%flanks, slopes, matrix)
+            if (inner%count > 0) then
+               call inner_matrix(lane, block, trial%flanks, inner_trial%responses, matrix)
+            else
+               call newton_matrix(lane, block, trial%flanks, slopes, matrix)
+            end if
             call factorise(n, matrix, factors)
          end if
          call substitute(n, factors, right, correction)
          rising = .false.
-         if (never_pulls(film_law)) then
+         if (carries_positive_loads(contact)) then
             loads(:n) = reshape(trial%load(:, :trial%flanks), [n])
             rising = any(correction(:n) > last_rise*loads(:n))
             correction(:n) = max(correction(:n), (least_ratio - 1.0_dp)*loads(:n))
@@ -203,6 +231,8 @@ contains
             call correct(share, correction(:n), trial)
             call states(lane, force, block, trial)
          end if
+         state_change = 0.0_dp
+         if (inner%count > 0) call follow_films(lane, block, share, before, trial, inner, inner_trial%films, state_change)
          if (share < 1.0_dp .or. rising) then
             last_change = huge(1.0_dp)
             anew = .true.
@@ -213,7 +243,7 @@ contains
          anew = last_change < huge(1.0_dp) .and. ratio > fast_fall
          ! Corrections that fall no more are rounding, which a short step magnifies: within the accuracy they are accepted.
          stalled = pass > 4 .and. change > slowest_fall*last_change
-         if (change*reach*ratio <= merge(1.0_dp, pass_share, stalled)*allowed_here(lane, block, trial)) then
+         if (max(change*reach*ratio, state_change) <= merge(1.0_dp, pass_share, stalled)*allowed_here(lane, block, trial)) then
             if (minval(trial%film(:, :trial%flanks)) > 0.0_dp) block%trust(lane) = 1.0_dp
             return
          end if
@@ -260,17 +290,17 @@ contains
 
    !> By how much the film laws miss at the nodes, and their slopes; none where a film has no load. A film without thickness is to
    !> be what it was at the start.
-   pure subroutine imbalances(film_law, lane, block, trial, right, slopes, found)
-      type(film_t), intent(in) :: film_law
+   pure subroutine imbalances(contact, lane, block, trial, right, slopes, found)
+      type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
       type(trial_t), intent(in) :: trial
       real(dp), intent(out) :: right(2*stages)
       type(slopes_t), intent(out) :: slopes
       logical, intent(out) :: found
-      real(dp) :: load, velocity, by_film, by_velocity, by_load
+      type(film_equation_t) :: law
       real(dp) :: film_over_velocity, force_over_velocity, film_over_force, velocity_over_force
-      integer :: row, flank, outcome, i
+      integer :: row, flank, i
 
       found = .true.
       right = 0.0_dp
@@ -288,26 +318,21 @@ contains
                slopes%by_load(row) = 0.0_dp
                cycle
             end if
-            call squeeze_velocity(film_law, trial%film(i, flank)*block%film_scale(lane), &
-                                  trial%load(i, flank)*block%force_scale(lane), &
-                                  trial%velocity(i, flank)*block%velocity_scale(lane), velocity, by_film, by_load, outcome)
-            if (by_velocities(film_law, trial%film(i, flank)*block%film_scale(lane), by_load, outcome)) then
-               block%no_load(lane) = outcome == load_too_large
-               found = outcome == load_carried
-               if (.not. found) return
-               right(row) = velocity/block%velocity_scale(lane) - trial%velocity(i, flank)
-               slopes%by_film(row) = -by_film*film_over_velocity
+            law = equation_of_film(contact, trial%film(i, flank)*block%film_scale(lane), &
+                                   trial%load(i, flank)*block%force_scale(lane), &
+                                   trial%velocity(i, flank)*block%velocity_scale(lane))
+            block%no_load(lane) = law%overloaded
+            found = law%exists
+            if (.not. found) return
+            if (law%of_velocities) then
+               right(row) = law%value/block%velocity_scale(lane) - trial%velocity(i, flank)
+               slopes%by_film(row) = -law%by_film*film_over_velocity
                slopes%by_velocity(row) = 1.0_dp
-               slopes%by_load(row) = -by_load*force_over_velocity
+               slopes%by_load(row) = -law%by_other*force_over_velocity
             else
-               call film_load(film_law, trial%film(i, flank)*block%film_scale(lane), &
-                              trial%velocity(i, flank)*block%velocity_scale(lane), load, by_film, by_velocity)
-               block%no_load(lane) = .not. abs(load) < overflow_load
-               found = .not. block%no_load(lane)
-               if (.not. found) return
-               right(row) = load/block%force_scale(lane) - trial%load(i, flank)
-               slopes%by_film(row) = -by_film*film_over_force
-               slopes%by_velocity(row) = -by_velocity*velocity_over_force
+               right(row) = law%value/block%force_scale(lane) - trial%load(i, flank)
+               slopes%by_film(row) = -law%by_film*film_over_force
+               slopes%by_velocity(row) = -law%by_other*velocity_over_force
                slopes%by_load(row) = 1.0_dp
             end if
          end do
@@ -351,24 +376,6 @@ contains
          end do
       end associate
    end subroutine newton_matrix
-
-   !> Whether the equation of a film is that of velocities: a short step leaves the load where it is, but not the velocity of the
-   !> film, and where loads hardly tell it an equation of them would be far from linear. Of a film that may pull or holds on to a
-   !> part of its load it is so until that part is all that is left, which tells no velocity.
-   pure logical function by_velocities(film_law, thickness, velocity_by_load, outcome)
-      type(film_t), intent(in) :: film_law
-      !> h [m], slope of its velocity at the load [m/(N s)]
-      real(dp), intent(in) :: thickness
-      real(dp), intent(in) :: velocity_by_load
-      !> Whether there is such a velocity, one of load_...
-      integer, intent(in) :: outcome
-      real(dp) :: load, by_film, load_by_velocity
-
-      by_velocities = never_pulls(film_law)
-      if (by_velocities .or. outcome /= load_carried) return
-      call film_load(film_law, thickness, 0.0_dp, load, by_film, load_by_velocity)
-      by_velocities = velocity_by_load < 0.0_dp .and. velocity_by_load*load_by_velocity < flattest
-   end function by_velocities
 
    !> Factors of a matrix, which is spent. Rows are exchanged for the largest pivot; all else goes down columns, four rows at a
    !> time.
@@ -456,10 +463,12 @@ contains
    end function allowed_here
 
    !> Error of the step, whether it stands, and the next one; series of film, momentum and compressions for the samples.
-   pure subroutine judge(lane, trial, block)
+   pure subroutine judge(lane, trial, block, inner, states)
       integer, intent(in) :: lane
       type(trial_t), intent(in) :: trial
       type(lane_block_t), intent(inout) :: block
+      type(lane_inner_t), intent(inout) :: inner
+      type(trial_inner_t), intent(in) :: states
       real(dp) :: polynomial(stages, 0:2), top, next, error
       integer :: flank
 
@@ -474,6 +483,7 @@ contains
                call highest_terms(polynomial(:, flank), top, next)
                error = max(error, max(top/last_share, next)*kappa)
             end do
+            if (inner%count > 0) error = max(error, error_of_states(lane, block, trial%flanks, states%films, inner))
             error = error/allowed_here(lane, block, trial)
          end associate
          if (.not. error <= 1.0_dp) block%trust(lane) = 0.0_dp
@@ -489,6 +499,7 @@ contains
       block%last_step(lane) = block%step(lane)
       block%damping_rate(lane) = 0.0_dp
       call series_of_step(lane, trial%flanks, block)
+      if (inner%count > 0) call series_of_states(block%step(lane), trial%flanks, states%films, inner)
    end subroutine judge
 
    !> Power series of film, momentum and compressions about the start of the step.
@@ -496,7 +507,7 @@ contains
       integer, intent(in) :: lane
       integer, intent(in) :: flanks
       type(lane_block_t), intent(inout) :: block
-      real(dp) :: shifted(0:stages), scale, gap
+      real(dp) :: shifted(0:stages), scale
       integer :: flank, j
 
       block%film(lane, 1:) = 0.0_dp
@@ -512,10 +523,8 @@ contains
             scale = scale/s
          end do
          do flank = 1, flanks
-            ! The polynomial through the loads at the nodes misses the one at the start; one that is there alone makes up for it.
             shifted = block%compliance(lane)*powers_of_place(block%load_polynomial(lane, :, flank))
-            gap = block%compression(lane, flank, 0) - shifted(0)
-            shifted = shifted + gap*start_alone
+            call meet_start(block%compression(lane, flank, 0), shifted)
             scale = 1.0_dp
             do j = 1, stages
                scale = scale/s
@@ -525,20 +534,5 @@ contains
          end do
       end associate
    end subroutine series_of_step
-
-   !> From coefficients of the powers of 2c - 1 to those of the powers of c: Horner's scheme on polynomials.
-   pure function powers_of_place(polynomial) result(shifted)
-      real(dp), intent(in) :: polynomial(stages)
-      real(dp) :: shifted(0:stages)
-      integer :: i, j
-
-      shifted = 0.0_dp
-      do i = stages, 1, -1
-         do j = stages - 1, 1, -1
-            shifted(j) = 2.0_dp*shifted(j - 1) - shifted(j)
-         end do
-         shifted(0) = polynomial(i) - shifted(0)
-      end do
-   end function powers_of_place
 
 end module elastic_step

@@ -61,9 +61,9 @@ contains
    elemental type(film_series_t) function series_of(problem) result(series)
       type(problem_t), intent(in) :: problem
 
-      series%kernel = problem%film%kernel
+      series%kernel = problem%contact%film%kernel
       series%two_flanks = has_two_flanks(problem)
-      select case (problem%film%kernel)
+      select case (problem%contact%film%kernel)
       case (kernel_half_pi, kernel_piezo)
          series%exists = .true.
       case (kernel_solved_fast, kernel_reynolds_iso)
@@ -71,7 +71,7 @@ contains
          series%checked_at_end = .true.
          series%last_order = rupture_order
          series%share = 8.0_dp
-         if (problem%film%kernel == kernel_solved_fast) series%pieces = published_load
+         if (problem%contact%film%kernel == kernel_solved_fast) series%pieces = published_load
       case (kernel_reynolds_piezo)
          series%exists = .true.
          series%checked_at_end = .true.
@@ -82,7 +82,7 @@ contains
       case default
          series%exists = .false.
       end select
-      series%never_pulls = problem%film%kernel == kernel_piezo
+      series%never_pulls = problem%contact%film%kernel == kernel_piezo
       series%springs = has_elastic_teeth(problem)
    end function series_of
 
@@ -105,7 +105,7 @@ contains
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
 
-      associate (film => problem%film, film_scale => block%film_scale(lane), velocity_scale => block%velocity_scale(lane), &
+      associate (film => problem%contact%film, film_scale => block%film_scale(lane), velocity_scale => block%velocity_scale(lane), &
                  force_scale => block%force_scale(lane))
          select case (film%kernel)
          case (kernel_half_pi)

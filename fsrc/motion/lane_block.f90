@@ -8,16 +8,16 @@ module lane_block
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_ptr
    use engine, only: motion_state_t
-   use film_law, only: overflow_load
+   use flank_contact, only: overflow_load
    use force, only: force_t, largest_oscillation
    use kinds, only: dp
    use lane_force, only: lane_force_t, no_forces, set_force, start_force
    use lane_functions, only: lanes
    use load_expansion, only: load_expansion_t, squeeze_expansion_t
    use memory, only: allocate_lines
-   use carried_loads, only: net_load
-   use problem, only: has_elastic_teeth, has_two_flanks, of_drive_compression, of_film, of_velocity, problem_t, reference_film, &
-      reference_films, settling_of, settling_t, static_load, thinner_film
+   use carried_loads, only: net_loads
+   use problem, only: compression_count, flank_count, has_elastic_teeth, has_two_flanks, of_drive_compression, of_film, &
+      of_velocity, problem_t, reference_film, reference_films, settling_of, settling_t, static_load, thinner_film
    use radau_nodes, only: stages
    use reynolds_piezo_expansion, only: reynolds_piezo_expansion_t
    use scene_status, only: status_complete, status_film_lost, status_overflow
@@ -111,24 +111,25 @@ contains
       type(problem_t), intent(in) :: problem
       !> Where it starts
       type(motion_state_t), intent(in) :: start
-      real(dp) :: load, load_by_film, load_by_velocity
+      real(dp) :: load(1)
 
       start_status = status_film_lost
       if (.not. all(ieee_is_finite(start%numbers))) return
       if (.not. abs(start%numbers(of_film)) > 0.0_dp) then
          ! Without a film to start from there never was one to lose.
-         start_status = problem%film%status_without_load
+         start_status = problem%contact%film%status_without_load
          return
       end if
       if (has_elastic_teeth(problem)) then
          if (start%numbers(of_film) <= 0.0_dp) return
          start_status = merge(status_complete, status_overflow, &
-                              maxval(abs(start%numbers(of_drive_compression:))) < overflow_load*problem%compliance)
+                              maxval(abs(start%numbers(of_drive_compression:of_velocity + flank_count(problem)))) &
+                              < overflow_load*problem%contact%compliance)
          return
       end if
       if (thinner_film(problem, start%numbers(of_film)) <= 0.0_dp) return
-      call net_load(problem, start%numbers(of_film), start%numbers(of_velocity), load, load_by_film, load_by_velocity)
-      start_status = merge(status_complete, status_overflow, abs(load) < overflow_load)
+      call net_loads(problem, reshape(start%numbers, [1, size(start%numbers)]), load)
+      start_status = merge(status_complete, status_overflow, abs(load(1)) < overflow_load)
    end function start_status
 
    !> A block that starts with a cache line, its lanes undefined. All its arrays fill whole lines, so each starts with one.
@@ -157,6 +158,7 @@ contains
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
       real(dp) :: force_scale, film_scale
+      integer :: springs
 
       call rest_lane(lane, block)
       film_scale = 2.0_dp**nint(log(reference_film(problem))/log(2.0_dp))
@@ -175,9 +177,10 @@ contains
       block%film(lane, 0) = start%numbers(of_film)/film_scale
       block%momentum(lane, 0) = start%numbers(of_velocity)/block%velocity_scale(lane)
       if (start%carried_on) block%momentum(lane, 0) = start%lienard_variable
-      block%compliance(lane) = problem%compliance*(force_scale/film_scale)
+      block%compliance(lane) = problem%contact%compliance*(force_scale/film_scale)
       block%compression(lane, :, 0) = 0.0_dp
-      block%compression(lane, :size(start%numbers) - of_velocity, 0) = start%numbers(of_drive_compression:)/film_scale
+      springs = compression_count(problem)
+      block%compression(lane, :springs, 0) = start%numbers(of_drive_compression:of_velocity + springs)/film_scale
       block%next_compression(lane, :) = 0.0_dp
       call start_period(lane, block)
    end subroutine load_problem

@@ -9,18 +9,19 @@
 !> status_not_converged at the start of that period, for collocation to go on.
 module lane_integration
    use collocation_step, only: take_collocation_step
-   use elastic_step, only: advance_springs, take_elastic_step
+   use elastic_step, only: advance_contacts, take_elastic_step
    use engine, only: ending_t, motion_count_t, motion_state_t, request_t
    use film_series, only: series_of, set_coefficients
    use kinds, only: dp, int64
    use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step, take_springs_step
    use lane_block, only: load_problem, lost_film, place_block, rest_lane, start_period, start_status
    use lane_functions, only: lanes
+   use lane_inner, only: place_inner
    use lane_repetition, only: find_repetition, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
    use lane_state, only: place_state, scaled_state, state_of_lane, thinner_scaled_film
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
-   use problem, only: has_elastic_teeth, of_film, of_velocity, problem_t
+   use problem, only: has_inner_numbers, of_film, of_velocity, problem_t
    use repetition, only: orbit_watch_t, recurrence_t, watch_from
    use scene_status, only: is_success, status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
@@ -63,7 +64,7 @@ contains
       call place_block(room, run%block)
       run%by_series = by_series
       if (size(queue) > 0) run%series = series_of(problems(queue(1)))
-      if (size(queue) > 0) run%elastic = has_elastic_teeth(problems(queue(1)))
+      if (size(queue) > 0) run%own_numbers = has_inner_numbers(problems(queue(1)))
       run%most_steps = merge(most_series_steps, most_implicit_steps, by_series)
       run%largest_rate = merge(largest_series_rate, huge(1.0_dp), by_series)
       run%samples%per_period = request%samples_per_period
@@ -72,20 +73,20 @@ contains
       end do
       do while (run%active > 0)
          if (must_stop()) exit
-         if (by_series .and. run%elastic) then
+         if (by_series .and. run%own_numbers) then
             call take_springs_step(run%series, run%block)
          else if (by_series) then
             call take_series_step(run%series, run%block)
-         else if (run%elastic) then
-            call take_elastic_step(run%films, run%watches%scene > 0, run%block)
+         else if (run%own_numbers) then
+            call take_elastic_step(run%contacts, run%watches%scene > 0, run%block, run%inner)
          else
-            call take_collocation_step(run%films, run%watches%scene > 0, run%block)
+            call take_collocation_step(run%contacts, run%watches%scene > 0, run%block)
          end if
          if (run%samples%sampled_lanes > 0) then
-            call take_samples(run%block, run%samples, states)
+            call take_samples(run%block, run%inner, run%samples, states)
             if (present(records)) call take_lane_nodes(records, run)
          end if
-         if (run%elastic) call advance_springs(run%block)
+         if (run%own_numbers) call advance_contacts(run%block, run%inner)
          call advance(run%most_steps, run%largest_rate, run%block, events)
          if (events == 0) cycle
          do l = 1, lanes
@@ -132,15 +133,16 @@ contains
          endings(scene) = ending_at(starts(scene), status,.not. run%by_series, endings(scene)%count)
          if (status /= status_complete .or. request%periods <= starts(scene)%periods) cycle
          call load_problem(problems(scene), starts(scene), request%accuracy, lane, run%block)
+         call place_inner(problems(scene), starts(scene), run%inner(lane))
          if (run%by_series) call set_coefficients(problems(scene), starts(scene)%carried_on, lane, run%block)
-         run%films(lane) = problems(scene)%film
+         run%contacts(lane) = problems(scene)%contact
          associate (watch => run%watches(lane))
             watch%scene = scene
             watch%ending%count = endings(scene)%count
             watch%period = starts(scene)%periods
             watch%last_period = request%periods
             watch%sample_from = max(0, request%periods - request%sampled_periods)
-            watch%state = scaled_state(lane, run%block)
+            watch%state = scaled_state(lane, run%block, run%inner(lane))
             watch%states = watch_from(watch%state, thinner_scaled_film(watch%state, lane, run%block))
             watch%departure%period = 0
             watch%excursions = 0
@@ -173,7 +175,7 @@ contains
       if (.not. present(records)) return
       associate (record => records(run%watches(lane)%scene))
          if (record%periods > 0) return
-         start = state_of_lane(lane, run%block)
+         start = state_of_lane(lane, run%block, run%inner(lane))
          start%implicit = .not. run%by_series
          call start_record(start, record)
       end associate
@@ -187,7 +189,7 @@ contains
 
       do l = 1, lanes
          if (run%samples%sampled(l) .and. run%block%trust(l) > 0.0_dp) &
-            call take_nodes(run%block, l, records(run%watches(l)%scene)%longest_piece, run%nodes(l))
+            call take_nodes(run%block, l, run%inner(l), records(run%watches(l)%scene)%longest_piece, run%nodes(l))
       end do
    end subroutine take_lane_nodes
 
@@ -212,13 +214,13 @@ contains
 
       associate (watch => run%watches(lane), block => run%block)
          if (present(records) .and. run%samples%sampled(lane)) then
-            state = state_of_lane(lane, block)
+            state = state_of_lane(lane, block, run%inner(lane))
             call record_period(problems(watch%scene), state%numbers(of_velocity), run%nodes(lane), records(watch%scene))
          end if
          watch%ending%count%steps = watch%ending%count%steps + nint(block%period_steps(lane), int64)
          call start_period(lane, block)
          watch%period = watch%period + 1
-         watch%state = scaled_state(lane, block)
+         watch%state = scaled_state(lane, block, run%inner(lane))
          call find_repetition(lane, problems(watch%scene), request, states, run)
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_period(lane, run, records)
@@ -235,7 +237,7 @@ contains
          watch%ending%status = status_not_converged
          if (block%film(lane, 0) < lost_film .or. block%film(lane, 0) > block%widest_film(lane)) &
             watch%ending%status = status_film_lost
-         if (block%no_load(lane)) watch%ending%status = run%films(lane)%status_without_load
+         if (block%no_load(lane)) watch%ending%status = run%contacts(lane)%film%status_without_load
          watch%phase = block%phase(lane)
          watch%film = block%film(lane, 0)*block%film_scale(lane)
          watch%ending%count%steps = watch%ending%count%steps + nint(block%period_steps(lane), int64)
@@ -243,7 +245,7 @@ contains
          watch%ending%samples_of_failure = run%samples%written(lane) - samples_before(watch, run%samples)
          run%samples%written(lane) = samples_before(watch, run%samples)
          run%nodes(lane)%pieces = 0
-         call place_state(watch%state, lane, block)
+         call place_state(watch%state, lane, block, run%inner(lane))
          watch%last_period = watch%period
       end associate
    end subroutine give_up
@@ -264,7 +266,7 @@ contains
          ! What was done of the period does not count: it is solved again when the motion is carried on.
          run%watches(l)%ending%status = status_interrupted
          run%samples%written(l) = samples_before(run%watches(l), run%samples)
-         call place_state(run%watches(l)%state, l, run%block)
+         call place_state(run%watches(l)%state, l, run%block, run%inner(l))
          call finish(l, problems, run, endings, watches)
       end do
       do i = run%taken + 1, size(queue)
@@ -302,7 +304,7 @@ contains
 
       if (present(watches)) watches(run%watches(lane)%scene) = run%watches(lane)%states
       associate (ending => run%watches(lane)%ending)
-         ending%motion_state_t = state_of_lane(lane, run%block)
+         ending%motion_state_t = state_of_lane(lane, run%block, run%inner(lane))
          ending%periods = run%watches(lane)%period
          ending%implicit = .not. run%by_series
          ending%time = (real(ending%periods, dp) + run%watches(lane)%phase)/problems(run%watches(lane)%scene)%frequency

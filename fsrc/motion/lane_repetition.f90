@@ -63,6 +63,8 @@ contains
             weight = momentum_weight(thinner_scaled_film(watch%state, lane, block), block%damping_rate(lane), block%force(lane))
             weights = 1.0_dp
             weights(of_velocity) = weight
+            if (run%inner(lane)%count > 0) weights(size(weights) - size(run%inner(lane)%now) + 1:) = &
+               run%inner(lane)%counts_as/block%film_scale(lane)
             call note_state(watch%states, watch%state, thinner_scaled_film(watch%state, lane, block), weights, &
                             settling_of_lane(lane, problem, run), repetition_share*request%accuracy, orbit, distance)
             if (orbit > 0) then
@@ -71,7 +73,7 @@ contains
                watch%ending%status = status_steady
                watch%sample_from = watch%period
                watch%last_period = watch%period + merge(orbit, 0, request%sampled_periods > 0)
-            else if (request%forecast .and. .not. run%elastic) then
+            else if (request%forecast .and. .not. run%own_numbers) then
                call look_ahead(weight, lane, last_search_period(request%periods, request%sampled_periods), run)
             end if
          else if (.not. request%every_period) then
@@ -199,7 +201,7 @@ contains
       integer, intent(in) :: lane
       type(lane_run_t), intent(inout) :: run
 
-      call place_state(state, lane, run%block)
+      call place_state(state, lane, run%block, run%inner(lane))
       run%watches(lane)%state = state
    end subroutine place
 

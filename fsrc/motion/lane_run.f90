@@ -1,11 +1,12 @@
 !> A block of lanes at work: what has become of the scene of every lane, and what is taken of it on the way.
 module lane_run
    use engine, only: ending_t
-   use film_law, only: film_t
+   use flank_contact, only: flank_contact_t
    use film_series, only: film_series_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
+   use lane_inner, only: lane_inner_t
    use lane_sampling, only: lane_samples_t
    use repetition, only: orbit_watch_t, recurrence_t
    use step_nodes, only: step_nodes_t
@@ -42,16 +43,18 @@ module lane_run
 
    !> A block at work.
    type, public :: lane_run_t
-      !> Taylor series, else collocation; and whose series; and whether the teeth give
-      logical :: by_series = .true., elastic = .false.
+      !> Taylor series, else collocation; and whose series; and whether contacts have numbers of their own
+      logical :: by_series = .true., own_numbers = .false.
       type(film_series_t) :: series
       !> Most steps in a period, and largest damping rate [1/periods]
       real(dp) :: most_steps = 0.0_dp, largest_rate = 0.0_dp
-      !> Film laws of the lanes
-      type(film_t) :: films(lanes)
+      !> Contacts of the lanes
+      type(flank_contact_t) :: contacts(lanes)
       !> Scenes of the queue taken, lanes with a scene
       integer :: taken = 0, active = lanes
       type(lane_block_t), pointer :: block => null()
+      !> States of films, beside the block
+      type(lane_inner_t) :: inner(lanes)
       type(lane_samples_t) :: samples
       type(lane_watch_t) :: watches(lanes)
       !> Nodes of the steps of the present period, where windows are recorded

@@ -4,6 +4,8 @@ module lane_sampling
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lanes
+   use lane_inner, only: evaluate_inner, lane_inner_t
+   use lane_state, only: springs_of
    use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -53,9 +55,11 @@ contains
 
    !> Take the samples that lie within the present step of any lane, lane by lane: most of the time few lanes are
    !> being sampled, while all samples of one step share its series.
-   pure subroutine take_samples(block, samples, states)
+   pure subroutine take_samples(block, inner, samples, states)
       !> The block, with series and steps
       type(lane_block_t), intent(in) :: block
+      !> States of films beside it
+      type(lane_inner_t), intent(in) :: inner(lanes)
       type(lane_samples_t), intent(inout) :: samples
       !> Of all scenes: sample, number of its state, scene
       real(dp), contiguous, intent(inout) :: states(:, :, :)
@@ -82,12 +86,15 @@ contains
             first = samples%written(l) + 1
             states(first:first + due - 1, of_film, samples%column(l)) = film(:due)*block%film_scale(l)
             states(first:first + due - 1, of_velocity, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
-            do flank = 1, size(states, 2) - 2
+            do flank = 1, springs_of(l, block)
                film_series = block%compression(l, flank, :)
                call evaluate_lane(film_series, momentum_series, 0.0_dp, huge(1.0_dp), x, film, velocity)
                states(first:first + due - 1, of_velocity + flank, samples%column(l)) = film(:due)*block%film_scale(l)
             end do
-            if (size(states, 2) > 2) film_series = block%film(l, :)
+            if (springs_of(l, block) > 0) film_series = block%film(l, :)
+            if (inner(l)%count > 0) call evaluate_inner(inner(l), x(:due), &
+               states(first:first + due - 1, of_velocity + springs_of(l, block) + 1:of_velocity + springs_of(l, block) &
+                      + size(inner(l)%now), samples%column(l)))
             samples%written(l) = samples%written(l) + due
             samples%next(l) = samples%next(l) + due
          end do

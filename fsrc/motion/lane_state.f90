@@ -1,38 +1,49 @@
-!> How the numbers of a state stand in a lane of a block, scaled: the one place of the engine that knows which number is which.
+!> How the numbers of a state stand in a lane: film, momentum and compressions scaled in its block, states of films beside it. This
+!> is the one place of the engine that knows which number is which.
 module lane_state
    use engine, only: motion_state_t
    use kinds, only: dp
    use lane_block, only: lane_block_t, slip_velocity
+   use lane_inner, only: lane_inner_t
    use problem, only: of_coast_compression, of_drive_compression, of_film, of_velocity
    implicit none(type, external)
    private
 
-   public :: state_of_lane, scaled_state, place_state, films_of_lane, thinner_scaled_film
+   public :: flanks_of, springs_of, state_of_lane, scaled_state, place_state, films_of_lane, thinner_scaled_film
 
 contains
 
    !> State of a lane in units; the caller knows its period and method.
-   pure type(motion_state_t) function state_of_lane(lane, block) result(state)
+   pure type(motion_state_t) function state_of_lane(lane, block, inner) result(state)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
+      type(lane_inner_t), intent(in) :: inner
+      integer :: last
 
-      allocate (state%numbers, source=scaled_state(lane, block))
+      allocate (state%numbers, source=scaled_state(lane, block, inner))
+      last = of_velocity + springs_of(lane, block)
       state%lienard_variable = state%numbers(of_velocity)
-      state%numbers = state%numbers*block%film_scale(lane)
+      state%numbers(:last) = state%numbers(:last)*block%film_scale(lane)
       state%numbers(of_velocity) = (state%lienard_variable + slip_velocity(block%film(lane, 0), lane, block)) &
                                    *block%velocity_scale(lane)
       state%carried_on = .true.
    end function state_of_lane
 
-   !> Scaled state of a lane: all that a period follows from, the Lienard variable in place of the velocity [-].
-   pure function scaled_state(lane, block) result(state)
+   !> Scaled state of a lane: all that a period follows from, the Lienard variable in place of the velocity [-], states of films in
+   !> the units of their law.
+   pure function scaled_state(lane, block, inner) result(state)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
-      real(dp) :: state(of_velocity + springs_of(lane, block))
+      type(lane_inner_t), intent(in) :: inner
+      real(dp), allocatable :: state(:)
+      integer :: springs
 
+      springs = springs_of(lane, block)
+      allocate (state(of_velocity + springs + inner%count*flanks_of(lane, block)))
       state(of_film) = block%film(lane, 0)
       state(of_velocity) = block%momentum(lane, 0)
-      state(of_drive_compression:) = block%compression(lane, :springs_of(lane, block), 0)
+      state(of_drive_compression:of_velocity + springs) = block%compression(lane, :springs, 0)
+      if (inner%count > 0) state(of_drive_compression + springs:) = inner%now
    end function scaled_state
 
    !> Springs of the motion in a lane.
@@ -40,20 +51,31 @@ contains
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
 
-      springs_of = 0
-      if (block%compliance(lane) > 0.0_dp) springs_of = merge(2, 1, block%backlash(lane) < huge(1.0_dp))
+      springs_of = merge(flanks_of(lane, block), 0, block%compliance(lane) > 0.0_dp)
    end function springs_of
 
+   !> Flanks of the motion in a lane.
+   pure integer function flanks_of(lane, block)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      flanks_of = merge(2, 1, block%backlash(lane) < huge(1.0_dp))
+   end function flanks_of
+
    !> Put a scaled state into a lane.
-   pure subroutine place_state(state, lane, block)
+   pure subroutine place_state(state, lane, block, inner)
       !> As of scaled_state
       real(dp), intent(in) :: state(:)
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
+      type(lane_inner_t), intent(inout) :: inner
+      integer :: springs
 
+      springs = springs_of(lane, block)
       block%film(lane, 0) = state(of_film)
       block%momentum(lane, 0) = state(of_velocity)
-      block%compression(lane, :springs_of(lane, block), 0) = state(of_drive_compression:)
+      block%compression(lane, :springs, 0) = state(of_drive_compression:of_velocity + springs)
+      if (inner%count > 0) inner%now = state(of_drive_compression + springs:)
    end subroutine place_state
 
    !> Scaled films of drive and coast flank in a state, the second huge where there is one flank [-].

@@ -2,14 +2,15 @@
 !> for all others and for motions too stiff for explicit steps.
 module many_motions
    use engine, only: ending_t, motion_state_t, request_t
-   use film_law, only: film_load
+   use film_state, only: load_t
+   use flank_contact, only: load_at_rest
    use film_series, only: has_series
    use force, only: largest_oscillation
    use kinds, only: dp
    use lane_block, only: lane_accuracy, start_status
    use lane_integration, only: integrate_lanes
    use carried_loads, only: net_load
-   use problem, only: has_elastic_teeth, has_two_flanks, of_film, of_velocity, problem_t, static_load, thinner_film
+   use problem, only: has_elastic_teeth, has_inner_numbers, of_film, of_velocity, problem_t, same_kind, static_load, thinner_film
    use repetition, only: orbit_watch_t
    use scene_status, only: status_complete, status_film_lost, status_not_converged
    use window_record, only: window_record_t
@@ -49,9 +50,7 @@ contains
       left(:) = explicit
       do while (any(left))
          first = findloc(left, .true., dim=1)
-         alike(:) = problems%film%kernel == problems(first)%film%kernel &
-                    .and. (has_two_flanks(problems) .eqv. has_two_flanks(problems(first))) &
-                    .and. (has_elastic_teeth(problems) .eqv. has_elastic_teeth(problems(first)))
+         alike(:) = same_kind(problems, problems(first))
          call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), request, states, endings, watches, &
                               records)
          left(:) = left .and. .not. alike
@@ -64,9 +63,9 @@ contains
          ! The rest of a motion that Taylor series could not finish.
          if (left(i)) rest(i) = motion_state_t(periods=endings(i)%periods, numbers=endings(i)%numbers, implicit=.true.)
       end do
-      ! Elastic teeth are followed by steps of their own.
+      ! Contacts with numbers of their own are followed by steps of their own.
       do i = 0, 1
-         alike(:) = left .and. (has_elastic_teeth(problems) .eqv. i == 1)
+         alike(:) = left .and. (has_inner_numbers(problems) .eqv. i == 1)
          if (any(alike)) &
             call integrate_lanes(.false., problems, rest, pack(number, alike), request, states, endings, watches, records)
       end do
@@ -83,7 +82,8 @@ contains
       real(dp), parameter :: thinnest = 1.0e-30_dp
       !> Rate at which a stiff spring and its film come to rest that no series is to follow [1/periods]
       real(dp), parameter :: largest_rate = 1.0e4_dp
-      real(dp) :: film, velocity, load, load_by_film, load_by_velocity, rate, thinner
+      type(load_t) :: load
+      real(dp) :: film, velocity, force, rate, thinner
 
       outgrows_series = .false.
       ! A motion that is carried on goes on as it went; one that cannot start is not for this procedure to refuse.
@@ -92,18 +92,18 @@ contains
       film = start%numbers(of_film)
       velocity = start%numbers(of_velocity)
       if (has_elastic_teeth(problem)) then
-         call film_load(problem%film, film, velocity, load, load_by_film, load_by_velocity)
-         outgrows_series = .not. abs(load_by_velocity)*(problem%compliance*problem%frequency*largest_rate) > 1.0_dp
+         load = load_at_rest(problem%contact, film, velocity)
+         outgrows_series = .not. abs(load%by_velocity)*(problem%contact%compliance*problem%frequency*largest_rate) > 1.0_dp
          return
       end if
       thinner = thinner_film(problem, film)
       if (.not. thinner > thinnest) return
-      call net_load(problem, film, velocity, load, load_by_film, load_by_velocity)
-      load = load + abs(static_load(problem)) + largest_oscillation(problem%force)
+      call net_load(problem, film, velocity, load)
+      force = load%load + abs(static_load(problem)) + largest_oscillation(problem%force)
       rate = largest_growth*problem%frequency
       outgrows_series = abs(velocity) > rate*thinner .or. &
-                        abs(load_by_velocity) > rate*problem%mass .or. abs(load_by_film) > rate**2*problem%mass .or. &
-                        load > rate**2*problem%mass*thinner
+                        abs(load%by_velocity) > rate*problem%mass .or. abs(load%by_film) > rate**2*problem%mass .or. &
+                        force > rate**2*problem%mass*thinner
    end function outgrows_series
 
 end module many_motions

@@ -1,7 +1,8 @@
 !> Motion by Newmark's method (module newmark_step): start, the steps of a period, and the cuts of those that fail.
 module newmark
    use engine, only: motion_count_t, request_t
-   use film_law, only: film_kernel, overflow_load
+   use film_state, only: load_t
+   use flank_contact, only: film_kernel, overflow_load
    use force, only: force_at
    use kinds, only: dp, int64
    use newmark_step, only: newmark_state_t, take_step
@@ -36,15 +37,15 @@ contains
       type(motion_count_t), intent(inout) :: count
       !> Status of scene_status
       integer, intent(out) :: status
-      real(dp) :: load, load_by_film, load_by_velocity
+      type(load_t) :: load
 
       state%film = problem%initial_film
       state%velocity = problem%initial_velocity
       count%evaluations = count%evaluations + 1
-      call net_load(problem, state%film, state%velocity, load, load_by_film, load_by_velocity, kernel)
-      status = merge(status_complete, problem%film%status_without_load, load < overflow_load)
+      call net_load(problem, state%film, state%velocity, load, kernel)
+      status = merge(status_complete, problem%contact%film%status_without_load, load%load < overflow_load)
       if (status /= status_complete) return
-      state%acceleration = (load - problem%weight - force_at(problem%force, 0.0_dp))/problem%mass
+      state%acceleration = (load%load - problem%weight - force_at(problem%force, 0.0_dp))/problem%mass
    end subroutine start_motion
 
    !> Advance one period of the force. On failure the state is that before the failing step.

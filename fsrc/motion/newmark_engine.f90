@@ -4,7 +4,7 @@ module newmark_engine
    use constants, only: two_pi
    use engine, only: checkpoint_t, ending_t, motion_watcher_t, request_t, sample_sink_t, status_of_stop
    use errors, only: error_t
-   use film_law, only: film_kernel, kernel_of
+   use flank_contact, only: film_kernel, kernel_of_contact
    use force, only: force_at, force_of_period
    use kinds, only: dp, int64
    use newmark, only: advance_period, start_motion
@@ -55,14 +55,14 @@ contains
 
       started = wall_seconds()
       record%periods = 0
-      kernel => kernel_of(problem%film)
+      kernel => kernel_of_contact(problem%contact)
       steps = request%samples_per_period
       allocate (ending%numbers(state_size(problem)), source=0.0_dp)
       allocate (force(steps), states_of_steps(steps, state_size(problem)), accelerations(steps))
       call force_of_period(problem%force, force)
 
       ! Without a film to start from there is none that carries the static load.
-      ending%status = problem%film%status_without_load
+      ending%status = problem%contact%film%status_without_load
       if (.not. (associated(kernel) .and. problem%initial_film > 0.0_dp)) return
       if (checkpoint%periods > 0) then
          state = newmark_state_t(checkpoint%numbers(of_film), checkpoint%numbers(of_velocity), checkpoint%acceleration)

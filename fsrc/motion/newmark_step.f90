@@ -10,7 +10,8 @@
 !> It is the paper's method for the paper's rigid teeth; the checker refuses it for elastic ones.
 module newmark_step
    use engine, only: request_t
-   use film_law, only: film_kernel, overflow_load
+   use film_state, only: load_t
+   use flank_contact, only: film_kernel, overflow_load
    use kinds, only: dp
    use carried_loads, only: net_load
    use problem, only: problem_t, thinner_film
@@ -51,7 +52,8 @@ contains
       integer, intent(out) :: passes
       !> Status of scene_status
       integer, intent(out) :: status
-      real(dp) :: load, load_by_film, load_by_velocity, known_film, known_velocity, old_film, film_weight, velocity_weight, &
+      type(load_t) :: load
+      real(dp) :: known_film, known_velocity, old_film, film_weight, velocity_weight, &
                   smallest_film
 
       ! Factors of z'' at the end of the step, and what h and z' would be there if it were zero.
@@ -69,17 +71,17 @@ contains
       passes = 0
       if (thinner_film(problem, next%film) <= smallest_film) return
       do passes = 1, request%iteration_limit
-         call net_load(problem, next%film, next%velocity, load, load_by_film, load_by_velocity, kernel)
-         if (.not. load < overflow_load) then
-            status = problem%film%status_without_load
+         call net_load(problem, next%film, next%velocity, load, kernel)
+         if (.not. load%load < overflow_load) then
+            status = problem%contact%film%status_without_load
             return
          end if
          if (request%by_newton) then
-            next%acceleration = (load + load_by_film*(known_film - next%film) + &
-                                 load_by_velocity*(known_velocity - next%velocity) - force - problem%weight)/ &
-                                (problem%mass - load_by_film*film_weight - load_by_velocity*velocity_weight)
+            next%acceleration = (load%load + load%by_film*(known_film - next%film) + &
+                                 load%by_velocity*(known_velocity - next%velocity) - force - problem%weight)/ &
+                                (problem%mass - load%by_film*film_weight - load%by_velocity*velocity_weight)
          else
-            next%acceleration = (load - force - problem%weight)/problem%mass
+            next%acceleration = (load%load - force - problem%weight)/problem%mass
          end if
          old_film = next%film
          next%film = known_film + film_weight*next%acceleration

@@ -4,12 +4,11 @@
 !> film and velocity are interpolated in the piece of the step, the quantity follows from them by its own law, and the
 !> parabola is renewed until it stands.
 module node_extremes
-   use film_law, only: film_load
-   use film_pressure, only: exact_pressure
+   use film_state, only: load_t
    use kinds, only: dp
    use carried_loads, only: acceleration_at, coast_films, coast_loads, drive_loads, gear_positions, largest_pressures, &
-      net_loads
-   use problem, only: has_elastic_teeth, has_two_flanks, of_film, of_velocity, problem_t
+      net_load, net_loads, pressure_of_film
+   use problem, only: has_inner_numbers, has_two_flanks, of_film, of_velocity, problem_t
    use step_nodes, only: interpolate, node_place, nodes_per_piece
    use value_range, only: range_of
    implicit none(type, external)
@@ -214,13 +213,13 @@ contains
          real(dp), intent(in) :: x
          real(dp), intent(out) :: state(:)
          real(dp), intent(out) :: quantity_there
-         real(dp) :: value(1), here(1, size(state)), by_film, by_velocity
+         real(dp) :: value(1)
+         type(load_t) :: load
          logical :: alone
 
          call interpolate(states, piece, x, state)
-         here(1, :) = state
          ! One film is not worth the registers of many.
-         alone = .not. (has_two_flanks(problem) .or. has_elastic_teeth(problem))
+         alone = .not. (has_two_flanks(problem) .or. has_inner_numbers(problem))
          select case (quantity)
          case (seen_film)
             value = state(of_film)
@@ -230,24 +229,24 @@ contains
             value = acceleration_at(problem, state, min(1.0_dp, start(piece) + x*length(piece)))
          case (seen_pressure)
             if (alone) then
-               value = exact_pressure(problem%film%radius, problem%film%speed, problem%film%viscosity, state(of_film), &
-                                      state(of_velocity))
+               value = pressure_of_film(problem, state(of_film), state(of_velocity))
             else
-               call largest_pressures(problem, here, value)
+               call largest_pressures(problem, reshape(state, [1, size(state)]), value)
             end if
          case (seen_coast_load)
-            call coast_loads(problem, here, value)
+            call coast_loads(problem, reshape(state, [1, size(state)]), value)
          case (seen_net_load)
-            call net_loads(problem, here, value)
+            call net_loads(problem, reshape(state, [1, size(state)]), value)
          case (seen_coast_film)
-            value = coast_films(problem, here)
+            value = coast_films(problem, reshape(state, [1, size(state)]))
          case (seen_position)
-            value = gear_positions(problem, here)
+            value = gear_positions(problem, reshape(state, [1, size(state)]))
          case default
             if (alone) then
-               call film_load(problem%film, state(of_film), state(of_velocity), value(1), by_film, by_velocity)
+               call net_load(problem, state(of_film), state(of_velocity), load)
+               value = load%load
             else
-               call drive_loads(problem, here, value)
+               call drive_loads(problem, reshape(state, [1, size(state)]), value)
             end if
          end select
          quantity_there = value(1)

@@ -107,8 +107,38 @@ module radau_nodes
       & [stages, stages])
 
    !> Coefficients of c**(i - 1) in the polynomial that is 1 at the start and 0 at the nodes
-   real(dp), parameter, public :: start_alone(stages + 1) = [ &
+   real(dp), parameter :: start_alone(stages + 1) = [ &
       & 1.0_dp, -49.0_dp, 588.0_dp, -2940.0_dp, &
       & 7350.0_dp, -9702.0_dp, 6468.0_dp, -1716.0_dp]
+
+   public :: powers_of_place, meet_start
+
+contains
+
+   !> From coefficients of the powers of 2c - 1 to those of the powers of c: Horner's scheme on polynomials.
+   pure function powers_of_place(polynomial) result(shifted)
+      real(dp), intent(in) :: polynomial(stages)
+      real(dp) :: shifted(0:stages)
+      integer :: i, j
+
+      shifted = 0.0_dp
+      do i = stages, 1, -1
+         do j = stages - 1, 1, -1
+            shifted(j) = 2.0_dp*shifted(j - 1) - shifted(j)
+         end do
+         shifted(0) = polynomial(i) - shifted(0)
+      end do
+   end function powers_of_place
+
+   !> Let a polynomial through the values at the nodes meet that at the start: one that is there alone makes up for what it misses.
+   pure subroutine meet_start(start, polynomial)
+      real(dp), intent(in) :: start
+      !> Coefficients of the powers of c
+      real(dp), intent(inout) :: polynomial(0:stages)
+      real(dp) :: gap
+
+      gap = start - polynomial(0)
+      polynomial = polynomial + gap*start_alone
+   end subroutine meet_start
 
 end module radau_nodes

@@ -6,6 +6,8 @@
 module step_nodes
    use kinds, only: dp
    use lane_block, only: lane_block_t
+   use lane_inner, only: evaluate_inner, lane_inner_t
+   use lane_state, only: flanks_of, springs_of
    use problem, only: of_film, of_velocity
    use taylor_step_control, only: order
    implicit none(type, external)
@@ -39,24 +41,26 @@ module step_nodes
 contains
 
    !> Add the nodes of the present step of a lane.
-   pure subroutine take_nodes(block, lane, longest_piece, nodes)
+   pure subroutine take_nodes(block, lane, inner, longest_piece, nodes)
       !> The block, with series and steps
       type(lane_block_t), intent(in) :: block
       integer, intent(in) :: lane
+      !> States of films beside it
+      type(lane_inner_t), intent(in) :: inner
       !> Longest piece [periods]
       real(dp), intent(in) :: longest_piece
       !> Nodes of the period so far
       type(step_nodes_t), intent(inout) :: nodes
       real(dp), dimension(nodes_per_piece) :: x, film, velocity, odd_film, odd_velocity
       real(dp) :: film_series(0:order), momentum_series(0:order), length
-      integer :: pieces, piece, before, numbers, i, k
+      integer :: pieces, piece, before, numbers, springs, i, k
 
       film_series = block%film(lane, :)
       momentum_series = block%momentum(lane, :)
       pieces = max(1, ceiling(block%step(lane)/longest_piece))
       length = block%step(lane)/real(pieces, dp)
-      numbers = 2
-      if (block%compliance(lane) > 0.0_dp) numbers = merge(4, 3, block%backlash(lane) < huge(1.0_dp))
+      springs = springs_of(lane, block)
+      numbers = of_velocity + springs + inner%count*flanks_of(lane, block)
       call provide_room(nodes, nodes%pieces + pieces, numbers)
       do piece = 1, pieces
          x = (real(piece - 1, dp) + node_place)*length
@@ -88,8 +92,10 @@ contains
          nodes%length(nodes%pieces) = length
          nodes%states(before + 1:before + nodes_per_piece, of_film) = film*block%film_scale(lane)
          nodes%states(before + 1:before + nodes_per_piece, of_velocity) = velocity*block%velocity_scale(lane)
-         if (numbers > 2) call take_compressions(block, lane, x, &
-                                                 nodes%states(before + 1:before + nodes_per_piece, of_velocity + 1:))
+         if (springs > 0) call take_compressions(block, lane, x, nodes%states(before + 1:before + nodes_per_piece, &
+                                                                              of_velocity + 1:of_velocity + springs))
+         if (inner%count > 0) call evaluate_inner(inner, x, nodes%states(before + 1:before + nodes_per_piece, &
+                                                                         of_velocity + springs + 1:))
       end do
    end subroutine take_nodes
 

@@ -5,10 +5,10 @@
 !> A motion that repeats, or one that settles to it, has an exponent of 0 or less; that of a motion which never repeats though its
 !> force does is 0 where two frequencies without a common measure make it, and positive where it is irregular for good.
 module lyapunov
+   use carried_loads, only: counts_as, sizes_of_state
    use engine, only: ending_t, motion_state_t, request_t
    use kinds, only: dp
    use many_motions, only: solve_motions
-   use periodic_orbit, only: sizes_of_state
    use problem, only: problem_t
    use scene_status, only: status_complete
    use signals, only: must_stop
@@ -123,7 +123,7 @@ contains
       real(dp), intent(out) :: growth
       real(dp) :: direction(size(motion)), farthest
 
-      direction = (neighbour - motion)/sizes_of_state(problem, motion)
+      direction = (neighbour - motion)/sizes_of_state(problem, motion, counts_as(problem, motion))
       farthest = maxval(abs(direction))
       ! Neighbours that have met tell no direction: what is left of their distance is less than the errors.
       if (.not. farthest > map_accuracy*distance) then
@@ -142,7 +142,8 @@ contains
       !> Of the displacement, the largest of its numbers 1
       real(dp), intent(in) :: direction(:)
 
-      displaced = motion_state_t(numbers=numbers + distance*direction*sizes_of_state(problem, numbers))
+      displaced = motion_state_t(numbers=numbers + distance*direction* &
+                                   sizes_of_state(problem, numbers, counts_as(problem, numbers)))
    end function displaced
 
 end module lyapunov

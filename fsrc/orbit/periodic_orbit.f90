@@ -4,17 +4,14 @@
 !> The period map takes a state at the start of some periods of the force to the one at their end; a motion that repeats is a
 !> fixed point of it.
 module periodic_orbit
-   use constants, only: two_pi
    use engine, only: ending_t, motion_state_t, request_t
-   use film_law, only: never_pulls
    use kinds, only: dp
    use many_motions, only: solve_motions
    use matrix_values, only: eigenvalues
-   use force, only: largest_oscillation
-   use carried_loads, only: thinnest_film
-   use problem, only: has_elastic_teeth, of_drive_compression, of_film, of_velocity, problem_t, static_load
+   use carried_loads, only: counts_as, sizes_of_state, thinnest_film
+   use linear_equations, only: solve_linear
+   use problem, only: problem_t
    use scene_status, only: status_complete
-   use scene_types, only: least_static_load
    implicit none(type, external)
    private
 
@@ -26,8 +23,6 @@ module periodic_orbit
    real(dp), parameter :: largest_disturbance = 1.0e-7_dp, slowest_fall = 0.1_dp
    !> Step of the differences: their error is about its square, and map_accuracy over it.
    real(dp), parameter :: difference_step = 1.0e-4_dp
-   !> Largest size of a compression that stays positive, over the compression
-   real(dp), parameter :: most_of_compression = 100.0_dp
    !> How often Newton's method takes the slopes of the map
    integer, parameter :: most_slopes = 8
 
@@ -51,22 +46,7 @@ module periodic_orbit
       complex(dp), allocatable :: multipliers(:)
    end type periodic_orbit_t
 
-   interface
-      !> Solve A X = B (LAPACK).
-      pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
-         import :: dp
-         integer, intent(in) :: n
-         integer, intent(in) :: nrhs
-         integer, intent(in) :: lda
-         integer, intent(in) :: ldb
-         real(dp), intent(inout) :: a(lda, *)
-         integer, intent(out) :: ipiv(*)
-         real(dp), intent(inout) :: b(ldb, *)
-         integer, intent(out) :: info
-      end subroutine dgesv
-   end interface
-
-   public :: map_states, find_periodic_orbit, attracting_period, orbit_stability, sizes_of_state
+   public :: map_states, find_periodic_orbit, attracting_period, orbit_stability
 
 contains
 
@@ -112,7 +92,7 @@ contains
       integer :: period
       logical :: mapped
 
-      scale = scale_of(problem, state)
+      scale = counts_as(problem, state)
       images(:, 1) = state
       do period = 1, longest_period
          call map_states(problem, 1, map_accuracy, images, mapped)
@@ -173,54 +153,13 @@ contains
          call map_states(problem, 1, map_accuracy, images, mapped)
          if (.not. mapped) return
          associate (state => orbit%state)
-            if (any(abs(images(:, 1) - state) > largest_disturbance*sizes_of(problem, state, scale))) cycle
+            if (any(abs(images(:, 1) - state) > largest_disturbance*sizes_of_state(problem, state, scale))) cycle
             shortest = newton(problem, period, state, scale, nearness)
          end associate
          shortest%distance = orbit%distance
          return
       end do
    end function shortest
-
-   !> Film that one of each number of a state counts as.
-   pure function scale_of(problem, state) result(scale)
-      type(problem_t), intent(in) :: problem
-      real(dp), intent(in) :: state(:)
-      real(dp) :: scale(size(state))
-
-      scale = 1.0_dp
-      scale(of_velocity) = 1.0_dp/(two_pi*problem%frequency)
-      ! A stiff tooth is compressed by far less than its film: by what the forces compress it.
-      if (has_elastic_teeth(problem)) scale(of_drive_compression:) = max(1.0_dp, thinnest_film(problem, state)/ &
-         (problem%compliance*(abs(static_load(problem)) + largest_oscillation(problem%force) + least_static_load)))
-   end function scale_of
-
-   !> What the numbers of a state count as, each in its unit.
-   pure function sizes_of_state(problem, state) result(sizes)
-      !> What moves
-      type(problem_t), intent(in) :: problem
-      !> Numbers of the state
-      real(dp), intent(in) :: state(:)
-      real(dp) :: sizes(size(state))
-
-      sizes = sizes_of(problem, state, scale_of(problem, state))
-   end function sizes_of_state
-
-   !> What the numbers of a state count as. The map is known to a share of each number: where a tooth hits through a thin film, to
-   !> more than that of the film.
-   pure function sizes_of(problem, state, scale) result(sizes)
-      type(problem_t), intent(in) :: problem
-      real(dp), intent(in) :: state(:)
-      !> Film that one of each number counts as
-      real(dp), intent(in) :: scale(:)
-      real(dp) :: sizes(size(state)), thickness
-
-      thickness = thinnest_film(problem, state)
-      sizes = max(thickness/scale, abs(state))
-      sizes(of_film) = thickness
-      ! A film that never pulls leaves its spring compressed, however little; so must the states beside this one be.
-      if (never_pulls(problem%film)) sizes(of_drive_compression:) = min(sizes(of_drive_compression:), &
-                                                                        most_of_compression*abs(state(of_drive_compression:)))
-   end function sizes_of
 
    !> Fixed point of the map of some periods, and the multipliers there. The slopes of the map take many times what its value takes:
    !> steps keep those of the step before as long as the changes fall fast, and the last one takes those at its end.
@@ -235,10 +174,10 @@ contains
       type(periodic_orbit_t) :: orbit
       real(dp), dimension(size(start)) :: state, change, sizes, step
       real(dp) :: states(size(start), 0:2*size(start)), jacobian(size(start), size(start)), matrix(size(start), size(start)), &
-                  factors(size(start), size(start)), thickness, moved, moved_before, distance, reach, &
+                  solution(size(start), 1), thickness, moved, moved_before, distance, reach, &
                   disturbance, disturbance_before
-      integer :: slopes_taken, i, n, last, pivots(size(start)), info
-      logical :: mapped, anew, settled
+      integer :: slopes_taken, i, n, last
+      logical :: mapped, anew, settled, solved
 
       n = size(start)
       state = start
@@ -249,7 +188,7 @@ contains
       do
          if (anew) slopes_taken = slopes_taken + 1
          if (slopes_taken > most_slopes) return
-         sizes = sizes_of(problem, state, scale)
+         sizes = sizes_of_state(problem, state, scale)
          step = difference_step*sizes
          states = spread(state, 2, 2*n + 1)
          do i = 1, n
@@ -269,11 +208,10 @@ contains
                matrix(i, i) = matrix(i, i) + 1.0_dp
             end do
          end if
-         change = (states(:, 0) - state)*scale
-         factors = matrix
-         call dgesv(n, 1, factors, n, pivots, change, n, info)
-         if (info /= 0) return
-         change = change/scale
+         solution(:, 1) = (states(:, 0) - state)*scale
+         call solve_linear(matrix, solution, solved)
+         if (.not. solved) return
+         change = solution(:, 1)/scale
          thickness = thinnest_film(problem, state + change)
          if (anew .and. .not. thickness > 0.0_dp) return
          moved_before = moved

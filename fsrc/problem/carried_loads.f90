@@ -1,18 +1,23 @@
 !> What a state of a motion carries: the loads of both films and of the springs, their films, their largest pressures, and the
 !> acceleration that is left for the mass.
 module carried_loads
-   use film_law, only: film_kernel, film_load, film_loads, overflow_load, squeeze_velocity
-   use film_pressure, only: exact_pressures
-   use force, only: force_at, force_of_period
+   use constants, only: two_pi
+   use film_law, only: film_kernel, film_load
+   use film_pressure, only: exact_pressure, exact_pressures
+   use film_state, only: load_t, state_number_t
+   use flank_contact, only: carries_positive_loads, inner_at_rest, load_at_rest, loads_of_contact, overflow_load, &
+      velocity_under
+   use force, only: force_at, force_of_period, largest_oscillation
    use kinds, only: dp
-   use problem, only: has_elastic_teeth, has_two_flanks, of_coast_compression, of_drive_compression, of_film, of_velocity, &
-      problem_t, state_size
-   use squeeze_of_load, only: load_carried
+   use problem, only: compression_count, flank_count, has_elastic_teeth, has_inner_numbers, has_two_flanks, inner_places, &
+      of_coast_compression, of_drive_compression, of_film, of_velocity, problem_t, state_numbers, state_size, static_load
+   use scene_types, only: least_static_load
    implicit none(type, external)
    private
 
    public :: thinnest_film, net_load, net_loads, drive_loads, coast_loads, coast_films, films_of, gear_positions, &
-             initial_state, spring_loads, load_springs, largest_pressures, acceleration_at, accelerations_of_samples
+             initial_state, kept_by_contacts, keep_by_contacts, counts_as, sizes_of_state, pressure_of_film, &
+             largest_pressures, acceleration_at, accelerations_of_samples
 
 contains
 
@@ -29,38 +34,36 @@ contains
       thinnest_film = min(thinnest_film, coast(1))
    end function thinnest_film
 
-   !> Net load of both films and its slopes.
-   pure subroutine net_load(problem, thickness, velocity, load, load_by_film, load_by_velocity, kernel)
+   !> Net load of films without a state of their own, W(h, z') - W(b - h, -z'), and its slopes; beyond `overflow_load` where one of
+   !> the films has none.
+   pure subroutine net_load(problem, thickness, velocity, load, kernel)
+      !> Of rigid teeth
       type(problem_t), intent(in) :: problem
       !> Film thickness h > 0 [m]
       real(dp), intent(in) :: thickness
       !> Film velocity z' [m/s]
       real(dp), intent(in) :: velocity
-      !> W(h, z') - W(b - h, -z') [N]; beyond `overflow_load` where one of the films has none
-      real(dp), intent(out) :: load
-      !> Its slopes [N/m], [N s/m]
-      real(dp), intent(out) :: load_by_film
-      real(dp), intent(out) :: load_by_velocity
+      type(load_t), intent(out) :: load
       !> Kernel of the film, where it has been chosen before
       procedure(film_kernel), optional :: kernel
-      real(dp) :: coast, coast_load, coast_by_film, coast_by_velocity
+      type(load_t) :: coast
 
       if (present(kernel)) then
-         call kernel(problem%film, thickness, velocity, load, load_by_film, load_by_velocity)
+         call kernel(problem%contact%film, thickness, velocity, load%load, load%by_film, load%by_velocity)
       else
-         call film_load(problem%film, thickness, velocity, load, load_by_film, load_by_velocity)
+         call film_load(problem%contact%film, thickness, velocity, load%load, load%by_film, load%by_velocity)
       end if
       if (.not. has_two_flanks(problem)) return
-      if (.not. abs(load) < overflow_load) return
-      coast = problem%backlash - thickness
-      coast_load = 2.0_dp*overflow_load
-      if (coast > 0.0_dp) call film_load(problem%film, coast, -velocity, coast_load, coast_by_film, coast_by_velocity)
-      if (abs(coast_load) < overflow_load) then
-         load = load - coast_load
-         load_by_film = load_by_film + coast_by_film
-         load_by_velocity = load_by_velocity + coast_by_velocity
+      if (.not. abs(load%load) < overflow_load) return
+      coast%load = 2.0_dp*overflow_load
+      if (problem%backlash - thickness > 0.0_dp) &
+         call film_load(problem%contact%film, problem%backlash - thickness, -velocity, coast%load, coast%by_film, coast%by_velocity)
+      if (abs(coast%load) < overflow_load) then
+         load%load = load%load - coast%load
+         load%by_film = load%by_film + coast%by_film
+         load%by_velocity = load%by_velocity + coast%by_velocity
       else
-         load = 2.0_dp*overflow_load
+         load%load = 2.0_dp*overflow_load
       end if
    end subroutine net_load
 
@@ -89,11 +92,13 @@ contains
       real(dp), intent(in) :: states(:, :)
       !> [N]
       real(dp), intent(out) :: loads(:)
+      integer :: inner(2)
 
       if (has_elastic_teeth(problem)) then
-         loads = states(:, of_drive_compression)/problem%compliance
+         loads = states(:, of_drive_compression)/problem%contact%compliance
       else
-         call film_loads(problem%film, states(:, of_film), states(:, of_velocity), loads)
+         inner = inner_places(problem, 1)
+         call loads_of_contact(problem%contact, states(:, of_film), states(:, of_velocity), states(:, inner(1):inner(2)), loads)
       end if
    end subroutine drive_loads
 
@@ -104,13 +109,16 @@ contains
       real(dp), intent(in) :: states(:, :)
       !> [N]
       real(dp), intent(out) :: loads(:)
+      integer :: inner(2)
 
       loads = 0.0_dp
       if (.not. has_two_flanks(problem)) return
       if (has_elastic_teeth(problem)) then
-         loads = states(:, of_coast_compression)/problem%compliance
+         loads = states(:, of_coast_compression)/problem%contact%compliance
       else
-         call film_loads(problem%film, problem%backlash - states(:, of_film), -states(:, of_velocity), loads)
+         inner = inner_places(problem, 2)
+         call loads_of_contact(problem%contact, problem%backlash - states(:, of_film), -states(:, of_velocity), &
+                               states(:, inner(1):inner(2)), loads)
       end if
    end subroutine coast_loads
 
@@ -134,7 +142,7 @@ contains
       !> State, flank
       real(dp), allocatable :: films(:, :)
 
-      allocate (films(size(states, 1), merge(2, 1, has_two_flanks(problem))))
+      allocate (films(size(states, 1), flank_count(problem)))
       films(:, 1) = states(:, of_film)
       if (has_two_flanks(problem)) films(:, 2) = coast_films(problem, states)
    end function films_of
@@ -150,43 +158,59 @@ contains
       if (has_elastic_teeth(problem)) positions = positions - states(:, of_drive_compression)
    end function gear_positions
 
-   !> State in which the motion of a problem starts.
+   !> State in which the motion of a problem starts: films of a state of their own have stood still for long.
    pure function initial_state(problem) result(state)
       type(problem_t), intent(in) :: problem
       real(dp) :: state(state_size(problem))
-      real(dp) :: compression(2)
+      real(dp) :: compressions(2), gaps(2)
+      integer :: places(2), flank
 
       state = 0.0_dp
       state(of_film) = problem%initial_film
       state(of_velocity) = problem%initial_velocity
-      if (.not. (has_elastic_teeth(problem) .and. problem%initial_film > 0.0_dp)) return
-      call start_springs(problem, compression)
-      state(of_drive_compression:) = compression(:size(state) - of_velocity)
+      if (.not. has_inner_numbers(problem)) return
+      if (.not. problem%initial_film > 0.0_dp) return
+      gaps = [problem%initial_film, problem%backlash - problem%initial_film]
+      if (has_elastic_teeth(problem)) then
+         call start_springs(problem, compressions)
+         state(of_drive_compression:of_velocity + flank_count(problem)) = compressions(:flank_count(problem))
+         gaps(2) = gaps(2) + sum(compressions)
+      end if
+      do flank = 1, flank_count(problem)
+         places = inner_places(problem, flank)
+         state(places(1):places(2)) = inner_at_rest(problem%contact, gaps(flank))
+      end do
    end function initial_state
 
-   !> Loads of the springs in a state [N]: none where teeth are rigid.
-   pure function spring_loads(problem, state) result(loads)
+   !> What the contacts keep of a state while keys of its problem change: loads of the springs [N], states of the films.
+   pure function kept_by_contacts(problem, state) result(kept)
       type(problem_t), intent(in) :: problem
       !> Its numbers
       real(dp), intent(in) :: state(:)
-      real(dp), allocatable :: loads(:)
+      real(dp), allocatable :: kept(:)
 
-      loads = state(of_drive_compression:)/problem%compliance
-   end function spring_loads
+      associate (springs => compression_count(problem))
+         kept = [state(of_drive_compression:of_velocity + springs)/problem%contact%compliance, &
+                 state(of_drive_compression + springs:)]
+      end associate
+   end function kept_by_contacts
 
-   !> Compress the springs of a state by loads; a spring without one is not compressed.
-   pure subroutine load_springs(problem, loads, state)
+   !> Put into a state what contacts have kept; springs that were none before are not compressed.
+   pure subroutine keep_by_contacts(problem, kept, state)
       type(problem_t), intent(in) :: problem
-      !> As of spring_loads [N]
-      real(dp), intent(in) :: loads(:)
+      !> As of kept_by_contacts
+      real(dp), intent(in) :: kept(:)
       !> Its numbers
       real(dp), intent(inout) :: state(:)
-      integer :: n
+      integer :: n, springs
 
-      n = min(size(loads), size(state) - of_velocity)
-      state(of_drive_compression:) = 0.0_dp
-      state(of_drive_compression:of_velocity + n) = problem%compliance*loads(:n)
-   end subroutine load_springs
+      n = min(size(kept), size(state) - of_velocity)
+      springs = compression_count(problem)
+      state(of_drive_compression:of_velocity + springs) = 0.0_dp
+      state(of_drive_compression:of_velocity + n) = kept(:n)
+      n = of_velocity + min(n, springs)
+      state(of_drive_compression:n) = problem%contact%compliance*state(of_drive_compression:n)
+   end subroutine keep_by_contacts
 
    !> Compressions of the springs at the start: the drive film carries the first one at the velocity of the gear, the coast film,
    !> whose gap grows by both, the other.
@@ -194,23 +218,24 @@ contains
       type(problem_t), intent(in) :: problem
       !> d_1 and d_2 [m]
       real(dp), intent(out) :: compression(2)
-      real(dp) :: load, by_film, by_velocity, low, high, gap, coast_load
+      type(load_t) :: drive, coast
+      real(dp) :: low, high, gap
       integer :: pass
       integer, parameter :: most_passes = 200
       real(dp), parameter :: thinnest = 1.0e-16_dp
 
       compression = 0.0_dp
-      call film_load(problem%film, problem%initial_film, problem%initial_velocity, load, by_film, by_velocity)
-      if (.not. abs(load) < overflow_load) return
-      compression(1) = problem%compliance*load
+      drive = load_at_rest(problem%contact, problem%initial_film, problem%initial_velocity)
+      if (.not. abs(drive%load) < overflow_load) return
+      compression(1) = problem%contact%compliance*drive%load
       if (.not. has_two_flanks(problem)) return
       ! The gap is what backlash and drive film leave, and what the spring of the coast flank gives: its load falls as it grows.
       low = max(problem%backlash - problem%initial_film + compression(1), thinnest)
       high = huge(1.0_dp)
       gap = low
       do pass = 1, most_passes
-         call film_load(problem%film, gap, -problem%initial_velocity, coast_load, by_film, by_velocity)
-         if (gap - problem%compliance*coast_load > problem%backlash - problem%initial_film + compression(1)) then
+         coast = load_at_rest(problem%contact, gap, -problem%initial_velocity)
+         if (gap - problem%contact%compliance*coast%load > problem%backlash - problem%initial_film + compression(1)) then
             high = gap
          else
             low = gap
@@ -222,9 +247,21 @@ contains
             gap = 2.0_dp*gap
          end if
       end do
-      call film_load(problem%film, gap, -problem%initial_velocity, coast_load, by_film, by_velocity)
-      compression(2) = problem%compliance*coast_load
+      coast = load_at_rest(problem%contact, gap, -problem%initial_velocity)
+      compression(2) = problem%contact%compliance*coast%load
    end subroutine start_springs
+
+   !> Largest pressure of the Reynolds iso-viscous film of one state [Pa].
+   pure real(dp) function pressure_of_film(problem, thickness, velocity)
+      type(problem_t), intent(in) :: problem
+      !> h [m] and h' [m/s]
+      real(dp), intent(in) :: thickness
+      real(dp), intent(in) :: velocity
+
+      associate (film => problem%contact%film)
+         pressure_of_film = exact_pressure(film%radius, film%speed, film%viscosity, thickness, velocity)
+      end associate
+   end function pressure_of_film
 
    !> Largest pressures of the Reynolds iso-viscous film, on the flank where they are larger.
    pure subroutine largest_pressures(problem, states, pressures)
@@ -234,7 +271,7 @@ contains
       !> [Pa]
       real(dp), intent(out) :: pressures(:)
 
-      associate (film => problem%film)
+      associate (film => problem%contact%film)
          if (.not. has_elastic_teeth(problem)) then
             call exact_pressures(film%radius, film%speed, film%viscosity, states(:, of_film), states(:, of_velocity), pressures)
             if (.not. has_two_flanks(problem)) return
@@ -266,13 +303,10 @@ contains
       real(dp), intent(in) :: compressions(:)
       !> [m/s]
       real(dp), intent(inout) :: velocities(:)
-      real(dp) :: velocity, by_film, by_load
-      integer :: outcome, i
+      integer :: i
 
       do i = 1, size(films)
-         call squeeze_velocity(problem%film, films(i), compressions(i)/problem%compliance, velocities(i), velocity, by_film, &
-                               by_load, outcome)
-         if (outcome == load_carried) velocities(i) = velocity
+         velocities(i) = velocity_under(problem%contact, films(i), compressions(i)/problem%contact%compliance, velocities(i))
       end do
    end subroutine film_velocities
 
@@ -283,14 +317,16 @@ contains
       real(dp), intent(in) :: state(:)
       !> Of the force, from 0 to 1 [periods]
       real(dp), intent(in) :: phase
-      real(dp) :: load(1), load_by_film, load_by_velocity
+      type(load_t) :: load
+      real(dp) :: loads(1)
 
-      if (has_elastic_teeth(problem)) then
-         call net_loads(problem, reshape(state, [1, size(state)]), load)
+      if (size(state) > of_velocity) then
+         call net_loads(problem, reshape(state, [1, size(state)]), loads)
       else
-         call net_load(problem, state(of_film), state(of_velocity), load(1), load_by_film, load_by_velocity)
+         call net_load(problem, state(of_film), state(of_velocity), load)
+         loads = load%load
       end if
-      acceleration_at = (load(1) - problem%weight - force_at(problem%force, phase))/problem%mass
+      acceleration_at = (loads(1) - problem%weight - force_at(problem%force, phase))/problem%mass
    end function acceleration_at
 
    !> z'' of the samples of a motion.
@@ -313,5 +349,48 @@ contains
                                                     /problem%mass
       end do
    end subroutine accelerations_of_samples
+
+   !> Film that one of each number of a state counts as, in its neighbourhood.
+   pure function counts_as(problem, state) result(scale)
+      type(problem_t), intent(in) :: problem
+      !> Its numbers
+      real(dp), intent(in) :: state(:)
+      real(dp) :: scale(size(state))
+      type(state_number_t), allocatable :: numbers(:)
+      integer :: first, i
+
+      scale = 1.0_dp
+      scale(of_velocity) = 1.0_dp/(two_pi*problem%frequency)
+      first = of_drive_compression + compression_count(problem)
+      ! A stiff tooth is compressed by far less than its film: by what the forces compress it.
+      if (has_elastic_teeth(problem)) scale(of_drive_compression:first - 1) = max(1.0_dp, thinnest_film(problem, state)/ &
+         (problem%contact%compliance*(abs(static_load(problem)) + largest_oscillation(problem%force) + least_static_load)))
+      if (size(state) < first) return
+      numbers = state_numbers(problem)
+      scale(first:) = [(numbers(i)%counts_as, i=first, size(state))]
+   end function counts_as
+
+   !> What the numbers of a state count as, each in its unit. The map of a period is known to a share of each number: where a tooth
+   !> strikes through a thin film, to more than that of the film.
+   pure function sizes_of_state(problem, state, scale) result(sizes)
+      type(problem_t), intent(in) :: problem
+      !> Its numbers
+      real(dp), intent(in) :: state(:)
+      !> As of counts_as, of this state or one near it
+      real(dp), intent(in) :: scale(:)
+      real(dp) :: sizes(size(state)), thickness
+      !> Largest size of a compression that stays positive, over the compression
+      real(dp), parameter :: most_of_compression = 100.0_dp
+      integer :: last
+
+      thickness = thinnest_film(problem, state)
+      sizes = max(thickness/scale, abs(state))
+      sizes(of_film) = thickness
+      ! A film that never pulls leaves its spring compressed, however little; so must the states beside this one be.
+      last = of_velocity + compression_count(problem)
+      if (carries_positive_loads(problem%contact)) &
+         sizes(of_drive_compression:last) = min(sizes(of_drive_compression:last), &
+                                                most_of_compression*abs(state(of_drive_compression:last)))
+   end function sizes_of_state
 
 end module carried_loads

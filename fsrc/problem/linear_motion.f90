@@ -3,12 +3,14 @@
 !>
 !>     m s^2 + S(s) = 0 ,      S(s) = sum over the films of k (K + C s)/(k + K + C s) ,
 !>
-!> for one film m C s^3 + m (k + K) s^2 + k C s + k K = 0; between rigid teeth S(s) = K + C s.
+!> for one film m C s^3 + m (k + K) s^2 + k C s + k K = 0; between rigid teeth S(s) = K + C s. Of films with a state of their own K
+!> and C are those of motions so slow that the state follows.
 module linear_motion
    use constants, only: two_pi
-   use film_law, only: film_load
+   use film_state, only: load_t
+   use flank_contact, only: load_at_rest
    use kinds, only: dp
-   use problem, only: has_elastic_teeth, has_two_flanks, problem_t
+   use problem, only: flank_count, has_elastic_teeth, problem_t
    implicit none(type, external)
    private
 
@@ -25,18 +27,19 @@ contains
       real(dp), intent(out) :: natural_frequency
       !> [-]
       real(dp), intent(out) :: damping_ratio
-      real(dp) :: stiffness(2), damping(2), load, by_film, by_velocity, spring, twice_decay, square
+      type(load_t) :: load
+      real(dp) :: stiffness(2), damping(2), spring, twice_decay, square
       integer :: flanks, flank
       integer, allocatable :: order(:)
 
-      flanks = merge(2, 1, has_two_flanks(problem))
+      flanks = flank_count(problem)
       do flank = 1, flanks
-         call film_load(problem%film, films(flank), 0.0_dp, load, by_film, by_velocity)
-         stiffness(flank) = -by_film
-         damping(flank) = -by_velocity
+         load = load_at_rest(problem%contact, films(flank), 0.0_dp)
+         stiffness(flank) = -load%by_film
+         damping(flank) = -load%by_velocity
       end do
       if (has_elastic_teeth(problem)) then
-         spring = 1.0_dp/problem%compliance
+         spring = 1.0_dp/problem%contact%compliance
          order = [(flank, flank=1, flanks)]
          if ((spring + stiffness(1))/damping(1) > (spring + stiffness(flanks))/damping(flanks)) order = [2, 1]
          call pair_on_springs(problem%mass, spring, stiffness(order), damping(order), twice_decay, square)

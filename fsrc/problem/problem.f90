@@ -10,10 +10,11 @@
 !>     W(h_1, h_1') = d_1/kappa ,   d_1 = h_1 - z ,      W(h_2, h_2') = d_2/kappa ,   d_2 = h_2 - (b - z) ,
 !>     m z'' = (d_1 - d_2)/kappa - F(t) - m g .
 !>
-!> The state of a motion is h_1 and z', with elastic teeth also d_1, and d_2 where there are two flanks: a compression keeps its
-!> digits however stiff the tooth is, a position would not.
+!> The state of a motion is h_1 and z', with elastic teeth also d_1, and d_2 where there are two flanks (a compression keeps its
+!> digits however stiff the tooth is, a position would not), and where films have a state of their own the numbers of both.
 module problem
-   use film_law, only: film_load, film_t, new_film, steady_film
+   use film_state, only: load_t, state_number_t
+   use flank_contact, only: contact_of, film_under, flank_contact_t, inner_count, inner_number, is_elastic, load_at_rest
    use force, only: force_of, force_t, largest_size
    use kinds, only: dp
    use scene_types, only: scene_t
@@ -22,15 +23,14 @@ module problem
 
    !> What moves, and where it starts.
    type, public :: problem_t
-      type(film_t) :: film = film_t()
+      !> The contact of each flank
+      type(flank_contact_t) :: contact = flank_contact_t()
       type(force_t) :: force = force_t()
       !> Mass m [kg] and weight m g [N]
       real(dp) :: mass = 0.0_dp
       real(dp) :: weight = 0.0_dp
       !> Backlash b [m]; huge: there is one flank
       real(dp) :: backlash = huge(1.0_dp)
-      !> Compliance of a tooth kappa [m/N]; 0: rigid
-      real(dp) :: compliance = 0.0_dp
       !> Frequency f_exc [Hz]; a start of the force's period is the start of the motion
       real(dp) :: frequency = 0.0_dp
       !> h [m] and z' [m/s] at the start; no film: there is none that carries the static load
@@ -38,14 +38,9 @@ module problem
       real(dp) :: initial_velocity = 0.0_dp
    end type problem_t
 
-   !> Places of the numbers of a state: film of the drive flank h_1 [m], velocity z' [m/s], compressions d_1 and d_2 [m].
+   !> Places of the numbers of a state: film of the drive flank h_1 [m], velocity z' [m/s], and where teeth give compressions d_1
+   !> and d_2 [m]; behind them stand the states of the films, of the drive flank and then of the coast flank.
    integer, parameter, public :: of_film = 1, of_velocity = 2, of_drive_compression = 3, of_coast_compression = 4
-
-   !> What files call a number of a state, and its unit.
-   type, public :: state_number_t
-      character(:), allocatable :: name
-      character(:), allocatable :: unit
-   end type state_number_t
 
    !> The film in the neighbourhood of rest, h'' + d h' + k h = 0 with the period of the force as the unit of time.
    type, public :: settling_t
@@ -57,7 +52,8 @@ module problem
       real(dp) :: rate = huge(1.0_dp)
    end type settling_t
 
-   public :: problem_of, has_two_flanks, has_elastic_teeth, state_size, state_numbers, static_load, largest_applied_force, &
+   public :: problem_of, has_two_flanks, has_elastic_teeth, has_inner_numbers, same_kind, flank_count, compression_count, &
+             state_size, state_numbers, state_number_t, inner_places, static_load, largest_applied_force, &
              film_at_rest, films_at_rest, loads_at_rest, reference_films, reference_film, thinner_film, linearise, settling_of
 
 contains
@@ -67,13 +63,12 @@ contains
       !> Checked scene
       type(scene_t), intent(in) :: scene
 
-      problem%film = new_film(scene)
+      problem%contact = contact_of(scene)
       problem%force = force_of(scene%excitation)
       problem%mass = scene%excitation%mass
       problem%weight = scene%excitation%weight()
       problem%frequency = scene%excitation%frequency
       if (scene%contact%backlash > 0.0_dp) problem%backlash = scene%contact%backlash
-      if (scene%contact%stiffness > 0.0_dp) problem%compliance = 1.0_dp/scene%contact%stiffness
       problem%initial_film = scene%film%initial_film
       if (.not. problem%initial_film > 0.0_dp) problem%initial_film = film_at_rest(problem, scene%excitation%static_load())
       problem%initial_velocity = scene%film%initial_velocity
@@ -104,27 +99,76 @@ contains
    elemental logical function has_elastic_teeth(problem)
       type(problem_t), intent(in) :: problem
 
-      has_elastic_teeth = problem%compliance > 0.0_dp
+      has_elastic_teeth = is_elastic(problem%contact)
    end function has_elastic_teeth
+
+   !> Whether motions of two problems go by the same equations: films of one law, flanks and numbers alike.
+   elemental logical function same_kind(problem, other)
+      type(problem_t), intent(in) :: problem
+      type(problem_t), intent(in) :: other
+
+      same_kind = problem%contact%film%kernel == other%contact%film%kernel .and. &
+                  problem%contact%state_law == other%contact%state_law .and. &
+                  (has_two_flanks(problem) .eqv. has_two_flanks(other)) .and. &
+                  (has_elastic_teeth(problem) .eqv. has_elastic_teeth(other))
+   end function same_kind
+
+   !> Whether contacts have numbers of their own, beside film and velocity.
+   elemental logical function has_inner_numbers(problem)
+      type(problem_t), intent(in) :: problem
+
+      has_inner_numbers = state_size(problem) > of_velocity
+   end function has_inner_numbers
+
+   !> How many flanks there are.
+   elemental integer function flank_count(problem)
+      type(problem_t), intent(in) :: problem
+
+      flank_count = merge(2, 1, has_two_flanks(problem))
+   end function flank_count
+
+   !> How many compressions a state has.
+   elemental integer function compression_count(problem)
+      type(problem_t), intent(in) :: problem
+
+      compression_count = merge(flank_count(problem), 0, has_elastic_teeth(problem))
+   end function compression_count
 
    !> How many numbers a state has.
    elemental integer function state_size(problem)
       type(problem_t), intent(in) :: problem
 
-      state_size = 2
-      if (has_elastic_teeth(problem)) state_size = merge(4, 3, has_two_flanks(problem))
+      state_size = of_velocity + compression_count(problem) + flank_count(problem)*inner_count(problem%contact)
    end function state_size
+
+   !> First and last of the numbers of a film's own state.
+   pure function inner_places(problem, flank) result(places)
+      type(problem_t), intent(in) :: problem
+      !> 1 drive, 2 coast
+      integer, intent(in) :: flank
+      integer :: places(2)
+
+      places = of_velocity + compression_count(problem) + [(flank - 1)*inner_count(problem%contact) + 1, &
+                                                           flank*inner_count(problem%contact)]
+   end function inner_places
 
    !> The numbers of a state, in their order.
    pure function state_numbers(problem) result(numbers)
       type(problem_t), intent(in) :: problem
       type(state_number_t) :: numbers(state_size(problem))
+      character(*), parameter :: flanks(2) = ['drive_', 'coast_']
+      integer :: places(2), flank, i
 
       numbers(of_film) = state_number_t('film', 'm')
       numbers(of_velocity) = state_number_t('velocity', 'm/s')
-      if (.not. has_elastic_teeth(problem)) return
-      numbers(of_drive_compression) = state_number_t('drive_compression', 'm')
-      if (has_two_flanks(problem)) numbers(of_coast_compression) = state_number_t('coast_compression', 'm')
+      do flank = 1, flank_count(problem)
+         if (has_elastic_teeth(problem)) numbers(of_velocity + flank) = state_number_t(flanks(flank)//'compression', 'm')
+         places = inner_places(problem, flank)
+         do i = places(1), places(2)
+            numbers(i) = inner_number(problem%contact, i - places(1) + 1)
+            numbers(i)%name = flanks(flank)//numbers(i)%name
+         end do
+      end do
    end function state_numbers
 
    !> The thinner one of the films of both flanks, of rigid teeth [m].
@@ -157,9 +201,9 @@ contains
       films = 0.0_dp
       if (has_two_flanks(problem)) then
          call loads_at_rest(problem, load, loads(1), loads(2))
-         if (loads(1) > 0.0_dp) films = [steady_film(problem%film, loads(1)), steady_film(problem%film, loads(2))]
+         if (loads(1) > 0.0_dp) films = [film_under(problem%contact, loads(1)), film_under(problem%contact, loads(2))]
       else if (load > 0.0_dp) then
-         films = [steady_film(problem%film, load), huge(1.0_dp)]
+         films = [film_under(problem%contact, load), huge(1.0_dp)]
       end if
    end function films_at_rest
 
@@ -190,9 +234,9 @@ contains
          middle = 0.5_dp*(low + high)
          smaller = exp(middle)
          larger = smaller + abs(load)
-         thin = steady_film(problem%film, larger)
-         thick = steady_film(problem%film, smaller)
-         excess = thick + thin - problem%compliance*(smaller + larger) - problem%backlash
+         thin = film_under(problem%contact, larger)
+         thick = film_under(problem%contact, smaller)
+         excess = thick + thin - problem%contact%compliance*(smaller + larger) - problem%backlash
          if (.not. thin > 0.0_dp) excess = -problem%backlash
          if (.not. (middle > low .and. middle < high)) exit
          if (excess > 0.0_dp) then
@@ -238,18 +282,19 @@ contains
       real(dp), intent(in) :: films(2)
       real(dp), intent(out) :: stiffness
       real(dp), intent(out) :: damping
-      real(dp) :: load, by_film, by_velocity, share
+      type(load_t) :: load
+      real(dp) :: share
       integer :: flank
 
       stiffness = 0.0_dp
       damping = 0.0_dp
-      do flank = 1, merge(2, 1, has_two_flanks(problem))
-         call film_load(problem%film, films(flank), 0.0_dp, load, by_film, by_velocity)
+      do flank = 1, flank_count(problem)
+         load = load_at_rest(problem%contact, films(flank), 0.0_dp)
          ! What of the gear's way the film takes; the spring takes the rest.
          share = 1.0_dp
-         if (has_elastic_teeth(problem)) share = 1.0_dp/(1.0_dp - problem%compliance*by_film)
-         stiffness = stiffness - by_film*share
-         damping = damping - by_velocity*share*share
+         if (has_elastic_teeth(problem)) share = 1.0_dp/(1.0_dp - problem%contact%compliance*load%by_film)
+         stiffness = stiffness - load%by_film*share
+         damping = damping - load%by_velocity*share*share
       end do
    end subroutine linearise
 

@@ -122,7 +122,7 @@ contains
       type(judged_scene_t), intent(inout) :: judged
 
       associate (pressure => judged%extremes%highest(seen_pressure), problem => judged%resolved%problem)
-         judged%regime = check_regime(problem%film, pressure%value, thinnest_film(problem, pressure%state))
+         judged%regime = check_regime(problem%contact%film, pressure%value, thinnest_film(problem, pressure%state))
       end associate
    end subroutine note_regime
 

@@ -194,7 +194,7 @@ contains
          case (quantity_model_limit)
             value = lowest(seen_film)%value
             if (has_two_flanks(problem)) value = min(value, lowest(seen_coast_film)%value)
-            value = real(model_limit(value, highest(seen_film)%value, problem%film%radius), dp)
+            value = real(model_limit(value, highest(seen_film)%value, problem%contact%film%radius), dp)
          case (quantity_coast_film_minimum)
             if (has_two_flanks(problem)) value = lowest(seen_coast_film)%value
          case (quantity_coast_film_maximum)

@@ -59,7 +59,7 @@ contains
       static_load = scene%excitation%static_load()
       rest = films_at_rest(resolved%problem, static_load)
       resolved%steady_film = rest(1)
-      associate (problem => resolved%problem, film => resolved%problem%film, mass => resolved%problem%mass)
+      associate (problem => resolved%problem, film => resolved%problem%contact%film, mass => resolved%problem%mass)
          if (problem%initial_film > 0.0_dp) resolved%initial_squeeze_group = &
             squeeze_group(film%radius, film%speed, problem%initial_film, problem%initial_velocity)
          resolved%rounding_noise = 1.0e-12_dp*(abs(static_load) + largest_oscillation(problem%force))/mass
@@ -73,7 +73,7 @@ contains
                                                      force/mass, problem%frequency)
          ! What is left over of a spring's compression when the iterations of an implicit step end
          if (has_elastic_teeth(problem)) resolved%noise_by_accuracy = &
-            max(resolved%noise_by_accuracy, pass_share*minval(rest)/(problem%compliance*mass))
+            max(resolved%noise_by_accuracy, pass_share*minval(rest)/(problem%contact%compliance*mass))
          ! Newmark's steps are not chosen by an accuracy, and at rest they stand still. What a loose tolerance makes of them
          ! is a motion that the verification doubts.
          if (scene%solver%method /= method_newmark) resolved%noise_floor = resolved%noise_floor_at(scene%solver%accuracy)

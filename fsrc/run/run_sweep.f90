@@ -15,7 +15,7 @@ module run_sweep
    use kinds, only: dp, int64
    use log_file, only: log_t
    use output_place, only: log_path, result_path, summary_path
-   use carried_loads, only: load_springs, spring_loads
+   use carried_loads, only: keep_by_contacts, kept_by_contacts
    use problem, only: of_film, of_velocity
    use periodic_orbit, only: attracting_period, find_periodic_orbit
    use progress, only: progress_t
@@ -45,8 +45,8 @@ module run_sweep
       !> h [m], 0: there is none; z' [m/s]
       real(dp) :: film = 0.0_dp
       real(dp) :: velocity = 0.0_dp
-      !> Where teeth give, by films that stay as they are while the stiffness changes: drive and coast flank [N]
-      real(dp), allocatable :: spring_loads(:)
+      !> What the contacts keep while the stiffness changes
+      real(dp), allocatable :: kept(:)
    end type carried_state_t
 
    public :: run_sweep_task, solve_value
@@ -206,14 +206,14 @@ contains
 
       judged%resolved = resolve(scene)
       associate (problem => judged%resolved%problem)
-         judged%status = problem%film%status_without_load
+         judged%status = problem%contact%film%status_without_load
          if (state%film > 0.0_dp) then
             problem%initial_film = state%film
             problem%initial_velocity = state%velocity
          end if
          if (.not. problem%initial_film > 0.0_dp) return
          start = start_of(problem)
-         if (state%film > 0.0_dp) call load_springs(problem, state%spring_loads, start%numbers)
+         if (state%film > 0.0_dp) call keep_by_contacts(problem, state%kept, start%numbers)
          call unlock_texts()
          call find_steady_motion(problem, start, scene%solver%accuracy, scene%solver%periods, scene%spectrum%periods, ending)
          call lock_texts()
@@ -223,7 +223,7 @@ contains
          if (.not. is_success(ending%status)) return
          state%film = ending%numbers(of_film)
          state%velocity = ending%numbers(of_velocity)
-         state%spring_loads = spring_loads(problem, ending%numbers)
+         state%kept = kept_by_contacts(problem, ending%numbers)
          problem%initial_film = state%film
          problem%initial_velocity = state%velocity
          start = motion_state_t(numbers=ending%numbers)

@@ -2,7 +2,9 @@
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use verification, only: verification_sentence, verification_word
-   use film_law, only: film_load, law_words, with_exact_film
+   use film_law, only: with_exact_film
+   use film_state, only: load_t
+   use flank_contact, only: contact_words, load_at_rest
    use force, only: inertia_ratio
    use judged_scene, only: judged_scene_t, quantity_value
    use kinds, only: dp
@@ -115,7 +117,7 @@ contains
       if (scene%task == task_film) then
          sentence = 'film task'
       else
-         sentence = law_words(scene%film)
+         sentence = contact_words(scene%film)
       end if
    end function law_sentence
 
@@ -157,14 +159,15 @@ contains
       character(:), allocatable :: lines
       character(1), parameter :: end_of_line = new_line('a')
       character(:), allocatable :: warning
-      real(dp) :: share, thinner, load, by_film, by_velocity
+      type(load_t) :: load
+      real(dp) :: share, thinner
       integer :: limit
 
       share = 0.0_dp
       if (resolved%steady_film > 0.0_dp) then
          thinner = reference_film(resolved%problem)
-         call film_load(resolved%problem%film, thinner, 0.0_dp, load, by_film, by_velocity)
-         share = resolved%tooth_compliance*load/thinner
+         load = load_at_rest(resolved%problem%contact, thinner, 0.0_dp)
+         share = resolved%tooth_compliance*load%load/thinner
          lines = '! steady film                          '//short_text(resolved%steady_film, 10)//' m'//end_of_line
          if (resolved%natural_frequency > 0.0_dp) lines = lines// &
                  '! natural frequency                    '//short_text(resolved%natural_frequency, 6)//' Hz'//end_of_line// &
@@ -183,14 +186,14 @@ contains
                  '! squeeze group A at t = 0             '//short_text(resolved%initial_squeeze_group, 5)//end_of_line
       limit = model_limit(min(resolved%steady_film, resolved%problem%initial_film), &
                           max(resolved%steady_film, resolved%problem%initial_film), &
-                          resolved%problem%film%radius)
+                          resolved%problem%contact%film%radius)
       if (resolved%problem%initial_film > 0.0_dp .and. limit /= within_model) &
          lines = lines//'! warning: at rest '//model_limit_sentence(limit)//' (model_limit)'//end_of_line
       if (scene%gear%given) lines = lines//drag_advice(resolved)//law_advice(scene)
       warning = stiffness_warning(scene, 'at rest', share)
       if (len(warning) > 0) lines = lines//'! '//warning//end_of_line
-      lines = lines//'! A, B and alpha p are those of the Reynolds film with u = '//short_text(resolved%problem%film%speed, 6)// &
-              ' m/s, '//speed_meaning(scene)
+      lines = lines//'! A, B and alpha p are those of the Reynolds film with u = '// &
+              short_text(resolved%problem%contact%film%speed, 6)//' m/s, '//speed_meaning(scene)
    end function resolved_lines
 
    !> What holds the teeth of a gear pair together, part by part, and whether inertia pulls them apart.

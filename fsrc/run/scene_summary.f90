@@ -45,7 +45,7 @@ contains
       call add_results(summary, results, judged%status)
       call summary%add('law', choice_word('film', 'law', scene%film%law))
       call summary%add('model', choice_word('film', 'model', scene%film%model))
-      call summary%add('speed_used', judged%resolved%problem%film%speed)
+      call summary%add('speed_used', judged%resolved%problem%contact%film%speed)
       call summary%add('speed_meaning', speed_meaning(scene))
       call add_derived(summary, scene)
       call add_part(summary, judged, part_scene)

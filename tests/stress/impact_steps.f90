@@ -69,11 +69,11 @@ contains
       type(tooth_t) :: tooth
       integer :: n
 
-      tooth%film = lane%film
+      tooth%film = lane%contact%film
       tooth%mass = lane%mass
       tooth%static_load = lane%force%steady + lane%weight
       tooth%backlash = lane%backlash
-      tooth%compliance = lane%compliance
+      tooth%compliance = lane%contact%compliance
       allocate (tooth%amplitudes(lane%force%highest), tooth%phases(lane%force%highest))
       call set_order(1, lane%force%cosine, lane%force%sine)
       do n = 2, lane%force%highest

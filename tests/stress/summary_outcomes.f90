@@ -14,7 +14,7 @@
 !> failure. Where a row was asked for a verification, a wrong class is one only if it is verified. A value of a sweep is held
 !> against the truth as a row is.
 module summary_outcomes
-   use carried_loads, only: load_springs
+   use carried_loads, only: keep_by_contacts
    use engine, only: motion_state_t, start_of
    use force, only: largest_oscillation
    use impact_reference, only: compared_harmonics, distance, find_orbit, impact_reference_t, possible_classes, solve_reference
@@ -277,9 +277,9 @@ contains
       start = start_of(drawn%resolved%problem)
       if (drawn%before%film > 0.0_dp) then
          problem = drawn%resolved%problem
-         problem%compliance = tooth%compliance
+         problem%contact%compliance = tooth%compliance
          start%numbers(:2) = [drawn%before%film, drawn%before%velocity]
-         call load_springs(problem, drawn%before%spring_loads, start%numbers)
+         call keep_by_contacts(problem, drawn%before%kept, start%numbers)
       end if
       state = start_of_tooth(drawn%resolved%problem, start, offset)
       call solve_periods(tooth, rule, tolerance, told%periods - told%window, state, solved)

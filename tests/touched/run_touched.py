@@ -25,6 +25,7 @@ LISTED = re.compile(r"^\d+\. `([^`]+)`", re.MULTILINE)
 # The toy of each list.
 TOYS = {
     "a film law": "law",
+    "a film law with a state of its own": "law_with_state",
     "a quantity": "quantity",
     "a key that campaigns may vary": "key",
     "a task": "task",

@@ -49,9 +49,9 @@ contains
    function linear_problem() result(problem)
       type(problem_t) :: problem
 
-      problem%film%rolling = load_at_zero
-      problem%film%piezo = stiffness
-      problem%film%squeeze = damping
+      problem%contact%film%rolling = load_at_zero
+      problem%contact%film%piezo = stiffness
+      problem%contact%film%squeeze = damping
       problem%mass = 3.0_dp
       problem%weight = 29.4_dp
       problem%force = cosine_force(199.2_dp, 20.0_dp)

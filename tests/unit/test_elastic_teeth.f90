@@ -122,7 +122,7 @@ contains
          call near([minval(gear), maxval(gear)], positions, agreement, 'position')
       end associate
       call near([minval(z), maxval(z)], accelerations, agreement, 'acceleration')
-      associate (load => states(:, of_drive_compression)/problem%compliance)
+      associate (load => states(:, of_drive_compression)/problem%contact%compliance)
          ! The loads are printed with four digits behind the point.
          call near([minval(load), maxval(load)], loads, agreement + 1.0e-4_dp/loads(2), 'load')
       end associate
@@ -244,10 +244,10 @@ contains
       call loads_at_rest(problem, static_load(problem), drive, coast)
       call checks%check_close(drive - coast, 5.0_dp, 1.0e-13_dp, 'rest: static load')
       start = initial_state(problem)
-      call checks%check_close(start(3)/(problem%compliance*drive), 1.0_dp, 1.0e-12_dp, 'rest: spring of the drive flank')
-      call checks%check_close(start(4)/(problem%compliance*coast), 1.0_dp, 1.0e-9_dp, 'rest: spring of the coast flank')
+      call checks%check_close(start(3)/(problem%contact%compliance*drive), 1.0_dp, 1.0e-12_dp, 'rest: spring of the drive flank')
+      call checks%check_close(start(4)/(problem%contact%compliance*coast), 1.0_dp, 1.0e-9_dp, 'rest: spring of the coast flank')
       gap = problem%backlash - start(1) + start(3) + start(4)
-      call film_load(problem%film, gap, 0.0_dp, load, by_film, by_velocity)
+      call film_load(problem%contact%film, gap, 0.0_dp, load, by_film, by_velocity)
       call checks%check_close(load/coast, 1.0_dp, 1.0e-9_dp, 'rest: film of the coast flank')
    end subroutine test_rest
 
@@ -287,7 +287,7 @@ contains
       call checks%check_close(ratio/ratio_alone, 1.0_dp, 1.0e-12_dp, 'damping ratio between equal films')
       do i = 0, 1
          problem = canonical(law_iso_viscous, model_reynolds, 1.0e13_dp)
-         if (i == 0) problem%compliance = 0.0_dp
+         if (i == 0) problem%contact%compliance = 0.0_dp
          problem%mass = 0.01_dp*problem%mass
          call pair_of(problem, frequency, ratio)
          call checks%check(max(frequency, ratio) <= 0.0_dp, 'an overdamped motion has no natural frequency')
@@ -318,10 +318,10 @@ contains
 
       do law = law_iso_viscous, law_piezo_viscous
          problem = canonical(law, model_published, 1.0e15_dp)
-         problem%compliance = 0.0_dp
+         problem%contact%compliance = 0.0_dp
          call solve_window(problem, start_of(problem), 1.0e-10_dp, 256, 3, 3, rigid, z, ending, record)
          do i = 1, 2
-            problem%compliance = 1.0e-14_dp*0.1_dp**(i - 1)
+            problem%contact%compliance = 1.0e-14_dp*0.1_dp**(i - 1)
             call solve_window(problem, start_of(problem), 1.0e-10_dp, 256, 3, 3, stiff, z, ending, record)
             difference(i) = maxval(abs(stiff(:, of_film) - rigid(:, of_film)))/maxval(rigid(:, of_film))
          end do
@@ -413,7 +413,7 @@ contains
 
       do i = 1, 2
          pressed = between_flanks()
-         pressed%compliance = 1.0_dp/stiffness(i)
+         pressed%contact%compliance = 1.0_dp/stiffness(i)
          turned = pressed
          pressed%force%steady = load(i)
          turned%force%steady = -load(i)

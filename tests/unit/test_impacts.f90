@@ -75,7 +75,7 @@ contains
       real(dp), intent(in) :: steady  !> [N]
 
       pressed%force = cosine_force(steady, 1.0_dp)
-      pressed%compliance = 1.0_dp
+      pressed%contact%compliance = 1.0_dp
       pressed%frequency = 1.0_dp
    end function pressed
 

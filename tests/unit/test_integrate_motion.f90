@@ -228,11 +228,11 @@ contains
       method = request_t(tolerance=1.0e-16_dp, iteration_limit=100)
       problem = problem_of(canonical_scene(law_iso_viscous, steps))
       call force_of_period(problem%force, force)
-      call start_motion(kernel_of(problem%film), problem, state, count, status)
-      call advance_period(kernel_of(problem%film), problem, method, force, state, count, films, velocities, &
+      call start_motion(kernel_of(problem%contact%film), problem, state, count, status)
+      call advance_period(kernel_of(problem%contact%film), problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
       early(1:2) = films([steps/2, steps])
-      call advance_period(kernel_of(problem%film), problem, method, force, state, count, films, velocities, &
+      call advance_period(kernel_of(problem%contact%film), problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
       early(3) = films(steps)
    end function early_films

@@ -7,6 +7,7 @@ module test_lane_motions
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use film_law, only: film_t, kernel_half_pi, kernel_piezo, kernel_reynolds_iso, kernel_reynolds_piezo, &
                        kernel_solved_fast, kernel_solved_successive, new_film, steady_film
+   use flank_contact, only: flank_contact_t
    use kinds, only: dp
    use lane_block, only: lane_block_t
    use lane_functions, only: lane_count => lanes
@@ -384,7 +385,7 @@ contains
    subroutine test_last_pass(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      type(film_t) :: films(lane_count)
+      type(flank_contact_t) :: contacts(lane_count)
       type(lane_block_t) :: block
       type(newton_pass_t) :: last
       logical :: busy(lane_count)
@@ -403,12 +404,12 @@ contains
       k = 0.0_dp
       imbalance = 1.0_dp
       correction = 1.0_dp
-      call correct(films, busy, 1, imbalance, correction, last, block, k)
+      call correct(contacts, busy, 1, imbalance, correction, last, block, k)
       call checks%check(all(busy), 'last pass: not the first')
       imbalance(1) = 1.0e-4_dp
       imbalance(2) = 1.0e4_dp
       correction = 1.0e-4_dp
-      call correct(films, busy, 2, imbalance, correction, last, block, k)
+      call correct(contacts, busy, 2, imbalance, correction, last, block, k)
       call checks%check(.not. busy(1), 'last pass: corrections and residuals fall')
       call checks%check(all(busy(2:)), 'last pass: corrections fall, residuals do not')
    end subroutine test_last_pass

@@ -101,11 +101,11 @@ contains
          method = canonical_method()
          method%tolerance = 10.0_dp**(-choice)
          count = motion_count_t()
-         call start_motion(kernel_of(problem%film), problem, state, count, status)
+         call start_motion(kernel_of(problem%contact%film), problem, state, count, status)
          h = state%film
          v = state%velocity
          a = state%acceleration
-         call advance_period(kernel_of(problem%film), problem, method, force, state, count, films, velocities, &
+         call advance_period(kernel_of(problem%contact%film), problem, method, force, state, count, films, velocities, &
             accelerations, done, &
             status)
          passes = 1
@@ -117,7 +117,7 @@ contains
             do
                passes = passes + 1
                last_h = next_h
-               call film_load(problem%film, next_h, next_v, load, slope_h, slope_w)
+               call film_load(problem%contact%film, next_h, next_v, load, slope_h, slope_w)
                next_a = next_a + (load - force(i) - problem%weight - 3.0_dp*next_a) &
                   /(3.0_dp - 0.25_dp*dt*dt*slope_h - 0.5_dp*dt*slope_w)
                call newmark_formulas(dt, h, v, a, next_a, next_h, next_v)

@@ -158,8 +158,8 @@ contains
 
       problem = linear_problem()
       problem%force%cosine = amplitude
-      problem%film = film_t(piezo=problem%mass*angular**2)
-      problem%film%rolling = problem%film%piezo*rest + static_load(problem)
+      problem%contact%film = film_t(piezo=problem%mass*angular**2)
+      problem%contact%film%rolling = problem%contact%film%piezo*rest + static_load(problem)
    end function falling_film
 
    !> One period of the canonical idle scene from its steady film with a given velocity.
@@ -181,9 +181,9 @@ contains
       method = canonical_method()
       method%by_newton = by_newton
       call force_of_period(problem%force, force)
-      call start_motion(kernel_of(problem%film), problem, state, count, status)
+      call start_motion(kernel_of(problem%contact%film), problem, state, count, status)
       films = -1.0_dp
-      call advance_period(kernel_of(problem%film), problem, method, force, state, count, films, velocities, &
+      call advance_period(kernel_of(problem%contact%film), problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
    end subroutine fall_through_a_period
 
@@ -205,9 +205,9 @@ contains
       problem = problem_of(canonical_scene(law_iso_viscous, steps))
       problem%initial_film = idle_steady_film
       call force_of_period(problem%force, force)
-      call start_motion(kernel_of(problem%film), problem, state, count, status)
+      call start_motion(kernel_of(problem%contact%film), problem, state, count, status)
       before = state
-      call advance_period(kernel_of(problem%film), problem, method, force, state, count, films, velocities, &
+      call advance_period(kernel_of(problem%contact%film), problem, method, force, state, count, films, velocities, &
          accelerations, done, status)
       call checks%check(status == status_not_converged, 'iteration limit: status')
       call checks%check(done == 0 .and. count%steps == 0 .and. count%cuts == 0, &
@@ -222,22 +222,22 @@ contains
       method%iteration_limit = 50
       problem = problem_of(canonical_scene(law_piezo_viscous, 8))
       problem%initial_film = 1.0e-6_dp
-      call start_motion(kernel_of(problem%film), problem, state, count, status)
+      call start_motion(kernel_of(problem%contact%film), problem, state, count, status)
       call force_of_period(problem%force, force(:8))
-      call advance_period(kernel_of(problem%film), problem, method, force(:8), state, count, films(:8), velocities(:8), &
+      call advance_period(kernel_of(problem%contact%film), problem, method, force(:8), state, count, films(:8), velocities(:8), &
          accelerations(:8), &
          done, status)
       call checks%check(status /= status_complete .or. count%cuts > 0, 'a diverging step is not passed over')
 
       ! exp(703*2/1.905) is no load.
       problem%initial_velocity = -2.0_dp
-      call start_motion(kernel_of(problem%film), problem, state, count, status)
+      call start_motion(kernel_of(problem%contact%film), problem, state, count, status)
       call checks%check(status == status_overflow, 'overflow at the start: status')
 
       ! Nothing stops a fall in a film that carries nothing.
       method = linear_method()
       problem = linear_problem()
-      problem%film = film_t()
+      problem%contact%film = film_t()
       problem%initial_film = 1.0e-6_dp
       problem%initial_velocity = -1.0e-3_dp
       call force_of_period(problem%force, force)

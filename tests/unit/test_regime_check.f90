@@ -3,6 +3,7 @@ module test_regime_check
    use canonical_scenes, only: canonical_scene, static_load
    use checks, only: check_list_t
    use film_law, only: film_t, new_film, steady_film
+   use flank_contact, only: flank_contact_t
    use kinds, only: dp
    use node_extremes, only: seen_pressure
    use problem, only: of_film, problem_t
@@ -55,7 +56,8 @@ contains
 
       type(window_extremes_t) :: extremes
 
-      extremes = extremes_of_samples(problem_t(film=film), reshape([films, velocities], [size(films), 2]), velocities)
+      extremes = extremes_of_samples(problem_t(contact=flank_contact_t(film=film)), &
+                                     reshape([films, velocities], [size(films), 2]), velocities)
       associate (pressure => extremes%highest(seen_pressure))
          verdict = check_regime(film, pressure%value, pressure%state(of_film))
       end associate

@@ -70,30 +70,30 @@ contains
       scene%frequency = frequency
       scene%initial_film = first_film
       load = scene%force%steady + scene%weight
-      scene%film%kernel = kernel
-      scene%film%radius = radius
-      scene%film%speed = speed
+      scene%contact%film%kernel = kernel
+      scene%contact%film%radius = radius
+      scene%contact%film%speed = speed
       select case (kernel)
       case (kernel_half_pi)
          length = load*first_film/rolling_coefficient(1.0_dp, speed, viscosity, radius)
-         scene%film%rolling = rolling_coefficient(length, speed, viscosity, radius)
-         scene%film%squeeze = squeeze_coefficient(length, viscosity, radius)
+         scene%contact%film%rolling = rolling_coefficient(length, speed, viscosity, radius)
+         scene%contact%film%squeeze = squeeze_coefficient(length, viscosity, radius)
       case (kernel_piezo)
          length = load*first_film**3.5_dp/piezo_coefficient(1.0_dp, speed, viscosity, radius, &
             pressure_viscosity)
-         scene%film%piezo = piezo_coefficient(length, speed, viscosity, radius, pressure_viscosity)
-         scene%film%rate = squeeze_exponent_rate(speed)
+         scene%contact%film%piezo = piezo_coefficient(length, speed, viscosity, radius, pressure_viscosity)
+         scene%contact%film%rate = squeeze_exponent_rate(speed)
       case (kernel_solved_fast)
          length = load*first_film/rolling_coefficient(1.0_dp, speed, viscosity, radius)
-         scene%film%rolling = rolling_coefficient(length, speed, viscosity, radius)
-         scene%film%squeeze = squeeze_coefficient(length, viscosity, radius)
-         scene%film%squeeze_rate = squeeze_rate(speed, radius)
+         scene%contact%film%rolling = rolling_coefficient(length, speed, viscosity, radius)
+         scene%contact%film%squeeze = squeeze_coefficient(length, viscosity, radius)
+         scene%contact%film%squeeze_rate = squeeze_rate(speed, radius)
       case default
-         scene%film%scale = load*first_film/0.203957020579723718_dp
-         scene%film%squeeze_rate = squeeze_rate(speed, radius)
+         scene%contact%film%scale = load*first_film/0.203957020579723718_dp
+         scene%contact%film%squeeze_rate = squeeze_rate(speed, radius)
          ! With three times the static load at 1.9 m/s, sigma comes down to 0.5, and is 1 in flight.
          if (kernel == kernel_reynolds_piezo) &
-            scene%film%pressure_rate = pressure_rate(speed, viscosity, radius, 4.5e-10_dp)
+            scene%contact%film%pressure_rate = pressure_rate(speed, viscosity, radius, 4.5e-10_dp)
       end select
    end function scene_of
 
@@ -180,10 +180,10 @@ contains
       scene%force%steady = 199.2_dp
       scene%force%cosine = 205.7_dp
       scene%frequency = 600.0_dp
-      scene%film%kernel = kernel_half_pi
-      scene%film%rolling = rolling_coefficient(0.010_dp, 1.905_dp, 0.3_dp, radius)
-      scene%film%squeeze = squeeze_coefficient(0.010_dp, 0.3_dp, radius)
-      scene%initial_film = scene%film%rolling/(scene%force%steady + scene%weight)
+      scene%contact%film%kernel = kernel_half_pi
+      scene%contact%film%rolling = rolling_coefficient(0.010_dp, 1.905_dp, 0.3_dp, radius)
+      scene%contact%film%squeeze = squeeze_coefficient(0.010_dp, 0.3_dp, radius)
+      scene%initial_film = scene%contact%film%rolling/(scene%force%steady + scene%weight)
       call films_of(scene, 1.0e-12_dp, 2, 2, 2, films, ending)
       call checks%check(ending%status == status_complete, 'canonical scene completes')
       call checks%check_close(films(1)/1.916633193569e-06_dp, 1.0_dp, 1.0e-12_dp, 'film after half a period')
@@ -229,7 +229,7 @@ contains
       call films_of(scene, 0.9e-10_dp, 6, 6, 16, exact, ending)
       call checks%check(ending%implicit .and. ending%status == status_complete, 'no cells for that accuracy')
       ! A = 20 at the start, and soon less
-      scene%initial_velocity = 20.0_dp*sqrt(scene%initial_film)/scene%film%squeeze_rate
+      scene%initial_velocity = 20.0_dp*sqrt(scene%initial_film)/scene%contact%film%squeeze_rate
       call films_of(scene, 1.0e-12_dp, 3, 3, 16, exact, ending)
       call films_of(scene, 1.0e-6_dp, 3, 3, 16, films, ending)
       call checks%check(ending%implicit .and. ending%status == status_complete, 'begun beyond the cells')
@@ -271,14 +271,14 @@ contains
       dt = 1.0_dp/(scene%frequency*real(steps, dp))
       h = scene%initial_film
       v = scene%initial_velocity
-      call film_load(scene%film, h, v, load, by_film, by_velocity)
+      call film_load(scene%contact%film, h, v, load, by_film, by_velocity)
       a = (load - scene%weight - scene%force%steady - scene%force%cosine)/scene%mass
       do i = 1, periods*steps
          force = scene%force%steady + scene%force%cosine*cos(two_pi*real(modulo(i, steps), &
             dp)/real(steps, dp))
          next = a
          do pass = 1, 20
-            call film_load(scene%film, h + dt*v + 0.25_dp*dt*dt*(a + next), v + 0.5_dp*dt*(a + next), &
+            call film_load(scene%contact%film, h + dt*v + 0.25_dp*dt*dt*(a + next), v + 0.5_dp*dt*(a + next), &
                load, by_film, by_velocity)
             residual = (load - scene%weight - force)/scene%mass - next
             next = next + residual/(1.0_dp - (0.25_dp*dt*dt*by_film + 0.5_dp*dt*by_velocity)/scene%mass)
@@ -347,9 +347,9 @@ contains
       scenes(2) = scene_of(kernel_piezo, 1.9_dp, 0.0_dp)
       ! Three times the static load on a film with f_n = 2.5 f_exc: the motion doubles its period.
       scenes(3) = scenes(1)
-      scenes(3)%film%kernel = kernel_piezo
-      scenes(3)%film%piezo = piezo_coefficient(1.958e-3_dp, 1.905_dp, viscosity, radius, pressure_viscosity)
-      scenes(3)%film%rate = squeeze_exponent_rate(1.905_dp)
+      scenes(3)%contact%film%kernel = kernel_piezo
+      scenes(3)%contact%film%piezo = piezo_coefficient(1.958e-3_dp, 1.905_dp, viscosity, radius, pressure_viscosity)
+      scenes(3)%contact%film%rate = squeeze_exponent_rate(1.905_dp)
       scenes(3)%force%steady = 38.27_dp
       scenes(3)%force%cosine = 203.1_dp
       scenes(3)%initial_film = 0.889e-6_dp
@@ -437,7 +437,7 @@ contains
       integer :: l
 
       scene = scene_of(kernel_half_pi, 1.9_dp, 1.0_dp)
-      scene%film%kernel = 99
+      scene%contact%film%kernel = 99
       call checks%check(.not. has_series(scene, 1.0e-3_dp), 'unknown law: no series')
       call place_block(room, block)
       do l = 1, lanes

@@ -67,11 +67,11 @@ contains
       type(ending_t) :: ending
       real(dp) :: error
 
-      scene%film%kernel = kernel_reynolds_iso
-      scene%film%radius = 2.3876495360356676e-3_dp
-      scene%film%speed = 5.7905602267840174e-2_dp
-      scene%film%scale = 1.3773074987286440e-4_dp
-      scene%film%squeeze_rate = 2.3867652204519580_dp
+      scene%contact%film%kernel = kernel_reynolds_iso
+      scene%contact%film%radius = 2.3876495360356676e-3_dp
+      scene%contact%film%speed = 5.7905602267840174e-2_dp
+      scene%contact%film%scale = 1.3773074987286440e-4_dp
+      scene%contact%film%squeeze_rate = 2.3867652204519580_dp
       scene%mass = 1.1847070022232703e-1_dp
       scene%weight = 1.1618006923352833_dp
       scene%force%steady = 8.5248996137767730e-1_dp
@@ -91,11 +91,11 @@ contains
       real(dp) :: error
       integer :: digits
 
-      scene%film%kernel = kernel_reynolds_iso
-      scene%film%radius = 8.3212234704100108e-2_dp
-      scene%film%speed = 5.0148848203949430e-2_dp
-      scene%film%scale = 3.6059898361908885e-2_dp
-      scene%film%squeeze_rate = 1.6269628012664370e1_dp
+      scene%contact%film%kernel = kernel_reynolds_iso
+      scene%contact%film%radius = 8.3212234704100108e-2_dp
+      scene%contact%film%speed = 5.0148848203949430e-2_dp
+      scene%contact%film%scale = 3.6059898361908885e-2_dp
+      scene%contact%film%squeeze_rate = 1.6269628012664370e1_dp
       scene%mass = 2.0489868142673440_dp
       scene%weight = 2.0093696542134847e1_dp
       scene%force%steady = 2.5718992217975565e3_dp
@@ -117,12 +117,12 @@ contains
       type(ending_t) :: ending
       real(dp) :: error
 
-      scene%film%kernel = kernel_half_pi
-      scene%film%radius = 3.0260019130531328e-2_dp
-      scene%film%speed = 5.7712742755697308e-2_dp
-      scene%film%rolling = 3.1349266025364127e-4_dp
-      scene%film%squeeze = 7.1587712878562091e-4_dp
-      scene%film%squeeze_rate = 8.5252648189720279_dp
+      scene%contact%film%kernel = kernel_half_pi
+      scene%contact%film%radius = 3.0260019130531328e-2_dp
+      scene%contact%film%speed = 5.7712742755697308e-2_dp
+      scene%contact%film%rolling = 3.1349266025364127e-4_dp
+      scene%contact%film%squeeze = 7.1587712878562091e-4_dp
+      scene%contact%film%squeeze_rate = 8.5252648189720279_dp
       scene%mass = 2.0946522249044204_dp
       scene%weight = 2.0541521241358932e1_dp
       scene%force%steady = 2.5606598107152614_dp

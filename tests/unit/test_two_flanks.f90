@@ -6,6 +6,7 @@ module test_two_flanks
    use engine, only: ending_t, motion_state_t, request_t, start_of
    use film_law, only: film_load
    use fourier, only: amplitude_spectrum
+   use film_state, only: load_t
    use kinds, only: dp
    use many_motions, only: solve_motions
    use vibration_severity, only: severity_of_record, severity_of_samples, vibration_severity_t
@@ -71,7 +72,8 @@ contains
       real(dp), parameter :: loads(*) = [-5000.0_dp, -300.0_dp, -1.0_dp, -1.0e-6_dp, 0.0_dp, 1.0e-6_dp, 1.0_dp, 300.0_dp, 5000.0_dp]
       type(problem_t) :: problem
       type(scene_t) :: scene
-      real(dp) :: film, mirrored, net, by_film, by_velocity, drive, tolerance
+      type(load_t) :: net
+      real(dp) :: film, mirrored, by_film, by_velocity, drive, tolerance
       integer :: i, law
 
       do law = 1, 4
@@ -82,12 +84,11 @@ contains
             film = film_at_rest(problem, loads(i))
             mirrored = film_at_rest(problem, -loads(i))
             call checks%check(film > 0.0_dp .and. film < problem%backlash, 'rest: between the flanks')
-            call net_load(problem, film, 0.0_dp, net, by_film, by_velocity)
-            call film_load(problem%film, film, 0.0_dp, drive, by_film, by_velocity)
-            call net_load(problem, film, 0.0_dp, net, by_film, by_velocity)
+            call film_load(problem%contact%film, film, 0.0_dp, drive, by_film, by_velocity)
+            call net_load(problem, film, 0.0_dp, net)
             ! b - h loses the digits by which h is shorter than b.
-            tolerance = 16.0_dp*epsilon(1.0_dp)*(drive + abs(loads(i)) + abs(by_film)*problem%backlash)
-            call checks%check(abs(net - loads(i)) <= tolerance, 'rest: the net load is the static one')
+            tolerance = 16.0_dp*epsilon(1.0_dp)*(drive + abs(loads(i)) + abs(net%by_film)*problem%backlash)
+            call checks%check(abs(net%load - loads(i)) <= tolerance, 'rest: the net load is the static one')
             call checks%check(abs(film - (problem%backlash - mirrored)) <= 8.0_dp*epsilon(1.0_dp)*problem%backlash, &
                               'rest: mirrored with the load')
          end do
@@ -123,18 +124,19 @@ contains
       type(check_list_t), intent(inout) :: checks
       real(dp), parameter :: step = 1.0e-5_dp, film = 1.3e-6_dp, velocity = 2.0e-4_dp
       type(problem_t) :: problem
-      real(dp) :: load, by_film, by_velocity, above, below, ignored(2)
+      type(load_t) :: load, above, below
       integer :: law
 
       do law = 1, 4
          problem = problem_of(scene_of_law(law))
-         call net_load(problem, film, velocity, load, by_film, by_velocity)
-         call net_load(problem, film*(1.0_dp + step), velocity, above, ignored(1), ignored(2))
-         call net_load(problem, film*(1.0_dp - step), velocity, below, ignored(1), ignored(2))
-         call checks%check_close((above - below)/(2.0_dp*step*film*by_film), 1.0_dp, 1.0e-7_dp, 'slope in the film')
-         call net_load(problem, film, velocity*(1.0_dp + step), above, ignored(1), ignored(2))
-         call net_load(problem, film, velocity*(1.0_dp - step), below, ignored(1), ignored(2))
-         call checks%check_close((above - below)/(2.0_dp*step*velocity*by_velocity), 1.0_dp, 1.0e-7_dp, 'slope in the velocity')
+         call net_load(problem, film, velocity, load)
+         call net_load(problem, film*(1.0_dp + step), velocity, above)
+         call net_load(problem, film*(1.0_dp - step), velocity, below)
+         call checks%check_close((above%load - below%load)/(2.0_dp*step*film*load%by_film), 1.0_dp, 1.0e-7_dp, 'slope in the film')
+         call net_load(problem, film, velocity*(1.0_dp + step), above)
+         call net_load(problem, film, velocity*(1.0_dp - step), below)
+         call checks%check_close((above%load - below%load)/(2.0_dp*step*velocity*load%by_velocity), 1.0_dp, 1.0e-7_dp, &
+                                 'slope in the velocity')
       end do
    end subroutine test_slopes
 
