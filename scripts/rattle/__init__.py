@@ -9,7 +9,20 @@ from rattle.solve import Gearbox, Range, SceneFailed, Solved, campaign, run, swe
 from rattle.summary import SummaryError, read_summary
 
 # A link to fsrc/VERSION in a checkout, a copy of it where the package is installed.
-version = (Path(__file__).parent / "VERSION").read_text().strip()
+_VERSION = Path(__file__).parent / "VERSION"
+
+
+def __getattr__(name: str) -> str:
+    """Read the version when it is asked for: scripts work without it where their folder alone was copied."""
+    if name != "version":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    try:
+        return _VERSION.read_text().strip()
+    except OSError:
+        raise AttributeError(
+            f"The version is not known: {_VERSION} is missing, in a clone of rattle a link to fsrc/VERSION."
+        ) from None
+
 
 __all__ = [
     "Campaign",

@@ -178,9 +178,20 @@ def test_scripts_do_their_work_or_say_why_not(kind, results, tmp_path):
 
 
 def test_without_kernels_scripts_work_or_name_what_is_missing(results, tmp_path):
-    """In a copy of the scripts that nobody built the kernels for."""
+    """In a copy of the scripts that nobody built the kernels for, made as `cp -r` does: a link stays one."""
     copy = tmp_path / "scripts"
-    shutil.copytree(SCRIPTS, copy, ignore=shutil.ignore_patterns("*.so", "__pycache__", "generate"))
+    shutil.copytree(
+        SCRIPTS, copy, symlinks=True, ignore=shutil.ignore_patterns("*.so", "__pycache__", "generate")
+    )
+    asked = "import rattle; print(rattle.__file__); rattle.version"
+    ended = subprocess.run(
+        [sys.executable, "-c", asked], cwd=copy, capture_output=True, text=True, check=False
+    )
+    assert str(copy) in ended.stdout and ended.returncode == 1
+    assert ended.stderr.endswith(
+        f"The version is not known: {copy / 'rattle' / 'VERSION'} is missing, in a clone of rattle a link to "
+        "fsrc/VERSION.\n"
+    )
     for name, kind, code in (
         ("export", "motion", 0),
         ("compare", "motion", 0),
