@@ -75,6 +75,7 @@ contains
          call solve_group(resolved(tested)%problem, starts(tested), tighter, wants, tight)
       end if
       call classify_group(resolved(tested)%problem, choices(tested), noise(tested), tighter, tight)
+      if (allocated(tight%error)) return
       behind = .false.
       do k = 1, size(tested)
          if (must_stop()) return
@@ -191,7 +192,7 @@ contains
          starts%periods = 0
          call solve_group(problems(left), starts, window, wants, group)
          call classify_group(problems(left), choices(left), noise_floors(left), window, group, class_alone=.true.)
-         if (must_stop()) return
+         if (must_stop() .or. allocated(group%error)) return
          do i = 1, size(left)
             stands(place(left(i))) = .not. is_doubted(doubt_behind(k, group%endings(i)%status, group%verdicts(i)))
          end do

@@ -1,6 +1,7 @@
 !> How long many scenes may take, from trials.
 module core_time
    use clock, only: wall_seconds
+   use errors, only: error_t
    use kinds, only: dp, int64
    use prepared_campaign, only: campaign_t
    use scene_types, only: scene_t
@@ -25,6 +26,7 @@ contains
       type(campaign_t), intent(in) :: campaign
       character(:), allocatable :: sentence
       type(chunk_space_t) :: space
+      type(error_t), allocatable :: error
       real(dp), allocatable :: rows(:, :)
       real(dp) :: started, seconds
       integer(int64) :: trial
@@ -36,10 +38,11 @@ contains
       do
          allocate (rows(size(campaign%layout%names), trial))
          started = wall_seconds()
-         call solve_scenes(scene, campaign%plan, campaign%first + (campaign%seen - trial)/2_int64, space, rows)
+         call solve_scenes(scene, campaign%plan, campaign%first + (campaign%seen - trial)/2_int64, space, rows, error)
          seconds = (wall_seconds() - started)/real(trial, dp)*real(campaign%layout%scene_count, dp)
          deallocate (rows)
-         if (must_stop()) exit
+         if (allocated(error)) sentence = 'not estimated: '//error%message
+         if (must_stop() .or. allocated(error)) exit
          sentence = 'estimated '//short_text(seconds, 2)//' s, from '//integer_text(trial)//' scenes'
          if (trial == min(512_int64, campaign%seen)) exit
          trial = min(8_int64*trial, campaign%seen)

@@ -26,7 +26,7 @@ module finer_windows
 contains
 
    !> Classify some windows anew. After a signal to stop the classes are of no use.
-   subroutine classify_finer(problems, choices, noise_floors, asked, periods, records, verdicts, class_alone)
+   subroutine classify_finer(problems, choices, noise_floors, asked, periods, records, verdicts, class_alone, error)
       !> What moves, scene by scene as all that follows
       type(problem_t), intent(in) :: problems(:)
       !> Limits of the classes
@@ -43,9 +43,10 @@ contains
       type(rattle_verdict_t), intent(inout) :: verdicts(:)
       !> Whether nothing but the classes is asked for
       logical, intent(in) :: class_alone
+      !> Set if there is no memory for as many samples as are needed; the classes are of no use then
+      type(error_t), allocatable, intent(out) :: error
       type(window_record_t) :: windows(size(problems))
       type(rattle_verdict_t), allocatable :: by_samples(:)
-      type(error_t), allocatable :: error
       integer, allocatable :: left(:), alike(:)
       integer :: samples_per_period, together, first, i
 
@@ -69,7 +70,6 @@ contains
          left = pack(left, may_be_finer(by_samples(left), records(left), periods(left), samples_per_period))
          if (size(left) == 0) return
          samples_per_period = 2*samples_per_period
-         ! Where there is no memory for more samples the integrals have to do: their bounds say so.
          !$omp critical (sentences)
          call expect_window_memory(samples_per_period*maxval(periods(left)), error)
          !$omp end critical (sentences)

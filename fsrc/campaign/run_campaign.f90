@@ -207,7 +207,7 @@ contains
       type(campaign_progress_t), intent(inout) :: progress
       !> How many scenes were solved
       integer(int64), intent(out) :: scenes
-      !> Set if chunks could not be written
+      !> Set if chunks could not be written, or there is no memory for them
       type(error_t), allocatable, intent(out) :: error
       real(dp), allocatable :: rows(:, :)
       integer(int64) :: first_row, last_row, ignored
@@ -226,8 +226,8 @@ contains
          call results%chunk_bounds(chunks(first), first_row, ignored)
          call results%chunk_bounds(chunks(last), ignored, last_row)
          allocate (rows(size(campaign%layout%names), last_row - first_row + 1_int64))
-         call solve_scenes(scene, campaign%plan, campaign%first + first_row - 1_int64, space, rows)
-         if (caught_signal() /= 0) return
+         call solve_scenes(scene, campaign%plan, campaign%first + first_row - 1_int64, space, rows, error)
+         if (caught_signal() /= 0 .or. allocated(error)) return
          call results%write_chunks(chunks(first), rows, error)
          if (allocated(error)) return
          call progress%add(last_row - first_row + 1_int64, &

@@ -141,7 +141,7 @@ contains
          together = max(1_int64, scanned_together*rank_count()*omp_get_max_threads()/size(threshold%scan, kind=int64))
          do first = threshold%traces%first + traces_before, last_trace, together
             last = min(last_trace, first + together - 1_int64)
-            call search_lines(scene, threshold, first, last, self%progress, self%log, outcome)
+            call search_lines(scene, threshold, first, last, self%progress, self%log, outcome, error)
             if (outcome%cut) exit
          end do
          if (this_rank() == 0 .and. outcome%cut) call save_outcome(scene, threshold, outcome, self%log)

@@ -1,6 +1,7 @@
 !> Scenes that are solved side by side: the samples of their windows, what the steps tell of them, and their classes.
 module scene_group
    use verify_scene, only: nearby_orbit
+   use errors, only: error_t
    use engine, only: ending_t, motion_state_t, request_t, reserved_periods
    use fine_window, only: classify_window
    use finer_windows, only: classify_finer
@@ -32,6 +33,8 @@ module scene_group
       type(rattle_verdict_t), allocatable :: verdicts(:)
       !> Periods after which they repeat, by the engine or by a search at their ends; 0 where none is known
       integer, allocatable :: repeat_after(:)
+      !> Set if there was no memory for the samples that a class needs: the classes are of no use
+      type(error_t), allocatable :: error
       !> z'' of one scene [m/s2]
       real(dp), allocatable, private :: accelerations(:)
    end type scene_group_t
@@ -57,6 +60,7 @@ contains
       integer :: samples, numbers, n, i
 
       n = size(problems)
+      if (allocated(group%error)) deallocate (group%error)
       samples = request%sampled_periods
       if (request%until_steady) samples = reserved_periods(samples)
       samples = max(1, samples*request%samples_per_period)
@@ -116,7 +120,8 @@ contains
          number = pack([(i, i=1, size(problems))], coarse)
          finer = group%verdicts(number)
          call classify_finer(problems(number), choices(number), noise_floors(number), request, &
-                             group%endings(number)%samples/request%samples_per_period, group%records(number), finer, only_class)
+                             group%endings(number)%samples/request%samples_per_period, group%records(number), finer, only_class, &
+                             group%error)
          group%verdicts(number) = finer
       end if
       do i = 1, size(problems)

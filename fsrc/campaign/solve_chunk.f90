@@ -2,6 +2,7 @@
 module solve_chunk
    use campaign_verification, only: verify_group, compared
    use campaign_record, only: record_row
+   use errors, only: error_t
    use engine, only: ending_t, request_t, reserved_periods, start_of
    use judge_scene, only: note_record, note_regime
    use judged_scene, only: judged_scene_t
@@ -50,7 +51,7 @@ contains
 
    !> Rows of consecutive scenes. They depend on the scenes alone, not on how they are cut into chunks. Where the work must
    !> stop, the rows are of no use.
-   subroutine solve_scenes(base, plan, first, space, rows)
+   subroutine solve_scenes(base, plan, first, space, rows, error)
       !> Checked base scene
       type(scene_t), intent(in) :: base
       !> The plan
@@ -61,6 +62,8 @@ contains
       type(chunk_space_t), intent(inout) :: space
       !> One column of this array is the row of a scene
       real(dp), contiguous, intent(out) :: rows(:, :)
+      !> Set if there is no memory for the samples of a scene; the rows are of no use then
+      type(error_t), allocatable, intent(out) :: error
       real(dp), allocatable :: values(:, :)
       type(scene_t) :: scene
       logical :: needed(need_count)
@@ -79,7 +82,8 @@ contains
          count = min(batch, size(rows, 2) - start + 1)
          call chunk_values(plan, first + int(start - 1, int64), values(:, :count))
          call solve_batch(scene, plan%positions, values(:, :count), first + int(start - 1, int64), needed, space, &
-                          rows(:, start:start + count - 1))
+                          rows(:, start:start + count - 1), error)
+         if (allocated(error)) return
       end do
    end subroutine solve_scenes
 
@@ -127,7 +131,7 @@ contains
    end function chunk_bytes
 
    !> Rows of a batch.
-   subroutine solve_batch(scene, positions, values, first, needed, space, rows)
+   subroutine solve_batch(scene, positions, values, first, needed, space, rows, error)
       !> Base scene; its varied keys are changed
       type(scene_t), intent(inout) :: scene
       !> Varied keys by their positions in the key table
@@ -138,6 +142,8 @@ contains
       logical, intent(in) :: needed(:)
       type(chunk_space_t), intent(inout) :: space
       real(dp), intent(out) :: rows(:, :)
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
       type(resolved_scene_t) :: resolved(size(values, 2))
       type(request_t) :: requests(size(values, 2))
       type(spectrum_choice_t) :: choices(size(values, 2))
@@ -161,8 +167,8 @@ contains
       together = merge(solved, 1, alike(requests(order(:solved))))
       do start = 1, solved, max(1, together)
          associate (group => order(start:start + together - 1))
-            call solve_side_by_side(resolved(group), choices(group), requests(order(start)), needed, space)
-            if (must_stop()) return
+            call solve_side_by_side(resolved(group), choices(group), requests(order(start)), needed, space, error)
+            if (must_stop() .or. allocated(error)) return
             do i = 1, together
                call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%agree(i), space%judged)
                call record_row(scene, first + int(group(i) - 1, int64), values(:, group(i)), space%judged, rows(:, group(i)))
@@ -176,7 +182,7 @@ contains
    end subroutine solve_batch
 
    !> Solve scenes that ask for the same, find their classes, and whether they stand, as far as columns ask for it.
-   subroutine solve_side_by_side(resolved, choices, request, needed, space)
+   subroutine solve_side_by_side(resolved, choices, request, needed, space, error)
       type(resolved_scene_t), intent(in) :: resolved(:)
       !> Limits of their classes
       type(spectrum_choice_t), intent(in) :: choices(:)
@@ -185,6 +191,8 @@ contains
       !> What the columns need
       logical, intent(in) :: needed(:)
       type(chunk_space_t), intent(inout) :: space
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
 
       if (allocated(space%stands)) deallocate (space%stands, space%agree)
       allocate (space%stands(size(resolved)), source=.false.)
@@ -201,12 +209,14 @@ contains
             call follow_group(problems, space%group)
          end if
       end associate
-      if (must_stop()) return
+      if (allocated(space%group%error)) call move_alloc(space%group%error, error)
+      if (must_stop() .or. allocated(error)) return
       if (needed(needs_verified_impacts)) then
          call verify_group(resolved, choices, request, space%group, space%tight, space%stands, space%agree)
       else if (needed(needs_verification)) then
          call verify_group(resolved, choices, request, space%group, space%tight, space%stands)
       end if
+      if (allocated(space%tight%error)) call move_alloc(space%tight%error, error)
    end subroutine solve_side_by_side
 
    !> Whether all scenes of a batch ask for the same.

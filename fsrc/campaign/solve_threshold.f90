@@ -2,6 +2,7 @@
 module solve_threshold
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
+   use errors, only: error_t
    use kinds, only: dp, int64
    use log_file, only: log_t
    use prepared_threshold, only: points_plan, prepared_threshold_t
@@ -30,7 +31,7 @@ module solve_threshold
 contains
 
    !> All thresholds of some traces; all ranks find the same. What is known of them already is not solved again.
-   subroutine search_lines(scene, threshold, first, last, progress, log, outcome)
+   subroutine search_lines(scene, threshold, first, last, progress, log, outcome, error)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       !> First and last trace
@@ -39,6 +40,8 @@ contains
       type(campaign_progress_t), intent(inout) :: progress
       type(log_t), intent(in) :: log
       type(outcome_t), intent(inout) :: outcome
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
       type(point_t), allocatable :: wanted(:)
       type(pace_t) :: pace
       logical :: testing
@@ -46,7 +49,7 @@ contains
       do
          call next_points(scene, threshold, first, last, outcome%points, wanted, testing)
          if (size(wanted) == 0) exit
-         call solve_points(scene, threshold, wanted, testing, pace, progress, log, outcome)
+         call solve_points(scene, threshold, wanted, testing, pace, progress, log, outcome, error)
          if (outcome%cut) return
       end do
       call add_traces(scene, threshold, first, last, outcome)
@@ -77,7 +80,7 @@ contains
 
    !> Solve points on the threads of all ranks, all of them or as many as there is time for before the state is kept. What is
    !> found does not depend on the numbers of threads and ranks.
-   subroutine solve_points(scene, threshold, wanted, testing, known_pace, progress, log, outcome)
+   subroutine solve_points(scene, threshold, wanted, testing, known_pace, progress, log, outcome, error)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       type(point_t), intent(in) :: wanted(:)
@@ -88,6 +91,9 @@ contains
       type(campaign_progress_t), intent(inout) :: progress
       type(log_t), intent(in) :: log
       type(outcome_t), intent(inout) :: outcome
+      !> Set if there is no memory for the samples of a scene; the other points are kept
+      type(error_t), allocatable, intent(out) :: error
+      type(error_t), allocatable :: own_error
       type(scene_t) :: recorded
       type(sample_plan_t) :: plan
       type(chunk_space_t) :: space
@@ -96,7 +102,7 @@ contains
       integer(int64) :: first, last, taken, left
       integer :: status, threads
       real(dp) :: started, round_started
-      logical :: out_of_time
+      logical :: out_of_time, failed
 
       recorded = scene
       if (testing) recorded%campaign%record = [scene%threshold%quantity, quantity_verified]
@@ -108,12 +114,13 @@ contains
       call renew_tickets()
       threads = rank_count()*omp_get_max_threads()
       left = plan%size
-      !$omp parallel default(shared) private(first, last, taken, rows, space, pace, started, out_of_time)
+      failed = .false.
+      !$omp parallel default(shared) private(first, last, taken, rows, space, pace, started, out_of_time, own_error)
       pace = known_pace
       do
          started = wall_seconds()
          out_of_time = rank_count() > 1 .and. started - round_started > shared_interval
-         if (caught_signal() /= 0 .or. out_of_time) exit
+         if (caught_signal() /= 0 .or. out_of_time .or. failed) exit
          !$omp atomic read
          taken = left
          taken = pace%next_share(taken, threads)
@@ -123,8 +130,15 @@ contains
          !$omp atomic write
          left = plan%size - last
          allocate (rows(status + size(recorded%campaign%record), last - first + 1_int64))
-         call solve_scenes(recorded, plan, first, space, rows)
+         call solve_scenes(recorded, plan, first, space, rows, own_error)
          if (caught_signal() /= 0) exit
+         if (allocated(own_error)) then
+            !$omp critical (threshold_answers)
+            failed = .true.
+            if (.not. allocated(error)) call move_alloc(own_error, error)
+            !$omp end critical (threshold_answers)
+            exit
+         end if
          call pace%note(size(rows, 2), wall_seconds() - started)
          !$omp critical (threshold_answers)
          answers(of_status, first:last) = rows(status, :)
@@ -142,10 +156,12 @@ contains
       if (omp_get_thread_num() == 0) next_pace = pace
       !$omp end parallel
       known_pace = next_pace
+      outcome%cut = failed
+      if (failed .and. rank_count() > 1) return
       call wait_for_ranks()
       call add_over_ranks(answers)
       outcome%points = merged_points(outcome%points, answered(scene, wanted, testing, answers))
-      outcome%cut = sum_over_ranks(int(merge(1, 0, caught_signal() /= 0), int64)) > 0_int64
+      outcome%cut = sum_over_ranks(int(merge(1, 0, failed .or. caught_signal() /= 0), int64)) > 0_int64
       if (rank_count() == 1 .or. this_rank() > 0 .or. outcome%cut) return
       if (outcome%age() > state_interval) call save_outcome(scene, threshold, outcome, log)
    end subroutine solve_points

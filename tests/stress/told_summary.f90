@@ -168,6 +168,7 @@ contains
       type(scene_t) :: scene
       type(sample_plan_t) :: plan
       type(chunk_space_t), allocatable :: space
+      type(error_t), allocatable :: error
       character(:), allocatable :: message
       real(dp), allocatable :: table(:, :), rows(:, :)
       integer :: positions(size(keys)), first, i
@@ -185,7 +186,11 @@ contains
       call plan_table(positions, table, plan)
       first = 2 + size(keys)
       allocate (rows(first + size(record) - 1 + row_harmonics, size(told)), space)
-      call solve_scenes(scene, plan, 1_int64, space, rows)
+      call solve_scenes(scene, plan, 1_int64, space, rows, error)
+      if (allocated(error)) then
+         told%status = error%message
+         return
+      end if
       do i = 1, size(told)
          associate (row => rows(first:, i))
             told(i)%status = status_name(nint(row(1)))

@@ -307,7 +307,7 @@ contains
       allocate (values, source=reshape(scene%excitation%force_amplitude*[1.0_dp, 0.5_dp], [1, 2]))
       call plan_table([find_key('load', 'force_amplitude')], values, plan)
       allocate (rows(3 + size(told), 2), space)
-      call solve_scenes(scene, plan, 1_int64, space, rows)
+      call solve_scenes(scene, plan, 1_int64, space, rows, error)
       do i = 1, size(told)
          call checks%check_close(rows(3 + i, 1)/quantity_value(told(i), judged), 1.0_dp, 1.0e-6_dp, &
                                  'campaign: '//trim(quantity_table(told(i))%name))

@@ -199,13 +199,14 @@ contains
       type(scene_t), intent(in) :: scene           !> The scene
       real(dp), allocatable, intent(out) :: row(:)  !> Its quantities
       type(chunk_space_t), allocatable :: space
+      type(error_t), allocatable :: error
       type(sample_plan_t) :: plan
       real(dp), allocatable :: values(:, :), rows(:, :)
 
       allocate (values(1, 1), source=scene%excitation%force_amplitude)
       call plan_table([find_key('load', 'force_amplitude')], values, plan)
       allocate (rows(3 + size(scene%campaign%record) + 7, 1), space)
-      call solve_scenes(scene, plan, 1_int64, space, rows)
+      call solve_scenes(scene, plan, 1_int64, space, rows, error)
       row = rows(4:, 1)
    end subroutine solve_row
 

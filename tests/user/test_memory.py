@@ -158,3 +158,20 @@ def test_rows_do_not_depend_on_how_many_scenes_fit(run, scene_text, tmp_path: Pa
     assert len(whole["status"]) == 36
     for name, values in part.items():
         np.testing.assert_array_equal(whole[name][10 : 10 + len(values)], values, err_msg=name)
+
+
+def test_rows_do_not_depend_on_memory(run, scene_text, tmp_path: Path) -> None:
+    """Where there is none for the samples of a row the campaign ends, and goes on where there is more."""
+    (tmp_path / "scene.nml").write_text(grid(scene_text, 24, 24))
+    threads = ("--threads", "2")
+    undisturbed = solve(run, tmp_path, *threads).read_bytes()
+    words = []
+    for megabytes in range(112, 184, 8):
+        folder = f"at {megabytes}"
+        ended = run("--output", folder, *threads, "scene.nml", cwd=tmp_path, **limited(megabytes))
+        if ended.returncode != 0:
+            assert_shortage(ended, "&spectrum periods")
+        words.append(ended.stderr)
+        result = solve(run, tmp_path, "--resume", *threads, name=folder)
+        assert result.read_bytes() == undisturbed, folder
+    assert any("samples, which impacts as short as these ask for" in told for told in words), words
