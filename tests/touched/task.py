@@ -43,11 +43,11 @@ READ = """   !> &rest
 TASK = """!> The steady films under a list of loads, from input to files.
 module run_rest
    use errors, only: error_t
-   use film_law, only: new_film, steady_film
    use finished_files, only: place_files
    use kinds, only: dp, int64
    use log_file, only: log_t
    use output_place, only: log_path, result_path, summary_path
+   use problem, only: film_at_rest, problem_of
    use result_writer, only: result_writer_t
    use scene_report, only: law_sentence, report_head
    use scene_status, only: status_complete
@@ -82,7 +82,7 @@ contains
       status = status_complete
       rows(1, :) = scene%rest%loads
       do i = 1, size(rows, 2)
-         rows(2, i) = steady_film(new_film(scene), rows(1, i))
+         rows(2, i) = film_at_rest(problem_of(scene), rows(1, i))
       end do
       call log%open(log_path(scene), quiet, error)
       if (allocated(error)) return

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib
 import shutil
+import subprocess
+import sys
 
 import pytest
 
@@ -26,6 +28,8 @@ def test_every_toy_fits_and_takes_the_files_of_its_list(touched, scratch):
     taken, faults = touched.add_toys(scratch, list(touched.TOYS.values()))
     assert faults == []
     assert len(taken) == len(touched.TOYS)
+    layout = [sys.executable, scratch / "scripts" / "check_layout.py"]
+    assert subprocess.run(layout, capture_output=True, text=True, check=False).stdout.strip() == ""
 
 
 def test_a_list_that_lacks_a_file_is_told(touched, scratch):
