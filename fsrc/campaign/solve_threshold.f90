@@ -1,12 +1,13 @@
 !> Solves what the search for thresholds asks for, point by point, on the threads of all ranks, and keeps what is found.
 module solve_threshold
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
    use errors, only: error_t
    use kinds, only: dp, int64
    use log_file, only: log_t
    use prepared_threshold, only: points_plan, prepared_threshold_t
-   use quantities, only: quantity_verified
+   use quantities, only: quantity_code, quantity_table, quantity_verified
    use ranks, only: add_over_ranks, next_tickets, rank_count, renew_tickets, sum_over_ranks, this_rank, wait_for_ranks
    use sampling, only: sample_plan_t
    use scene_status, only: is_success
@@ -100,12 +101,17 @@ contains
       type(pace_t) :: pace, next_pace
       real(dp), allocatable :: answers(:, :), rows(:, :)
       integer(int64) :: first, last, taken, left
-      integer :: status, threads
+      integer :: status, threads, bound
       real(dp) :: started, round_started
       logical :: out_of_time, failed
 
       recorded = scene
-      if (testing) recorded%campaign%record = [scene%threshold%quantity, quantity_verified]
+      bound = quantity_code(trim(quantity_table(scene%threshold%quantity)%name)//'_is_bound')
+      if (testing) then
+         recorded%campaign%record = [scene%threshold%quantity, quantity_verified]
+      else if (bound > 0) then
+         recorded%campaign%record = [scene%threshold%quantity, bound]
+      end if
       call points_plan(threshold, wanted%trace, wanted%place, plan)
       status = 2 + size(plan%positions)
       allocate (answers(of_verification, size(wanted)), source=0.0_dp)
@@ -143,7 +149,11 @@ contains
          !$omp critical (threshold_answers)
          answers(of_status, first:last) = rows(status, :)
          answers(of_quantity, first:last) = rows(status + 1, :)
-         if (testing) answers(of_verification, first:last) = rows(status + 2, :)
+         if (testing) then
+            answers(of_verification, first:last) = rows(status + 2, :)
+         else if (bound > 0) then
+            answers(of_quantity, first:last) = known_side(rows(status + 1, :), rows(status + 2, :), scene%threshold%level)
+         end if
          answers(is_solved, first:last) = 1.0_dp
          !$omp end critical (threshold_answers)
          call progress%add(last - first + 1_int64, count(.not. is_success(nint(rows(status, :))), kind=int64), &
@@ -165,6 +175,18 @@ contains
       if (rank_count() == 1 .or. this_rank() > 0 .or. outcome%cut) return
       if (outcome%age() > state_interval) call save_outcome(scene, threshold, outcome, log)
    end subroutine solve_points
+
+   !> A quantity whose side of the level is known: none where it is told to be below and may be larger.
+   elemental real(dp) function known_side(quantity, is_bound, level)
+      real(dp), intent(in) :: quantity
+      !> Above zero: it may be larger
+      real(dp), intent(in) :: is_bound
+      real(dp), intent(in) :: level
+
+      known_side = quantity
+      if (ieee_is_nan(quantity) .or. ieee_is_nan(is_bound)) return
+      if (is_bound > 0.0_dp .and. quantity < level) known_side = ieee_value(0.0_dp, ieee_quiet_nan)
+   end function known_side
 
    !> Tell the progress, and keep the state, if it is time to.
    subroutine keep_up(scene, threshold, wanted, testing, answers, progress, log, outcome)
