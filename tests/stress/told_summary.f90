@@ -188,7 +188,7 @@ contains
       allocate (rows(first + size(record) - 1 + row_harmonics, size(told)), space)
       call solve_scenes(scene, plan, 1_int64, space, rows, error)
       if (allocated(error)) then
-         told%status = error%message
+         told%status = 'not_written'
          return
       end if
       do i = 1, size(told)
