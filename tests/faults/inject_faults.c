@@ -2,8 +2,8 @@
 
    Calls count that write, shorten, synchronise, rename, make or close a file below FAULT_FOLDER. FAULT_AT is the
    call that meets the fault, FAULT_KIND the fault: "error" (that call fails), "full" (from that call on nothing can
-   be made or written), "short" (half of what is to be written is, then the disk is full), "kill" (the program ends
-   before the call), "signal" (the signal FAULT_SIGNAL comes before the call), "none". Each call leaves a line in the
+   be made or written), "short" (half of what is to be written is, of binary files in whole words, then the disk is
+   full), "kill" (the program ends before the call), "signal" (the signal FAULT_SIGNAL comes before the call), "none". Each call leaves a line in the
    file FAULT_TRACE: its name and the file that it meets. Before the first call whose line is FAULT_WAIT the program
    makes a file `waiting` beside that file, and goes on once it is taken away. With FAULT_FLOCK every lock fails with
    that number. With FAULT_CLOCK the clock of the program goes on by so many milliseconds whenever it is read. */
@@ -124,7 +124,7 @@ ssize_t write(int descriptor, const void *bytes, size_t count)
 ssize_t pwrite(int descriptor, const void *bytes, size_t count, off_t offset)
 {
     enum verdict verdict = is_output(descriptor, "pwrite") ? judge(count) : PASS;
-    if (verdict == HALF) NEXT(pwrite)(descriptor, bytes, count / 2, offset);
+    if (verdict == HALF) NEXT(pwrite)(descriptor, bytes, count / 16 * 8, offset);
     return verdict == PASS ? NEXT(pwrite)(descriptor, bytes, count, offset) : failed();
 }
 
