@@ -45,7 +45,7 @@ contains
       associate (transform => kept(i))
          transform%samples(:) = samples*(1.0_dp/unit)
          call fftw_execute_dft_r2c(transform%plan, transform%samples, transform%lines)
-         ! Not abs: in this unit no square overflows, and hypot would be the dearest part.
+         ! Not abs: in this unit no square overflows, and hypot would cost most.
          amplitudes(:) = 2.0_dp*sqrt(real(transform%lines, dp)**2 + aimag(transform%lines)**2)/real(n, dp)*unit
       end associate
       amplitudes(0) = 0.5_dp*amplitudes(0)

@@ -12,7 +12,7 @@ module taylor_rupture
    implicit none(type, external)
    private
 
-   !> Order n of this series: its coefficients are dearer than those of the published films, so a lower one is best.
+   !> Order n of this series: its coefficients cost more than those of the published films, so a lower one is best.
    integer, parameter, public :: rupture_order = highest_power + 1
 
    !> Local error over that of the step control above which a step is rejected, and rounding of the equation of motion.

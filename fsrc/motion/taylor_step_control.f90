@@ -9,7 +9,7 @@ module taylor_step_control
    private
 
    !> Highest order n of the series. For the published films it is the cheapest for accuracies from 1e-5 to
-   !> 1e-11, at most a tenth dearer than the best order.
+   !> 1e-11, at most a tenth slower than the best order.
    integer, parameter, public :: order = 14
 
    integer :: i
