@@ -1,6 +1,5 @@
 !> Solves what the search for thresholds asks for, point by point, on the threads of all ranks, and keeps what is found.
 module solve_threshold
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use campaign_progress, only: campaign_progress_t
    use clock, only: wall_seconds
    use errors, only: error_t
@@ -16,7 +15,7 @@ module solve_threshold
    use signals, only: caught_signal
    use solve_chunk, only: chunk_space_t, solve_scenes
    use threshold_outcome, only: add_traces, outcome_t, save_outcome, solved_scenes
-   use threshold_search, only: merged_points, missing_middles, missing_scan, new_point, point_t, untested_ends
+   use threshold_search, only: known_side, merged_points, missing_middles, missing_scan, new_point, point_t, untested_ends
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
    implicit none(type, external)
    private
@@ -175,18 +174,6 @@ contains
       if (rank_count() == 1 .or. this_rank() > 0 .or. outcome%cut) return
       if (outcome%age() > state_interval) call save_outcome(scene, threshold, outcome, log)
    end subroutine solve_points
-
-   !> A quantity whose side of the level is known: none where it is told to be below and may be larger.
-   elemental real(dp) function known_side(quantity, is_bound, level)
-      real(dp), intent(in) :: quantity
-      !> Above zero: it may be larger
-      real(dp), intent(in) :: is_bound
-      real(dp), intent(in) :: level
-
-      known_side = quantity
-      if (ieee_is_nan(quantity) .or. ieee_is_nan(is_bound)) return
-      if (is_bound > 0.0_dp .and. quantity < level) known_side = ieee_value(0.0_dp, ieee_quiet_nan)
-   end function known_side
 
    !> Tell the progress, and keep the state, if it is time to.
    subroutine keep_up(scene, threshold, wanted, testing, answers, progress, log, outcome)

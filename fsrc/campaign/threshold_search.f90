@@ -38,8 +38,8 @@ module threshold_search
       type(point_t) :: upper
    end type bracket_t
 
-   public :: finest_axis, scan_places, new_point, merged_points, missing_scan, missing_middles, untested_ends, brackets_of, &
-             is_verified
+   public :: finest_axis, scan_places, known_side, new_point, merged_points, missing_scan, missing_middles, untested_ends, &
+             brackets_of, is_verified
 
 contains
 
@@ -90,6 +90,18 @@ contains
          places = [(i*((axis%count - 1)/(threshold%count - 1)), i=0, threshold%count - 1)]
       end if
    end function scan_places
+
+   !> A quantity whose side of the level is known: NaN where the quantity is told to be below the level and may be larger.
+   elemental real(dp) function known_side(quantity, is_bound, level)
+      real(dp), intent(in) :: quantity
+      !> Above zero: the quantity may be larger
+      real(dp), intent(in) :: is_bound
+      real(dp), intent(in) :: level
+
+      known_side = quantity
+      if (ieee_is_nan(quantity) .or. ieee_is_nan(is_bound)) return
+      if (is_bound > 0.0_dp .and. quantity < level) known_side = ieee_value(0.0_dp, ieee_quiet_nan)
+   end function known_side
 
    !> A point, and on which side of the criterion it is.
    pure type(point_t) function new_point(threshold, wanted, status, quantity) result(point)

@@ -1,14 +1,14 @@
 !> Tests of the search for thresholds on functions whose changes are known.
 module test_threshold_search
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use campaign_axis, only: campaign_axis_t, grid_value
-   use checks, only: check_list_t
+   use checks, only: check_list_t, same_bits
    use kinds, only: dp, int64
    use quantities, only: quantity_film_force_rms, quantity_rattle_class
    use scene_status, only: status_film_lost, status_steady
    use scene_types, only: threshold_t
-   use threshold_search, only: bracket_t, brackets_of, finest_axis, is_verified, merged_points, missing_middles, missing_scan, &
-                               new_point, point_t, scan_places, side_unknown, untested_ends
+   use threshold_search, only: bracket_t, brackets_of, finest_axis, is_verified, known_side, merged_points, missing_middles, &
+                               missing_scan, new_point, point_t, scan_places, side_unknown, untested_ends
    implicit none(type, external)
    private
 
@@ -27,6 +27,7 @@ contains
       call checks%start('threshold_search')
       call test_places(checks)
       call test_sides(checks)
+      call test_bounds(checks)
       call test_all_changes(checks)
       call test_unseen_pair(checks)
       call test_integers(checks)
@@ -34,6 +35,22 @@ contains
       call test_kinds_that_none_shows(checks)
       call test_cut_anywhere(checks)
    end subroutine run_threshold_search_tests
+
+   !> A bound from below tells its side where it has reached the level, and nowhere else; a number tells it everywhere.
+   subroutine test_bounds(checks)
+      type(check_list_t), intent(inout) :: checks
+      real(dp), parameter :: level = 12.0_dp, quantity(3) = [11.0_dp, 12.0_dp, 13.0_dp]
+      real(dp) :: nan
+
+      nan = ieee_value(0.0_dp, ieee_quiet_nan)
+      call checks%check(all(same_bits(known_side(quantity, 0.0_dp, level), quantity)), 'a number is on the side where it is')
+      call checks%check(all(same_bits(known_side(quantity, nan, level), quantity)), 'nothing said of bounds: a number')
+      call checks%check(all(ieee_is_nan(known_side(quantity, 1.0_dp, level)) .eqv. [.true., .false., .false.]), &
+                        'a bound below the level has no side')
+      call checks%check(all(same_bits(known_side(quantity(2:), 1.0_dp, level), quantity(2:))), &
+                        'a bound that reaches the level is above')
+      call checks%check(ieee_is_nan(known_side(nan, 1.0_dp, level)), 'what is unknown stays so')
+   end subroutine test_bounds
 
    !> A threshold of the class between 0.1 and 4.1.
    pure function search(count, tolerance, scale) result(threshold)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,9 @@ from script_calls import call_script
 from test_thresholds import LONG, MANY_LINES, SPEEDS, cut_short, threshold_text
 
 import rattle as package
+from rattle.checksums import checksum
+from rattle.merge import _chunks
+from rattle.result_header import SERIES
 
 COARSE = {"tolerance": "1e-2"}
 # No class is verified by errors of rounding alone, so that there are uncertain crossings.
@@ -156,3 +160,28 @@ def test_rows_of_several_chunks_are_joined(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     expected = result_bytes(columns, rows, input_text=text.format(1, 1), chunk_rows=size)
     assert (tmp_path / "joined.rattle").read_bytes() == expected
+
+
+class Rows:
+    """A part of thresholds as far as checksums ask for it: rows of two columns."""
+
+    names = ("first", "second")
+
+    def __init__(self, table: np.ndarray) -> None:
+        self.table, self.row_count = table, len(table)
+        self.header = SimpleNamespace(chunks=SimpleNamespace(kind=SERIES))
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.table[:, self.names.index(name)]
+
+
+@pytest.mark.parametrize("rows", [1, 2, 3, 4])
+def test_the_seal_has_the_checksum_of_a_chunk_that_is_not_full_alone(rows: int, monkeypatch) -> None:
+    """As the program seals its series: whole chunks, here of two rows, have their checksums in the table."""
+    monkeypatch.setattr("rattle.merge.series_chunk_rows", lambda *_: 2)
+    table = np.arange(2.0 * rows).reshape(rows, 2)
+    told, seal = _chunks([Rows(table)])
+    assert seal.rows == rows
+    assert seal.rest_checksum == (checksum(table[-1:]) if rows % 2 else 0)
+    whole = [checksum(table[start : start + 2]) for start in range(0, rows - 1, 2)]
+    assert list(told.checksums) == whole + [0] * (rows % 2)
