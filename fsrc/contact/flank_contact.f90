@@ -3,12 +3,14 @@
 !>     W(h, h', y) = d/kappa      with elastic teeth, else d = 0.
 !>
 !> h is its film, d the compression of its spring, y the state of the film where its law has one. Rigid and elastic teeth, films
-!> with and without a state are contacts of different numbers; one flank or two are one contact or two.
+!> with and without a state are contacts of different numbers; one flank or two are one contact or two. Flanks that bend give way
+!> by what follows the width of the contact beside d, w(h, W) of module film_law.
 module flank_contact
    use film_law, only: film_kernel, film_load, film_loads, kernel_of, film_t, law_words, mixed_film_loads, &
-      never_pulls, new_film, overflow_load, squeeze_velocity, steady_film
+      never_pulls, new_film, overflow_load, squeeze_velocity, steady_film, width_compression
    use film_state, only: film_response_t, load_t, state_number_t
    use film_states, only: count_of_state, number_of_state, place_of_law, respond_of_state, rest_of_state, words_of_state
+   use flank_elasticity, only: flank_compliance
    use kinds, only: dp
    use linear_equations, only: solve_linear
    use scene_types, only: film_choice_t, scene_t
@@ -42,7 +44,7 @@ module flank_contact
    real(dp), parameter :: flattest = 1.0e3_dp
 
    public :: contact_of, contact_words, is_elastic, carries_positive_loads, is_costly, inner_count, inner_number, inner_at_rest, &
-             film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, equation_of_film, &
+             film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, equation_of_film, yields_at_rest, &
              overflow_load, film_kernel, kernel_of_contact
 
 contains
@@ -53,7 +55,7 @@ contains
 
       contact%film = new_film(scene)
       contact%state_law = place_of_law(scene%film%law)
-      if (scene%contact%stiffness > 0.0_dp) contact%compliance = 1.0_dp/scene%contact%stiffness
+      contact%compliance = flank_compliance(scene)
    end function contact_of
 
    !> The law that the group &film chooses, in words.
@@ -242,6 +244,24 @@ contains
       call film_load(contact%film, thickness, 0.0_dp, still%load, still%by_film, still%by_velocity)
       tells_velocity = velocity_by_load < 0.0_dp .and. velocity_by_load*still%by_velocity < flattest
    end function tells_velocity
+
+   !> What a flank at rest gives way by, if its film or its load change a little: of the film a share is left to the gear and the
+   !> load.
+   pure subroutine yields_at_rest(contact, film, load, own_share, compliance)
+      type(flank_contact_t), intent(in) :: contact
+      !> h [m] and W [N]
+      real(dp), intent(in) :: film
+      real(dp), intent(in) :: load
+      !> 1 but where flanks bend [-]
+      real(dp), intent(out) :: own_share
+      !> [m/N]
+      real(dp), intent(out) :: compliance
+      real(dp) :: wider, by_film, by_load
+
+      call width_compression(contact%film, film, load, wider, by_film, by_load)
+      own_share = 1.0_dp - by_film
+      compliance = contact%compliance + by_load
+   end subroutine yields_at_rest
 
    !> Whether a film carries positive loads only, down to nothing.
    elemental logical function carries_positive_loads(contact)

@@ -4,18 +4,21 @@
 !> film that carries one, no kernel.
 module film_law
    use constants, only: pi
+   use elastohydrodynamic_closure, only: closure_film, closure_load, closure_of, closure_steady_film, closure_t, closure_velocity, &
+                                         closure_width
+   use flank_elasticity, only: contact_radius, plane_strain_modulus
    use kinds, only: dp
    use published_iso_viscous, only: half_pi_rupture_load, rolling_coefficient, solved_rupture_load, squeeze_coefficient
    use published_piezo_viscous, only: piezo_coefficient, piezo_viscous_terms_load, published_piezo_viscous_load, &
                                       squeeze_exponent_rate, squeeze_growth
-   use regime, only: equivalent_radius, plane_strain_modulus
    use reynolds_iso_viscous, only: rupture_tangent_fast
    use reynolds_load, only: load_scale, pressure_rate, reynolds_iso_viscous_load, reynolds_piezo_viscous_load, &
                             reynolds_piezo_viscous_load_array, squeeze_rate, steady_iso_viscous_film, steady_piezo_viscous_film
    use rupture, only: rupture_tangent_successive, squeeze_group
    use scene_status, only: status_no_rigid_film, status_overflow
-   use scene_types, only: contact_t, film_choice_t, law_iso_viscous, law_piezo_viscous, model_published, model_reynolds, &
-                          rupture_half_pi, rupture_solved, rupture_solver_fast, rupture_solver_successive, scene_t
+   use scene_types, only: film_choice_t, law_elastohydrodynamic, law_iso_viscous, law_piezo_viscous, model_closure, &
+                          model_published, model_reynolds, rupture_half_pi, rupture_solved, rupture_solver_fast, &
+                          rupture_solver_successive, scene_t, viscosity_constant
    use squeeze_of_load, only: iso_viscous_squeeze, load_carried, load_too_small, piezo_viscous_squeeze, published_squeeze
    implicit none(type, external)
    private
@@ -25,7 +28,7 @@ module film_law
 
    !> Code of a law, with the way in which it is computed; 0 is none.
    integer, parameter, public :: kernel_half_pi = 1, kernel_solved_fast = 2, kernel_solved_successive = 3, kernel_piezo = 4, &
-                                 kernel_reynolds_iso = 5, kernel_reynolds_piezo = 6
+                                 kernel_reynolds_iso = 5, kernel_reynolds_piezo = 6, kernel_closure = 7
 
    !> Film of a scene.
    type, public :: film_t
@@ -36,6 +39,8 @@ module film_law
       logical :: exact = .false.
       !> Whether an evaluation costs much more than the arithmetic around it
       logical :: costly = .false.
+      !> Whether its flanks bend: they give way by what follows the width of the contact, too
+      logical :: bends = .false.
       !> Equivalent radius R of (2) [m]
       real(dp) :: radius = 0.0_dp
       !> Plane-strain modulus E* of (3) [Pa]
@@ -60,6 +65,8 @@ module film_law
       real(dp) :: squeeze_rate = 0.0_dp
       !> Exact piezo-viscous film: B h^(3/2) [m^(3/2)]
       real(dp) :: pressure_rate = 0.0_dp
+      !> Elastohydrodynamic film
+      type(closure_t) :: closure = closure_t()
       !> What it means if the kernel gives a load above `overflow_load`
       integer :: status_without_load = status_overflow
    end type film_t
@@ -82,8 +89,8 @@ module film_law
       end subroutine film_kernel
    end interface
 
-   public :: new_film, with_exact_film, contact_radius, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, &
-             squeeze_velocity, never_pulls, law_words, film_kernel
+   public :: new_film, with_exact_film, kernel_of, film_load, film_loads, mixed_film_loads, steady_film, squeeze_velocity, &
+             width_compression, film_over_gap, never_pulls, law_words, film_kernel
 
 contains
 
@@ -118,6 +125,13 @@ contains
             film%costly = .true.
             film%pressure_rate = pressure_rate(film%speed, film%viscosity, film%radius, film%pressure_viscosity)
             film%status_without_load = status_no_rigid_film
+         case (kernel_closure)
+            film%exact = .true.
+            film%bends = .true.
+            film%pressure_thickens = lubricant%viscosity_law /= viscosity_constant
+            film%speed = 2.0_dp*scene%kinematics%entrainment_speed
+            film%closure = closure_of(film%radius, contact%length, film%modulus, film%speed, film%viscosity, &
+                                      film%pressure_viscosity, lubricant%viscosity_law)
          case default
             film%kernel = 0
          end select
@@ -138,7 +152,9 @@ contains
       type(film_choice_t), intent(in) :: choice
 
       kernel = 0
-      if (choice%model == model_reynolds) then
+      if (choice%law == law_elastohydrodynamic) then
+         if (choice%model == model_closure) kernel = kernel_closure
+      else if (choice%model == model_reynolds) then
          if (choice%law == law_iso_viscous) kernel = kernel_reynolds_iso
          if (choice%law == law_piezo_viscous) kernel = kernel_reynolds_piezo
       else if (choice%model == model_published) then
@@ -150,15 +166,6 @@ contains
          if (choice%rupture_solver == rupture_solver_successive) kernel = kernel_solved_successive
       end if
    end function kernel_of_choice
-
-   !> Equivalent radius of a contact [m]: the one given, else (2) of the two radii given.
-   pure real(dp) function contact_radius(contact)
-      !> Checked contact
-      type(contact_t), intent(in) :: contact
-
-      contact_radius = contact%radius
-      if (.not. contact%radius > 0.0_dp) contact_radius = equivalent_radius(contact%radius_1, contact%radius_2)
-   end function contact_radius
 
    !> Kernel of a film, which loops over time choose once; none for a law that is not known.
    pure function kernel_of(film) result(kernel)
@@ -178,6 +185,8 @@ contains
          kernel => load_reynolds_iso
       case (kernel_reynolds_piezo)
          kernel => load_reynolds_piezo
+      case (kernel_closure)
+         kernel => load_closure
       case default
          kernel => null()
       end select
@@ -296,6 +305,8 @@ contains
          steady_film = steady_iso_viscous_film(film%scale, load)
       case (kernel_reynolds_piezo)
          steady_film = steady_piezo_viscous_film(film%scale, film%pressure_rate, load)
+      case (kernel_closure)
+         steady_film = closure_steady_film(film%closure, load/film%closure%load_unit)*film%closure%film_unit
       case default
          steady_film = 0.0_dp
       end select
@@ -371,10 +382,57 @@ contains
          velocity_by_film = (a_by_load*load*share - 1.5_dp*a_by_pressure_group*pressure_group/thickness)*velocity_of_one + &
                             0.5_dp*velocity/thickness
          velocity_by_load = a_by_load*thickness*share*velocity_of_one
+      case (kernel_closure)
+         associate (closure => film%closure)
+            call closure_velocity(closure, thickness/closure%film_unit, load/closure%load_unit, velocity, velocity_by_film, &
+                                  velocity_by_load, outcome)
+            velocity = velocity*closure%velocity_unit
+            velocity_by_film = velocity_by_film*(closure%velocity_unit/closure%film_unit)
+            velocity_by_load = velocity_by_load*(closure%velocity_unit/closure%load_unit)
+         end associate
       case default
          outcome = load_too_small
       end select
    end subroutine squeeze_velocity
+
+   !> By how much flanks that bend give way under a load beside the compliance behind them, and its slopes; 0 of flanks that do not.
+   elemental subroutine width_compression(film, thickness, load, gives, by_film, by_load)
+      type(film_t), intent(in) :: film
+      !> Film thickness h [m]
+      real(dp), intent(in) :: thickness
+      !> Load W [N]
+      real(dp), intent(in) :: load
+      !> [m]
+      real(dp), intent(out) :: gives
+      !> Its slopes [-], [m/N]; at a film that is none by the load alone
+      real(dp), intent(out) :: by_film
+      real(dp), intent(out) :: by_load
+
+      gives = 0.0_dp
+      by_film = 0.0_dp
+      by_load = 0.0_dp
+      if (.not. film%bends) return
+      if (thickness > 0.0_dp) then
+         call closure_width(film%closure, thickness, load, gives, by_film, by_load)
+      else if (load > 0.0_dp) then
+         call closure_width(film%closure, 0.0_dp, load, gives, by_film, by_load)
+         by_film = 0.0_dp
+      end if
+   end subroutine width_compression
+
+   !> Film of a flank: the gap, with what the compliance behind it gives, and what flanks that bend give way by beside it [m].
+   elemental real(dp) function film_over_gap(film, gap, load, near) result(thickness)
+      type(film_t), intent(in) :: film
+      !> [m]
+      real(dp), intent(in) :: gap
+      !> Load W [N]
+      real(dp), intent(in) :: load
+      !> A film near by, which saves time; 0 where none is known [m]
+      real(dp), intent(in) :: near
+
+      thickness = gap
+      if (film%bends) thickness = closure_film(film%closure, gap, load, near)
+   end function film_over_gap
 
    !> The law that the group &film chooses, in words.
    pure function law_words(choice) result(words)
@@ -392,6 +450,8 @@ contains
          words = 'Reynolds iso-viscous film of rigid flanks'
       case (kernel_reynolds_piezo)
          words = 'Reynolds piezo-viscous film of rigid flanks'
+      case (kernel_closure)
+         words = 'elastohydrodynamic film, by its closure'
       case default
          words = 'unknown film law'
       end select
@@ -475,5 +535,25 @@ contains
       call reynolds_piezo_viscous_load(film%scale, film%squeeze_rate, film%pressure_rate, thickness, velocity, load, &
                                        load_by_film, load_by_velocity)
    end subroutine load_reynolds_piezo
+
+   !> Elastohydrodynamic film by its closure; interface film_kernel.
+   pure subroutine load_closure(film, thickness, velocity, load, load_by_film, load_by_velocity)
+      type(film_t), intent(in) :: film
+      real(dp), intent(in) :: thickness
+      real(dp), intent(in) :: velocity
+      real(dp), intent(out) :: load
+      real(dp), intent(out) :: load_by_film
+      real(dp), intent(out) :: load_by_velocity
+      logical :: exists
+
+      associate (closure => film%closure)
+         call closure_load(closure, thickness/closure%film_unit, velocity/closure%velocity_unit, load, load_by_film, &
+                           load_by_velocity, exists)
+         load = load*closure%load_unit
+         load_by_film = load_by_film*(closure%load_unit/closure%film_unit)
+         load_by_velocity = load_by_velocity*(closure%load_unit/closure%velocity_unit)
+      end associate
+      if (.not. exists) load = 2.0_dp*overflow_load
+   end subroutine load_closure
 
 end module film_law

@@ -2,6 +2,7 @@
 !> regime map of Johnson (1970) and the rule by which a computed film is called iso-viscous, piezo-viscous or elastohydrodynamic.
 module regime
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use flank_elasticity, only: equivalent_radius, plane_strain_modulus
    use kinds, only: dp
    implicit none(type, external)
    private
@@ -30,30 +31,6 @@ module regime
    real(dp), parameter, public :: steel_tooth = 1.4e10_dp
 
 contains
-
-   !> Radius of the cylinder that over a plane has the gap of two cylinders, eq (2): 1/R = 1/r1 + 1/r2.
-   elemental function equivalent_radius(radius_1, radius_2) result(radius)
-      !> r1 [m]; negative for a hollow surface
-      real(dp), intent(in) :: radius_1
-      !> r2 [m], r1 + r2 /= 0
-      real(dp), intent(in) :: radius_2
-      !> R [m]
-      real(dp) :: radius
-
-      radius = radius_1/(1.0_dp + radius_1/radius_2)
-   end function equivalent_radius
-
-   !> Modulus of plane strain, eq (3).
-   elemental function plane_strain_modulus(young_modulus, poisson_ratio) result(modulus)
-      !> E [Pa]
-      real(dp), intent(in) :: young_modulus
-      !> nu [-]
-      real(dp), intent(in) :: poisson_ratio
-      !> E* [Pa]
-      real(dp) :: modulus
-
-      modulus = young_modulus/(1.0_dp - poisson_ratio**2)
-   end function plane_strain_modulus
 
    !> Depth by which a pressure flattens the contact, eq (4): 4 R p^2/E*^2.
    elemental function contact_deflection(radius, pressure, modulus) result(deflection)

@@ -8,7 +8,7 @@ module derived_scene
    use kinds, only: dp
    use loose_gear_drag, only: drag_of_gear, reference_diameter
    use oil_data, only: oil_pressure_viscosity, oil_viscosity
-   use scene_rules, only: rule_t, sentence_length
+   use scene_rules, only: broken_elastic_rules, rule_t, sentence_length
    use scene_types, only: drag_computed, drag_given, drag_tabulated, forced_orders, highest_order, scene_t, shaft_t
    use table_values, only: excitation_at, is_within
    implicit none(type, external)
@@ -138,6 +138,7 @@ contains
          call demand(broken, 'lubricant', 'viscosity', scene%lubricant%viscosity, 'oil.temperature_celsius')
          call demand(broken, 'lubricant', 'pressure_viscosity', scene%lubricant%pressure_viscosity, 'oil.temperature_celsius')
       end if
+      if (scene%oil%given .and. .not. scene%gear%given) broken = [broken, broken_elastic_rules(scene)]
       if (.not. scene%gear%given) return
       call find_contact(pair_of(scene), scene%shaft%speed_rpm/60.0_dp, contact, wrong, message)
       if (len(wrong) > 0) then
@@ -161,6 +162,7 @@ contains
          call add(broken, orders_key(scene), 'the highest is too large a multiple of their common divisor')
       if (scene%solver%samples_per_period() < 4*maxval(scene%excitation%force_orders)) &
          call add(broken, 'solver.samples_per_period', 'at least four for each multiple of the base frequency are needed')
+      broken = [broken, broken_elastic_rules(scene)]
    end function derived_rules
 
    !> Key that the orders of the shaft come from.

@@ -17,6 +17,7 @@
 !> kappa as well, and so counts the first coefficient of its polynomial that is left out.
 module elastic_step
    use collocation_step, only: choose_steps, forces_of_stages, highest_terms
+   use film_law, only: film_over_gap, width_compression
    use film_state, only: load_t
    use flank_contact, only: carries_positive_loads, equation_of_film, film_equation_t, flank_contact_t, load_of_contact
    use inner_equations, only: can_extrapolate, error_of_states, first_states, follow_films, inner_imbalances, inner_matrix, &
@@ -95,10 +96,11 @@ contains
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          trial%flanks = merge(2, 1, block%backlash(l) < huge(1.0_dp))
+         call start_films(contacts(l), l, block, trial)
          if (inner(l)%count > 0) call first_states(l, block, trial%flanks, inner(l), states)
          call first_loads(l, block, contacts(l), inner(l), trial%flanks, trial%load)
          call solve(contacts(l), l, force(l, :), block, inner(l), trial, states)
-         call judge(l, trial, block, inner(l), states)
+         call judge(contacts(l)%film%bends, l, trial, block, inner(l), states)
       end do
    end subroutine take_elastic_step
 
@@ -137,6 +139,31 @@ contains
          load = carried%load/block%force_scale(lane)
       end if
    end function start_load
+
+   !> Films where the step begins.
+   pure subroutine start_films(contact, lane, block, trial)
+      type(flank_contact_t), intent(in) :: contact
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+      type(trial_t), intent(inout) :: trial
+      real(dp) :: scale, load, by_film, by_load
+      integer :: flank
+
+      trial%compliance = block%compliance(lane)
+      trial%start(1) = block%film(lane, 0)
+      if (trial%flanks == 2) trial%start(2) = block%backlash(lane) - block%film(lane, 0) + sum(block%compression(lane, :, 0))
+      if (.not. contact%film%bends) return
+      scale = block%film_scale(lane)
+      do flank = 1, trial%flanks
+         load = block%compression(lane, flank, 0)/block%compliance(lane)*block%force_scale(lane)
+         if (flank == 2) then
+            trial%start(2) = trial%start(2) + trial%start_width(1)
+            trial%start(2) = film_over_gap(contact%film, trial%start(2)*scale, load, trial%start(2)*scale)/scale
+         end if
+         call width_compression(contact%film, trial%start(flank)*scale, load, trial%start_width(flank), by_film, by_load)
+         trial%start_width(flank) = trial%start_width(flank)/scale
+      end do
+   end subroutine start_films
 
    !> First iterate: the polynomials of the step before, or the loads at its end where they would be carried too far.
    pure subroutine first_loads(lane, block, contact, inner, flanks, load)
@@ -189,7 +216,7 @@ contains
       last_change = huge(1.0_dp)
       ! What an error of one in the loads moves the films by
       reach = max(block%step(lane)*min(block%step(lane), 1.0_dp/free_rate), block%compliance(lane))
-      call states(lane, force, block, trial)
+      call states(contact, lane, force, block, trial)
       anew = .true.
       do pass = 1, most_passes
          if (inner%count > 0) then
@@ -203,7 +230,7 @@ contains
             if (inner%count > 0) then
                call inner_matrix(lane, block, trial%flanks, inner_trial%responses, matrix)
             else
-               call newton_matrix(lane, block, trial%flanks, slopes, matrix)
+               call newton_matrix(contact%film%bends, lane, block, trial, slopes, matrix)
             end if
             call factorise(n, matrix, factors)
          end if
@@ -218,7 +245,7 @@ contains
          if (.not. change < huge(1.0_dp)) return
          before = trial
          call correct(1.0_dp, correction(:n), trial)
-         call states(lane, force, block, trial)
+         call states(contact, lane, force, block, trial)
          share = 1.0_dp
          do flank = 1, trial%flanks
             do i = 1, stages
@@ -229,7 +256,7 @@ contains
          if (share < 1.0_dp) then
             trial = before
             call correct(share, correction(:n), trial)
-            call states(lane, force, block, trial)
+            call states(contact, lane, force, block, trial)
          end if
          state_change = 0.0_dp
          if (inner%count > 0) call follow_films(lane, block, share, before, trial, inner, inner_trial%films, state_change)
@@ -265,7 +292,8 @@ contains
    end subroutine correct
 
    !> Gear and films that follow from the loads.
-   pure subroutine states(lane, force, block, trial)
+   pure subroutine states(contact, lane, force, block, trial)
+      type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
       real(dp), intent(in) :: force(stages)
       type(lane_block_t), intent(in) :: block
@@ -279,14 +307,36 @@ contains
          trial%momentum = block%momentum(lane, 0) + s*matmul(once, trial%acceleration)
          trial%way = s*(node*block%momentum(lane, 0) + s*matmul(twice, trial%acceleration))
          do flank = 1, trial%flanks
-            trial%start(flank) = block%film(lane, 0)
-            if (flank == 2) trial%start(2) = block%backlash(lane) - block%film(lane, 0) + sum(block%compression(lane, :, 0))
             yielded = kappa*trial%load(:, flank) - block%compression(lane, flank, 0)
             trial%film(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded)
+            if (contact%film%bends) then
+               call bend(contact, lane, flank, block, trial)
+               yielded = yielded + (trial%width(:, flank) - trial%start_width(flank))
+            end if
             trial%velocity(:, flank) = sign_of(flank)*trial%momentum + matmul(slope, yielded)/s
          end do
       end associate
    end subroutine states
+
+   !> Films of flanks that bend, from those that would be there if their width did not matter, and what they give way by.
+   pure subroutine bend(contact, lane, flank, block, trial)
+      type(flank_contact_t), intent(in) :: contact
+      integer, intent(in) :: lane
+      integer, intent(in) :: flank
+      type(lane_block_t), intent(in) :: block
+      type(trial_t), intent(inout) :: trial
+      real(dp), dimension(stages) :: film, load, width, by_film, by_load
+      real(dp) :: scale
+
+      scale = block%film_scale(lane)
+      load = trial%load(:, flank)*block%force_scale(lane)
+      film = film_over_gap(contact%film, (trial%film(:, flank) - trial%start_width(flank))*scale, load, trial%start(flank)*scale)
+      call width_compression(contact%film, film, load, width, by_film, by_load)
+      trial%film(:, flank) = film/scale
+      trial%width(:, flank) = width/scale
+      trial%follows(:, flank) = by_film/(1.0_dp - by_film)
+      trial%compliance(:, flank) = (block%compliance(lane) + by_load*(block%force_scale(lane)/scale))/(1.0_dp - by_film)
+   end subroutine bend
 
    !> By how much the film laws miss at the nodes, and their slopes; none where a film has no load. A film without thickness is to
    !> be what it was at the start.
@@ -340,17 +390,19 @@ contains
    end subroutine imbalances
 
    !> Newton's matrix: what the loads at the nodes change of the equations there.
-   pure subroutine newton_matrix(lane, block, flanks, slopes, matrix)
+   pure subroutine newton_matrix(bends, lane, block, trial, slopes, matrix)
+      !> Whether flanks bend
+      logical, intent(in) :: bends
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
-      integer, intent(in) :: flanks
+      type(trial_t), intent(in) :: trial
       type(slopes_t), intent(in) :: slopes
       real(dp), intent(out) :: matrix(most_rows, 2*stages)
       real(dp) :: by_film(stages), by_velocity(stages), by_load(stages), by_gear(stages, stages), turn
       integer :: first, flank, other, i, j
 
-      matrix(stages*flanks + 1:, :) = 0.0_dp
-      associate (s => block%step(lane), kappa => block%compliance(lane))
+      matrix(stages*trial%flanks + 1:, :) = 0.0_dp
+      associate (s => block%step(lane), flanks => trial%flanks)
          do flank = 1, flanks
             first = stages*(flank - 1)
             by_film = slopes%by_film(first + 1:first + stages)
@@ -359,6 +411,12 @@ contains
             do j = 1, stages
                by_gear(:, j) = s*(by_film*s*twice(:, j) + by_velocity*once(:, j))
             end do
+            if (bends) then
+               do j = 1, stages
+                  by_gear(:, j) = by_gear(:, j) + s*(by_film*trial%follows(:, flank)*s*twice(:, j) + &
+                                                     by_velocity*matmul(slope, trial%follows(:, flank)*twice(:, j)))
+               end do
+            end if
             do other = 1, flanks
                turn = sign_of(flank)*sign_of(other)
                do j = 1, stages
@@ -369,9 +427,10 @@ contains
             end do
             do j = 1, stages
                do i = 1, stages
-                  matrix(first + i, first + j) = matrix(first + i, first + j) + (kappa/s)*by_velocity(i)*slope(i, j)
+                  matrix(first + i, first + j) = matrix(first + i, first + j) + &
+                                                 (trial%compliance(j, flank)/s)*by_velocity(i)*slope(i, j)
                end do
-               matrix(first + j, first + j) = matrix(first + j, first + j) + (by_load(j) + by_film(j)*kappa)
+               matrix(first + j, first + j) = matrix(first + j, first + j) + (by_load(j) + by_film(j)*trial%compliance(j, flank))
             end do
          end do
       end associate
@@ -463,7 +522,9 @@ contains
    end function allowed_here
 
    !> Error of the step, whether it stands, and the next one; series of film, momentum and compressions for the samples.
-   pure subroutine judge(lane, trial, block, inner, states)
+   pure subroutine judge(bends, lane, trial, block, inner, states)
+      !> Whether flanks bend
+      logical, intent(in) :: bends
       integer, intent(in) :: lane
       type(trial_t), intent(in) :: trial
       type(lane_block_t), intent(inout) :: block
@@ -482,6 +543,9 @@ contains
                polynomial(:, flank) = matmul(power, trial%load(:, flank))
                call highest_terms(polynomial(:, flank), top, next)
                error = max(error, max(top/last_share, next)*kappa)
+               if (.not. bends) cycle
+               call highest_terms(matmul(power, trial%width(:, flank)), top, next)
+               error = max(error, top/last_share, next)
             end do
             if (inner%count > 0) error = max(error, error_of_states(lane, block, trial%flanks, states%films, inner))
             error = error/allowed_here(lane, block, trial)
@@ -499,6 +563,7 @@ contains
       block%last_step(lane) = block%step(lane)
       block%damping_rate(lane) = 0.0_dp
       call series_of_step(lane, trial%flanks, block)
+      if (bends) call add_width(lane, trial, block)
       if (inner%count > 0) call series_of_states(block%step(lane), trial%flanks, states%films, inner)
    end subroutine judge
 
@@ -534,5 +599,22 @@ contains
          end do
       end associate
    end subroutine series_of_step
+
+   !> Add what the drive flank gives way by for its width to the series of the film.
+   pure subroutine add_width(lane, trial, block)
+      integer, intent(in) :: lane
+      type(trial_t), intent(in) :: trial
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: shifted(0:stages), scale
+      integer :: j
+
+      shifted = powers_of_place(matmul(power, trial%width(:, 1)))
+      call meet_start(trial%start_width(1), shifted)
+      scale = 1.0_dp
+      do j = 1, stages
+         scale = scale/block%step(lane)
+         block%film(lane, j) = block%film(lane, j) + shifted(j)*scale
+      end do
+   end subroutine add_width
 
 end module elastic_step

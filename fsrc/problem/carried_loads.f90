@@ -2,7 +2,8 @@
 !> acceleration that is left for the mass.
 module carried_loads
    use constants, only: two_pi
-   use film_law, only: film_kernel, film_load
+   use elastohydrodynamic_closure, only: closure_pressure
+   use film_law, only: film_kernel, film_load, film_over_gap, width_compression
    use film_pressure, only: exact_pressure, exact_pressures
    use film_state, only: load_t, state_number_t
    use flank_contact, only: carries_positive_loads, inner_at_rest, load_at_rest, loads_of_contact, overflow_load, &
@@ -132,7 +133,22 @@ contains
 
       films = problem%backlash - states(:, of_film)
       if (has_elastic_teeth(problem)) films = films + (states(:, of_drive_compression) + states(:, of_coast_compression))
+      if (.not. problem%contact%film%bends) return
+      films = films + drive_widths(problem, states)
+      films = film_over_gap(problem%contact%film, films, states(:, of_coast_compression)/problem%contact%compliance, films)
    end function coast_films
+
+   !> Width compressions of the drive flank [m].
+   pure function drive_widths(problem, states) result(widths)
+      !> Of flanks that bend
+      type(problem_t), intent(in) :: problem
+      !> State, number of it
+      real(dp), intent(in) :: states(:, :)
+      real(dp), dimension(size(states, 1)) :: widths, by_film, by_load
+
+      call width_compression(problem%contact%film, states(:, of_film), &
+                             states(:, of_drive_compression)/problem%contact%compliance, widths, by_film, by_load)
+   end function drive_widths
 
    !> Films of one flank or of both [m].
    pure function films_of(problem, states) result(films)
@@ -156,6 +172,7 @@ contains
 
       positions = states(:, of_film)
       if (has_elastic_teeth(problem)) positions = positions - states(:, of_drive_compression)
+      if (problem%contact%film%bends) positions = positions - drive_widths(problem, states)
    end function gear_positions
 
    !> State in which the motion of a problem starts: films of a state of their own have stood still for long.
@@ -219,7 +236,7 @@ contains
       !> d_1 and d_2 [m]
       real(dp), intent(out) :: compression(2)
       type(load_t) :: drive, coast
-      real(dp) :: low, high, gap
+      real(dp) :: low, high, gap, room, wider, by_film, by_load
       integer :: pass
       integer, parameter :: most_passes = 200
       real(dp), parameter :: thinnest = 1.0e-16_dp
@@ -229,13 +246,16 @@ contains
       if (.not. abs(drive%load) < overflow_load) return
       compression(1) = problem%contact%compliance*drive%load
       if (.not. has_two_flanks(problem)) return
+      call width_compression(problem%contact%film, problem%initial_film, drive%load, wider, by_film, by_load)
+      room = problem%backlash - problem%initial_film + compression(1) + wider
       ! The gap is what backlash and drive film leave, and what the spring of the coast flank gives: its load falls as it grows.
-      low = max(problem%backlash - problem%initial_film + compression(1), thinnest)
+      low = max(room, thinnest)
       high = huge(1.0_dp)
       gap = low
       do pass = 1, most_passes
          coast = load_at_rest(problem%contact, gap, -problem%initial_velocity)
-         if (gap - problem%contact%compliance*coast%load > problem%backlash - problem%initial_film + compression(1)) then
+         call width_compression(problem%contact%film, gap, coast%load, wider, by_film, by_load)
+         if (gap - problem%contact%compliance*coast%load - wider > room) then
             high = gap
          else
             low = gap
@@ -263,7 +283,7 @@ contains
       end associate
    end function pressure_of_film
 
-   !> Largest pressures of the Reynolds iso-viscous film, on the flank where they are larger.
+   !> Largest pressures of the Reynolds iso-viscous film, or of an elastohydrodynamic film, on the flank where they are larger.
    pure subroutine largest_pressures(problem, states, pressures)
       type(problem_t), intent(in) :: problem
       !> State, number of it
@@ -271,7 +291,14 @@ contains
       !> [Pa]
       real(dp), intent(out) :: pressures(:)
 
-      associate (film => problem%contact%film)
+      associate (film => problem%contact%film, compliance => problem%contact%compliance)
+         if (film%bends) then
+            pressures = closure_pressure(film%closure, states(:, of_film), states(:, of_drive_compression)/compliance)
+            if (has_two_flanks(problem)) &
+               pressures = max(pressures, closure_pressure(film%closure, coast_films(problem, states), &
+                                                           states(:, of_coast_compression)/compliance))
+            return
+         end if
          if (.not. has_elastic_teeth(problem)) then
             call exact_pressures(film%radius, film%speed, film%viscosity, states(:, of_film), states(:, of_velocity), pressures)
             if (.not. has_two_flanks(problem)) return

@@ -4,11 +4,12 @@
 !>     m s^2 + S(s) = 0 ,      S(s) = sum over the films of k (K + C s)/(k + K + C s) ,
 !>
 !> for one film m C s^3 + m (k + K) s^2 + k C s + k K = 0; between rigid teeth S(s) = K + C s. Of films with a state of their own K
-!> and C are those of motions so slow that the state follows.
+!> and C are those of motions so slow that the state follows. Of flanks that bend each has a k of its own, and K and C are over the
+!> share of a film's motion that is left to the gear.
 module linear_motion
    use constants, only: two_pi
    use film_state, only: load_t
-   use flank_contact, only: load_at_rest
+   use flank_contact, only: load_at_rest, yields_at_rest
    use kinds, only: dp
    use problem, only: flank_count, has_elastic_teeth, problem_t
    implicit none(type, external)
@@ -28,21 +29,22 @@ contains
       !> [-]
       real(dp), intent(out) :: damping_ratio
       type(load_t) :: load
-      real(dp) :: stiffness(2), damping(2), spring, twice_decay, square
+      real(dp) :: stiffness(2), damping(2), spring(2), share, compliance, twice_decay, square
       integer :: flanks, flank
       integer, allocatable :: order(:)
 
       flanks = flank_count(problem)
       do flank = 1, flanks
          load = load_at_rest(problem%contact, films(flank), 0.0_dp)
-         stiffness(flank) = -load%by_film
-         damping(flank) = -load%by_velocity
+         call yields_at_rest(problem%contact, films(flank), load%load, share, compliance)
+         stiffness(flank) = -load%by_film/share
+         damping(flank) = -load%by_velocity/share
+         if (has_elastic_teeth(problem)) spring(flank) = 1.0_dp/compliance
       end do
       if (has_elastic_teeth(problem)) then
-         spring = 1.0_dp/problem%contact%compliance
          order = [(flank, flank=1, flanks)]
-         if ((spring + stiffness(1))/damping(1) > (spring + stiffness(flanks))/damping(flanks)) order = [2, 1]
-         call pair_on_springs(problem%mass, spring, stiffness(order), damping(order), twice_decay, square)
+         if ((spring(1) + stiffness(1))/damping(1) > (spring(flanks) + stiffness(flanks))/damping(flanks)) order = [2, 1]
+         call pair_on_springs(problem%mass, spring(order), stiffness(order), damping(order), twice_decay, square)
       else
          twice_decay = sum(damping(:flanks))/problem%mass
          square = sum(stiffness(:flanks))/problem%mass
@@ -61,8 +63,8 @@ contains
    pure subroutine pair_on_springs(mass, spring, stiffness, damping, twice_decay, square)
       !> [kg]
       real(dp), intent(in) :: mass
-      !> Stiffness of a tooth k [N/m]
-      real(dp), intent(in) :: spring
+      !> Stiffness of the tooth at each film k [N/m]
+      real(dp), intent(in) :: spring(:)
       !> K [N/m] and C [N s/m] of each film, the one with the smaller (k + K)/C first
       real(dp), intent(in) :: stiffness(:)
       real(dp), intent(in) :: damping(:)

@@ -13,8 +13,10 @@
 !> The state of a motion is h_1 and z', with elastic teeth also d_1, and d_2 where there are two flanks (a compression keeps its
 !> digits however stiff the tooth is, a position would not), and where films have a state of their own the numbers of both.
 module problem
+   use film_law, only: width_compression
    use film_state, only: load_t, state_number_t
-   use flank_contact, only: contact_of, film_under, flank_contact_t, inner_count, inner_number, is_elastic, load_at_rest
+   use flank_contact, only: contact_of, film_under, flank_contact_t, inner_count, inner_number, is_elastic, load_at_rest, &
+      yields_at_rest
    use force, only: force_of, force_t, largest_size
    use kinds, only: dp
    use scene_types, only: scene_t
@@ -227,6 +229,7 @@ contains
       !> Share of the backlash by which no root of rounded numbers misses it
       real(dp), parameter :: missed = 1.0e-6_dp
       real(dp) :: low, high, middle, smaller, larger, thick, thin, excess
+      real(dp), dimension(2) :: wider, by_film, by_load
 
       low = least
       high = most
@@ -237,7 +240,12 @@ contains
          thin = film_under(problem%contact, larger)
          thick = film_under(problem%contact, smaller)
          excess = thick + thin - problem%contact%compliance*(smaller + larger) - problem%backlash
-         if (.not. thin > 0.0_dp) excess = -problem%backlash
+         if (thin > 0.0_dp) then
+            call width_compression(problem%contact%film, [thick, thin], [smaller, larger], wider, by_film, by_load)
+            excess = excess - sum(wider)
+         else
+            excess = -problem%backlash
+         end if
          if (.not. (middle > low .and. middle < high)) exit
          if (excess > 0.0_dp) then
             low = middle
@@ -283,7 +291,7 @@ contains
       real(dp), intent(out) :: stiffness
       real(dp), intent(out) :: damping
       type(load_t) :: load
-      real(dp) :: share
+      real(dp) :: share, own_share, compliance
       integer :: flank
 
       stiffness = 0.0_dp
@@ -291,10 +299,11 @@ contains
       do flank = 1, flank_count(problem)
          load = load_at_rest(problem%contact, films(flank), 0.0_dp)
          ! What of the gear's way the film takes; the spring takes the rest.
+         call yields_at_rest(problem%contact, films(flank), load%load, own_share, compliance)
          share = 1.0_dp
-         if (has_elastic_teeth(problem)) share = 1.0_dp/(1.0_dp - problem%contact%compliance*load%by_film)
+         if (has_elastic_teeth(problem)) share = 1.0_dp/(own_share - compliance*load%by_film)
          stiffness = stiffness - load%by_film*share
-         damping = damping - load%by_velocity*share*share
+         damping = damping - load%by_velocity*share*share*own_share
       end do
    end subroutine linearise
 

@@ -2,14 +2,13 @@
 module run_film
    use clock, only: wall_seconds
    use errors, only: error_t
-   use film_law, only: contact_radius
+   use flank_elasticity, only: contact_radius, plane_strain_modulus
    use film_point, only: film_contact_t, film_point_t, new_film_point, speed_group_of
    use film_table, only: film_row, film_row_t, profile_names, profile_rows, profile_units
    use finished_files, only: place_files
    use kinds, only: dp, int64
    use log_file, only: log_t
    use output_place, only: log_path, profiles_path, result_path, summary_path
-   use regime, only: plane_strain_modulus
    use result_writer, only: result_writer_t
    use scene_report, only: law_sentence, report_head, speed_meaning
    use scene_status, only: status_complete, status_interrupted, status_not_written, status_sentence

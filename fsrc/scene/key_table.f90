@@ -89,6 +89,9 @@ module key_table
             'Stiffness of a flank with its tooth, in series with the film of each flank; absent: rigid teeth.', &
             sensible=range_t(lower=1.0e5_dp, upper=1.0e12_dp), &
             computable=a_stiffness, given_by='gear'), &
+      key_t('contact', 'flattening_included', logical_kind, '', '.true.', any_number, '', of_motions, &
+            'Whether that stiffness, or gear.tooth_stiffness, contains the flattening of the flanks, as that of ISO 6336-1 '// &
+            'does; else a plane contact, elastic to the depth R, gives way beside it.'), &
       key_t('lubricant', 'viscosity', real_kind, 'Pa s', 'required', positive, '', '', &
             'Dynamic viscosity eta0 at ambient pressure.', &
             example='0.3', &
@@ -99,9 +102,9 @@ module key_table
             example='2.0e-8', &
             sensible=range_t(lower=1.0e-10_dp, upper=1.0e-7_dp), &
             computable=a_pressure_viscosity, given_by='oil'), &
-      key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'barus roelands', '', &
-            'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29); roelands only in a film task with '// &
-            'model = numerical.'), &
+      key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'constant barus roelands', '', &
+            'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29). constant and roelands are for the '// &
+            'elastohydrodynamic law, roelands for a film task with model = numerical, too.'), &
       key_t('kinematics', 'entrainment_speed', real_kind, 'm/s', '', positive, '', '', &
             'Entrainment speed U, the mean of the two surface speeds; give this, rolling_speed, or both surface speeds.', &
             example='1.905', &
@@ -174,11 +177,12 @@ module key_table
             sensible=range_t(lower=0.0_dp, upper=100.0_dp), &
             computable=a_fall, given_by='gear'), &
       key_t('film', 'law', text_kind, '', 'required', any_number, words_of_laws, of_motions, &
-            'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle.', &
+            'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle; elastohydrodynamic, '// &
+            'where pressure bends the flanks.', &
             example='iso-viscous'), &
-      key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical', '', &
-            'Whose film: published, the formulas of the paper with U as their u; reynolds, exact with u = 2U. Film task: '// &
-            'absent means both, numerical adds the finite-volume reference solution to the Reynolds film.'), &
+      key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical closure', '', &
+            'Whose film: published, the paper''s formulas with U as their u; reynolds, exact with u = 2U; closure, of the '// &
+            'elastohydrodynamic law. Film task: absent means both of the first, numerical adds the finite-volume solution.'), &
       key_t('film', 'rupture', text_kind, '', 'half-pi', any_number, 'half-pi solved', &
             'film.law=iso-viscous & film.model=published', &
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &

@@ -141,7 +141,10 @@ contains
          call input%add_fault('solver', 'method', 'the paper''s method is for the rigid teeth of the paper; take taylor, or '// &
                               'leave '//trim(merge('contact.stiffness   ', 'gear.tooth_stiffness', &
                                                    input%is_given('contact', 'stiffness')))//' out', faults)
+      if (input%word('film', 'law') == 'elastohydrodynamic' .and. input%word('solver', 'method') == 'newmark') &
+         call input%add_fault('solver', 'method', 'the paper''s method is for the rigid flanks of the paper; take taylor', faults)
       call input%put_numbers(scene)
+      call input%put_laws(scene)
       allocate (broken, source=broken_rules(scene))
       do i = 1, size(broken)
          if (.not. is_clear(input, broken(i)%keys)) cycle
@@ -308,17 +311,31 @@ contains
       end do
    end subroutine check_columns
 
-   !> The reference solution and Roelands' viscosity are for film tasks: a motion would wait for them at every step.
+   !> The reference solution is for film tasks, as a motion would wait for it at every step; its closure, other laws of viscosity and
+   !> what flanks flatten by are for the elastohydrodynamic law.
    subroutine check_film_model(input, faults)
       type(scene_input_t), intent(in) :: input
       type(fault_list_t), intent(inout) :: faults
-      logical :: numerical
+      character(*), parameter :: law = "law = 'elastohydrodynamic'"
+      logical :: numerical, elastic
 
       numerical = input%word('film', 'model') == 'numerical'
+      elastic = input%word('scene', 'task') /= 'film' .and. input%word('film', 'law') == 'elastohydrodynamic'
       if (numerical .and. input%word('scene', 'task') /= 'film') &
          call input%add_fault('film', 'model', "'numerical' is for task = 'film' only", faults)
-      if (input%word('lubricant', 'viscosity_law') == 'roelands' .and. .not. numerical) &
-         call input%add_fault('lubricant', 'viscosity_law', "'roelands' needs task = 'film' and model = 'numerical'", faults)
+      if (elastic .and. .not. numerical .and. input%word('film', 'model') /= 'closure') &
+         call input%add_fault('film', 'model', "the model of "//law//" is 'closure'", faults)
+      if (input%word('film', 'model') == 'closure' .and. .not. elastic) &
+         call input%add_fault('film', 'model', "'closure' needs "//law, faults)
+      if (input%word('lubricant', 'viscosity_law') == 'roelands' .and. .not. (numerical .or. elastic)) &
+         call input%add_fault('lubricant', 'viscosity_law', "'roelands' needs "//law//", or task = 'film' and "// &
+                              "model = 'numerical'", faults)
+      if (input%word('lubricant', 'viscosity_law') == 'constant' .and. .not. elastic) &
+         call input%add_fault('lubricant', 'viscosity_law', "'constant' needs "//law, faults)
+      if (input%is_given('contact', 'flattening_included') .and. .not. (elastic .or. input%is_given('contact', 'stiffness') .or. &
+                                                                        input%is_given('gear', 'tooth_stiffness'))) &
+         call input%add_fault('contact', 'flattening_included', 'rigid flanks have nothing to include; give a stiffness or '//law, &
+                              faults)
    end subroutine check_film_model
 
    !> The ends of a sweep differ, its key allows the values between them, and its engine can follow it.
@@ -360,6 +377,7 @@ contains
       call check_memory(input, 'sweep', 'count', 80.0_dp*real(input%count('sweep', 'count'), dp), faults)
       do i = 1, 2
          call input%put_numbers(swept)
+         call input%put_laws(swept)
          call set_number(swept, keys(position)%group, keys(position)%name, ends(i))
          if (allocated(broken)) deallocate (broken)
          allocate (broken, source=broken_rules(swept))

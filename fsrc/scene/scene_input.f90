@@ -26,6 +26,8 @@ module scene_input
    contains
       procedure :: set_all
       procedure :: put_numbers
+      procedure :: put_laws
+      procedure :: choose_model
       procedure :: is_given
       procedure :: has_group
       procedure :: is_faulty
@@ -125,6 +127,25 @@ contains
          if (keys(i)%kind == integer_kind) call set_number(scene, keys(i)%group, keys(i)%name, real(self%entries(i)%count, dp))
       end do
    end subroutine put_numbers
+
+   !> Put the laws of film and oil into a scene, by which the rules between its numbers differ.
+   pure subroutine put_laws(self, scene)
+      class(scene_input_t), intent(in) :: self
+      type(scene_t), intent(inout) :: scene
+
+      scene%film%law = self%choice('film', 'law')
+      scene%film%model = self%choice('film', 'model')
+      scene%lubricant%viscosity_law = self%choice('lubricant', 'viscosity_law')
+      scene%contact%flattening_included = self%flag('contact', 'flattening_included')
+   end subroutine put_laws
+
+   !> The elastohydrodynamic law has a model of its own; where none is given it is this one.
+   pure subroutine choose_model(self)
+      class(scene_input_t), intent(inout) :: self
+
+      if (self%word('film', 'law') == 'elastohydrodynamic' .and. .not. self%is_given('film', 'model')) &
+         self%entries(find_key('film', 'model'))%word = 'closure'
+   end subroutine choose_model
 
    !> Whether the user set a key.
    pure logical function is_given(self, group, name)

@@ -84,6 +84,7 @@ contains
          own = fault_list_t()
          call set_all_keys(inputs(i), assignments, file, overrides, own)
          allocate (scenes(i)%warnings(0))
+         call inputs(i)%choose_model()
          call take_signal(inputs(i), 'load', scenes(i)%warnings, own)
          call take_signal(inputs(i), 'shaft', scenes(i)%warnings, own)
          call take_drag_table(inputs(i), scenes(i)%gear, own)
@@ -152,6 +153,7 @@ contains
 
       scene%task = input%choice('scene', 'task')
       call input%put_numbers(scene)
+      call input%put_laws(scene)
       call read_choices(input, scene)
       scene%points = read_points(input, scene%film%model)
       if (scene%task == task_sweep) scene%sweep = read_sweep(input)
@@ -274,7 +276,6 @@ contains
       type(scene_t), intent(inout) :: scene
 
       associate (film => scene%film, solver => scene%solver, excitation => scene%excitation, spectrum => scene%spectrum)
-         scene%lubricant%viscosity_law = input%choice('lubricant', 'viscosity_law')
          if (input%is_given('load', 'force_orders')) then
             excitation%force_orders = nint(input%numbers('load', 'force_orders'))
             excitation%force_amplitudes = input%numbers('load', 'force_amplitudes')
@@ -293,8 +294,6 @@ contains
             if (input%is_given('shaft', 'phases')) scene%shaft%phases = input%numbers('shaft', 'phases')
          end if
          scene%oil%base = input%choice('oil', 'base')
-         film%law = input%choice('film', 'law')
-         film%model = input%choice('film', 'model')
          film%rupture = input%choice('film', 'rupture')
          film%rupture_solver = input%choice('film', 'rupture_solver')
          solver%method = input%choice('solver', 'method')
@@ -360,6 +359,10 @@ contains
 
          is_told = input%entries(i)%present .and. in_use(input, i)
          if (keys(i)%group == 'output') is_told = is_told .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
+         ! It matters to flanks that give way.
+         if (keys(i)%name == 'flattening_included') &
+            is_told = is_told .and. (input%is_given('contact', 'stiffness') .or. input%is_given('gear', 'tooth_stiffness') .or. &
+                                     input%word('film', 'law') == 'elastohydrodynamic')
          ! In a film task the absent model means more than its default.
          if (keys(i)%name == 'model') &
             is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') /= 'film')

@@ -1,7 +1,9 @@
 !> Rules between the numbers of a scene: read, swept or drawn by a campaign, they must hold.
 module scene_rules
+   use flank_elasticity, only: flattening_compliance, roelands_logarithm
    use kinds, only: dp
-   use scene_types, only: drag_given, least_entrainment_speed, least_static_load, scene_t
+   use scene_types, only: drag_given, law_elastohydrodynamic, least_entrainment_speed, least_static_load, scene_t, &
+                          viscosity_roelands
    implicit none(type, external)
    private
 
@@ -14,7 +16,7 @@ module scene_rules
       character(sentence_length) :: sentence
    end type rule_t
 
-   public :: broken_rules
+   public :: broken_rules, broken_elastic_rules
 
 contains
 
@@ -53,6 +55,46 @@ contains
          end if
       end associate
       broken = pack(rules,.not. holds)
+      ! Those of a drawing and a data sheet are held against what follows from them.
+      if (.not. (scene%gear%given .or. scene%oil%given)) broken = [broken, broken_elastic_rules(scene)]
    end function broken_rules
+
+   !> The rules of elastic flanks that a scene breaks.
+   pure function broken_elastic_rules(scene) result(broken)
+      !> Derived
+      type(scene_t), intent(in) :: scene
+      type(rule_t), allocatable :: broken(:)
+      character(*), parameter :: contact_keys = ' contact.length lubricant.viscosity '
+      character(sentence_length) :: sentence
+      character(64) :: keys
+      real(dp) :: flattening
+
+      allocate (broken(0))
+      associate (contact => scene%contact, viscosity => scene%lubricant%viscosity)
+         keys = 'lubricant.viscosity '
+         if (scene%oil%given) keys = 'oil.temperature_celsius '
+         if (scene%lubricant%viscosity_law == viscosity_roelands .and. viscosity > 0.0_dp) then
+            if (.not. roelands_logarithm(viscosity) > 0.0_dp) broken = [rule_t(keys, &
+               'Roelands'' law is for viscosities above 6.3e-5 Pa s, where ln(viscosity) + 9.67 is positive')]
+         end if
+         if (scene%film%law /= law_elastohydrodynamic .and. contact%flattening_included) return
+         if (.not. min(contact%length, viscosity, scene%kinematics%entrainment_speed, contact%young_modulus) > 0.0_dp) return
+         if (.not. (contact%radius > 0.0_dp .or. contact%radius_1*contact%radius_2 > 0.0_dp)) return
+         flattening = flattening_compliance(scene)
+         keys = 'contact.stiffness'//contact_keys
+         if (scene%gear%given) keys = 'gear.tooth_stiffness '
+         if (.not. flattening > 0.0_dp) then
+            if (.not. contact%stiffness > 0.0_dp) keys = 'contact.length lubricant.viscosity '
+            if (scene%gear%given) keys = 'gear.face_width '
+            broken = [broken, rule_t(keys, 'the contact is wider than the radius at this viscosity and speed: its flanks '// &
+                                     'are no plane contact')]
+         else if (scene%film%law == law_elastohydrodynamic .and. contact%flattening_included &
+                  .and. contact%stiffness*flattening > 1.0_dp) then
+            write (sentence, '(2(a, es9.3), a)') 'the flanks alone have', 1.0_dp/flattening, ' N/m, less than the', &
+               contact%stiffness, ' N/m with them; or set flattening_included = .false.'
+            broken = [broken, rule_t(keys, sentence)]
+         end if
+      end associate
+   end function broken_elastic_rules
 
 end module scene_rules

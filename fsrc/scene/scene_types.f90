@@ -16,14 +16,14 @@ module scene_types
    integer, parameter, public :: compute_rupture = 1, compute_load = 2, compute_stiffness = 3, compute_damping = 4, &
                                  compute_pressure = 5, compute_limits = 6, compute_profile = 7
    !> Viscosity under pressure.
-   integer, parameter, public :: viscosity_barus = 1, viscosity_roelands = 2
+   integer, parameter, public :: viscosity_constant = 1, viscosity_barus = 2, viscosity_roelands = 3
    !> Which speed forms the groups of a film task.
    integer, parameter, public :: speed_mean = 1, speed_sum = 2
    !> Film law of the motion, and what &film law calls it.
-   integer, parameter, public :: law_iso_viscous = 1, law_piezo_viscous = 2
-   character(*), parameter, public :: words_of_laws = 'iso-viscous piezo-viscous'
+   integer, parameter, public :: law_iso_viscous = 1, law_piezo_viscous = 2, law_elastohydrodynamic = 3
+   character(*), parameter, public :: words_of_laws = 'iso-viscous piezo-viscous elastohydrodynamic'
    !> Whose formulas.
-   integer, parameter, public :: model_published = 1, model_reynolds = 2, model_numerical = 3
+   integer, parameter, public :: model_published = 1, model_reynolds = 2, model_numerical = 3, model_closure = 4
    !> Rupture angle in the squeeze term of (24).
    integer, parameter, public :: rupture_half_pi = 1, rupture_solved = 2
    !> Root finder of (18).
@@ -62,6 +62,8 @@ module scene_types
       real(dp) :: backlash = 0.0_dp
       !> Stiffness of a flank and its tooth, in series with the film [N/m]; 0: rigid
       real(dp) :: stiffness = 0.0_dp
+      !> Whether the flattening of the flanks is in there, or adds to what it gives
+      logical :: flattening_included = .true.
       !> Width of all teeth in contact [m]; 0: the contact length
       real(dp) :: tooth_width = 0.0_dp
    contains

@@ -1,0 +1,360 @@
+!> Film between flanks that give way, without pressures in nodes: rolling and squeeze flow of the rigid film, each with the factor by
+!> which bent flanks and thickened oil change it. In Moes' variables, with E* of (3), u = u1 + u2 and
+!> eps = (eta0 u/(E* R))^(1/4),
+!>
+!>     h = R eps^2 H ,   W = E* R eps^2 l M ,   h' = eps u/2 H' ,   p = E* eps P ,   alpha p = L P ,   L = alpha E* eps ,
+!>
+!>     M = (12/H) g_r Phi(A g_s/g_r) ,   A = sqrt(2) H'/sqrt(H) ,
+!>     g_r = (1 + 0.830 s) (eta(0.278 q)/eta0)^0.864 ,   g_s = (1 + 0.765 s)^(3/2) eta(0.213 q)/eta0 ,
+!>     s = M/H ,   q = M/b ,   b^2 = 2 H + 8 M/pi .
+!>
+!> H is the smallest film, Phi that of the Reynolds iso-viscous film. The flanks give way by M c in all, of which c is a number of
+!> the flank but for the width of the contact, - (2/pi) ln(0.516 H + 0.245 M). The constants are fitted to films solved in nodes:
+!> what they were fitted to, and how far they are off, stands in input/README.md.
+module elastohydrodynamic_closure
+   use constants, only: pi
+   use flank_elasticity, only: elastic_scale, roelands_logarithm
+   use kinds, only: dp
+   use reynolds_iso_viscous, only: iso_viscous_load
+   use scene_types, only: viscosity_barus, viscosity_roelands
+   use squeeze_of_load, only: iso_viscous_squeeze, load_carried
+   implicit none(type, external)
+   private
+
+   !> Coefficients of the film in a contact.
+   type, public :: closure_t
+      !> h of H = 1 [m], W of M = 1 [N], h' of H' = 1 [m/s], p of P = 1 [Pa]
+      real(dp) :: film_unit = 1.0_dp
+      real(dp) :: load_unit = 1.0_dp
+      real(dp) :: velocity_unit = 1.0_dp
+      real(dp) :: pressure_unit = 1.0_dp
+      !> L [-]
+      real(dp) :: material = 0.0_dp
+      !> Code of scene_types
+      integer :: viscosity_law = viscosity_barus
+      !> Roelands: ln eta0 + 9.67, its exponent z, and p/1.96e8 Pa of P = 1 [-]
+      real(dp) :: logarithm = 0.0_dp
+      real(dp) :: exponent = 0.0_dp
+      real(dp) :: pressure_ratio = 0.0_dp
+   end type closure_t
+
+   !> Largest load M, material number L and alpha p that the constants were fitted to [-]
+   real(dp), parameter, public :: largest_load = 2.0_dp, largest_material = 20.0_dp, largest_alpha_p = 8.0_dp
+
+   !> Factors of s and q in g_r and g_s, exponents of g_r and g_s, factors of H and M in the width
+   real(dp), parameter :: rolling_bend = 0.830_dp, rolling_pressure = 0.278_dp, rolling_exponent = 0.864_dp, &
+                          squeeze_bend = 0.765_dp, squeeze_pressure = 0.213_dp, squeeze_exponent = 1.5_dp, &
+                          film_width = 0.516_dp, load_width = 0.245_dp
+   !> Largest P of the film over q [-]
+   real(dp), parameter :: peak_pressure = 0.64_dp
+
+   !> Reference pressure of Roelands' law [Pa]
+   real(dp), parameter :: roelands_pressure = 1.96e8_dp
+
+   !> Factors of the flows and their slopes.
+   type :: factors_t
+      !> ln g_r and ln g_s, and what they change by with H and with M
+      real(dp) :: rolling, rolling_by_film, rolling_by_load
+      real(dp) :: squeeze, squeeze_by_film, squeeze_by_load
+   end type factors_t
+
+   !> Newton's iterations at most, and the step of a logarithm after which all digits are there
+   integer, parameter :: most_passes = 100
+   real(dp), parameter :: last_step = 1.0e-13_dp
+   !> Loads of a film beyond which no search goes [-]
+   real(dp), parameter :: beyond_all = 1.0e60_dp
+
+   public :: closure_of, closure_velocity, closure_load, closure_steady_film, closure_width, closure_film, closure_pressure
+
+contains
+
+   !> Coefficients of a contact.
+   pure type(closure_t) function closure_of(radius, length, modulus, speed, viscosity, pressure_viscosity, viscosity_law) &
+      result(closure)
+      !> R and l [m]
+      real(dp), intent(in) :: radius
+      real(dp), intent(in) :: length
+      !> E* [Pa]
+      real(dp), intent(in) :: modulus
+      !> u1 + u2 [m/s]
+      real(dp), intent(in) :: speed
+      !> eta0 [Pa s]
+      real(dp), intent(in) :: viscosity
+      !> alpha [1/Pa]
+      real(dp), intent(in) :: pressure_viscosity
+      !> Code of scene_types
+      integer, intent(in) :: viscosity_law
+      real(dp) :: eps
+
+      eps = elastic_scale(radius, modulus, speed, viscosity)
+      closure%film_unit = radius*eps*eps
+      closure%load_unit = modulus*radius*eps*eps*length
+      closure%velocity_unit = 0.5_dp*eps*speed
+      closure%pressure_unit = modulus*eps
+      closure%material = pressure_viscosity*modulus*eps
+      closure%viscosity_law = viscosity_law
+      if (viscosity_law /= viscosity_roelands) return
+      closure%logarithm = roelands_logarithm(viscosity)
+      closure%exponent = roelands_pressure*pressure_viscosity/closure%logarithm
+      closure%pressure_ratio = closure%pressure_unit/roelands_pressure
+   end function closure_of
+
+   !> Velocity of a film under a load, and its slopes.
+   elemental subroutine closure_velocity(closure, film, load, velocity, by_film, by_load, outcome)
+      type(closure_t), intent(in) :: closure
+      !> H > 0 [-]
+      real(dp), intent(in) :: film
+      !> M [-]
+      real(dp), intent(in) :: load
+      !> H' [-]; it and its slopes are 0 where no velocity gives the load
+      real(dp), intent(out) :: velocity
+      real(dp), intent(out) :: by_film
+      real(dp), intent(out) :: by_load
+      !> Whether there is one, a code of module squeeze_of_load
+      integer, intent(out) :: outcome
+      type(factors_t) :: factors
+      real(dp) :: group, a, a_by_group, scale
+
+      factors = factors_of(closure, film, max(load, 0.0_dp))
+      group = load*film/12.0_dp*exp(-factors%rolling)
+      call iso_viscous_squeeze(group, a, a_by_group, outcome)
+      velocity = 0.0_dp
+      by_film = 0.0_dp
+      by_load = 0.0_dp
+      if (outcome /= load_carried) return
+      scale = sqrt(0.5_dp*film)*exp(factors%rolling - factors%squeeze)
+      velocity = scale*a
+      by_film = velocity*(0.5_dp/film + factors%rolling_by_film - factors%squeeze_by_film) + &
+                scale*a_by_group*group*(1.0_dp/film - factors%rolling_by_film)
+      by_load = velocity*(factors%rolling_by_load - factors%squeeze_by_load) + &
+                scale*a_by_group*group*(1.0_dp/load - factors%rolling_by_load)
+   end subroutine closure_velocity
+
+   !> Load of a film that moves, and its slopes. Of loads at which it moves alike this is the smallest; the slopes follow from those
+   !> of the velocity.
+   elemental subroutine closure_load(closure, film, velocity, load, by_film, by_velocity, exists)
+      type(closure_t), intent(in) :: closure
+      !> H > 0 [-]
+      real(dp), intent(in) :: film
+      !> H' [-]
+      real(dp), intent(in) :: velocity
+      !> M [-]; it and its slopes are 0 where there is none
+      real(dp), intent(out) :: load
+      real(dp), intent(out) :: by_film
+      real(dp), intent(out) :: by_velocity
+      !> Whether there is one
+      logical, intent(out) :: exists
+      real(dp) :: low, high, place, next, found, found_by_film, found_by_load, unit, miss, slope
+      integer :: pass, outcome
+
+      by_film = 0.0_dp
+      by_velocity = 0.0_dp
+      ! The flanks and the oil of an unloaded film are as those of the rigid film, whose load this is.
+      unit = sqrt(2.0_dp/film)
+      call iso_viscous_load(velocity*unit, load, slope)
+      load = 12.0_dp/film*load
+      exists = load > 0.0_dp
+      if (.not. exists) return
+      ! The velocity falls with the load, from infinity, up to loads that thicken the oil by more than they drive out.
+      low = log(load)
+      do
+         call at(low, miss, slope)
+         if (miss > 0.0_dp) exit
+         low = low - 0.5_dp
+         if (low < -log(beyond_all)) exit
+      end do
+      high = low
+      do
+         high = high + 0.25_dp
+         call at(high, miss, slope)
+         if (.not. miss > 0.0_dp) exit
+         low = high
+         exists = high < log(beyond_all) .and. .not. slope > 0.0_dp
+         if (exists) cycle
+         load = 0.0_dp
+         return
+      end do
+      place = 0.5_dp*(low + high)
+      do pass = 1, most_passes
+         call at(place, miss, slope)
+         if (miss > 0.0_dp) then
+            low = place
+         else
+            high = place
+         end if
+         next = place
+         if (slope < 0.0_dp) next = place - miss/slope
+         if (.not. (next > low .and. next < high)) next = 0.5_dp*(low + high)
+         slope = abs(next - place)
+         place = next
+         if (slope <= last_step*max(1.0_dp, abs(place))) exit
+      end do
+      load = exp(place)
+      call closure_velocity(closure, film, load, found, found_by_film, found_by_load, outcome)
+      if (.not. found_by_load < 0.0_dp) return
+      by_velocity = 1.0_dp/found_by_load
+      by_film = -found_by_film/found_by_load
+
+   contains
+
+      !> By how much the velocity under a load misses that of the film, in asinh A, and its slope.
+      pure subroutine at(logarithm, miss, slope)
+         !> Of the load
+         real(dp), intent(in) :: logarithm
+         real(dp), intent(out) :: miss
+         real(dp), intent(out) :: slope
+         real(dp) :: moves, moves_by_film, moves_by_load
+         integer :: is_carried
+
+         call closure_velocity(closure, film, exp(logarithm), moves, moves_by_film, moves_by_load, is_carried)
+         miss = asinh(moves*unit) - asinh(velocity*unit)
+         slope = moves_by_load*exp(logarithm)*unit/sqrt(1.0_dp + (moves*unit)**2)
+         ! A load too small for any velocity is below that of all velocities.
+         if (is_carried /= load_carried) miss = real(-is_carried, dp)
+      end subroutine at
+
+   end subroutine closure_load
+
+   !> Film that carries a load at rest [-]: M H = 12 g_r Phi(0), of which the left side over the right one rises with H.
+   elemental real(dp) function closure_steady_film(closure, load) result(film)
+      type(closure_t), intent(in) :: closure
+      !> M > 0 [-]
+      real(dp), intent(in) :: load
+      type(factors_t) :: factors
+      real(dp) :: still, slope, place, least, step
+      integer :: pass
+
+      call iso_viscous_load(0.0_dp, still, slope)
+      least = log(12.0_dp*still/load)
+      place = least
+      do pass = 1, most_passes
+         film = exp(place)
+         factors = factors_of(closure, film, load)
+         step = (factors%rolling + least - place)/(1.0_dp - factors%rolling_by_film*film)
+         place = place + step
+         if (abs(step) <= last_step*max(1.0_dp, abs(place))) exit
+      end do
+      film = exp(place)
+   end function closure_steady_film
+
+   !> By how much the flanks give way for the width of the contact, - (2/pi) M ln(0.516 H + 0.245 M), and its slopes. A load below
+   !> zero, which interpolation may ask of, has the width of none.
+   elemental subroutine closure_width(closure, film, load, gives, by_film, by_load)
+      type(closure_t), intent(in) :: closure
+      !> h >= 0, and above 0 where there is no load [m]
+      real(dp), intent(in) :: film
+      !> W [N]
+      real(dp), intent(in) :: load
+      !> [m], less than 0 where the contact is wide
+      real(dp), intent(out) :: gives
+      real(dp), intent(out) :: by_film
+      !> [m/N]
+      real(dp), intent(out) :: by_load
+      real(dp) :: m, width, share, logarithm
+
+      share = -2.0_dp/pi*(closure%film_unit/closure%load_unit)
+      m = load/closure%load_unit
+      width = film_width*film/closure%film_unit + load_width*max(m, 0.0_dp)
+      logarithm = log(width)
+      gives = share*load*logarithm
+      by_film = share*load*film_width/(closure%film_unit*width)
+      by_load = share*logarithm
+      if (m > 0.0_dp) by_load = by_load + share*load*load_width/(closure%load_unit*width)
+   end subroutine closure_width
+
+   !> Film whose flanks leave a gap once they have given way for the width of the contact: h less `closure_width` is what is given,
+   !> and rises with h. Less than 0 where no film leaves a gap as small.
+   elemental real(dp) function closure_film(closure, gap, load, near) result(film)
+      type(closure_t), intent(in) :: closure
+      !> [m]
+      real(dp), intent(in) :: gap
+      !> W [N]
+      real(dp), intent(in) :: load
+      !> A film near by, which saves time [m]
+      real(dp), intent(in) :: near
+      real(dp), parameter :: rounding = 4.0_dp*epsilon(1.0_dp)
+      real(dp) :: gives, by_film, by_load, step
+      integer :: pass
+
+      film = gap
+      if (.not. load > 0.0_dp) return
+      call closure_width(closure, 0.0_dp, load, gives, by_film, by_load)
+      film = gap + gives
+      if (.not. film > 0.0_dp) return
+      ! Its slope falls with h, so that from below Newton's steps never pass the film.
+      film = max(near, 0.0_dp)
+      do pass = 1, most_passes
+         call closure_width(closure, film, load, gives, by_film, by_load)
+         step = (gap + gives - film)/(1.0_dp - by_film)
+         film = max(film + step, 0.0_dp)
+         if (abs(step) <= rounding*film) return
+      end do
+   end function closure_film
+
+   !> Largest pressure of a film [Pa]: within 3 % where pressure does not thicken the oil.
+   elemental real(dp) function closure_pressure(closure, film, load) result(pressure)
+      type(closure_t), intent(in) :: closure
+      !> h > 0 [m]
+      real(dp), intent(in) :: film
+      !> W [N]
+      real(dp), intent(in) :: load
+      real(dp) :: m
+
+      m = max(load/closure%load_unit, 0.0_dp)
+      pressure = peak_pressure*closure%pressure_unit*m/sqrt(2.0_dp*film/closure%film_unit + 8.0_dp/pi*m)
+   end function closure_pressure
+
+   !> Factors of the flows at a film and a load.
+   elemental type(factors_t) function factors_of(closure, film, load) result(factors)
+      type(closure_t), intent(in) :: closure
+      !> H > 0 and M >= 0 [-]
+      real(dp), intent(in) :: film
+      real(dp), intent(in) :: load
+      real(dp) :: s, s_by_film, s_by_load, q, q_by_film, q_by_load, inverse_square, logarithm, slope
+
+      s = load/film
+      s_by_film = -s/film
+      s_by_load = 1.0_dp/film
+      inverse_square = 1.0_dp/(2.0_dp*film + 8.0_dp/pi*load)
+      q_by_load = sqrt(inverse_square)
+      q = load*q_by_load
+      q_by_film = -q*inverse_square
+      q_by_load = q_by_load - q*inverse_square*4.0_dp/pi
+
+      call thicken(closure, rolling_pressure*q, logarithm, slope)
+      slope = rolling_exponent*rolling_pressure*slope
+      factors%rolling = log(1.0_dp + rolling_bend*s) + rolling_exponent*logarithm
+      factors%rolling_by_film = rolling_bend/(1.0_dp + rolling_bend*s)*s_by_film + slope*q_by_film
+      factors%rolling_by_load = rolling_bend/(1.0_dp + rolling_bend*s)*s_by_load + slope*q_by_load
+
+      call thicken(closure, squeeze_pressure*q, logarithm, slope)
+      slope = squeeze_pressure*slope
+      factors%squeeze = squeeze_exponent*log(1.0_dp + squeeze_bend*s) + logarithm
+      factors%squeeze_by_film = squeeze_exponent*squeeze_bend/(1.0_dp + squeeze_bend*s)*s_by_film + slope*q_by_film
+      factors%squeeze_by_load = squeeze_exponent*squeeze_bend/(1.0_dp + squeeze_bend*s)*s_by_load + slope*q_by_load
+   end function factors_of
+
+   !> ln(eta/eta0) at a pressure, and its slope.
+   elemental subroutine thicken(closure, pressure, logarithm, slope)
+      type(closure_t), intent(in) :: closure
+      !> P [-]
+      real(dp), intent(in) :: pressure
+      real(dp), intent(out) :: logarithm
+      real(dp), intent(out) :: slope
+      real(dp) :: growth
+
+      select case (closure%viscosity_law)
+      case (viscosity_barus)
+         logarithm = closure%material*pressure
+         slope = closure%material
+      case (viscosity_roelands)
+         growth = (1.0_dp + closure%pressure_ratio*pressure)**closure%exponent
+         logarithm = closure%logarithm*(growth - 1.0_dp)
+         slope = closure%logarithm*closure%exponent*closure%pressure_ratio*growth/(1.0_dp + closure%pressure_ratio*pressure)
+      case default
+         logarithm = 0.0_dp
+         slope = 0.0_dp
+      end select
+   end subroutine thicken
+
+end module elastohydrodynamic_closure
