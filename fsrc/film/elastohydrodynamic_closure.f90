@@ -64,7 +64,8 @@ module elastohydrodynamic_closure
    !> Loads of a film beyond which no search goes [-]
    real(dp), parameter :: beyond_all = 1.0e60_dp
 
-   public :: closure_of, closure_velocity, closure_load, closure_steady_film, closure_width, closure_film, closure_pressure
+   public :: closure_of, closure_velocity, closure_load, closure_steady_film, closure_width, closure_film, closure_pressure, &
+             is_fitted
 
 contains
 
@@ -303,6 +304,17 @@ contains
       m = max(load/closure%load_unit, 0.0_dp)
       pressure = peak_pressure*closure%pressure_unit*m/sqrt(2.0_dp*film/closure%film_unit + 8.0_dp/pi*m)
    end function closure_pressure
+
+   !> Whether the constants were fitted to films under such loads and pressures.
+   elemental logical function is_fitted(closure, load, pressure)
+      type(closure_t), intent(in) :: closure
+      !> Largest W [N] and p [Pa]
+      real(dp), intent(in) :: load
+      real(dp), intent(in) :: pressure
+
+      is_fitted = load <= largest_load*closure%load_unit .and. closure%material <= largest_material &
+                  .and. closure%material*pressure <= largest_alpha_p*closure%pressure_unit
+   end function is_fitted
 
    !> Factors of the flows at a film and a load.
    elemental type(factors_t) function factors_of(closure, film, load) result(factors)

@@ -32,7 +32,8 @@ module judged_scene
       quantity_floquet_multipliers, quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, &
       quantity_harmonic_errors, quantity_harmonics, quantity_irregular_fraction, quantity_iterations_per_step, &
       quantity_irregular_fraction_is_bound, quantity_lyapunov_exponent, &
-      quantity_law_contradicted, quantity_harmonic_count, quantity_harmonic_count_is_bound, quantity_harmonics_by_integrals, &
+      quantity_law_contradicted, quantity_closure_range, quantity_harmonic_count, quantity_harmonic_count_is_bound, &
+      quantity_harmonics_by_integrals, &
       quantity_load_maximum, quantity_load_minimum, quantity_severity_error, quantity_model_limit, quantity_natural_frequency, &
       quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, quantity_pressure_maximum, &
       quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, quantity_sampling_sufficient, &
@@ -42,7 +43,7 @@ module judged_scene
    use problem, only: has_elastic_teeth, has_two_flanks, of_film
    use rattle_class, only: rattle_verdict_t
    use regime, only: deflection_limit, film_elastohydrodynamic
-   use regime_check, only: model_limit, regime_verdict_t
+   use regime_check, only: closure_range, model_limit, regime_verdict_t
    use resolved_scene, only: resolved_scene_t
    use scene_status, only: status_complete, status_no_rigid_film
    use scene_types, only: drag_computed, drag_t, drag_unknown
@@ -79,7 +80,7 @@ module judged_scene
       type(periodic_orbit_t) :: orbit
    end type judged_scene_t
 
-   public :: quantity_value, quantity_list
+   public :: quantity_value, quantity_list, largest_load
 
 contains
 
@@ -247,6 +248,9 @@ contains
             value = real(regime%regime, dp)
          case (quantity_law_contradicted)
             value = flag(regime%law_contradicted)
+         case (quantity_closure_range)
+            if (problem%film%bends) &
+               value = real(closure_range(problem%film, largest_load(judged), regime%pressure_maximum), dp)
          case (quantity_verdict_verified)
             if (verification%exists .and. judged%impacts%exists) value = flag(verification%impacts%verdict)
          case (quantity_impacts_verified)
@@ -318,6 +322,15 @@ contains
          continue
       end select
    end function flank_value
+
+   !> Largest load of either flank over the window [N].
+   pure real(dp) function largest_load(judged)
+      type(judged_scene_t), intent(in) :: judged
+
+      largest_load = judged%extremes%highest(seen_load)%value
+      if (has_two_flanks(judged%resolved%problem)) &
+         largest_load = max(largest_load, judged%extremes%highest(seen_coast_load)%value)
+   end function largest_load
 
    !> By which share of the film a tooth deflects under the largest load of it, at the flank where that is more [-].
    pure real(dp) function deflection_share(judged) result(share)

@@ -6,20 +6,22 @@ module scene_report
    use film_state, only: load_t
    use flank_contact, only: contact_words, load_at_rest
    use force, only: inertia_ratio
-   use judged_scene, only: judged_scene_t, quantity_value
+   use judged_scene, only: judged_scene_t, largest_load, quantity_value
    use kinds, only: dp
    use log_file, only: log_magic, log_t
    use node_extremes, only: seen_acceleration, seen_film
    use output_place, only: result_path, summary_path
    use problem, only: reference_film
-   use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_deflection_share, &
+   use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_closure_range, quantity_deflection_share, &
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
                          quantity_t, quantity_table, quantity_verdict, quantity_verdict_verified, quantity_word
-   use regime, only: deflection_limit, iso_viscous_limit, rigid_limit, steel_tooth
-   use regime_check, only: model_limit, model_limit_sentence, regime_sentence, within_model
+   use film_pressure, only: exact_pressure
+   use regime, only: deflection_limit, film_elastohydrodynamic, film_iso_viscous, rigid_limit, steel_tooth
+   use regime_check, only: check_regime, closure_range_sentence, fitting_law, model_limit, model_limit_sentence, outside_closure, &
+                           regime_sentence, regime_verdict_t, within_model
    use resolved_scene, only: resolve, resolved_scene_t
    use scene_status, only: is_success, status_name, status_sentence
-   use scene_types, only: drag_computed, method_newmark, model_reynolds, scene_t, speed_mean, task_film
+   use scene_types, only: drag_computed, method_newmark, model_published, scene_t, speed_mean, task_film
    use text, only: error_text, integer_text, short_text, spaced
    use version, only: program_version
    implicit none(type, external)
@@ -139,7 +141,7 @@ contains
 
       logical :: mean
 
-      mean = scene%film%model /= model_reynolds
+      mean = scene%film%model == model_published
       if (scene%task == task_film) mean = scene%points%speed_reading == speed_mean
       if (scene%task == task_film .and. .not. scene%points%from_speeds) then
          words = 'the u of the given groups'
@@ -189,7 +191,8 @@ contains
                           resolved%problem%contact%film%radius)
       if (resolved%problem%initial_film > 0.0_dp .and. limit /= within_model) &
          lines = lines//'! warning: at rest '//model_limit_sentence(limit)//' (model_limit)'//end_of_line
-      if (scene%gear%given) lines = lines//drag_advice(resolved)//law_advice(scene)
+      if (scene%gear%given) lines = lines//drag_advice(resolved)
+      lines = lines//law_advice(scene)
       warning = stiffness_warning(scene, 'at rest', share)
       if (len(warning) > 0) lines = lines//'! '//warning//end_of_line
       lines = lines//'! A, B and alpha p are those of the Reynolds film with u = '// &
@@ -214,23 +217,33 @@ contains
               trim(merge('leaves its flank  ', 'stays on its flank', ratio > 1.0_dp))//new_line('a')
    end function drag_advice
 
-   !> Which film law the film of a gear pair at rest asks for, by the exact pressure there.
+   !> Which film law the film at rest asks for, by the pressure of the Reynolds film there; the motion may ask for more.
    pure function law_advice(scene) result(line)
       type(scene_t), intent(in) :: scene
       character(:), allocatable :: line
       type(resolved_scene_t) :: exact
+      type(regime_verdict_t) :: verdict
+      real(dp) :: thinner
 
       exact = resolve(with_exact_film(scene))
+      line = ''
+      if (.not. exact%steady_film > 0.0_dp) return
+      thinner = reference_film(exact%problem)
+      associate (film => exact%problem%film)
+         verdict = check_regime(film, exact_pressure(film%radius, film%speed, film%viscosity, thinner, 0.0_dp), thinner)
+      end associate
       line = '! Reynolds film at rest                '//short_text(exact%steady_film, 4)//' m, alpha p '// &
              short_text(exact%alpha_p, 3)//': '
-      if (exact%alpha_p < iso_viscous_limit) then
-         line = line//'pressure hardly thickens the oil, iso-viscous with model = reynolds fits'
-      else if (exact%alpha_p < rigid_limit) then
-         line = line//'pressure thickens the oil, piezo-viscous with model = reynolds fits'
+      if (exact%alpha_p >= rigid_limit) then
+         line = line//'no film of rigid flanks fits, '
+      else if (verdict%regime == film_elastohydrodynamic) then
+         line = line//'pressure bends the flanks, '
+      else if (verdict%regime == film_iso_viscous) then
+         line = line//'pressure hardly thickens the oil, '
       else
-         line = line//'no film of rigid flanks fits'
+         line = line//'pressure thickens the oil, '
       end if
-      line = line//new_line('a')
+      line = line//fitting_law(verdict%regime)//new_line('a')
    end function law_advice
 
    !> How the scene ended and what it amounts to.
@@ -301,7 +314,11 @@ contains
       call report_verification(log, judged)
       call log%line('  '//regime_sentence(judged%regime))
       if (judged%regime%law_contradicted) &
-         call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted)')
+         call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted); '// &
+                       fitting_law(judged%regime%regime))
+      if (nint(quantity_value(quantity_closure_range, judged)) == outside_closure) &
+         call log%line('  warning: '//closure_range_sentence(judged%resolved%problem%film, largest_load(judged), &
+                                                             judged%regime%pressure_maximum))
       warning = stiffness_warning(scene, 'under its largest load', quantity_value(quantity_deflection_share, judged))
       if (len(warning) > 0) call log%line('  '//warning)
 

@@ -14,7 +14,7 @@ module quantities
                                  needs_load_range = 4, needs_regime = 5, needs_coast_load_range = 6, needs_net_load_range = 7, &
                                  needs_coast_film_range = 8, needs_position_range = 9, needs_deflection = 10, &
                                  needs_spectrum = 11, needs_verification = 12, needs_impacts = 13, needs_verified_impacts = 14, &
-                                 needs_orbit = 15, need_count = 15
+                                 needs_orbit = 15, needs_closure_range = 16, need_count = 16
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_spectrum = 3, part_class = 4, part_errors = 5, &
@@ -50,6 +50,7 @@ module quantities
          quantity_harmonic_errors, quantity_orbit_period, quantity_orbit_stability, quantity_floquet_multipliers, &
          quantity_floquet_modulus, quantity_pressure_maximum, quantity_alpha_p_maximum, quantity_deflection, &
          quantity_deflection_share, quantity_stiffness_matters, quantity_film_regime, quantity_law_contradicted, &
+         quantity_closure_range, &
          quantity_periods_solved, quantity_evaluations, quantity_steps, quantity_steps_cut, quantity_iterations_per_step
    end enum
 
@@ -310,9 +311,10 @@ module quantities
       quantity_t(quantity_floquet_modulus, 'floquet_modulus', '-', a_number, part_orbit, needs_verification, 'sweep', &
          'Modulus of the largest Floquet multiplier.'), &
       quantity_t(quantity_pressure_maximum, 'pressure_maximum', 'Pa', a_number, part_regime, needs_regime, 'summary campaign', &
-         'Largest pressure of the Reynolds film over the window, where it exists.'), &
+         'Largest pressure of the Reynolds film over the window, where it exists; of an elastohydrodynamic film by its closure.'), &
       quantity_t(quantity_alpha_p_maximum, 'alpha_p_maximum', '-', a_number, part_regime, needs_regime, 'summary campaign', &
-         'Largest pressure of the Reynolds iso-viscous film times the pressure-viscosity coefficient.'), &
+         'Largest pressure of the Reynolds iso-viscous film, or of an elastohydrodynamic film, times the pressure-viscosity '// &
+         'coefficient.'), &
       quantity_t(quantity_deflection, 'deflection', 'm', a_number, part_regime, needs_regime, 'summary campaign', &
          'Deflection (4) of the teeth at the largest pressure.'), &
       quantity_t(quantity_deflection_share, 'deflection_share', '-', a_number, part_regime, needs_deflection, 'summary campaign', &
@@ -325,6 +327,9 @@ module quantities
          'unknown|iso-viscous|piezo-viscous|elastohydrodynamic'), &
       quantity_t(quantity_law_contradicted, 'law_contradicted', '-', a_flag, part_regime, needs_regime, 'summary campaign', &
          'Whether the film law of the scene is not the one of its regime.'), &
+      quantity_t(quantity_closure_range, 'closure_range', '-', a_code, part_regime, needs_closure_range, 'summary campaign', &
+         'Whether loads, oil and pressures of an elastohydrodynamic film stay within those that its closure was fitted to.', &
+         'within|outside'), &
       quantity_t(quantity_periods_solved, 'periods_solved', '-', a_count, part_cost, needs_nothing, 'summary sweep campaign', &
          'Periods of the force that were solved.'), &
       quantity_t(quantity_evaluations, 'evaluations', '-', a_count, part_cost, needs_nothing, 'summary', &
@@ -387,10 +392,11 @@ contains
       needed = [(any(quantity_table(quantities)%need == i), i=1, need_count)]
       needed(needs_impacts) = any(needed([needs_impacts, needs_verified_impacts]))
       needed(needs_verification) = any(needed([needs_verification, needs_verified_impacts]))
-      needed(needs_load_range) = any(needed([needs_load_range, needs_deflection, needs_impacts]))
+      needed(needs_load_range) = any(needed([needs_load_range, needs_deflection, needs_impacts, needs_closure_range]))
+      needed(needs_regime) = any(needed([needs_regime, needs_closure_range]))
       needed(needs_net_load_range) = any(needed([needs_net_load_range, needs_impacts]))
       needed(needs_coast_film_range) = any(needed([needs_film_range, needs_coast_film_range]))
-      needed(needs_coast_load_range) = any(needed([needs_coast_load_range, needs_deflection]))
+      needed(needs_coast_load_range) = any(needed([needs_coast_load_range, needs_deflection, needs_closure_range]))
    end function needs_of
 
    !> Whether some quantities ask for the scene to be solved again, tighter.

@@ -137,7 +137,7 @@ contains
       integer :: i, dot
 
       if ((input%is_given('contact', 'stiffness') .or. input%is_given('gear', 'tooth_stiffness')) .and. &
-          input%word('solver', 'method') == 'newmark') &
+          input%word('solver', 'method') == 'newmark' .and. input%word('film', 'law') /= 'elastohydrodynamic') &
          call input%add_fault('solver', 'method', 'the paper''s method is for the rigid teeth of the paper; take taylor, or '// &
                               'leave '//trim(merge('contact.stiffness   ', 'gear.tooth_stiffness', &
                                                    input%is_given('contact', 'stiffness')))//' out', faults)

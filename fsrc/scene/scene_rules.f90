@@ -90,7 +90,7 @@ contains
                                      'are no plane contact')]
          else if (scene%film%law == law_elastohydrodynamic .and. contact%flattening_included &
                   .and. contact%stiffness*flattening > 1.0_dp) then
-            write (sentence, '(2(a, es9.3), a)') 'the flanks alone have', 1.0_dp/flattening, ' N/m, less than the', &
+            write (sentence, '(2(a, es10.3), a)') 'the flanks alone have', 1.0_dp/flattening, ' N/m, less than the', &
                contact%stiffness, ' N/m with them; or set flattening_included = .false.'
             broken = [broken, rule_t(keys, sentence)]
          end if

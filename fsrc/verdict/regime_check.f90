@@ -2,6 +2,7 @@
 !> and where a motion leaves what the model can mean: a gap so wide that it is no line contact any more, or so narrow that no oil is
 !> in it.
 module regime_check
+   use elastohydrodynamic_closure, only: is_fitted, largest_alpha_p, largest_load, largest_material
    use film_law, only: film_t
    use film_pressure, only: barus_pressure, exact_pressure
    use kinds, only: dp
@@ -26,6 +27,8 @@ module regime_check
       real(dp) :: deflection = 0.0_dp
       !> Film at the place of the largest pressure [m]
       real(dp) :: film = 0.0_dp
+      !> Whether it is the pressure of flanks that keep their shape
+      logical :: rigid = .true.
       !> The film law of the scene does not fit the regime
       logical :: law_contradicted = .false.
    end type regime_verdict_t
@@ -37,7 +40,11 @@ module regime_check
    !> Codes: within, too wide, too narrow, both at different times.
    integer, parameter, public :: within_model = 0, gap_too_wide = 1, gap_too_narrow = 2, gap_both = 3
 
-   public :: check_regime, steady_alpha_p, regime_sentence, model_limit, model_limit_sentence
+   !> Codes of closure_range.
+   integer, parameter, public :: within_closure = 0, outside_closure = 1
+
+   public :: check_regime, steady_alpha_p, regime_sentence, fitting_law, closure_range, closure_range_sentence, model_limit, &
+             model_limit_sentence
 
 contains
 
@@ -54,13 +61,16 @@ contains
       verdict%film = thickness
       verdict%alpha_p_maximum = film%pressure_viscosity*largest
       verdict%pressure_maximum = largest
-      if (film%pressure_thickens) then
+      verdict%rigid = .not. film%bends
+      if (film%pressure_thickens .and. verdict%rigid) then
          alpha_q = barus_pressure(verdict%alpha_p_maximum)
          verdict%pressure_exists = verdict%alpha_p_maximum < 1.0_dp
          if (verdict%pressure_exists) verdict%pressure_maximum = alpha_q/film%pressure_viscosity
       end if
       verdict%deflection = contact_deflection(film%radius, verdict%pressure_maximum, film%modulus)
       verdict%regime = film_regime(verdict%alpha_p_maximum, verdict%deflection, verdict%film)
+      ! Elastohydrodynamic films hold where the flanks hardly bend, too.
+      if (film%bends) return
       if (film%pressure_thickens) then
          ! The Reynolds film holds for thin oil as well; the published one is a fit to films with alpha p well above zero.
          verdict%law_contradicted = verdict%regime /= film_piezo_viscous .and. &
@@ -85,8 +95,8 @@ contains
       type(regime_verdict_t), intent(in) :: verdict
       character(:), allocatable :: sentence
 
-      sentence = quantity_word(quantity_film_regime, verdict%regime)//': the Reynolds film reaches alpha p = '// &
-                 short_text(verdict%alpha_p_maximum, 3)
+      sentence = quantity_word(quantity_film_regime, verdict%regime)//': the '//trim(merge('Reynolds film', 'film         ', &
+                 verdict%rigid))//' reaches alpha p = '//short_text(verdict%alpha_p_maximum, 3)
       if (verdict%alpha_p_maximum >= rigid_limit) then
          sentence = sentence//'; from 1 on there is no piezo-viscous film of rigid flanks'
       else if (verdict%deflection > deflection_limit*verdict%film) then
@@ -98,6 +108,51 @@ contains
          sentence = sentence//'; from '//short_text(iso_viscous_limit, 1)//' on pressure thickens the oil'
       end if
    end function regime_sentence
+
+   !> The film law that fits a regime, as keys of &film.
+   pure function fitting_law(regime) result(words)
+      !> Code of module regime
+      integer, intent(in) :: regime
+      character(:), allocatable :: words
+
+      select case (regime)
+      case (film_iso_viscous)
+         words = 'iso-viscous with model = reynolds fits'
+      case (film_piezo_viscous)
+         words = 'piezo-viscous with model = reynolds fits'
+      case default
+         words = 'elastohydrodynamic fits'
+      end select
+   end function fitting_law
+
+   !> Whether a closure was fitted to the loads and pressures of a motion.
+   elemental integer function closure_range(film, load, pressure)
+      !> Elastohydrodynamic
+      type(film_t), intent(in) :: film
+      !> Largest load [N] and pressure [Pa]
+      real(dp), intent(in) :: load
+      real(dp), intent(in) :: pressure
+
+      closure_range = merge(within_closure, outside_closure, is_fitted(film%closure, load, pressure))
+   end function closure_range
+
+   !> Sentence for the log where it was not.
+   pure function closure_range_sentence(film, load, pressure) result(sentence)
+      !> Elastohydrodynamic
+      type(film_t), intent(in) :: film
+      !> Largest load [N] and pressure [Pa]
+      real(dp), intent(in) :: load
+      real(dp), intent(in) :: pressure
+      character(:), allocatable :: sentence
+
+      associate (closure => film%closure)
+         sentence = 'the elastohydrodynamic film is extrapolated: its closure is fitted to films up to M = '// &
+                    short_text(largest_load, 2)//', L = '//short_text(largest_material, 2)//', alpha p = '// &
+                    short_text(largest_alpha_p, 2)//', and this one reaches '//short_text(load/closure%load_unit, 3)//', '// &
+                    short_text(closure%material, 3)//', '// &
+                    short_text(closure%material*pressure/closure%pressure_unit, 3)//' (closure_range)'
+      end associate
+   end function closure_range_sentence
 
    !> Which limits a motion has passed.
    elemental integer function model_limit(film_minimum, film_maximum, radius)

@@ -14,7 +14,7 @@ module test_quantities
    use problem, only: has_elastic_teeth
    use quantities, only: a_list, a_number, needs_impacts, quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
                          quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
-                         quantity_inertia_ratio, &
+                         quantity_inertia_ratio, quantity_closure_range, &
                          quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, &
                          quantity_gear_position_minimum, quantity_periods_solved, quantity_status, quantity_table, &
                          quantity_word
@@ -87,6 +87,8 @@ contains
          else if (any(i == [quantity_drag_torque, quantity_drag_bearing, quantity_drag_synchroniser, quantity_drag_churning, &
                             quantity_inertia_ratio])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no gear')
+         else if (i == quantity_closure_range) then
+            call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid flanks')
          else if (i == quantity_lyapunov_exponent) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of a motion that repeats')
          else

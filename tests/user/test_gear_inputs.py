@@ -455,7 +455,7 @@ def test_the_page_works_the_ready_pair_through(run, repository: Path, tmp_path: 
         ([], "iso-viscous with model = reynolds fits"),
         (["film.model=published", "film.law=piezo-viscous"], "iso-viscous with model = reynolds fits"),
         (["gear.drag_torque=1.4"], "piezo-viscous with model = reynolds fits"),
-        (["gear.drag_torque=60.0"], "no film of rigid flanks fits"),
+        (["gear.drag_torque=60.0"], "no film of rigid flanks fits, elastohydrodynamic fits"),
     ],
 )
 def test_check_advises_a_film_law(settings: list[str], advice: str, check) -> None:

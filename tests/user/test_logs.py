@@ -60,6 +60,11 @@ def start_of_motion(told: Mapping[str, Any]) -> str:
     return words
 
 
+FITTING = {
+    "iso-viscous": "iso-viscous with model = reynolds",
+    "piezo-viscous": "piezo-viscous with model = reynolds",
+    "elastohydrodynamic": "elastohydrodynamic",
+}
 RELATIVE = "relative to the shaft, along the line of action"
 
 
@@ -89,7 +94,10 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
     verification = f" ({told['verification']})" if "verification" in told else ""
     limits = [ENDS[name] for name in ENDS if name in told["model_limit"]]
     relative = f" {RELATIVE}" if "gear" in given else ""
-    contradicted = "  warning: the film law of the scene does not fit this regime (law_contradicted)"
+    contradicted = (
+        "  warning: the film law of the scene does not fit this regime (law_contradicted); "
+        f"{FITTING[told['film_regime']]} fits"
+    )
     return [
         verdict_words(told),
         f"  film {um(told['film_minimum'], 5).removesuffix(' um')} to {um(told['film_maximum'], 5)}, "
