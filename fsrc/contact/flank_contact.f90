@@ -44,7 +44,8 @@ module flank_contact
    real(dp), parameter :: flattest = 1.0e3_dp
 
    public :: contact_of, contact_words, is_elastic, carries_positive_loads, is_costly, inner_count, inner_number, inner_at_rest, &
-             film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, equation_of_film, yields_at_rest, &
+             film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, equation_of_film, &
+             yields_at_rest, &
              overflow_load, film_kernel, kernel_of_contact
 
 contains

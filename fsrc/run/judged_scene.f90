@@ -249,8 +249,8 @@ contains
          case (quantity_law_contradicted)
             value = flag(regime%law_contradicted)
          case (quantity_closure_range)
-            if (problem%film%bends) &
-               value = real(closure_range(problem%film, largest_load(judged), regime%pressure_maximum), dp)
+            if (problem%contact%film%bends) &
+               value = real(closure_range(problem%contact%film, largest_load(judged), regime%pressure_maximum), dp)
          case (quantity_verdict_verified)
             if (verification%exists .and. judged%impacts%exists) value = flag(verification%impacts%verdict)
          case (quantity_impacts_verified)

@@ -229,7 +229,7 @@ contains
       line = ''
       if (.not. exact%steady_film > 0.0_dp) return
       thinner = reference_film(exact%problem)
-      associate (film => exact%problem%film)
+      associate (film => exact%problem%contact%film)
          verdict = check_regime(film, exact_pressure(film%radius, film%speed, film%viscosity, thinner, 0.0_dp), thinner)
       end associate
       line = '! Reynolds film at rest                '//short_text(exact%steady_film, 4)//' m, alpha p '// &
@@ -317,7 +317,7 @@ contains
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted); '// &
                        fitting_law(judged%regime%regime))
       if (nint(quantity_value(quantity_closure_range, judged)) == outside_closure) &
-         call log%line('  warning: '//closure_range_sentence(judged%resolved%problem%film, largest_load(judged), &
+         call log%line('  warning: '//closure_range_sentence(judged%resolved%problem%contact%film, largest_load(judged), &
                                                              judged%regime%pressure_maximum))
       warning = stiffness_warning(scene, 'under its largest load', quantity_value(quantity_deflection_share, judged))
       if (len(warning) > 0) call log%line('  '//warning)
