@@ -6,7 +6,7 @@
 !> with and without a state are contacts of different numbers; one flank or two are one contact or two. Flanks that bend give way
 !> by what follows the width of the contact beside d, w(h, W) of module film_law.
 module flank_contact
-   use film_law, only: film_kernel, film_load, film_loads, kernel_of, film_t, law_words, mixed_film_loads, &
+   use film_law, only: film_kernel, film_load, film_loads, film_over_gap, kernel_of, film_t, law_words, mixed_film_loads, &
       never_pulls, new_film, overflow_load, squeeze_velocity, steady_film, width_compression
    use film_state, only: film_response_t, load_t, state_number_t
    use film_states, only: count_of_state, number_of_state, place_of_law, respond_of_state, rest_of_state, words_of_state
@@ -46,7 +46,7 @@ module flank_contact
    public :: contact_of, contact_words, is_elastic, carries_positive_loads, is_costly, inner_count, inner_number, inner_at_rest, &
              film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, equation_of_film, &
              yields_at_rest, &
-             overflow_load, film_kernel, kernel_of_contact
+             overflow_load, film_kernel, kernel_of_contact, film_over_gap, width_compression
 
 contains
 

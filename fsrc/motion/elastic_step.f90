@@ -17,9 +17,9 @@
 !> kappa as well, and so counts the first coefficient of its polynomial that is left out.
 module elastic_step
    use collocation_step, only: choose_steps, forces_of_stages, highest_terms
-   use film_law, only: film_over_gap, width_compression
    use film_state, only: load_t
-   use flank_contact, only: carries_positive_loads, equation_of_film, film_equation_t, flank_contact_t, load_of_contact
+   use flank_contact, only: carries_positive_loads, equation_of_film, film_equation_t, film_over_gap, flank_contact_t, &
+      load_of_contact, width_compression
    use inner_equations, only: can_extrapolate, error_of_states, first_states, follow_films, inner_imbalances, inner_matrix, &
       last_share, most_growth, most_rows, series_of_states, sign_of, trial_inner_t, trial_t
    use kinds, only: dp
