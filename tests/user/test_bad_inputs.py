@@ -93,7 +93,7 @@ VALUES = [
     ("output", "overwrite", "'true'", FLAG),
     # words
     ("scene", "task", "'film-thickness'", "one of 'motion'"),
-    ("lubricant", "viscosity_law", "'eyring'", "one of 'barus'"),
+    ("lubricant", "viscosity_law", "'eyring'", "one of 'constant' 'barus' 'roelands'"),
     ("film", "law", "'elastic'", "one of 'iso-viscous' 'piezo-viscous'"),
     ("film", "law", "'Iso-Viscous'", "one of 'iso-viscous' 'piezo-viscous'"),
     ("film", "law", "''", "one of 'iso-viscous' 'piezo-viscous'"),
