@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,8 @@ SHORT = {"solver.until": "periods", "solver.periods": 20, "spectrum.periods": 4}
 COMPARED = ("film_minimum", "film_maximum", "acceleration_maximum", "film_force_rms")
 GEAR = """&gear
    teeth_1 = 19, teeth_2 = 37, normal_module = 2.2e-3, helix_angle_deg = 28.0, face_width = 0.016
-   centre_distance = 0.070, loose_inertia = 8.9e-4, backlash = 9e-5, tooth_stiffness = 14e9, drag_torque = 0.08
+   centre_distance = 0.070, loose_inertia = 8.9e-4, backlash = 9e-5, tooth_stiffness = 14e9
+   drag_torque = 0.08
 /
 &shaft speed_rpm = 800.0, orders = 2.0, 4.0, accelerations = 600.0, 100.0, phases = 0.0, 0.8 /
 &oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 50.0 /
@@ -40,6 +42,13 @@ def test_the_load_of_the_paper(law: str, peak: float, film: float, canonical: Pa
     assert told["verification"] == "verified" and told["harmonic_count"] == 6
     assert told["acceleration_maximum"] == pytest.approx(peak, rel=0.015)
     assert told["film_minimum"] == pytest.approx(film, rel=0.04)
+    page = (canonical.parents[1] / "README.md").read_text().partition("elastohydrodynamic.nml")[2]
+    for words in (
+        f"{told['acceleration_maximum']:.0f}",
+        f"{1e6 * told['film_minimum']:.2f}",
+        f"{told['harmonic_count']}",
+    ):
+        assert re.search(rf"\b{re.escape(words)}\b", page.partition("closure")[0]), words
 
 
 @pytest.mark.parametrize("text", ("canonical", "gear"))
