@@ -332,8 +332,9 @@ contains
                               "model = 'numerical'", faults)
       if (input%word('lubricant', 'viscosity_law') == 'constant' .and. .not. elastic) &
          call input%add_fault('lubricant', 'viscosity_law', "'constant' needs "//law, faults)
-      if (input%is_given('contact', 'flattening_included') .and. .not. (elastic .or. input%is_given('contact', 'stiffness') .or. &
-                                                                        input%is_given('gear', 'tooth_stiffness'))) &
+      ! The default stands in the resolved input of pairs of which others are elastic.
+      if (.not. (input%flag('contact', 'flattening_included') .or. elastic .or. input%is_given('contact', 'stiffness') .or. &
+                 input%is_given('gear', 'tooth_stiffness'))) &
          call input%add_fault('contact', 'flattening_included', 'rigid flanks have nothing to include; give a stiffness or '//law, &
                               faults)
    end subroutine check_film_model

@@ -87,7 +87,7 @@ def change(tree: Tree) -> None:
     scene.add_law(tree, "law_plates", "parallel-plates")
     tree.put(LAW, "   use published_iso_viscous", "   use parallel_plates, only: plate_damping, plate_load\n")
     tree.change(
-        LAW, "law_piezo_viscous, model_published", "law_piezo_viscous, law_plates, &\n      model_published"
+        LAW, "law_piezo_viscous, model_closure", "law_piezo_viscous, law_plates, &\n      model_closure"
     )
     tree.change(LAW, "kernel_reynolds_piezo = 6\n", "kernel_reynolds_piezo = 6, kernel_plates = 7\n")
     field = "      !> Parallel plates: coefficient of -w h^(-3) [N s m2]\n      real(dp) :: plates = 0.0_dp\n"
