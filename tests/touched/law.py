@@ -89,7 +89,7 @@ def change(tree: Tree) -> None:
     tree.change(
         LAW, "law_piezo_viscous, model_closure", "law_piezo_viscous, law_plates, &\n      model_closure"
     )
-    tree.change(LAW, "kernel_reynolds_piezo = 6\n", "kernel_reynolds_piezo = 6, kernel_plates = 7\n")
+    tree.change(LAW, "kernel_closure = 7\n", "kernel_closure = 7, kernel_plates = 8\n")
     field = "      !> Parallel plates: coefficient of -w h^(-3) [N s m2]\n      real(dp) :: plates = 0.0_dp\n"
     tree.put(LAW, "      !> What it means if the kernel gives a load above", field)
     tree.put(LAW, "         case default\n            film%kernel = 0\n", COEFFICIENTS)
