@@ -19,10 +19,10 @@ module lane_integration
    use lane_inner, only: place_inner
    use lane_repetition, only: find_repetition, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
-   use lane_state, only: place_state, scaled_state, state_of_lane, thinner_scaled_film
+   use lane_state, only: place_state, state_of_lane, take_state, thinner_scaled_film, velocity_of_lane
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
-   use problem, only: has_inner_numbers, of_film, of_velocity, problem_t
-   use repetition, only: orbit_watch_t, recurrence_t, watch_from
+   use problem, only: has_inner_numbers, of_film, problem_t, state_size
+   use repetition, only: orbit_watch_t, recurrence_t, start_watch
    use scene_status, only: is_success, status_complete, status_film_lost, status_interrupted, status_not_converged
    use signals, only: must_stop
    use step_nodes, only: take_nodes
@@ -142,8 +142,12 @@ contains
             watch%period = starts(scene)%periods
             watch%last_period = request%periods
             watch%sample_from = max(0, request%periods - request%sampled_periods)
-            watch%state = scaled_state(lane, run%block, run%inner(lane))
-            watch%states = watch_from(watch%state, thinner_scaled_film(watch%state, lane, run%block))
+            allocate (watch%state(state_size(problems(scene))))
+            call take_state(lane, run%block, run%inner(lane), watch%state)
+            allocate (watch%weights(state_size(problems(scene))), source=1.0_dp)
+            if (run%inner(lane)%count > 0) watch%weights(size(watch%weights) - size(run%inner(lane)%now) + 1:) = &
+               run%inner(lane)%counts_as/run%block%film_scale(lane)
+            call start_watch(watch%state, thinner_scaled_film(watch%state, lane, run%block), watch%states)
             watch%departure%period = 0
             watch%excursions = 0
             if (present(watches) .and. starts(scene)%carried_on) watch%states = watches(scene)
@@ -210,17 +214,14 @@ contains
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
-      type(motion_state_t) :: state
 
       associate (watch => run%watches(lane), block => run%block)
-         if (present(records) .and. run%samples%sampled(lane)) then
-            state = state_of_lane(lane, block, run%inner(lane))
-            call record_period(problems(watch%scene), state%numbers(of_velocity), run%nodes(lane), records(watch%scene))
-         end if
+         if (present(records) .and. run%samples%sampled(lane)) &
+            call record_period(problems(watch%scene), velocity_of_lane(lane, block), run%nodes(lane), records(watch%scene))
          watch%ending%count%steps = watch%ending%count%steps + nint(block%period_steps(lane), int64)
          call start_period(lane, block)
          watch%period = watch%period + 1
-         watch%state = scaled_state(lane, block, run%inner(lane))
+         call take_state(lane, block, run%inner(lane), watch%state)
          call find_repetition(lane, problems(watch%scene), request, states, run)
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_period(lane, run, records)

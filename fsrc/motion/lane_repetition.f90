@@ -14,10 +14,9 @@ module lane_repetition
    use lane_run, only: departure_t, lane_run_t, lane_watch_t
    use lane_sampling, only: repeat_samples
    use lane_state, only: films_of_lane, place_state, thinner_scaled_film
-   use problem, only: films_at_rest, has_elastic_teeth, of_film, of_velocity, problem_t, settling_of, settling_t, state_size, &
-      static_load
-   use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, state_of_age, &
-      watch_from, weight_of_film
+   use problem, only: films_at_rest, has_elastic_teeth, of_film, of_velocity, problem_t, settling_of, settling_t, static_load
+   use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, &
+      start_watch, state_of_age, weight_of_film
    use scene_status, only: status_steady
    use taylor_step_control, only: momentum_weight
    implicit none(type, external)
@@ -55,17 +54,14 @@ contains
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       !> The block, its period counted and its state that of the period's end
       type(lane_run_t), intent(inout) :: run
-      real(dp) :: weight, distance, weights(state_size(problem))
+      real(dp) :: weight, distance
       integer :: orbit
 
       associate (watch => run%watches(lane), block => run%block)
          if (is_searching(watch, request)) then
             weight = momentum_weight(thinner_scaled_film(watch%state, lane, block), block%damping_rate(lane), block%force(lane))
-            weights = 1.0_dp
-            weights(of_velocity) = weight
-            if (run%inner(lane)%count > 0) weights(size(weights) - size(run%inner(lane)%now) + 1:) = &
-               run%inner(lane)%counts_as/block%film_scale(lane)
-            call note_state(watch%states, watch%state, thinner_scaled_film(watch%state, lane, block), weights, &
+            watch%weights(of_velocity) = weight
+            call note_state(watch%states, watch%state, thinner_scaled_film(watch%state, lane, block), watch%weights, &
                             settling_of_lane(lane, problem, run), repetition_share*request%accuracy, orbit, distance)
             if (orbit > 0) then
                watch%ending%orbit = orbit
@@ -171,7 +167,7 @@ contains
             state = watch%state
             state(of_film) = rest(1)
             state(of_velocity) = rest(2)
-            watch%states = watch_from(state, thinner_scaled_film(state, lane, run%block))
+            call start_watch(state, thinner_scaled_film(state, lane, run%block), watch%states)
             call place(state, lane, run)
          else if (watch%departure%period > 0 .and. watch%period >= watch%back_at) then
             call restore_departure(lane, run)

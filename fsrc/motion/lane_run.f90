@@ -30,6 +30,8 @@ module lane_run
       integer :: period = 0, last_period = 0, sample_from = 0
       !> Scaled state at the start of the present period [-]
       real(dp), allocatable :: state(:)
+      !> Film that one of each number of the state counts as; that of the velocity is set at the end of every period [-]
+      real(dp), allocatable :: weights(:)
       !> Looks for repetition, and for return to the last bit
       type(orbit_watch_t) :: states = orbit_watch_t()
       type(recurrence_t) :: past = recurrence_t()

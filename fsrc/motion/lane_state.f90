@@ -9,7 +9,7 @@ module lane_state
    implicit none(type, external)
    private
 
-   public :: flanks_of, springs_of, state_of_lane, scaled_state, place_state, films_of_lane, thinner_scaled_film
+   public :: flanks_of, springs_of, state_of_lane, velocity_of_lane, take_state, place_state, films_of_lane, thinner_scaled_film
 
 contains
 
@@ -20,31 +20,39 @@ contains
       type(lane_inner_t), intent(in) :: inner
       integer :: last
 
-      allocate (state%numbers, source=scaled_state(lane, block, inner))
       last = of_velocity + springs_of(lane, block)
+      allocate (state%numbers(last + inner%count*flanks_of(lane, block)))
+      call take_state(lane, block, inner, state%numbers)
       state%lienard_variable = state%numbers(of_velocity)
       state%numbers(:last) = state%numbers(:last)*block%film_scale(lane)
-      state%numbers(of_velocity) = (state%lienard_variable + slip_velocity(block%film(lane, 0), lane, block)) &
-                                   *block%velocity_scale(lane)
+      state%numbers(of_velocity) = velocity_of_lane(lane, block)
       state%carried_on = .true.
    end function state_of_lane
 
+   !> Velocity of the tooth in a lane [m/s].
+   pure real(dp) function velocity_of_lane(lane, block)
+      integer, intent(in) :: lane
+      type(lane_block_t), intent(in) :: block
+
+      velocity_of_lane = (block%momentum(lane, 0) + slip_velocity(block%film(lane, 0), lane, block))*block%velocity_scale(lane)
+   end function velocity_of_lane
+
    !> Scaled state of a lane: all that a period follows from, the Lienard variable in place of the velocity [-], states of films in
    !> the units of their law.
-   pure function scaled_state(lane, block, inner) result(state)
+   pure subroutine take_state(lane, block, inner, state)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
       type(lane_inner_t), intent(in) :: inner
-      real(dp), allocatable :: state(:)
+      !> As many numbers as the motion has
+      real(dp), intent(inout) :: state(:)
       integer :: springs
 
       springs = springs_of(lane, block)
-      allocate (state(of_velocity + springs + inner%count*flanks_of(lane, block)))
       state(of_film) = block%film(lane, 0)
       state(of_velocity) = block%momentum(lane, 0)
       state(of_drive_compression:of_velocity + springs) = block%compression(lane, :springs, 0)
       if (inner%count > 0) state(of_drive_compression + springs:) = inner%now
-   end function scaled_state
+   end subroutine take_state
 
    !> Springs of the motion in a lane.
    pure integer function springs_of(lane, block)
@@ -64,7 +72,7 @@ contains
 
    !> Put a scaled state into a lane.
    pure subroutine place_state(state, lane, block, inner)
-      !> As of scaled_state
+      !> As of take_state
       real(dp), intent(in) :: state(:)
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
@@ -80,7 +88,7 @@ contains
 
    !> Scaled films of drive and coast flank in a state, the second huge where there is one flank [-].
    pure function films_of_lane(state, lane, block) result(films)
-      !> As of scaled_state
+      !> As of take_state
       real(dp), intent(in) :: state(:)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
@@ -92,7 +100,7 @@ contains
 
    !> The thinner one of them [-].
    pure real(dp) function thinner_scaled_film(state, lane, block) result(thinner)
-      !> As of scaled_state
+      !> As of take_state
       real(dp), intent(in) :: state(:)
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block

@@ -1,18 +1,19 @@
 !> Motions of any number of problems by the controlled engine: Taylor series for the film laws that have one, collocation
 !> for all others and for motions too stiff for explicit steps.
 module many_motions
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use engine, only: ending_t, motion_state_t, request_t
    use film_state, only: load_t
-   use flank_contact, only: load_at_rest
+   use flank_contact, only: load_at_rest, overflow_load
    use film_series, only: has_series
    use force, only: largest_oscillation
    use kinds, only: dp
-   use lane_block, only: lane_accuracy, start_status
+   use lane_block, only: lane_accuracy
    use lane_integration, only: integrate_lanes
    use carried_loads, only: net_load
    use problem, only: has_elastic_teeth, has_inner_numbers, of_film, of_velocity, problem_t, same_kind, static_load, thinner_film
    use repetition, only: orbit_watch_t
-   use scene_status, only: status_complete, status_film_lost, status_not_converged
+   use scene_status, only: status_film_lost, status_not_converged
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -42,7 +43,6 @@ contains
       integer, allocatable :: number(:)
       integer :: i, first
 
-      allocate (rest, source=starts)
       allocate (explicit(size(problems)), left(size(problems)), alike(size(problems)), number(size(problems)))
       number(:) = [(i, i=1, size(problems))]
       explicit(:) = has_series(problems, lane_accuracy(problems, request%accuracy)) .and. .not. starts%implicit &
@@ -56,12 +56,13 @@ contains
          left(:) = left .and. .not. alike
       end do
 
+      left(:) = .not. explicit .or. endings%status == status_not_converged .or. endings%status == status_film_lost
+      if (.not. any(left)) return
+      allocate (rest, source=starts)
       do i = 1, size(problems)
-         left(i) = .not. explicit(i)
-         if (left(i)) cycle
-         left(i) = any(endings(i)%status == [status_not_converged, status_film_lost])
          ! The rest of a motion that Taylor series could not finish.
-         if (left(i)) rest(i) = motion_state_t(periods=endings(i)%periods, numbers=endings(i)%numbers, implicit=.true.)
+         if (left(i) .and. explicit(i)) &
+            rest(i) = motion_state_t(periods=endings(i)%periods, numbers=endings(i)%numbers, implicit=.true.)
       end do
       ! Contacts with numbers of their own are followed by steps of their own.
       do i = 0, 1
@@ -88,10 +89,11 @@ contains
       outgrows_series = .false.
       ! A motion that is carried on goes on as it went; one that cannot start is not for this procedure to refuse.
       if (start%carried_on) return
-      if (start_status(problem, start) /= status_complete) return
+      if (.not. all(ieee_is_finite(start%numbers))) return
       film = start%numbers(of_film)
       velocity = start%numbers(of_velocity)
       if (has_elastic_teeth(problem)) then
+         if (.not. film > 0.0_dp) return
          load = load_at_rest(problem%contact, film, velocity)
          outgrows_series = .not. abs(load%by_velocity)*(problem%contact%compliance*problem%frequency*largest_rate) > 1.0_dp
          return
@@ -99,6 +101,7 @@ contains
       thinner = thinner_film(problem, film)
       if (.not. thinner > thinnest) return
       call net_load(problem, film, velocity, load)
+      if (.not. abs(load%load) < overflow_load) return
       force = load%load + abs(static_load(problem)) + largest_oscillation(problem%force)
       rate = largest_growth*problem%frequency
       outgrows_series = abs(velocity) > rate*thinner .or. &

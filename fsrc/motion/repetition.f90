@@ -53,20 +53,21 @@ module repetition
       integer(int64), allocatable :: states(:, :)
    end type recurrence_t
 
-   public :: watch_from, note_state, weight_of_film, state_of_age, look_back
+   public :: start_watch, note_state, weight_of_film, state_of_age, look_back
 
 contains
 
    !> Watcher of a motion that starts from a state.
-   pure type(orbit_watch_t) function watch_from(state, thinnest)
+   pure subroutine start_watch(state, thinnest, watch)
       !> Scaled [-]
       real(dp), intent(in) :: state(:)
       !> Its thinnest film [-]
       real(dp), intent(in) :: thinnest
+      type(orbit_watch_t), intent(out) :: watch
 
-      watch_from%count = 1
-      call keep(state, thinnest, watch_from)
-   end function watch_from
+      watch%count = 1
+      call keep(state, thinnest, watch)
+   end subroutine start_watch
 
    !> Put a state into its place.
    pure subroutine keep(state, thinnest, watch)
@@ -292,15 +293,13 @@ contains
       integer, intent(out) :: cycle_periods
       !> Steps since then
       integer(int64), intent(out) :: cycle_steps
-      integer(int64) :: here(size(state))
       integer :: i, stays
 
-      here = transfer(state, here)
       if (.not. allocated(past%states)) allocate (past%states(size(state), size(mark_periods)), source=0_int64)
       cycle_periods = 0
       cycle_steps = 0_int64
       do i = size(mark_periods), 1, -1
-         if (past%periods(i) >= 0 .and. all(here == past%states(:, i))) then
+         if (past%periods(i) >= 0 .and. all(bits_of(state) == past%states(:, i))) then
             cycle_periods = period - past%periods(i)
             cycle_steps = steps - past%steps(i)
          end if
@@ -309,8 +308,15 @@ contains
          if (past%periods(i) >= 0 .and. period - past%periods(i) < stays) cycle
          past%periods(i) = period
          past%steps(i) = steps
-         past%states(:, i) = here
+         past%states(:, i) = bits_of(state)
       end do
    end subroutine look_back
+
+   !> The bits of a number, so that no array has to be made for them.
+   elemental integer(int64) function bits_of(number)
+      real(dp), intent(in) :: number
+
+      bits_of = transfer(number, 0_int64)
+   end function bits_of
 
 end module repetition

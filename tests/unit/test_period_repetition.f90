@@ -4,7 +4,7 @@ module test_period_repetition
    use checks, only: check_list_t
    use kinds, only: dp
    use problem, only: settling_t
-   use repetition, only: note_state, orbit_watch_t, watch_from
+   use repetition, only: note_state, orbit_watch_t, start_watch
    implicit none(type, external)
    private
 
@@ -42,7 +42,7 @@ contains
 
       type(orbit_watch_t) :: watch
 
-      watch = watch_from([films(0), momenta(0)], films(0))
+      call start_watch([films(0), momenta(0)], films(0), watch)
       orbit = 0
       distance = huge(1.0_dp)
       do place = 1, ubound(films, 1)
@@ -244,7 +244,7 @@ contains
                momentum = merge(1.0e-3_dp, merge(-1.0e-3_dp*rates(r), 0.0_dp, start == 1), start == 0)
                parts(1) = (momentum - roots(2)*film)/(roots(1) - roots(2))
                parts(2) = film - parts(1)
-               watch = watch_from([1.0_dp + film, momentum], 1.0_dp + film)
+               call start_watch([1.0_dp + film, momentum], 1.0_dp + film, watch)
                orbit = 0
                do mean = 1, 1000000
                   left(0) = real(sum(parts*exp(roots*mean)), dp)
@@ -263,7 +263,7 @@ contains
          end do
       end do
       ! A step below the last bit is still a step of a film that has nothing to bring it back.
-      watch = watch_from([1.0_dp, 0.0_dp], 1.0_dp)
+      call start_watch([1.0_dp, 0.0_dp], 1.0_dp, watch)
       do i = 1, 40
          call note_state(watch, [1.0_dp, 0.0_dp], 1.0_dp, [1.0_dp, 1.0_dp], settling_t(1.0e-12_dp, 1.0_dp, 1.0e-12_dp), tolerance, &
                          orbit, distance)

@@ -7,7 +7,7 @@ module test_settling_forecast
    use lane_repetition, only: forecast_rest
    use many_motions, only: solve_motions
    use problem, only: of_film, problem_of, problem_t, settling_t
-   use repetition, only: note_state, orbit_watch_t, watch_from
+   use repetition, only: note_state, orbit_watch_t, start_watch
    use scene_status, only: status_complete, status_steady
    use scene_types, only: law_iso_viscous, scene_t
    implicit none(type, external)
@@ -46,7 +46,7 @@ contains
       integer :: i, orbit
 
       away = start
-      watch = watch_from(rest + away, rest(1) + away(1))
+      call start_watch(rest + away, rest(1) + away(1), watch)
       do i = 2, states
          away = matmul(map, away)
          call note_state(watch, rest + away, rest(1) + away(1), [1.0_dp, weight], settling_t(), 0.0_dp, orbit, distance)
