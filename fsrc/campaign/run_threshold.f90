@@ -248,7 +248,7 @@ contains
       line = '  '//counted(outcome%crossings, 'crossing')//'; '//integer_text(outcome%uncrossed)//' of '// &
              counted(threshold%traces%layout%scene_count, 'trace')//' without any'
       if (scene%spectrum%verify) line = line//'; at '//counted(outcome%uncertain, 'crossing')// &
-                                         ' a class beside it is not verified'
+                                         ' a side is not verified'
       call log%line(line)
       if (outcome%wide > 0_int64) call log%line('  the ends of '//counted(outcome%wide, 'crossing')//' are verified only '// &
                                                 'farther apart than asked for: the width tells how sure that is (column width)')

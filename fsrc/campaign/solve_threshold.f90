@@ -6,7 +6,7 @@ module solve_threshold
    use kinds, only: dp, int64
    use log_file, only: log_t
    use prepared_threshold, only: points_plan, prepared_threshold_t
-   use quantities, only: quantity_code, quantity_table, quantity_verified
+   use quantities, only: quantity_code, quantity_table, verification_of
    use ranks, only: add_over_ranks, next_tickets, rank_count, renew_tickets, sum_over_ranks, this_rank, wait_for_ranks
    use sampling, only: sample_plan_t
    use scene_status, only: is_success
@@ -107,7 +107,7 @@ contains
       recorded = scene
       bound = quantity_code(trim(quantity_table(scene%threshold%quantity)%name)//'_is_bound')
       if (testing) then
-         recorded%campaign%record = [scene%threshold%quantity, quantity_verified]
+         recorded%campaign%record = [scene%threshold%quantity, verification_of(scene%threshold%quantity)]
       else if (bound > 0) then
          recorded%campaign%record = [scene%threshold%quantity, bound]
       end if

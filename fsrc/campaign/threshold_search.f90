@@ -123,6 +123,8 @@ contains
          return
       else if (threshold%wanted > 0) then
          point%side = merge(1, 0, nint(quantity) == threshold%wanted)
+      else if (threshold%least_wanted > 0) then
+         point%side = merge(1, 0, nint(quantity) >= threshold%least_wanted)
       else if (any(quantity_table(threshold%quantity)%kind == [a_code, a_flag])) then
          point%side = nint(quantity)
       else

@@ -531,8 +531,10 @@ module key_table
             of_thresholds, &
             'Largest width of a bracket, a share of the range from first to last (of its logarithm where the scale is); '// &
             'integers to the next one.'), &
-      key_t('threshold', 'criterion', text_kind, '', 'class', any_number, 'class '//class_words//measurable, of_thresholds, &
-            'What changes at a threshold: the class, whether it is the one named, a code or flag, or a quantity passing level.'), &
+      key_t('threshold', 'criterion', text_kind, '', 'class', any_number, 'class impacts '//class_words//measurable, &
+            of_thresholds, &
+            'What changes at a threshold: the class, whether it is the one named, whether there are impacts, a code or flag, '// &
+            'or a quantity passing level.'), &
       key_t('threshold', 'level', real_kind, 'of it', '', any_number, '', of_thresholds, &
             'What a quantity that is a number has to reach.'), &
       key_t('output', 'directory', text_kind, '', 'results', any_number, '', '', &

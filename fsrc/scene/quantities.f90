@@ -357,6 +357,8 @@ module quantities
    character(*), parameter :: measurable = transfer(pack(names, is_measurable), repeat(' ', len(names)*count(is_measurable)))
    !> Words of rattle_class
    character(*), parameter :: class_words = 'quiet creep idle irregular subharmonic irregular_so_far '
+   !> Least code of verdict of a motion with impacts
+   integer, parameter :: least_verdict_with_impacts = 2
 
 contains
 
@@ -408,6 +410,17 @@ contains
       needed = needs_of(quantities)
       asks_to_verify = needed(needs_verification)
    end function asks_to_verify
+
+   !> The flag that says whether a quantity stands when its scene is solved again, tighter: of verdict, impacts and class, whichever
+   !> the quantity belongs to.
+   pure integer function verification_of(quantity)
+      integer, intent(in) :: quantity
+
+      verification_of = quantity_verified
+      if (quantity_table(quantity)%need /= needs_impacts) return
+      verification_of = quantity_impacts_verified
+      if (any(quantity_table(quantity)%kind == [a_code, a_flag])) verification_of = quantity_verdict_verified
+   end function verification_of
 
    !> Codes of the quantities that are told somewhere, in the order of the table.
    pure function quantities_told_in(place) result(codes)

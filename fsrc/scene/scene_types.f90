@@ -352,9 +352,11 @@ module scene_types
       integer :: count = 0
       !> Width of a bracket as a share of the range
       real(dp) :: tolerance = 0.0_dp
-      !> Code of the quantity; its code that is looked for, 0: any change; its level [unit of the quantity]
+      !> Code of the quantity; its code that is looked for, or the least of its codes that are, 0: any change; its level [unit of
+      !> the quantity]
       integer :: quantity = 0
       integer :: wanted = 0
+      integer :: least_wanted = 0
       real(dp) :: level = 0.0_dp
    end type threshold_t
 

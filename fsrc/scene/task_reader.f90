@@ -3,7 +3,7 @@ module task_reader
    use key_table, only: find_swept_key, keys
    use keys_in_use, only: in_use
    use kinds, only: dp
-   use quantities, only: class_words, quantity_code, quantity_rattle_class
+   use quantities, only: class_words, least_verdict_with_impacts, quantity_code, quantity_rattle_class, quantity_verdict
    use scene_input, only: scene_input_t
    use scene_types, only: campaign_choice_t, film_points_t, model_numerical, model_published, sweep_t, threshold_t
    use word_list, only: split_words, word_position, word_t
@@ -125,6 +125,10 @@ contains
       criterion = input%word('threshold', 'criterion')
       threshold%quantity = quantity_code(criterion)
       threshold%wanted = word_position(class_words, criterion)
+      if (criterion == 'impacts') then
+         threshold%quantity = quantity_verdict
+         threshold%least_wanted = least_verdict_with_impacts
+      end if
       if (threshold%quantity == 0) threshold%quantity = quantity_rattle_class
    end function read_threshold
 

@@ -11,8 +11,12 @@ import numpy as np
 from rattle.campaign_plan import GEAR, GRID, LINEAR, LOGARITHMIC, read_plan
 from rattle.campaign_result import Axis, is_varied
 from rattle.campaign_section import short_name, spaced_unit
-from rattle.codes import CLASSES, STATUSES, SUCCESSES, quantity_of, spoken, word, words_of
+from rattle.codes import CLASSES, CODES, STATUSES, SUCCESSES, quantity_of, spoken, word, words_of
 from rattle.result import Result
+
+# A criterion of its own: whether the verdict is one with impacts.
+IMPACTS = "impacts"
+LEAST_WITH_IMPACTS = min(code for code, word in CODES["verdict"].items() if "impacts" in word)
 
 
 @dataclass(frozen=True)
@@ -81,6 +85,8 @@ class Thresholds:
         if words_of(self.quantity) is not None:
             words = spoken(word(self.quantity, value))
             wanted = str(self.result.value("threshold", "criterion")).strip()
+            if wanted == IMPACTS:
+                return "impacts" if value >= LEAST_WITH_IMPACTS else "no impacts"
             if wanted in CLASSES.values() and words != spoken(wanted):
                 return "another class"
             return words if self.quantity == "rattle_class" else f"{short_name(self.quantity)} {words}"
@@ -90,7 +96,7 @@ class Thresholds:
 
     @property
     def uncertain(self) -> np.ndarray:
-        """Crossings with a class beside them that is not verified, where that was asked for."""
+        """Crossings with a side that is not verified, where that was asked for."""
         if "verified_below" not in self.result:
             return np.zeros(self.rows.size, dtype=bool)
         flags = np.column_stack([self.column(f"verified{side}") for side in ("_below", "_above")])
@@ -133,6 +139,8 @@ def words_of_criterion(found: Thresholds) -> str:
     criterion = str(found.result.value("threshold", "criterion")).strip()
     if criterion == "class" or found.quantity == criterion == "rattle_class":
         return "change of class"
+    if criterion == IMPACTS:
+        return "beginning or end of impacts"
     if criterion in CLASSES.values():
         return f"change into or out of {spoken(criterion)}"
     if words_of(criterion) is not None:

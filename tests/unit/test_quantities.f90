@@ -12,7 +12,9 @@ module test_quantities
    use key_table, only: find_key
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
-   use quantities, only: a_list, a_number, needs_impacts, quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
+   use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, quantity_impacts_per_period_drive, &
+                         quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, &
+                          quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
                          quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
                          quantity_inertia_ratio, quantity_closure_range, &
                          quantity_impacts_drive, quantity_verified, quantity_gear_position_maximum, &
@@ -65,6 +67,13 @@ contains
 
       call checks%check(quantity_word(quantity_status, 0) == 'complete', 'first word')
       call checks%check(quantity_word(quantity_status, 9) == 'invalid', 'last word')
+      call checks%check(index(quantity_word(quantity_verdict, least_verdict_with_impacts - 1), 'impacts') == 0 .and. &
+                        index(quantity_word(quantity_verdict, least_verdict_with_impacts), 'impacts') > 0, &
+                        'the first verdict with impacts is the one of that name')
+      call checks%check(verification_of(quantity_verdict) == quantity_verdict_verified .and. &
+                        verification_of(quantity_impacts_per_period_drive) == quantity_impacts_verified .and. &
+                        verification_of(quantity_status) == quantity_verified, &
+                        'verdict, impacts and class are verified each by its own flag')
    end subroutine test_words
 
    !> Every quantity that a scene has is known; of rigid teeth no position of the gear is told, which the film is.

@@ -4,7 +4,7 @@ module test_threshold_search
    use campaign_axis, only: campaign_axis_t, grid_value
    use checks, only: check_list_t, same_bits
    use kinds, only: dp, int64
-   use quantities, only: quantity_film_force_rms, quantity_rattle_class
+   use quantities, only: least_verdict_with_impacts, quantity_film_force_rms, quantity_rattle_class, quantity_verdict
    use scene_status, only: status_film_lost, status_steady
    use scene_types, only: threshold_t
    use threshold_search, only: bracket_t, brackets_of, finest_axis, is_verified, known_side, merged_points, missing_middles, &
@@ -148,6 +148,13 @@ contains
       call checks%check(point%side == 0, 'all classes but the one that is looked for are alike')
       point = new_point(threshold, point_t(place=5), status_steady, 3.0_dp)
       call checks%check(point%side == 1, 'the one that is looked for')
+      threshold = threshold_t(key='load.mass', quantity=quantity_verdict, least_wanted=least_verdict_with_impacts)
+      point = new_point(threshold, point_t(place=5), status_steady, 1.0_dp)
+      call checks%check(point%side == 0, 'a separation is no impact')
+      point = new_point(threshold, point_t(place=5), status_steady, 2.0_dp)
+      call checks%check(point%side == 1, 'impacts on one flank are impacts')
+      point = new_point(threshold, point_t(place=5), status_steady, 3.0_dp)
+      call checks%check(point%side == 1, 'so are those on both flanks')
       threshold = threshold_t(key='load.mass', quantity=quantity_film_force_rms, level=2.5_dp)
       point = new_point(threshold, point_t(place=5), status_steady, 2.5_dp)
       call checks%check(point%side == 1, 'a level is reached')

@@ -506,7 +506,7 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             "  the ends of a crossing go apart again until both are verified",
             f"  {told['scenes']} of {told['scenes']} scenes, {ANY} a second, {told['scenes_failed']} failed",
             f"  {counted(told['crossings'], 'crossing')}; {without} of {counted(lines, 'trace')} without "
-            f"any; at {counted(doubts, 'crossing')} a class beside it is not verified",
+            f"any; at {counted(doubts, 'crossing')} a side is not verified",
             f"  the ends of {counted(wide, 'crossing')} are verified only farther apart than asked for: the "
             "width tells how sure that is (column width)"
             if wide

@@ -131,7 +131,7 @@ def test_every_sentence_on_thresholds_is_that_of_the_rows(tmp_path: Path) -> Non
         "From creep to idle: at 71 N.",
         "1 of 4 traces have no threshold in this range.",
     ]
-    assert told[4].startswith("At 3 of 4 thresholds the classes at both ends are verified: ")
+    assert told[4].startswith("At 3 of 4 thresholds both ends are verified: ")
     assert "solved in 33 places" in told[5] and "the widest that is left is 8 N." in told[5]
     assert told[6] == "It took 30 scenes; a grid as fine has 20 times as many."
     page = read_page(report(result.path))

@@ -58,8 +58,9 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
     if "verified_below" in found.result and crossed.any():
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
-            f"At {sure} of {int(crossed.sum())} thresholds the classes at both ends are verified: solved "
-            "again, tighter, they are the same. Where that cannot be had close to the change, its ends lie "
+            f"At {sure} of {int(crossed.sum())} thresholds both ends are verified: solved "
+            "again, tighter, they are on the same side. "
+            "Where that cannot be had close to the change, its ends lie "
             "farther apart, and the distance between them is how well the threshold is known."
         )
     count = found.result.value("threshold", "count")
@@ -117,10 +118,7 @@ def tables(result: Result) -> list[str]:
 
 
 def figures(result: Result) -> list[str]:
-    caption = (
-        "Thresholds over the varied keys. Bars: from end to end; open marks: the class at an end is "
-        "not verified."
-    )
+    caption = "Thresholds over the varied keys. Bars: from end to end; open marks: an end is not verified."
     try:
         found, held = picture.cut(thresholds(result), {}, 2)
     except CommandError:
