@@ -170,3 +170,19 @@ def some_of(known: Sequence[int | str]) -> Callable[[str], tuple[int | str, ...]
         return tuple(choice[part] for part in parts)
 
     return read
+
+
+def held_key(text: str) -> tuple[str, float]:
+    key, _, value = text.partition("=")
+    try:
+        return key.strip(), float(value)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not group.key=value") from None
+
+
+def one_each(pairs: Sequence[tuple[str, float]]) -> dict[str, float]:
+    keys = [key for key, _ in pairs]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise CommandError(f"--slice gives {key} twice.")
+    return dict(pairs)

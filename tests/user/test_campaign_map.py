@@ -196,7 +196,7 @@ def test_summary_page_and_inputs_of_the_worst_scenes(tmp_path, keys):
         (["--along", FORCE, "--slice", f"{SPEED}=50"], "is outside the campaign, which has 0.5 to 5."),
         (["--along", FORCE, "--slice", f"{SPEED}=1", "--slice", f"{SPEED}=2"], "gives kinematics"),
         (["--slice", "load.mass"], "is not group.key=value"),
-        (["--contours", "mass"], "'mass' is not one of frequency, damping, none"),
+        (["--contours", "mass"], "'mass' is not one of frequency, damping, force, none"),
         (["--summary", "--by", "film"], "has no column 'film'"),
         (["--summary", "--width", "80"], "--summary is a page; it takes a --width of 150 mm or more"),
         (["--worst", "3"], "--worst, --by and --smallest belong to --summary"),

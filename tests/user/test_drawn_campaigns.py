@@ -7,7 +7,19 @@ from pathlib import Path
 import drawn
 import numpy as np
 import pytest
-from campaign_writer import FORCE, FORCES, SPEED, SPEEDS, VISCOSITIES, VISCOSITY, Key, Made, grid, sample
+from campaign_writer import (
+    FORCE,
+    FORCES,
+    SPEED,
+    SPEEDS,
+    VISCOSITIES,
+    VISCOSITY,
+    Key,
+    Made,
+    grid,
+    sample,
+    with_verdicts,
+)
 from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection, QuadMesh
 from matplotlib.colors import to_hex
@@ -19,8 +31,9 @@ from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
 from rattle.codes import CLASSES
 from rattle.figures import campaign_look as look
-from rattle.figures import campaign_map, campaign_slice, campaign_summary, style
+from rattle.figures import campaign_map, campaign_slice, campaign_summary, fit, style
 
+VERDICTS = ("no separation", "separation without impact", "single-sided impacts", "double-sided impacts")
 WORDS = {code: word.replace("_", " ") for code, word in CLASSES.items()}
 
 # A chunk of 20 scenes is the row of one speed, as the force varies fastest.
@@ -283,6 +296,72 @@ def test_dots_stand_at_their_scenes(tmp_path):
     assert axes.get_xlim() == pytest.approx((forces.min() - room, forces.max() + room))
     room = 0.03 * np.ptp(speeds)
     assert np.log(axes.get_ylim()) == pytest.approx((speeds.min() - room, speeds.max() + room))
+
+
+# --- the verdict ---------------------------------------------------------------------------------------
+
+
+def test_a_map_of_the_verdict_has_four_colours_forces_limit_and_hatch(made, tmp_path):
+    """What the law does not hold for lies inside the outline, what is not verified below the hatch."""
+    with_verdicts(made)
+    made.column("law_contradicted")[:] = 0.0
+    beyond = (made.column(FORCE) > 210.0) & (made.column(SPEED) > 1.0)
+    made.column("law_contradicted")[beyond] = 1.0
+    figure = draw_map(read(made, tmp_path), "verdict")
+    (axes,) = figure.axes
+    np.testing.assert_array_equal(
+        np.ma.filled(cells(axes).get_array(), np.nan).reshape(15, 20),
+        shown_grid(made, "verdict"),
+    )
+    colours = {code: to_hex(cells(axes).cmap(cells(axes).norm(code))).upper() for code in range(4)}
+    assert colours == look.VERDICT_COLOURS and len(set(colours.values())) == 4
+    lacking = shown_grid(made, "verdict_verified") == 0.0
+    np.testing.assert_array_equal(hatched(axes)[look.UNCERTAIN_HATCH], lacking)
+    lines = [one for one in axes.collections if isinstance(one, QuadContourSet) and not one.filled]
+    (outline,) = (one for one in lines if to_hex(one.get_edgecolor()[0]).upper() == campaign_map.LIMIT_COLOUR)
+    corner = np.min(np.concatenate(outline.allsegs[0]), axis=0)
+    first = [int(np.argmax(keys.values > least)) for keys, least in ((FORCES, 210.0), (SPEEDS, 1.0))]
+    assert corner == pytest.approx((LINEAR_FORCE[first[0]], LOGARITHMIC_SPEED[first[1]]))
+    (forces,) = (one for one in lines if getattr(one, "labelTexts", ()))
+    for level, segments in zip(forces.levels, forces.allsegs, strict=True):
+        for point in np.concatenate(segments):
+            # Forces grow with the force alone, on a grid of 20 N.
+            assert 0.01 * point[0] ** 1.5 == pytest.approx(level, rel=0.05)
+    words = drawn.legend_words(figure)
+    shares = [f"{name} (25.0 %)" for name in VERDICTS]
+    assert words[:4] == shares
+    assert words[-2:] == [
+        f"film law does not fit ({look.share(int(beyond.sum()), 300)})",
+        "film force rms [N]",
+    ]
+    assert f"not verified ({look.share(int(lacking.sum()), 300)})" in words
+    assert axes.get_title(loc="left").split("\n") == [
+        "Verdict, campaign map, 300 scenes",
+        "Published iso-viscous film",
+    ]
+
+
+def test_a_map_says_where_verdicts_were_not_put_to_the_test(made, tmp_path):
+    figure = draw_map(read(with_verdicts(made, verified=False), tmp_path), "verdict")
+    assert "whether it is verified was not recorded" in figure.axes[0].get_title(loc="left")
+    assert look.UNCERTAIN_HATCH not in hatched(figure.axes[0])
+
+
+def test_levels_of_forces_can_be_told_apart():
+    for low, high in ((0.2, 0.9), (1.1, 60.0), (0.01, 5000.0), (1e-6, 1e6)):
+        levels = campaign_map._levels_of_forces(low, high)
+        assert all(low < level < high for level in levels) and levels == sorted(levels)
+        assert 1 <= len(levels) <= campaign_map.MOST_FORCE_LEVELS or high / low > 1e6
+
+
+def test_no_legend_is_wider_than_its_figure(made, tmp_path):
+    path = with_verdicts(made).write(tmp_path / "map.rattle")
+    figure = draw_map(rattle.read_campaign(path), "verdict")
+    fit.narrow_legends(figure)
+    figure.draw_without_rendering()
+    (legend,) = figure.legends
+    box = legend.get_window_extent()
+    assert box.x0 >= 0.0 and box.x1 <= figure.get_figwidth() * figure.dpi
 
 
 # --- slices --------------------------------------------------------------------------------------------

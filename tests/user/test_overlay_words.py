@@ -17,6 +17,7 @@ from told import SPOKEN
 import rattle
 from rattle import codes
 from rattle.campaign_section import new_section
+from rattle.command import CommandError
 from rattle.figures import campaign_look, campaign_map, histories, spectra, style, sweep, threshold
 from rattle.thresholds import thresholds
 
@@ -200,7 +201,7 @@ def test_words_of_gear_pairs(box, narrow):
         gear: new_section(alone, tuple(alone.varied[:2]), {})
         for gear, alone in zip(rows.gears, rows.pairs, strict=True)
     }
-    made = campaign_map.draw_pairs(sections, columns, "auto", narrow)
+    made = campaign_map.draw_pairs(sections, columns, campaign_map.Options(), narrow)
     x, y = (campaign_look.axis_label(axis) for axis in next(iter(sections.values())).free)
     shown = {SPOKEN.get(name, name) for name in codes.CLASSES.values()}
     if ((rows["verified"] == 0.0) & (rows["rattle_class"] != 6.0)).any():
@@ -348,3 +349,30 @@ def test_words_of_thresholds_over_a_map(tmp_path):
         f"no change ({sum(row[2] == 0.0 for row in ROWS)})",
         *([f"not verified ({100.0 * doubt / rows.row_count:.1f} %)"] if doubt else []),
     }
+
+
+@pytest.mark.parametrize("exchanged", (False, True))
+def test_thresholds_lie_over_a_map_of_the_verdict(tmp_path, exchanged):
+    """Every crossing stands where its key and its middle are, whichever of both is upwards."""
+    keys = Key(campaign_writer.SPEED, 1.0, 8.0, 6), Key(campaign_writer.FORCE, 5.0, 100.0, 5)
+    made = campaign_writer.with_verdicts(campaign_writer.grid(*keys))
+    rows = rattle.read_campaign(made.write(tmp_path / "map.rattle"))
+    found = thresholds(written(tmp_path / "edge.rattle"))
+    free = (campaign_writer.FORCE, campaign_writer.SPEED) if exchanged else rows.varied
+    options = campaign_map.Options(thresholds=[found])
+    figure = campaign_map.draw(new_section(rows, free, {}), "verdict", options)
+    drawn = [line.get_xydata()[:, ::-1] if exchanged else line.get_xydata() for line in figure.axes[0].lines]
+    crossed = {(row[1], 0.5 * (row[3] + row[4])) for row in ROWS if row[2] > 0.0}
+    unsure = {(row[1], 0.5 * (row[3] + row[4])) for row in ROWS if row[2] > 0.0 and row[9:] != [1.0, 1.0]}
+    *curves, marks = drawn
+    assert {tuple(map(float, point)) for curve in curves for point in curve} == crossed
+    assert {tuple(map(float, point)) for point in marks} == unsure
+    assert "threshold: change of class" in words_of(figure)
+
+
+def test_thresholds_of_other_keys_do_not_lie_over_a_map(tmp_path):
+    keys = Key(campaign_writer.SPEED, 1.0, 8.0, 6), Key(campaign_writer.VISCOSITY, 0.1, 0.9, 5)
+    rows = rattle.read_campaign(campaign_writer.grid(*keys).write(tmp_path / "map.rattle"))
+    options = campaign_map.Options(thresholds=[thresholds(written(tmp_path / "edge.rattle"))])
+    with pytest.raises(CommandError, match="do not lie over entrainment speed and viscosity"):
+        campaign_map.draw(new_section(rows, rows.varied, {}), "rattle_class", options)

@@ -16,19 +16,30 @@ from rattle.campaign_section import new_section
 from rattle.figures import campaign_map, campaign_slice, campaign_summary, style
 from rattle.figures.fit import is_narrow
 from rattle.outputs import Writer
+from rattle.thresholds import thresholds
 
 DESCRIPTION = (
-    "Draw a campaign: a map of the class or of any column over two varied keys (default), columns along one "
-    "key (--along), or one page on all of it (--summary)."
+    "Draw a campaign: a map of the verdict, or where that is not recorded of the class, or of any column "
+    "over two varied keys (default), columns along one key (--along), or one page on all of it (--summary)."
 )
 PAGE_WIDTH = 150.0  # mm, the least in which a page can be read
-SLICE_COLUMNS = ("acceleration_maximum", "film_minimum", "harmonic_distortion", "rattle_class")
+SLICE_COLUMNS = (
+    "verdict",
+    "film_force_rms",
+    "acceleration_maximum",
+    "film_minimum",
+    "harmonic_distortion",
+    "rattle_class",
+)
 
 
 def add_options(parser: ArgumentParser) -> None:
     parser.add_argument("campaign", type=Path, metavar="FILE", help="campaign result, NAME.rattle")
     parser.add_argument(
-        "--columns", type=command.names, metavar="NAME,NAME", help="what is drawn; rattle_class for a map"
+        "--columns",
+        type=command.names,
+        metavar="NAME,NAME",
+        help="what is drawn; verdict or rattle_class for a map",
     )
     parser.add_argument(
         "--gear",
@@ -43,7 +54,7 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument("--along", metavar="KEY", help="draw columns along this key instead of a map")
     parser.add_argument(
         "--slice",
-        type=held_key,
+        type=command.held_key,
         action="append",
         default=[],
         metavar="KEY=VALUE",
@@ -52,9 +63,17 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--contours",
         type=contour_names,
-        default=list(campaign_map.CONTOURS),
         metavar="NAMES",
-        help="contours over a map: frequency,damping (default), one of them, or none",
+        help="contours over a map, of frequency, damping, force, or none; by default force over the verdict, "
+        "else both others",
+    )
+    parser.add_argument(
+        "--thresholds",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="RESULT",
+        help="draw these thresholds over a map",
     )
     parser.add_argument(
         "--colours",
@@ -84,7 +103,7 @@ def run(options: Namespace) -> None:
         command.note(f"{campaign.path} is not finished; {done} of {campaign.row_count} scenes are done.")
     if not campaign.done.any():
         raise command.CommandError(f"{campaign.path} holds no scene that is done; there is nothing to draw.")
-    slices = one_each(options.slice)
+    slices = command.one_each(options.slice)
     inputs: list[tuple[Path, Writer]] = []
     with style.house_style():
         if options.together:
@@ -115,11 +134,14 @@ def draw_maps(
             f"{campaign.path} is no grid but a {campaign.kind} campaign: nothing to slice."
         )
     x, y = plane(campaign, options.x, options.y, slices)
-    overlay = campaign_map.Options(options.contours, options.colours)
-    for name in campaign_map.lacking_contours(campaign, options.contours):
-        command.note(f"{campaign.path} does not record what the contours of {name} need; they are left out.")
-    columns = options.columns or ["rattle_class"]
+    overlay = overlay_of(options)
+    columns = options.columns or usual_columns(campaign)
     check_columns(campaign, columns)
+    names = dict.fromkeys(name for column in columns for name in overlay.contours_of(column))
+    for name in campaign_map.lacking_contours(campaign, list(names)):
+        command.note(f"{campaign.path} does not record what the contours of {name} need; they are left out.")
+    if options.thresholds and campaign.kind != GRID:
+        raise command.CommandError(f"{campaign.path} is no grid: no thresholds are drawn over it.")
     if campaign.kind == GRID:
         section = new_section(campaign, (x, y), slices)
         for sentence in section.remarks():
@@ -132,16 +154,29 @@ def draw_maps(
         yield f"{campaign.name}_map_{column}", figure
 
 
+def usual_columns(campaign: Campaign) -> list[str]:
+    """What a map shows unless a column is asked for: the verdict where that is recorded, else the class."""
+    return ["verdict" if "verdict" in campaign else "rattle_class"]
+
+
+def overlay_of(options: Namespace) -> campaign_map.Options:
+    """What lies over the cells of maps."""
+    results = [rattle.read(path) for path in options.thresholds]
+    for result in results:
+        result.require_rows("threshold")
+    return campaign_map.Options(options.contours, options.colours, tuple(map(thresholds, results)))
+
+
 def draw_together(campaign: Campaign, options: Namespace, slices: dict[str, float]) -> tuple[str, Figure]:
     """Maps of all gear pairs in one figure."""
     if not campaign.gears or campaign.kind != GRID or options.summary or options.along or options.gear:
         raise command.CommandError("--together draws the maps of a grid campaign of several gear pairs.")
-    columns = options.columns or ["rattle_class"]
+    columns = options.columns or usual_columns(campaign)
     check_columns(campaign, columns)
     sections = {}
     for gear, alone in zip(campaign.gears, campaign.pairs, strict=True):
         sections[gear] = new_section(alone, plane(alone, options.x, options.y, slices), slices)
-    figure = campaign_map.draw_pairs(sections, columns, options.colours, is_narrow(options.width))
+    figure = campaign_map.draw_pairs(sections, columns, overlay_of(options), is_narrow(options.width))
     return f"{campaign.name}_pairs", figure
 
 
@@ -187,22 +222,6 @@ def plane(campaign: Campaign, x: str | None, y: str | None, slices: Collection[s
 def check_columns(campaign: Campaign, columns: Sequence[str]) -> None:
     for name in columns:
         campaign.check_column(name)  # an unknown name ends the work before a picture is drawn
-
-
-def one_each(pairs: Sequence[tuple[str, float]]) -> dict[str, float]:
-    keys = [key for key, _ in pairs]
-    for key in keys:
-        if keys.count(key) > 1:
-            raise command.CommandError(f"--slice gives {key} twice.")
-    return dict(pairs)
-
-
-def held_key(text: str) -> tuple[str, float]:
-    key, _, value = text.partition("=")
-    try:
-        return key.strip(), float(value)
-    except ValueError:
-        raise ArgumentTypeError(f"'{text}' is not group.key=value") from None
 
 
 def contour_names(text: str) -> list[str]:

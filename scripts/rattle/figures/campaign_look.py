@@ -16,11 +16,12 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 from rattle.campaign_plan import GRID, LINEAR, LOGARITHMIC, SAMPLE, TABLE
 from rattle.campaign_result import Axis, Campaign
 from rattle.campaign_section import short_name
-from rattle.codes import STATUSES, SUCCESSES, spoken, words_of
+from rattle.codes import FILM_REGIMES, STATUSES, SUCCESSES, spoken, word, words_of
 from rattle.figures import style
 
 # From the palette of Okabe and Ito, ordered so that they also differ in lightness.
 CLASS_COLOURS = {1: "#DCE6EC", 2: "#56B4E9", 3: "#D55E00", 4: "#4B2E63", 5: "#E8C547", 6: "#EACCFC"}
+VERDICT_COLOURS = {0: "#DCE6EC", 1: "#56B4E9", 2: "#E8C547", 3: "#D55E00"}
 OTHER_COLOURS = (
     "#DCE6EC",
     "#56B4E9",
@@ -35,6 +36,8 @@ OTHER_COLOURS = (
 FLAG_COLOURS = {
     "verified": {0: "#D55E00", 1: "#DCE6EC"},
     "sampling_sufficient": {0: "#D55E00", 1: "#DCE6EC"},
+    "verdict_verified": {0: "#D55E00", 1: "#DCE6EC"},
+    "impacts_verified": {0: "#D55E00", 1: "#DCE6EC"},
     "law_contradicted": {0: "#DCE6EC", 1: "#D55E00"},
     "harmonic_count_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
     "harmonic_distortion_is_bound": {0: "#DCE6EC", 1: "#D55E00"},
@@ -68,9 +71,15 @@ def code_colours(column: str) -> Mapping[int, str] | None:
     words = words_of(column)
     if words is None:
         return None
-    if column == "rattle_class":
-        return CLASS_COLOURS
+    if column in ("rattle_class", "verdict"):
+        return CLASS_COLOURS if column == "rattle_class" else VERDICT_COLOURS
     return FLAG_COLOURS.get(column) or dict(zip(words, OTHER_COLOURS, strict=False))
+
+
+def words_in_legends(column: str, code: int) -> str:
+    """The word of a code, and more where it stands alone."""
+    words = spoken(word(column, code))
+    return f"{words} without impact" if (column, words) == ("verdict", "separation") else words
 
 
 def gaps(campaign: Campaign, column: str) -> list[Gap]:
@@ -103,9 +112,15 @@ class Doubt:
 
 
 def doubts(campaign: Campaign, column: str) -> list[Doubt]:
-    """What maps of a column mark: scenes irregular so far, apart from others that are not verified."""
-    if column in ("verified", "status"):
+    """What maps of a column mark: scenes irregular so far, apart from others that are not verified.
+
+    A map of the verdict marks where that is not verified, whatever the class.
+    """
+    if column in ("verified", "verdict_verified", "impacts_verified", "status"):
         return []
+    if column == "verdict":
+        lacking = campaign.done & (verdict_flags(campaign) == 0.0)
+        return [Doubt(lacking, UNCERTAIN_WORDS, UNCERTAIN_HATCH, "o")] if lacking.any() else []
     classes = column == "rattle_class"
     nowhere = np.zeros(campaign.row_count, dtype=bool)
     so_far, lacking = nowhere, nowhere
@@ -120,6 +135,22 @@ def doubts(campaign: Campaign, column: str) -> list[Doubt]:
         ),
     ]
     return [doubt for doubt in found if doubt.scenes.any()]
+
+
+def verdict_flags(campaign: Campaign) -> np.ndarray:
+    """Whether each verdict is verified; unknown where that is not recorded."""
+    known = "verdict_verified" in campaign
+    return campaign["verdict_verified"] if known else np.full(campaign.row_count, np.nan)
+
+
+def where_law_fails(campaign: Campaign) -> tuple[np.ndarray, str] | None:
+    """Scenes whose film law does not fit their regime, and words for that; None if not recorded."""
+    if "law_contradicted" in campaign:
+        return campaign["law_contradicted"] == 1.0, "film law does not fit"
+    if "film_regime" in campaign:
+        beyond = next(code for code, words in FILM_REGIMES.items() if words == "elastohydrodynamic")
+        return campaign["film_regime"] == beyond, "film is elastohydrodynamic"
+    return None
 
 
 def doubt_patch(words: str, doubt: Doubt) -> Patch:

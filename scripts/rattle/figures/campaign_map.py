@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from matplotlib import patheffects
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
@@ -19,17 +21,22 @@ from matplotlib.tri import Triangulation
 
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import Section
-from rattle.codes import spoken, word
 from rattle.figures import campaign_look as look
-from rattle.figures import style
+from rattle.figures import style, threshold_curves
+from rattle.thresholds import Thresholds
 
 RATIO_LEVELS = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0)
 # Dashes, words, form of the labels, and where these stand along a contour.
 CONTOUR_LOOKS = {
     "frequency": ("-", r"natural frequency $f_n/f_\mathrm{exc}$", "%g", 0.85),
     "damping": ("--", r"damping ratio $\zeta$", r"$\zeta$ %g", 0.15),
+    "force": ("-", "film force rms [N]", "%g", 0.5),
 }
 CONTOURS = tuple(CONTOUR_LOOKS)
+MOST_FORCE_LEVELS = 6
+LIMIT_COLOUR = "#00664C"
+# Ticks stand on the side where the film law does not hold.
+LIMIT_LOOK = [patheffects.withTickedStroke(angle=-90, spacing=7, length=0.6)]
 SHORTEST_LABELLED = 60.0  # pixels
 # Scenes that are spread less across a line than this share of its length lie on it.
 SMALLEST_WIDTH = 1e-6
@@ -37,67 +44,120 @@ SMALLEST_WIDTH = 1e-6
 
 @dataclass(frozen=True)
 class Options:
-    """Which contours lie over a map, and how numbers become colours."""
+    """Which contours and thresholds lie over a map, and how numbers become colours."""
 
-    contours: Sequence[str] = CONTOURS
+    contours: Sequence[str] | None = None  # None: those that belong to the column
     colours: str = "auto"
+    thresholds: Sequence[Thresholds] = ()
+
+    def contours_of(self, column: str) -> tuple[str, ...]:
+        if self.contours is not None:
+            return tuple(self.contours)
+        return ("force",) if column == "verdict" else ("frequency", "damping")
 
 
 def draw(section: Section, column: str, options: Options) -> Figure:
     """The map of a grid campaign on a cut with two free keys."""
     figure, axes = _new_figure()
     handles, colours = draw_cells(axes, section, column, options.colours)
-    handles += draw_contours(axes, section, options.contours)
+    handles += draw_over(axes, section, column, options)
     _finish(figure, axes, section.campaign, column, handles, colours)
-    held = f"\n{section.words}" if section.held else ""
-    axes.set_title(f"{look.capital(look.short_name(column))}, {look.headline(section.campaign)}{held}")
+    axes.set_title(title(section.campaign, column, section.words))
     return figure
 
 
+def draw_over(axes: Axes, section: Section, column: str, options: Options) -> list[Line2D]:
+    """Limit of the film law, contours and thresholds over the cells; returns legend entries."""
+    handles = draw_limit(axes, section) if column == "verdict" else []
+    handles += draw_contours(axes, section, options.contours_of(column))
+    for found in options.thresholds:
+        handles += threshold_curves.draw_over_map(axes, section, found)
+    return handles
+
+
+def title(campaign: Campaign, column: str, held: str = "") -> str:
+    """What is drawn, of which campaign; under a verdict with which film, and whether it was verified."""
+    lines = [f"{look.capital(look.short_name(column))}, {look.headline(campaign)}", held]
+    if column == "verdict":
+        checked = "" if "verdict_verified" in campaign else "; whether it is verified was not recorded"
+        lines.insert(1, f"{look.capital(style.film_words(campaign))}{checked}")
+    return "\n".join(filter(None, lines))
+
+
 def draw_pairs(
-    sections: Mapping[str, Section], columns: Sequence[str], colours: str, narrow: bool = False
+    sections: Mapping[str, Section], columns: Sequence[str], options: Options, narrow: bool = False
 ) -> Figure:
-    """Gear pairs side by side, a row of maps for each column; in a narrow figure one pair below the other."""
-    shape = (len(sections), len(columns)) if narrow else (len(columns), len(sections))
-    figure = Figure(figsize=(style.WIDTH, 0.9 + 1.75 * shape[0]))
-    panels = figure.subplots(*shape, sharex=True, sharey=True, squeeze=False)
-    grid = panels.T if narrow else panels
-    handles: dict[str, Patch] = {}
-    figure.get_layout_engine().set(w_pad=0.03)
+    """Gear pairs side by side, a row of maps for each column; in a narrow figure one pair below the other.
+
+    Maps of one column stand in two rows.
+    """
+    figure, grid = _panels_of_pairs(len(sections), len(columns), narrow)
+    handles: dict[str, Patch | Line2D] = {}
     for place, (column, row) in enumerate(zip(columns, grid, strict=True)):
         drawn = []
         for (pair, section), axes in zip(sections.items(), row, strict=True):
-            entries, mesh = draw_cells(axes, section, column, colours)
+            entries, mesh = draw_cells(axes, section, column, options.colours)
+            entries += draw_over(axes, section, column, options) if column == "verdict" else []
             drawn += [mesh] if mesh else []
-            for patch in entries:
-                name = patch.get_label().rpartition(" (")[0]
+            for entry in entries:
+                words = entry.get_label()
+                name = words.rpartition(" (")[0] or words
                 # What is hatched in one map need not be there in the next.
-                if name not in handles or (patch.get_hatch() and not handles[name].get_hatch()):
-                    handles[name] = patch
+                hatched = isinstance(entry, Patch) and entry.get_hatch()
+                if name not in handles or (hatched and not handles[name].get_hatch()):
+                    handles[name] = entry
             axes.set_title(pair if place == 0 else "")
-            axes.set_xlabel(axes.get_xlabel() if narrow and axes is row[-1] else "")
-            axes.set_ylabel(axes.get_ylabel() if axes in panels[:, 0] else "")
+            place_of = axes.get_subplotspec()
+            axes.set_xlabel(axes.get_xlabel() if place_of.is_last_row() else "")
+            axes.set_ylabel(axes.get_ylabel() if place_of.is_first_col() else "")
             if not look.is_logarithmic(section.free[0]):
-                axes.locator_params(axis="x", nbins=3)
+                axes.locator_params(axis="x", nbins=3 if len(columns) > 1 and not narrow else 5)
         campaign = section.campaign
         if drawn:
             norm = look.colour_norm(
-                np.concatenate([mesh.get_array().compressed() for mesh in drawn]), colours
+                np.concatenate([mesh.get_array().compressed() for mesh in drawn]), options.colours
             )
             for mesh in drawn:
                 mesh.set_norm(norm)
             figure.colorbar(
                 drawn[0],
-                ax=row,
+                ax=list(row),
                 label=look.column_label(campaign, column),
                 pad=0.02,
                 aspect=14 * (len(sections) if narrow else 1),
             )
-    if not narrow:
+    if len(columns) > 1 and not narrow:
+        for axes in grid[-1]:
+            axes.set_xlabel("")
         middle = (len(sections) - 1) // 2
-        grid[-1, middle].set_xlabel(look.axis_label(section.free[0]), x=0.5 if len(sections) % 2 else 1.05)
+        grid[-1][middle].set_xlabel(look.axis_label(section.free[0]), x=0.5 if len(sections) % 2 else 1.05)
+    if "verdict" in columns:
+        figure.suptitle(
+            f"Verdict by pair, {style.film_words(section.campaign)}", x=0.01, ha="left", fontsize="medium"
+        )
     figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=3)
     return figure
+
+
+def _panels_of_pairs(pairs: int, columns: int, narrow: bool) -> tuple[Figure, Sequence[Sequence[Axes]]]:
+    """The figure of so many gear pairs, and of each column its panels."""
+    across = pairs if pairs < 3 else -(-pairs // 2)
+    if narrow:
+        shape = (pairs, columns)
+    elif columns == 1:
+        shape = (-(-pairs // across), across)
+    else:
+        shape = (columns, pairs)
+    figure = Figure(figsize=(style.WIDTH, 0.9 + (2.1 if columns == 1 and not narrow else 1.75) * shape[0]))
+    panels = figure.subplots(*shape, sharex=True, sharey=True, squeeze=False)
+    figure.get_layout_engine().set(w_pad=0.03)
+    if narrow:
+        return figure, panels.T
+    if columns > 1:
+        return figure, panels
+    for axes in panels.ravel()[pairs:]:
+        axes.remove()
+    return figure, [panels.ravel()[:pairs]]
 
 
 def draw_points(campaign: Campaign, x: str, y: str, column: str, options: Options) -> Figure:
@@ -105,11 +165,10 @@ def draw_points(campaign: Campaign, x: str, y: str, column: str, options: Option
     figure, axes = _new_figure()
     handles, colours = scatter(axes, campaign, x, y, column, options.colours)
     if len(campaign.varied) == 2:  # with more keys, neighbours in the picture are no neighbours
-        handles += _point_contours(axes, campaign, x, y, options.contours)
+        handles += _point_contours(axes, campaign, x, y, options.contours_of(column))
     _finish(figure, axes, campaign, column, handles, colours)
     others = [look.short_name(key) for key in campaign.varied if key not in (x, y)]
-    also = f"\nall values of {', '.join(others)}" if others else ""
-    axes.set_title(f"{look.capital(look.short_name(column))}, {look.headline(campaign)}{also}")
+    axes.set_title(title(campaign, column, f"all values of {', '.join(others)}" if others else ""))
     return figure
 
 
@@ -187,8 +246,24 @@ def scatter(
     return handles, drawn
 
 
+def draw_limit(axes: Axes, section: Section) -> list[Line2D]:
+    """An outline of the cells where the film law does not hold; returns its legend entry."""
+    found = look.where_law_fails(section.campaign)
+    if found is None:
+        return []
+    where = section.mask(found[0])
+    if not where.any():
+        return []
+    squares = _squares([look.cell_edges(axis) for axis in section.free], where)
+    axes.contour(*squares, levels=(0.5,), colors=["white"], linewidths=[2.6])
+    line = axes.contour(*squares, levels=(0.5,), colors=[LIMIT_COLOUR], linewidths=[1.4])
+    line.set_path_effects(LIMIT_LOOK)
+    words = f"{found[1]} ({look.share(int(where.sum()), where.size)})"
+    return [Line2D([], [], color=LIMIT_COLOUR, linewidth=1.4, path_effects=LIMIT_LOOK, label=words)]
+
+
 def draw_contours(axes: Axes, section: Section, names: Sequence[str]) -> list[Line2D]:
-    """Contours of frequency ratio and damping ratio over the cells of a grid; returns legend entries."""
+    """Contours over the cells of a grid; returns legend entries."""
     x, y = section.free
     if min(x.values.size, y.values.size) < 2:
         return []
@@ -256,9 +331,10 @@ def _triangles(campaign: Campaign, x: str, y: str, known: np.ndarray) -> Triangu
 def _contoured(campaign: Campaign, name: str) -> np.ndarray | None:
     if name == "frequency":
         return look.frequency_ratio(campaign)
-    if "damping_ratio" not in campaign:
+    column = {"damping": "damping_ratio", "force": "film_force_rms"}[name]
+    if column not in campaign:
         return None
-    return campaign["damping_ratio"]
+    return campaign[column]
 
 
 def _levels(values: np.ndarray, name: str) -> list[float]:
@@ -268,6 +344,8 @@ def _levels(values: np.ndarray, name: str) -> list[float]:
     low, high = float(values.min()), float(values.max())
     if high - low <= 1e-9 * abs(high):
         return []
+    if name == "force" and low > 0.0:
+        return _levels_of_forces(low, high)
     levels = list(RATIO_LEVELS) if name == "frequency" else []
     within = [level for level in levels if low < level < high]
     if len(within) < 3:
@@ -276,6 +354,16 @@ def _levels(values: np.ndarray, name: str) -> list[float]:
             for level in MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(low, high)
             if low < level < high
         ]
+    return within
+
+
+def _levels_of_forces(low: float, high: float) -> list[float]:
+    """Levels that grow by about the same factor, no more of them than can be told apart."""
+    decades = 10.0 ** np.arange(math.floor(math.log10(low)), math.log10(high))
+    for steps in ((1.0, 2.0, 5.0), (1.0, 3.0), (1.0,)):
+        within = [float(step * decade) for decade in decades for step in steps if low < step * decade < high]
+        if len(within) <= MOST_FORCE_LEVELS:
+            break
     return within
 
 
@@ -318,12 +406,12 @@ def _code_colours(palette: Mapping[int, str]) -> tuple[ListedColormap, Normalize
 
 
 def _code_patches(column: str, values: np.ndarray, palette: Mapping[int, str], whole: int) -> list[Patch]:
-    """Legend entries with the share of `whole`: all classes, of other codes those that occur."""
+    """Legend entries with the share of `whole`: all classes and verdicts, of other codes those that occur."""
     patches = []
     for code, colour in palette.items():
         count = int((values == code).sum())
-        if count or column == "rattle_class":
-            words = f"{spoken(word(column, code))} ({look.share(count, whole)})"
+        if count or column in ("rattle_class", "verdict"):
+            words = f"{look.words_in_legends(column, code)} ({look.share(count, whole)})"
             patches.append(Patch(facecolor=colour, edgecolor=look.HATCH_COLOUR, linewidth=0.5, label=words))
     return patches
 

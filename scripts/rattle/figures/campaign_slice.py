@@ -48,7 +48,8 @@ def _draw_column(panel: Axes, section: Section, column: str) -> None:
     words = words_of(column)
     line = {"color": style.RUN_COLOURS[0], "marker": marker, "markersize": 2.5, "linewidth": 1.2}
     if words is not None:
-        panel.plot(x, y, drawstyle="steps-mid", **line)
+        # Codes have no order: nothing lies between two of them.
+        panel.plot(x, y, **line | {"linestyle": "", "marker": "o"})
         codes = sorted(words)
         panel.set_yticks(codes, [spoken(words[code]) for code in codes])
         panel.set_ylim(codes[0] - 0.4, codes[-1] + 0.4)

@@ -25,11 +25,15 @@ WORD = re.compile(r"\$[^$]*\$\S*|\S+")  # mathematics is not broken
 
 
 def fit(figure: Figure, options: Namespace) -> None:
-    """Width in inches, size of type in points, no title, limits of the axes; None leaves a thing as it is."""
+    """Width in inches, size of type in points, no title, limits of the axes; None leaves a thing as it is.
+
+    Legends are never wider than the figure.
+    """
     set_limits(figure, options.xlim, options.ylim)
     if options.no_title:
         drop_titles(figure)
     if options.width is None and options.font_size is None:
+        narrow_legends(figure)
         return
     drawn_for = float(figure.get_figwidth())
     ratio = (options.width or drawn_for) / drawn_for

@@ -21,7 +21,7 @@ from rattle.campaign_result import Axis
 from rattle.campaign_section import Section, new_section, short_name, spaced_unit
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, style
-from rattle.figures.campaign import held_key, one_each
+from rattle.figures.threshold_curves import curves, draw_bars
 from rattle.thresholds import Thresholds, thresholds, words_of_criterion
 
 DESCRIPTION = (
@@ -52,7 +52,7 @@ def add_options(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--slice",
-        type=held_key,
+        type=command.held_key,
         action="append",
         default=[],
         metavar="KEY=VALUE",
@@ -64,7 +64,7 @@ def run(options: Namespace) -> None:
     result = rattle.read(options.result)
     result.require_rows("threshold")
     command.note_open(result)
-    found, words = cut(thresholds(result), one_each(options.slice), 1 if options.map else 2)
+    found, words = cut(thresholds(result), command.one_each(options.slice), 1 if options.map else 2)
     section = behind(found, options.map, words) if options.map else None
     with style.house_style():
         figure = draw(found, words, section, options.crossing)
@@ -194,12 +194,6 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
     return handles
 
 
-def draw_bars(axes: Axes, x: np.ndarray, lower: np.ndarray, upper: np.ndarray, colour: str) -> None:
-    """How far apart the ends of each crossing are."""
-    known = np.isfinite(lower)
-    axes.vlines(x[known], lower[known], upper[known], colors=colour, linewidth=2.5, alpha=0.4, zorder=3)
-
-
 def bar_entry() -> Line2D:
     bar = {"marker": "|", "markersize": 9, "markeredgewidth": 2.5, "alpha": 0.4, "color": style.FORCE_COLOUR}
     return Line2D([], [], linestyle="", **bar, label=BAR)
@@ -221,20 +215,6 @@ def set_range(axes: Axes, found: Thresholds, values: np.ndarray) -> None:
 def map_column(section: Section, found: Thresholds) -> str:
     """What the map behind shows: what the criterion looks at where that is recorded, else the class."""
     return found.quantity if found.quantity in section.campaign else "rattle_class"
-
-
-def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Crossings of one kind joined from trace to trace, as long as neighbours have as many of them."""
-    x, y = found.column(axis.key), found.values
-    lines = [y[chosen & (x == value)] for value in axis.values]
-    joined, start = [], 0
-    for end in range(1, len(lines) + 1):
-        if end < len(lines) and len(lines[end]) == len(lines[start]):
-            continue
-        part = np.array(lines[start:end])
-        joined += [(axis.values[start:end], part[:, place]) for place in range(part.shape[1])]
-        start = end
-    return joined
 
 
 def on_plane(found: Thresholds, x: Axis, y: Axis, crossing: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from rattle.command import CommandError, words_of_import
 from rattle.figures import style
+from rattle.figures.fit import narrow_legends
 from rattle.result import ResultError
 from rattle.rounding import ERROR_DIGITS, stated_error
 
@@ -226,7 +227,9 @@ def drawing(draw: Callable[[], Figure], caption: str, salt: str) -> str:
     try:
         with style.house_style(own=False), matplotlib.rc_context({"svg.hashsalt": salt}):
             stream = StringIO()
-            draw().savefig(stream, format="svg", dpi=160, metadata={"Date": None})
+            figure = draw()
+            narrow_legends(figure)
+            figure.savefig(stream, format="svg", dpi=160, metadata={"Date": None})
     except (ResultError, CommandError) as fault:
         return paragraph(f"No figure here: {fault}", "note")
     except ImportError as fault:
