@@ -106,6 +106,7 @@ same 'thresholds, array job, merged' threshold_array/threshold.rattle thresholds
 
 say 'a gearbox over speed and oil temperature, every class verified: array job and MPI jobs'
 sed 's/count = 25, 29/count = 7, 9/' "$repository/input/gearbox_map.nml" > gearbox.nml
+cp "$repository/input/gearbox_run_up.csv" .
 "$program" --quiet --threads 1 --output alone gearbox.nml > alone.log 2>&1 || { tail alone.log; give_up 'gearbox'; }
 write_script gearbox_array gearbox --array 3 --time 00:10:00
 array=$(submit gearbox_array/gearbox.slurm)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import signal
 import subprocess
 from pathlib import Path
@@ -493,6 +494,7 @@ def test_lines_that_are_no_scenes(run, found, scene_text, tmp_path: Path) -> Non
 def test_every_gear_of_a_box_has_its_curve(run, repository: Path, tmp_path: Path) -> None:
     """The thresholds of a pair in a box are those of its campaign alone; the figure names the pairs."""
     text = (repository / "input" / "gearbox_map.nml").read_text().partition("&campaign")[0]
+    shutil.copy(repository / "input" / "gearbox_run_up.csv", tmp_path)
     changes = ["scene.task='threshold'", "threshold.key='load.force_scale'", "threshold.first=0.05"]
     changes += ["threshold.last=5.0", "threshold.criterion='double_sided'", "threshold.tolerance=1e-2"]
     changes += [

@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 import scenes
 
-READY = Path("input/gearbox_map.nml")
+READY = Path(__file__).with_name("gearbox.nml")
 AXES = {
     "shaft.speed_rpm": (600.0, 3000.0),
     "oil.temperature_celsius": (-20.0, 120.0),
@@ -30,7 +30,7 @@ AXES = {
     "load.force_scale": (0.5, 2.0),
 }
 PAIRS, PERIODS = 4, 60
-# All columns of the ready input but `verified`
+# All columns of the input but `verified`
 RECORDED = (
     "rattle_class,double_sided,film_minimum,acceleration_minimum,acceleration_maximum,acceleration_rms,"
     "film_force_rms,dissipated_power,harmonic_count,harmonic_distortion,film_regime,sampling_sufficient,model_limit"
@@ -50,7 +50,7 @@ def campaign(counts: list[int], record: str) -> list[str]:
 
 
 def rigid(place: Path) -> Path:
-    """The ready input with rigid teeth, which the other solvers have."""
+    """The input with rigid teeth, which the other solvers have."""
     path = place / READY.name
     path.write_text(re.sub(r"^ *tooth_stiffness.*\n", "", READY.read_text(), flags=re.M))
     return path
