@@ -85,7 +85,7 @@ contains
       call expect('5 values a trace, then halves down to 33 places;')
       call expect(integer_text(solved)//' of '//integer_text(solved)//' scenes,')
       call expect('  '//counted(crossings, 'crossing')//'; '//integer_text(uncrossed)//' of '//counted(traces, 'trace')// &
-                  ' without any; at '//counted(uncertain, 'crossing')//' a class beside it is not verified'//line_feed)
+                  ' without any; at '//counted(uncertain, 'crossing')//' a side is not verified'//line_feed)
       call expect('the ends of '//counted(wide, 'crossing')//' are verified only farther apart than asked for')
       call expect('scenes that failed are a kind of their own')
       call expect('  '//integer_text(solved)//' scenes; a grid as fine has '//integer_text(nint(grid, int64))// &
