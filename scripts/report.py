@@ -49,13 +49,16 @@ def print_page(source: Path, target: Path, options: argparse.Namespace) -> int:
             f"({', '.join(BROWSERS)}). {source} prints from any browser."
         )
     with tempfile.TemporaryDirectory() as profile:
-        made = Path(profile) / "page.pdf"
+        made, opened = Path(profile) / "page.pdf", Path(profile) / "page.html"
+        opened.write_text(
+            source.read_text(encoding="utf-8").replace("<details>", "<details open>"), encoding="utf-8"
+        )
         arguments = ["--headless", "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer"]
         if os.geteuid() == 0:  # the browser refuses root inside its sandbox
             arguments.append("--no-sandbox")
         try:
             ended = subprocess.run(
-                [browser, *arguments, f"--print-to-pdf={made}", source.resolve().as_uri()],
+                [browser, *arguments, f"--print-to-pdf={made}", opened.as_uri()],
                 capture_output=True,
                 text=True,
                 timeout=LONGEST_PRINT,

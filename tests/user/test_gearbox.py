@@ -404,7 +404,7 @@ def test_the_page_on_all_pairs_names_them_and_the_most_severe(solve, tmp_path: P
     results = [tmp_path / "results" / f"box.{gear}.rattle" for gear in ("1st", "4th")]
     assert call_script("report.py", *results, "--output", output).returncode == 0
     page = read_page(output)
-    assert page.headings[:2] == ["Rattle of the gear pairs of box", "Gear pairs of box"]
+    assert page.headings[:2] == ["Rattle of the gear pairs of box", "Gear pairs, each and together"]
     told = {gear: summary_of(tmp_path / "results" / f"box.{gear}.summary.nml") for gear in ("1st", "4th")}
     severest = max(told, key=lambda gear: told[gear]["film_force_rms"])
     assert f"{severest} is the most severe: it loads its bearings with" in page.words

@@ -18,6 +18,7 @@ from told import SPOKEN, stated_error
 import rattle
 from rattle import codes
 from rattle.keys import key_table
+from rattle.report import motion, page
 from rattle.summary import comparison_table
 
 Told = Mapping[str, Any]
@@ -160,6 +161,7 @@ def reader_of_ranges(columns: Mapping[str, np.ndarray], units: Mapping[str, str]
 
 # --- one motion ----------------------------------------------------------------------------------------
 
+NUMBERS = ("In numbers", "")
 ERRORS = ("", "Value", "Error at most")
 QUANTITIES = ("Quantity", "Value", "Meaning")
 LINES = ("Harmonic", "Amplitude", "Error at most")
@@ -180,6 +182,19 @@ def reader_of_errors(told: Told) -> Callable[[Rows], None]:
                 assert_shows(row[2], error, codes.QUANTITIES[name].unit)
             else:
                 assert row[2] == "not known"
+
+    return read
+
+
+def reader_of_numbers(told: Told) -> Callable[[Rows], None]:
+    """Each row is that of a quantity, rounded to four digits, and none stands there twice."""
+
+    def read(rows: Rows) -> None:
+        names = {words: name for name, words in motion.NUMBERS.items()}
+        shown = [names[row[0]] for row in rows]
+        assert shown == [name for name in motion.NUMBERS if name in told][: page.MOST_NUMBERS]
+        for name, row in zip(shown, rows, strict=True):
+            assert_shows(row[1], told[name], codes.QUANTITIES[name].unit, 4)
 
     return read
 
@@ -325,6 +340,7 @@ def assert_motion(path: Path) -> None:
     shaft = given.get("shaft", {}).get("speed_rpm")
     order = told["frequency"] / (shaft / 60.0) if shaft else None
     readers = {
+        NUMBERS: reader_of_numbers(told),
         ERRORS: reader_of_errors(told),
         QUANTITIES: reader_of_quantities(told),
         LINES: reader_of_lines(told, None),
@@ -332,18 +348,15 @@ def assert_motion(path: Path) -> None:
         COMPUTED: reader_of_computed(given, told),
         KEYS: reader_of_keys(given),
     }
-    assert_tables(page, readers, [ERRORS, QUANTITIES, QUANTITIES, ORDERS if shaft else LINES, COMPUTED, KEYS])
-    # All that the summary tells has a row, and of stiffness and backlash another one.
+    lines = ORDERS if shaft else LINES
+    assert_tables(page, readers, [NUMBERS, ERRORS, QUANTITIES, lines, KEYS, COMPUTED])
+    # All that the summary tells has a row.
     plain = [name for name in told if name in codes.QUANTITIES and not isinstance(told[name], list)]
     assert [row[0] for row in page.tables[2][1:]] == plain
-    remarked = ("stiffness", "deflection", "double_sided", "coast", "backlash")
-    assert [row[0] for row in page.tables[1][1:]] == [
-        name for name in plain if any(word in name for word in remarked)
-    ]
     sentences, silent = sentences_on_motion(told, given)
     periods = min(4, result.whole_periods)
     sentences.append(f"Acceleration over the last {periods} periods of the force.")
-    short = page.paragraphs[1]
+    (short,) = (words for words in page.paragraphs if words.endswith("All inputs stand below."))
     sentences += asked(given, short)
     gears = [keys for group, keys in given.items() if group.partition("(")[0] == "gear"]
     for gear in gears:
@@ -360,8 +373,12 @@ def assert_motion(path: Path) -> None:
     sentences += [f"{words[:1].upper()}{words[1:]}." for words in odd]
     assert_numbers(page, sentences, silent)
     word = SPOKEN.get(told["rattle_class"], told["rattle_class"])
-    assert page.paragraphs[2] == word + told.get("verification", "not examined")
-    assert page.badges == [told.get("verification", "not examined")]
+    verified = {True: "verified", False: "uncertain", None: "not examined"}[told.get("verdict_verified")]
+    odd_lines = len(odd)
+    assert page.paragraphs[1 + odd_lines] == told["verdict"] + verified
+    second = f"Class by its spectrum: {word}{told.get('verification', 'not examined')}"
+    assert page.paragraphs[2 + odd_lines] == second
+    assert page.badges == [verified, told.get("verification", "not examined")]
 
 
 @pytest.mark.parametrize("name", ("idle", "creep_period_two", "engine_cycle", "loose_gear", "loose_pair"))
@@ -511,9 +528,18 @@ def test_the_page_of_a_campaign_is_its_rows(tmp_path, chosen, failures, undone):
     extra = [name for name in ("rattle_class", "film_regime", "verified") if name in columns]
     head = (*WORST, *(name.replace("_", " ") for name in extra))
     classes = "rattle_class" in columns
-    heads = [CLASSES, VARIED, *([head] if worst else []), RANGES, COMPUTED, KEYS]
+    heads = [
+        NUMBERS,
+        VARIED,
+        *([CLASSES] if classes else []),
+        *([head] if worst else []),
+        RANGES,
+        KEYS,
+        COMPUTED,
+    ]
     told = rattle.read_campaign(path)
     readers = {
+        NUMBERS: lambda rows: assert_numbers_of_campaign(rows, columns, good, dict(made.columns)),
         CLASSES: lambda rows: assert_classes(rows, columns.get("rattle_class")),
         VARIED: assert_varied,
         head: lambda rows: assert_worst(rows, good, extra),
@@ -529,13 +555,12 @@ def test_the_page_of_a_campaign_is_its_rows(tmp_path, chosen, failures, undone):
         KEYS: reader_of_keys(told.input),
     }
     assert_tables(page, readers, heads)
-    sentences += asked(
-        {k: v for k, v in told.input.items() if k != "kinematics"} | {"load": LOAD}, page.paragraphs[1]
-    )
+    (short,) = (words for words in page.paragraphs if words.endswith("All inputs stand below."))
+    sentences += asked({k: v for k, v in told.input.items() if k != "kinematics"} | {"load": LOAD}, short)
     sentences.append("This text, saved as map.nml, repeats the run with: rattle map.nml")
     sentences.append("Save as map.nml")
     if classes:
-        top = page.paragraphs[3 if undone else 2]
+        top = page.paragraphs[2 if undone else 1]
         known = columns["rattle_class"][np.isfinite(columns["rattle_class"])]
         words = [CLASSES_SPOKEN[int(code)] for code in known]
         common = max(dict.fromkeys(words), key=words.count)
@@ -582,6 +607,27 @@ def sentences_on_campaign(
         if name in columns:
             found.append(f"In {int((columns[name] > 0.0).sum())} {words}")
     return found
+
+
+def assert_numbers_of_campaign(
+    rows: Rows, columns: Mapping[str, np.ndarray], good: Mapping[str, np.ndarray], units: Mapping[str, str]
+) -> None:
+    """How many scenes there are, how often each class is, and the worst of what is recorded."""
+    shown, done = dict(rows), len(columns["scene"])
+    assert len(rows) == len(shown) <= page.MOST_NUMBERS
+    assert shown.pop("Scenes") == str(done)
+    assert shown.pop("of these failed") == str(done - len(good["scene"]))
+    known = columns.get("rattle_class", np.array([]))
+    for code in np.unique(known[np.isfinite(known)]):
+        count = int((known == code).sum())
+        assert shown.pop(CLASSES_SPOKEN[int(code)].capitalize()) == share(count, done)
+    for name, words, end in (
+        ("acceleration_maximum", "Largest acceleration", np.nanmax),
+        ("film_minimum", "Thinnest film", np.nanmin),
+    ):
+        if name in good:
+            assert_shows(shown.pop(words), float(end(good[name])), units[name], 4)
+    assert not shown
 
 
 def assert_classes(rows: Rows, column: np.ndarray | None) -> None:
@@ -633,12 +679,13 @@ def test_the_page_of_a_film_task_is_its_rows(run, repository, tmp_path):
         COMPUTED: reader_of_computed(result.input, told),
         KEYS: reader_of_keys(result.input),
     }
-    assert_tables(page, readers, [RANGES, COMPUTED, KEYS])
+    assert_tables(page, readers, [RANGES, KEYS, COMPUTED])
+    (short,) = (words for words in page.paragraphs if words.endswith("All inputs stand below."))
     sentences = [
         f"The film at {result.row_count} points: load, stiffness and damping",
         f"The range of each column of the result over its {result.row_count} rows.",
         "This text, saved as film.nml, repeats the run with: rattle film.nml",
         "Save as film.nml",
-        *asked(result.input, page.paragraphs[1]),
+        *asked(result.input, short),
     ]
     assert_numbers(page, sentences)

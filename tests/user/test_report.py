@@ -70,8 +70,8 @@ def test_all_numbers_are_shown_as_their_digits_say(motion):
     page = read_page(report(motion))
     assert len(page.numbers) > 80
     for digits, shown in page.numbers:
-        # Errors have two digits, all else six.
-        rounded = [float(f"{float(digits):.{count}g}") for count in (2, 6)]
+        # Errors have two digits, what everybody should see four, all else six.
+        rounded = [float(f"{float(digits):.{count}g}") for count in (2, 4, 6)]
         # Checksums are shown as they are.
         known = shown == digits or any(number(shown) == pytest.approx(value, rel=1e-9) for value in rounded)
         assert known, (digits, shown)
@@ -98,9 +98,10 @@ def test_verified_stands_there_exactly_if_the_summary_says_so(motion, verificati
         motion,
         verification=verification and f"'{verification}'",
         verification_text=verification and text,
+        verdict_verified=None,
     )
     page = read_page(report(motion))
-    assert page.badges == [verification or "not examined"]
+    assert page.badges == ["not examined", verification or "not examined"]
     assert ("The reason of this test." in page.verdicts[0]) == (verification is not None)
     assert ("verified" in page.verdicts[0]) == (verification == "verified")
     assert ("not solved a second time" in page.verdicts[0]) == (verification is None)
@@ -109,14 +110,35 @@ def test_verified_stands_there_exactly_if_the_summary_says_so(motion, verificati
 def test_a_scene_that_was_not_verified_is_not_called_so(solved):
     result = solved("plain", spectrum={"verify": ".false."}) / "plain.rattle"
     page = read_page(report(result))
-    assert page.badges == ["not examined"]
+    assert page.badges == ["not examined", "not examined"]
+
+
+@pytest.mark.parametrize(
+    ("flag", "word"), ((".true.", "verified"), (".false.", "uncertain"), (None, "not examined"))
+)
+def test_the_verdict_comes_first_with_its_own_verification(motion, flag, word):
+    with_summary(motion, verdict="'single-sided impacts'", verdict_verified=flag, verification="'verified'")
+    page = read_page(report(motion))
+    assert page.verdicts[0].split("\n")[1].startswith(f"single-sided impacts{word}")
+    assert page.badges == [word, "verified"]
+
+
+def test_of_what_is_seen_first_there_are_three_pictures_and_few_numbers(motion):
+    """All else stands behind folds, which print as an appendix."""
+    text = report(motion).read_text()
+    seen, _, rest = text.partition('<section class="appendix">')
+    assert seen.count("<svg") == 3 and "<svg" not in rest
+    assert 8 <= seen.count("data-value") <= 15 and "<details>" not in seen
+    assert seen.index('<div class="verdict') < seen.index("<svg") < seen.index("data-value")
+    assert rest.count("<details>") == rest.count("</details>") == 5
+    assert ".appendix { break-before: page; }" in text
 
 
 @pytest.mark.parametrize("word", codes.CLASSES.values())
 def test_the_class_is_the_one_of_the_summary(motion, word):
     with_summary(motion, rattle_class=f"'{word}'", harmonic_count="17", orbit_period="3")
     verdict = read_page(report(motion)).verdicts[0]
-    assert verdict.strip().startswith(SPOKEN.get(word, word))
+    assert f"Class by its spectrum: {SPOKEN.get(word, word)}" in verdict
     named = {"quiet": "Quiet:", "creep": "Creep rattle:", "idle": "Idle rattle:"}
     named |= {"irregular": "Irregular rattle:", "subharmonic": "Subharmonic rattle:"}
     named |= {"irregular_so_far": "Irregular so far:"}
@@ -304,7 +326,7 @@ def test_several_results_share_a_page(motion, solved):
     page = read_page(report(motion, other))
     assert page.headings[0] == "Rattle of 2 results"
     assert [anchor for anchor in page.anchors if anchor] == ["result-1", "result-2"]
-    assert len(page.badges) == len(page.verdicts) == 2
+    assert len(page.badges) == 2 * len(page.verdicts) == 4
     assert ["", "calm", "loose"] in page.rows
 
 
@@ -344,6 +366,25 @@ def test_without_a_browser_the_page_is_there_and_the_pdf_is_not(motion, tmp_path
     assert done.returncode == 2
     assert output.exists() and not pdf.exists()
     assert done.stderr.count("\n") == 1 and "no browser" in done.stderr
+
+
+def test_folds_are_open_in_print(motion, tmp_path):
+    """A browser of this test keeps the page that it is given."""
+    browser = tmp_path / "chromium"
+    browser.write_text(f"""#!/bin/sh
+for word; do case "$word" in
+  file://*) cp "${{word#file://}}" {tmp_path}/given.html;;
+  --print-to-pdf=*) echo %PDF > "${{word#*=}}";;
+esac; done
+""")
+    browser.chmod(0o755)
+    output, pdf = tmp_path / "a.html", tmp_path / "a.pdf"
+    done = call_script(
+        "report.py", motion, "--output", output, "--pdf", pdf, PATH=f"{tmp_path}:/usr/bin:/bin"
+    )
+    assert done.returncode == 0 and pdf.exists(), done.stderr
+    given = (tmp_path / "given.html").read_text()
+    assert given == output.read_text().replace("<details>", "<details open>") != output.read_text()
 
 
 def test_a_browser_that_fails_is_named(motion, tmp_path):

@@ -57,6 +57,19 @@ def fit(figure: Figure, options: Namespace) -> None:
         figure.set_figheight(height + added)
 
 
+def shrink(figure: Figure, width: float) -> None:
+    """Make a figure as narrow as a page asks for: smaller panels, type as it is."""
+    ratio = width / float(figure.get_figwidth())
+    if ratio < 1.0:
+        height = float(figure.get_figheight()) * ratio**0.5
+        before = rows_of_text(figure)
+        figure.set_size_inches(width, height)
+    narrow_legends(figure)
+    if ratio < 1.0 and figure.get_layout_engine() is not None:
+        wrap_words(figure, {text: text.get_text() for text in figure.findobj(Text)})
+        figure.set_figheight(height + max(rows_of_text(figure) - before, 0) * 1.25 * 9.0 / 72.0)
+
+
 def is_narrow(width: float | None) -> bool:
     """Whether a figure of a width [inches] has no room for panels beside each other."""
     return width is not None and width < COLUMN

@@ -25,6 +25,10 @@ EARLIER_TABLE = (
     "The table is that of an earlier version of rattle, which does not say how the film forces of all pairs "
     "add; solve the input again to know that."
 )
+# What is seen, and what stands behind folds.
+Parts = tuple[list[str], list[str]]
+# What of each gear pair everybody should see.
+SEEN = ("film_force_rms", "acceleration_maximum", "film_minimum")
 # Columns of the table of a gearbox.
 TOGETHER = (
     "film_minimum",
@@ -47,9 +51,11 @@ def report(paths: Sequence[Path]) -> str:
     results = [opened(path) for path in paths]
     names = [path.name.removesuffix(".rattle") for path in paths]
     boxes = gearboxes(results)
-    title = f"Rattle of {names[0]}" if len(names) == 1 else f"Rattle of {len(names)} results"
     if len(boxes) == 1 and len(next(iter(boxes.values()))["gears"]) == len(names):
-        title = f"Rattle of the gear pairs of {next(iter(boxes))}"
+        name, box = next(iter(boxes.items()))
+        title = f"Rattle of the gear pairs of {name}"
+        return page.document(title, [page.heading(1, title), *page_of_box(results, names, box)])
+    title = f"Rattle of {names[0]}" if len(names) == 1 else f"Rattle of {len(names)} results"
     what = OF_THRESHOLDS if {result.task for result in results} == {"threshold"} else OF_MOTIONS
     body = [page.heading(1, title), page.paragraph(ABOUT.format(what=what), "lead")]
     if len(results) > 1:
@@ -59,6 +65,54 @@ def report(paths: Sequence[Path]) -> str:
             body.append(page.heading(1, name, f"result-{place}"))
         body += part(result, name)
     return page.document(title, body)
+
+
+def page_of_box(results: Sequence[ResultFile], names: Sequence[str], box: Summary) -> list[str]:
+    """All gear pairs of an input: verdict, the severest in pictures, numbers; each pair behind a fold."""
+    summaries = [summary for result in results if (summary := motion.summary_of(result))]
+    words, table = together(box)
+    hit = [gear for gear, told in box["gears"].items() if "impacts" in str(told.get("verdict", ""))]
+    told = [
+        f"{gear}: {str(told['verdict']).strip()}" for gear, told in box["gears"].items() if "verdict" in told
+    ]
+    head = f"{len(hit)} of {len(box['gears'])} gear pairs have impacts"
+    folds = page.fold("Gear pairs, each and together", [table])
+    folds += page.fold("Side by side", side_by_side(summaries))
+    for place, (result, name) in enumerate(zip(results, names, strict=True), 1):
+        folds += page.fold(name, part(result, name), f"result-{place}")
+    return [
+        page.paragraph(ABOUT.format(what=OF_MOTIONS), "lead"),
+        page.verdict_box(head, None, [f"{'; '.join(told)}." if told else "", words], doubt=False),
+        *odd_numbers_of(box, summaries),
+        *severest_pair(results, box),
+        *page.appendix(folds),
+    ]
+
+
+def severest_pair(results: Sequence[ResultFile], box: Summary) -> list[str]:
+    """Pictures of the gear pair that loads its bearings most, and the numbers of all pairs."""
+    forces = forces_of(box)
+    gear = max(forces, key=forces.get) if forces else ""
+    drawn = []
+    for result in results:
+        if gear and result.path.name == f"{box['name']}.{gear}.rattle":
+            drawn = [page.paragraph(f"{gear}, the most severe, in pictures:"), *motion.figures(result)]
+    rows = [
+        [gear, *(number_of(told, name) for name in SEEN)]
+        for gear, told in sorted(box["gears"].items(), key=lambda pair: -forces.get(pair[0], -1.0))
+    ]
+    return [*drawn, *page.numbers(rows, ("Gear", *(look.capital(look.short_name(name)) for name in SEEN)))]
+
+
+def forces_of(box: Summary) -> dict[str, float]:
+    """What each pair loads its bearings with [N rms], where it is known."""
+    return {
+        gear: float(told["film_force_rms"]) for gear, told in box["gears"].items() if "film_force_rms" in told
+    }
+
+
+def number_of(told: Summary, name: str) -> str:
+    return page.value(float(told[name]), QUANTITIES[name].unit, page.FEW_DIGITS) if name in told else "-"
 
 
 def opened(path: Path) -> ResultFile:
@@ -72,79 +126,65 @@ def part(result: ResultFile, name: str) -> list[str]:
     if isinstance(result, Campaign):
         parts = campaign_part(result)
     elif isinstance(result, Result) and result.row_count == 0:
-        parts = [page.paragraph("This result holds no row, so there is nothing to tell of it.", "note")]
+        parts = ([page.paragraph("This result holds no row, so there is nothing to tell of it.", "note")], [])
     elif isinstance(result, Result):
         makers = {"motion": motion_part, "sweep": sweep_part, "threshold": threshold_part, "film": film_part}
         parts = makers.get(result.task, table_part)(result)
-    if not result.closed:
-        words = "This run was not finished when the page was written; what it had done so far is shown."
-        parts.insert(0, page.paragraph(words, "note"))
+    unfinished = "This run was not finished when the page was written; what it had done so far is shown."
+    parts, folds = parts
     return [
-        page.paragraph(asked.in_short(result)),
-        *parts,
-        page.heading(2, "What was asked"),
+        *([] if result.closed else [page.paragraph(unfinished, "note")]),
         *motion.odd_numbers(result),
-        *asked.inputs(result),
-        page.heading(2, "How to compute it again"),
-        *asked.repeat(result, name),
+        *parts,
+        *page.appendix(
+            [
+                *folds,
+                *page.fold("What was asked", [page.paragraph(asked.in_short(result)), *asked.inputs(result)]),
+                *page.fold("How it was computed", motion.computed(result, motion.summary_of(result))),
+                *page.fold("How to compute it again", asked.repeat(result, name)),
+            ]
+        ),
     ]
 
 
-def motion_part(result: Result) -> list[str]:
+# What is seen of a result of each task, and what stands behind folds.
+
+
+def motion_part(result: Result) -> Parts:
     summary = motion.summary_of(result)
-    parts = [page.heading(2, "Verdict"), *motion.verdict(result, summary)]
-    if summary:
-        parts.append(motion.key_figures(summary))
-        remarks = motion.remarks(summary)
-        if remarks:
-            parts += [page.heading(2, "Stiffness of the teeth and backlash"), *remarks]
-    parts += [page.heading(2, "The motion in pictures"), *motion.figures(result)]
-    if summary:
-        parts += [page.heading(2, "All quantities"), *motion.quantities(result, summary)]
-    return [*parts, page.heading(2, "How it was computed"), *motion.computed(result, summary)]
-
-
-def sweep_part(result: Result) -> list[str]:
-    return [
-        page.heading(2, "Verdict"),
-        *sweep.verdict(result),
-        *sweep.tables(result),
-        page.heading(2, "The sweep in pictures"),
-        *sweep.figures(result),
-        page.heading(2, "How it was computed"),
-        *motion.computed(result, motion.summary_of(result)),
+    parts = [*motion.verdict(result, summary), *motion.figures(result)]
+    if not summary:
+        return parts, []
+    folds = page.fold("Errors of the extremes", [motion.key_figures(summary)])
+    return [*parts, *motion.numbers(summary)], [
+        *folds,
+        *page.fold("All quantities", motion.quantities(result, summary)),
     ]
 
 
-def threshold_part(result: Result) -> list[str]:
+def sweep_part(result: Result) -> Parts:
+    parts = [*sweep.verdict(result), *sweep.figures(result), *sweep.numbers(result)]
+    folds = page.fold("What the classes mean", sweep.meanings(result))
+    return parts, [*folds, *page.fold("All stretches of one class", sweep.tables(result))]
+
+
+def threshold_part(result: Result) -> Parts:
     summary = motion.summary_of(result)
-    return [
-        page.heading(2, "Verdict"),
-        *threshold.verdict(result, summary),
-        page.heading(2, "The thresholds in pictures"),
-        *threshold.figures(result),
-        page.heading(2, "Numbers"),
-        *threshold.tables(result),
-        page.heading(2, "How it was computed"),
-        *motion.computed(result, summary),
-    ]
+    parts = [*threshold.verdict(result, summary), *threshold.figures(result), *threshold.numbers(result)]
+    folds = page.fold("What the classes mean", threshold.meanings(result))
+    return parts, [*folds, *page.fold("All thresholds", threshold.tables(result))]
 
 
-def campaign_part(result: Campaign) -> list[str]:
-    return [
-        page.heading(2, "Verdict"),
-        *campaign.verdict(result),
-        campaign.keys_table(result),
-        page.heading(2, "The campaign in pictures"),
-        *campaign.figures(result),
-        page.heading(2, "Numbers"),
-        *campaign.tables(result),
-        page.heading(2, "How it was computed"),
-        *motion.computed(result, motion.summary_of(result)),
-    ]
+def campaign_part(result: Campaign) -> Parts:
+    seen, others = campaign.figures(result)
+    parts = [*campaign.verdict(result), *seen, *campaign.numbers(result)]
+    folds = page.fold("What was varied", [campaign.keys_table(result)])
+    folds += page.fold("What the classes mean", campaign.meanings(result))
+    folds += page.fold("More pictures", others)
+    return parts, [*folds, *page.fold("All quantities", campaign.tables(result))]
 
 
-def film_part(result: Result) -> list[str]:
+def film_part(result: Result) -> Parts:
     choice = film_points.Choice(None, None)
     drawn = [
         page.drawing(
@@ -155,23 +195,19 @@ def film_part(result: Result) -> list[str]:
     words = (
         f"The film at {result.row_count} points: load, stiffness and damping of the oil between the flanks."
     )
-    return [page.heading(2, "The film in pictures"), page.paragraph(words), *drawn, *table_part(result)]
+    seen, folds = table_part(result)
+    return [page.paragraph(words), *drawn[:3], *seen], [*page.fold("More pictures", drawn[3:]), *folds]
 
 
-def table_part(result: Result) -> list[str]:
+def table_part(result: Result) -> Parts:
     """The range of every column, for tasks without a page of their own."""
     rows = [
         (name, QUANTITIES[name].meaning if name in QUANTITIES else "", result.units[name], result[name])
         for name in result.names
         if words_of(name) is None
     ]
-    return [
-        page.heading(2, "Numbers"),
-        page.paragraph(f"The range of each column of the result over its {result.row_count} rows.", "note"),
-        page.ranges(rows),
-        page.heading(2, "How it was computed"),
-        *motion.computed(result, motion.summary_of(result)),
-    ]
+    words = f"The range of each column of the result over its {result.row_count} rows."
+    return [], page.fold("All columns", [page.paragraph(words, "note"), page.ranges(rows)])
 
 
 def overview(results: Sequence[ResultFile], names: Sequence[str], boxes: Mapping[str, Summary]) -> list[str]:
@@ -183,14 +219,20 @@ def overview(results: Sequence[ResultFile], names: Sequence[str], boxes: Mapping
     summaries = [summary for result in motions if (summary := motion.summary_of(result))]
     parts = [f"<nav>{links}</nav>"]
     for name, box in boxes.items():
-        parts += [page.heading(2, f"Gear pairs of {name}"), *together(box), *odd_numbers_of(box, summaries)]
-    if len(summaries) > 1:
-        head, *rows = comparison_table(summaries)
-        for row in rows:
-            row[0] = row[0].replace("[um]", "[\N{MICRO SIGN}m]").replace("/s2]", "/s\N{SUPERSCRIPT TWO}]")
-        kinds = ["", *("number" for _ in summaries)]
-        parts += [page.heading(2, "Side by side"), page.table(head, rows, kinds=kinds)]
-    return parts
+        words, table = together(box)
+        parts += [page.heading(2, f"Gear pairs of {name}"), page.paragraph(words), table]
+        parts += odd_numbers_of(box, summaries)
+    return [*parts, *page.fold("Side by side", side_by_side(summaries))]
+
+
+def side_by_side(summaries: Sequence[Summary]) -> list[str]:
+    """The summaries of several motions in one table."""
+    if len(summaries) < 2:
+        return []
+    head, *rows = comparison_table(summaries)
+    for row in rows:
+        row[0] = row[0].replace("[um]", "[\N{MICRO SIGN}m]").replace("/s2]", "/s\N{SUPERSCRIPT TWO}]")
+    return [page.table(head, rows, kinds=["", *("number" for _ in summaries)])]
 
 
 def gearboxes(results: Sequence[ResultFile]) -> dict[str, Summary]:
@@ -219,8 +261,8 @@ def odd_numbers_of(box: Summary, summaries: Sequence[Summary]) -> list[str]:
     return motion.notes_on(lines)
 
 
-def together(box: Summary) -> list[str]:
-    """What the gear pairs of an input do, each and together."""
+def together(box: Summary) -> tuple[str, str]:
+    """What the gear pairs of an input do, each and together: a sentence and a table."""
     heads = ("Gear", "Class", "Verdict", *(look.capital(look.short_name(name)) for name in TOGETHER))
     rows = []
     sums = {
@@ -235,14 +277,9 @@ def together(box: Summary) -> list[str]:
         # Tables of earlier versions tell of double-sided impacts alone.
         earlier = {True: "double-sided impacts", False: "no double-sided impacts"}
         verdict = str(told.get("verdict", earlier.get(told.get("double_sided"), "-")))
-        numbers = [
-            page.value(float(told[name]), QUANTITIES[name].unit, 4) if name in told else "-"
-            for name in TOGETHER
-        ]
+        numbers = [number_of(told, name) for name in TOGETHER]
         rows.append([gear, spoken(str(told.get("rattle_class", "-"))), verdict, *numbers])
-    known = {
-        gear: float(told["film_force_rms"]) for gear, told in box["gears"].items() if "film_force_rms" in told
-    }
+    known = forces_of(box)
     words = EARLIER_TABLE
     if "film_force_text" in box:
         words = f"Of the film forces, which the bearings of the shaft feel, {box['film_force_text']}."
@@ -252,4 +289,4 @@ def together(box: Summary) -> list[str]:
             f"{severest} is the most severe: it loads its bearings with {known[severest]:.3g} N rms. {words}"
         )
     kinds = ("", "", "", *("number" for _ in TOGETHER))
-    return [page.paragraph(words), page.table(heads, rows, kinds=kinds, kind="dense")]
+    return words, page.table(heads, rows, kinds=kinds, kind="dense")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
@@ -16,34 +16,104 @@ from rattle.codes import QUANTITIES, spoken, word, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, campaign_slice
 from rattle.report import motion, page
+from rattle.thresholds import LEAST_WITH_IMPACTS
 
 # Columns that are drawn where they are recorded, and what their picture shows.
 DRAWN = {
+    "verdict": "What the tooth does in its gap over the varied keys. Contours: film force on the bearings "
+    "[N rms]. Beyond the green line, on the side of its ticks, the film law does not hold. Hatched: not "
+    "verified.",
     "rattle_class": "Class of the motion over the varied keys. Hatched in grey: no class, because the scene "
     "failed or is not done; hatched in colour: not verified.",
-    "verified": "Whether the class is verified: a second solution with a tighter tolerance agrees.",
+    "film_force_rms": "Fluctuation of the force on the bearings of the shaft: how severe the rattle is.",
     "acceleration_maximum": "Largest acceleration: how hard the tooth is thrown back by the film.",
     "film_minimum": "Thinnest film: how close the flanks come.",
-    "film_force_rms": "Fluctuation of the force on the bearings of the shaft: how severe the rattle is.",
+    "verified": "Whether the class is verified: a second solution with a tighter tolerance agrees.",
 }
+MOST_SEEN = 3
+# The numbers that everybody should see beside the shares: columns, which end is worst, and words.
+ENDS = (
+    ("film_force_rms", np.max, "Largest film force on the bearings, rms"),
+    ("acceleration_maximum", np.max, "Largest acceleration"),
+    ("film_minimum", np.min, "Thinnest film"),
+    ("alpha_p_maximum", np.max, "Largest pressure times the pressure-viscosity coefficient"),
+)
 WORST_BY = "acceleration_maximum"
 WORST_COUNT = 10
 EXTRA = ("rattle_class", "film_regime", "verified")
 
 
 def verdict(campaign: Campaign) -> list[str]:
-    counts = counted(campaign, "rattle_class")
+    """The most common verdict, or where it is not recorded the most common class."""
+    counts = counted(campaign, "verdict") or counted(campaign, "rattle_class")
     done = int(campaign.done.sum())
     most = [f"{name} in {look.share(count, done)} of the scenes" for name, count in counts.most_common(1)]
     doubt = not campaign.done.all() or bool(campaign.failed.any())
     doubt = doubt or ("verified" in campaign and verifications(campaign)[1] > 0)
-    box = page.verdict_box("".join(most) or "no class", None, list(sentences_on(campaign)), doubt=doubt)
-    return [box, motion.class_meanings(name for name, _ in counts.most_common())]
+    words = "".join(most) or "no class"
+    return [page.verdict_box(words, None, list(sentences_on(campaign)), doubt=doubt)]
+
+
+def meanings(campaign: Campaign) -> list[str]:
+    counts = counted(campaign, "rattle_class")
+    return [motion.class_meanings(name for name, _ in counts.most_common())] if counts else []
+
+
+def numbers(campaign: Campaign) -> list[str]:
+    """How often each verdict or class is, and the worst of what is recorded, of each of several pairs."""
+    if len(campaign.gears) > 1 and len(campaign.pairs) > 1:
+        return numbers_of_pairs(campaign)
+    done = int(campaign.done.sum())
+    rows = [["Scenes", str(done)], ["of these failed", str(int(campaign.failed.sum()))]]
+    for column in ("verdict", "rattle_class"):
+        for name, count in counted(campaign, column).most_common():
+            rows.append([look.capital(name), look.share(count, done)])
+        if len(rows) > 2:
+            break
+    return page.numbers([*rows, *ends_of(campaign)])
+
+
+def ends_of(campaign: Campaign) -> list[list[str]]:
+    """The worst of each column that is recorded."""
+    rows = [[words, end_of(campaign, name, end)] for name, end, words in ENDS if name in campaign]
+    return [row for row in rows if row[1] != "-"]
+
+
+def end_of(campaign: Campaign, name: str, end: Callable[[np.ndarray], float]) -> str:
+    """The largest or the smallest of a column, failed scenes left out."""
+    values = campaign[name][~campaign.failed]
+    finite = values[np.isfinite(values)]
+    return page.value(float(end(finite)), campaign.units[name], page.FEW_DIGITS) if finite.size else "-"
+
+
+def numbers_of_pairs(campaign: Campaign) -> list[str]:
+    """Of each gear pair in how many scenes it has impacts, and the worst of what is recorded."""
+    impacts = "verdict" in campaign
+    ends = [end for end in ENDS if end[0] in campaign][: 3 - impacts]
+    heads = ["Gear", *(["Impacts in"] if impacts else []), *(words for _, _, words in ends)]
+    rows = []
+    for gear, alone in zip(campaign.gears, campaign.pairs, strict=True):
+        row = [gear]
+        if impacts:
+            hit = int((alone["verdict"] >= LEAST_WITH_IMPACTS).sum())
+            row.append(look.share(hit, int(alone.done.sum())))
+        rows.append([*row, *(end_of(alone, name, end) for name, end, _ in ends)])
+    return page.numbers(rows, heads) if len(heads) > 1 else []
 
 
 def sentences_on(campaign: Campaign) -> Iterator[str]:
     done, failed = int(campaign.done.sum()), int(campaign.failed.sum())
     yield f"{done} of {campaign.row_count} scenes are solved; {failed} of them failed."
+    if "verdict" in campaign:
+        shares = [
+            f"{name} in {count} ({look.share(count, done)})"
+            for name, count in counted(campaign, "verdict").most_common()
+        ]
+        yield f"Verdict: {', '.join(shares)}." if shares else "No scene has a verdict."
+    if "verdict_verified" in campaign:
+        flags = campaign["verdict_verified"][campaign.done]
+        lacking, known = int((flags == 0.0).sum()), int(np.isfinite(flags).sum())
+        yield f"Solved again, tighter, {lacking} of {known} verdicts are others."
     counts = counted(campaign, "rattle_class")
     if counts:
         shares = [f"{name} in {count} ({look.share(count, done)})" for name, count in counts.most_common()]
@@ -97,15 +167,33 @@ def counted(campaign: Campaign, column: str) -> Counter[str]:
     return Counter(spoken(word(column, code)) for code in codes[np.isfinite(codes)].tolist())
 
 
-def figures(campaign: Campaign) -> list[str]:
-    """The pictures of each gear pair."""
-    if not campaign.gears:
-        return figures_of_pair(campaign)
-    drawn = []
+def figures(campaign: Campaign) -> tuple[list[str], list[str]]:
+    """The pictures that everybody should see, of several pairs those of all together; and the others."""
+    if len(campaign.pairs) == 1:
+        drawn = figures_of_pair(campaign)
+        return drawn[:MOST_SEEN], drawn[MOST_SEEN:]
+    others = []
     for gear, alone in zip(campaign.gears, campaign.pairs, strict=True):
         if alone.done.any():
-            drawn += [page.heading(3, f"Gear {gear}"), *figures_of_pair(alone)]
-    return drawn
+            others += [page.heading(3, f"Gear {gear}"), *figures_of_pair(alone)]
+    if campaign.kind != GRID or len(campaign.pairs[0].varied) < 2:
+        first = 1 + len(figures_of_pair(campaign.pairs[0])[:MOST_SEEN])
+        return others[:first], others[first:]
+    free = campaign.pairs[0].varied[:2]
+    sections = {
+        gear: new_section(alone, free, {})
+        for gear, alone in zip(campaign.gears, campaign.pairs, strict=True)
+        if alone.done.any()
+    }
+    names = [name for name in DRAWN if name in campaign][:MOST_SEEN]
+    return [
+        page.drawing(
+            partial(campaign_map.draw_pairs, sections, [name], campaign_map.Options()),
+            DRAWN[name],
+            f"{campaign.name} pairs {name}",
+        )
+        for name in names
+    ], others
 
 
 def figures_of_pair(campaign: Campaign) -> list[str]:
@@ -123,8 +211,7 @@ def figures_of_pair(campaign: Campaign) -> list[str]:
     for name, words in DRAWN.items():
         if name not in campaign:
             continue
-        contours = campaign_map.CONTOURS if name == "rattle_class" else ()
-        options = campaign_map.Options(contours)
+        options = campaign_map.Options(None if name in ("verdict", "rattle_class") else ())
         if campaign.kind == GRID:
             section = new_section(campaign, (x, y), {})
             held = f" Held: {section.words}." if section.held else ""

@@ -116,7 +116,26 @@ VERDICTS = {
     "single-sided impacts": "The tooth hits one flank (single-sided impacts).",
     "double-sided impacts": "The tooth hits both flanks of its gap (double-sided impacts).",
 }
-REMARK_WORDS = ("stiffness", "deflection", "double_sided", "coast", "backlash")
+VERIFIED_VERDICT = {True: ("good", "verified"), False: ("doubt", "uncertain"), None: ("open", "not examined")}
+# The numbers that everybody should see, in their order, and what they are.
+NUMBERS = {
+    "film_force_rms": "Film force on the bearings, rms about its mean",
+    "acceleration_rms": "Acceleration, rms",
+    "acceleration_minimum": "Acceleration, least",
+    "acceleration_maximum": "Acceleration, largest",
+    "impacts_per_period_drive": "Impacts a period on the drive flank",
+    "impacts_per_period_coast": "Impacts a period on the coast flank",
+    "impact_load_maximum_drive": "Largest impact on the drive flank",
+    "impact_load_maximum_coast": "Largest impact on the coast flank",
+    "inertia_ratio": "Inertia over drag (above 1 the tooth leaves its flank without oil)",
+    "drag_torque": "Drag torque on the loose gear",
+    "film_minimum": "Thinnest film",
+    "film_maximum": "Thickest film",
+    "dissipated_power": "Power that the films take",
+    "alpha_p_maximum": "Largest pressure times the pressure-viscosity coefficient",
+    "harmonic_count": "Harmonics of the acceleration that stand out",
+    "natural_frequency": "Natural frequency of small motions",
+}
 
 
 def summary_of(result: ResultFile) -> Summary | None:
@@ -138,15 +157,21 @@ def notes_on(lines: Iterable[str]) -> list[str]:
 
 
 def verdict(result: Result, summary: Summary | None) -> list[str]:
-    """The class, its verification, and what must be known beside it."""
+    """The verdict, its verification, the class with its own, and what must be known beside them."""
     if summary is None:
         words = f"No summary stands beside {result.path.name}: its class and errors are not known here."
         return [page.verdict_box("No verdict", None, [words], doubt=True)]
     sentences = list(verdict_sentences(result, summary))
-    word = str(summary.get("rattle_class", "no class")).strip()
+    word = spoken(str(summary.get("rattle_class", "no class")).strip())
     badge = badge_of(summary)
     ended = str(summary["status"]).strip() in _ended_well()
-    return [page.verdict_box(spoken(word), badge, sentences, doubt=not ended or badge[0] == "doubt")]
+    doubt = not ended or badge[0] == "doubt"
+    if "verdict" not in summary:
+        return [page.verdict_box(word, badge, sentences, doubt=doubt)]
+    told = str(summary["verdict"]).strip()
+    own = VERIFIED_VERDICT[summary.get("verdict_verified")]
+    second = (f"Class by its spectrum: {word}", badge)
+    return [page.verdict_box(told, own, sentences, doubt=doubt or own[0] == "doubt", second=second)]
 
 
 def badge_of(summary: Summary) -> tuple[str, str]:
@@ -161,6 +186,12 @@ def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
     """Plain sentences, the most important first."""
     if str(summary["status"]).strip() not in _ended_well():
         yield f"The run did not reach its end ({summary['status']}). {summary.get('status_text', '')}".strip()
+    verdict = VERDICTS.get(str(summary.get("verdict", "")).strip())
+    if verdict:
+        yield verdict
+    elif summary.get("double_sided"):
+        # Of a version that knew no impacts.
+        yield "The coast film carries more than the drive film at times: the tooth crosses its gap."
     word = str(summary.get("rattle_class", "")).strip()
     if word in CLASSES:
         yield CLASSES[word].format_map(_words(result, summary))
@@ -183,12 +214,6 @@ def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
     limit = LIMITS.get(str(summary.get("model_limit", "")).strip())
     if limit:
         yield limit
-    verdict = VERDICTS.get(str(summary.get("verdict", "")).strip())
-    if verdict:
-        yield verdict
-    elif summary.get("double_sided"):
-        # Of a version that knew no impacts.
-        yield "The coast film carries more than the drive film at times: the tooth crosses its gap."
     if "stiffness_matters" in summary and "deflection_share" in summary:
         elastic = result.input.get("contact", {}).get("stiffness", 0.0) > 0.0
         share = float(summary["deflection_share"])
@@ -210,10 +235,16 @@ def regime_sentences(summary: Summary) -> Iterator[str]:
         yield CONTRADICTED.format(law=str(summary.get("law", "unknown")).strip())
 
 
-def remarks(summary: Summary) -> list[str]:
-    """Stiffness of the teeth and backlash, as far as the summary tells of them."""
-    names = [name for name in summary if name in QUANTITIES and any(word in name for word in REMARK_WORDS)]
-    return [explained(summary, names)] if names else []
+def numbers(summary: Summary) -> list[str]:
+    """The one table of numbers, those that are known."""
+    rows = [
+        [words, page.value(summary[name], QUANTITIES[name].unit, page.FEW_DIGITS)]
+        for name, words in NUMBERS.items()
+        if name in summary
+    ]
+    meaning = str(summary.get("acceleration_meaning", "")).strip()
+    note = [page.paragraph(f"Accelerations are {meaning}.", "note")] if meaning else []
+    return [*page.numbers(rows), *note] if rows else []
 
 
 def figures(result: Result) -> list[str]:

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from rattle.command import CommandError, words_of_import
 from rattle.figures import style
-from rattle.figures.fit import narrow_legends
+from rattle.figures.fit import shrink
 from rattle.result import ResultError
 from rattle.rounding import ERROR_DIGITS, stated_error
 
@@ -29,6 +29,9 @@ STEPS = {
 }
 UNIT_WORDS = {"m/s2": "m/s\N{SUPERSCRIPT TWO}", "degC": "\N{DEGREE SIGN}C", "-": "", "of key": ""}
 DIGITS = 6
+FEW_DIGITS = 4
+WIDTH = 4.6  # inches of figures: their type is legible on a telephone
+MOST_NUMBERS = 15
 POWER = re.compile(r"e([+-])0*(\d+)$")
 
 STYLE = """
@@ -53,6 +56,8 @@ a { color: var(--blue); }
   padding: .7rem 1rem; margin: .8rem 0; }
 .verdict.doubt { border-color: #d55e00; }
 .class { font-size: 1.5rem; font-weight: 650; margin: 0 0 .2rem; }
+.second { font-weight: 600; margin: 0 0 .3rem; }
+table.numbers { max-width: 40rem; }
 .badge { display: inline-block; font-size: .85rem; font-weight: 600; padding: .1rem .55rem;
   margin-left: .5rem;
   border: 1px solid currentColor; border-radius: .8rem; vertical-align: .2rem; white-space: nowrap; }
@@ -72,7 +77,12 @@ table.explained td.meaning { width: 52%; }
 table.explained td.number { max-width: 17rem; overflow-wrap: break-word; }
 tr.group td { font-weight: 650; padding-top: .7rem; }
 figure { margin: 1.2rem 0; }
-figure svg { display: block; width: 100%; height: auto; max-width: 46rem; }
+figure svg { display: block; width: 100%; height: auto; max-width: 36rem; }
+details { border-top: 1px solid var(--rule); }
+details > summary { cursor: pointer; padding: .3rem 0; }
+details > summary h2 { display: inline; border: 0; padding: 0; font-size: 1.05rem; }
+details details { margin-left: 1rem; }
+.appendix { margin-top: 2.4rem; }
 figcaption { font-size: .9rem; max-width: 46rem; margin-top: .3rem; }
 @media (max-width: 640px) {
   body { padding: 1rem .8rem 2rem; font-size: 15px; }
@@ -93,6 +103,13 @@ figcaption { font-size: .9rem; max-width: 46rem; margin-top: .3rem; }
   thead { display: table-header-group; }
   .wide { overflow: visible; }
   nav, .screen { display: none; }
+  figure svg { max-width: 118mm; }
+  figure { margin: .6rem 0; }
+  h2 { margin-top: 1.2rem; }
+  .appendix { break-before: page; }
+  details > :not(summary) { display: revert; }
+  details::details-content { content-visibility: visible; display: block; }
+  details > summary { list-style: none; }
   pre { font-size: 8pt; }
 }
 """
@@ -119,11 +136,45 @@ def paragraph(words: str, kind: str = "") -> str:
     return f"<p{_kind(kind)}>{escape(words)}</p>"
 
 
-def verdict_box(word: str, badge: tuple[str, str] | None, sentences: Sequence[str], *, doubt: bool) -> str:
-    """The verdict: one word, how far it can be trusted, and sentences of plain text."""
-    mark = f'<span class="badge {badge[0]}">{escape(badge[1])}</span>' if badge else ""
-    lines = [f'<p class="class">{escape(word)}{mark}</p>', *map(paragraph, sentences)]
+def verdict_box(
+    word: str,
+    badge: tuple[str, str] | None,
+    sentences: Sequence[str],
+    *,
+    doubt: bool,
+    second: tuple[str, tuple[str, str]] | None = None,
+) -> str:
+    """The verdict: one word, how far it can be trusted, and a paragraph of plain text.
+
+    `second`: another word below the first, and how far that can be trusted.
+    """
+
+    def headed(words: str, kind: str, own: tuple[str, str] | None) -> str:
+        mark = f'<span class="badge {own[0]}">{escape(own[1])}</span>' if own else ""
+        return f'<p class="{kind}">{escape(words)}{mark}</p>'
+
+    lines = [headed(word, "class", badge), *([headed(second[0], "second", second[1])] if second else [])]
+    lines.append(paragraph(" ".join(filter(None, sentences))))
     return f'<div class="verdict{" doubt" if doubt else ""}">\n' + "\n".join(lines) + "\n</div>"
+
+
+def numbers(rows: Sequence[Sequence[Any]], heads: Sequence[str] = ("In numbers", "")) -> list[str]:
+    """The one table of numbers that everybody should see: words, then numbers, MOST_NUMBERS at most."""
+    rows = rows[: MOST_NUMBERS // (len(heads) - 1)]
+    kinds = ("", *("number" for _ in heads[1:]))
+    return [table(heads, rows, kinds=kinds, kind="numbers")] if rows else []
+
+
+def fold(words: str, parts: Sequence[str], anchor: str = "") -> list[str]:
+    """Parts that open by a click, and in print stand in the appendix."""
+    if not parts:
+        return []
+    return ["<details>", f"<summary>{heading(2, words, anchor)}</summary>", *parts, "</details>"]
+
+
+def appendix(parts: Sequence[str]) -> list[str]:
+    """Folds that begin on a new sheet in print."""
+    return ['<section class="appendix">', *parts, "</section>"] if parts else []
 
 
 def table(
@@ -228,7 +279,7 @@ def drawing(draw: Callable[[], Figure], caption: str, salt: str) -> str:
         with style.house_style(own=False), matplotlib.rc_context({"svg.hashsalt": salt}):
             stream = StringIO()
             figure = draw()
-            narrow_legends(figure)
+            shrink(figure, WIDTH)
             figure.savefig(stream, format="svg", dpi=160, metadata={"Date": None})
     except (ResultError, CommandError) as fault:
         return paragraph(f"No figure here: {fault}", "note")

@@ -51,13 +51,36 @@ def stretches(result: Result) -> list[Stretch]:
 
 
 def verdict(result: Result) -> list[str]:
-    sentences = list(sentences_on(result))
     failed = int((~np.isin(result["status"], SUCCESSES)).sum())
-    names = dict.fromkeys(
-        stretch.word for stretch in stretches(result) if not stretch.word.startswith("failed")
-    )
-    box = page.verdict_box(", ".join(names) or "no class", None, sentences, doubt=failed > 0)
-    return [box, motion.class_meanings(names)]
+    words = ", ".join(names(result)) or "no class"
+    return [page.verdict_box(words, None, list(sentences_on(result)), doubt=failed > 0)]
+
+
+def names(result: Result) -> list[str]:
+    """The classes that occur."""
+    found = (stretch.word for stretch in stretches(result))
+    return list(dict.fromkeys(name for name in found if not name.startswith("failed")))
+
+
+def meanings(result: Result) -> list[str]:
+    return [motion.class_meanings(names(result))]
+
+
+def numbers(result: Result) -> list[str]:
+    """Where the motions are worst, and how many there are."""
+    name, unit = key_of(result)
+    values, kept = result[result.names[0]], np.isin(result["status"], SUCCESSES)
+    rows = [["Motions", str(result.row_count)], ["of these failed", str(int((~kept).sum()))]]
+    if kept.any():
+        loud = int(np.argmax(np.where(kept, peaks(result), -np.inf)))
+        thin = int(np.argmin(np.where(kept, result["film_minimum"], np.inf)))
+        rows += [
+            ["Largest acceleration", page.value(float(peaks(result)[loud]), "m/s2", page.FEW_DIGITS)],
+            [f"at a {name} of", page.value(float(values[loud]), unit, page.FEW_DIGITS)],
+            ["Thinnest film", page.value(float(result["film_minimum"][thin]), "m", page.FEW_DIGITS)],
+            [f"at a {name} of", page.value(float(values[thin]), unit, page.FEW_DIGITS)],
+        ]
+    return page.numbers(rows)
 
 
 def sentences_on(result: Result) -> Iterator[str]:

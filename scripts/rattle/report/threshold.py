@@ -19,17 +19,30 @@ from rattle.thresholds import Thresholds, thresholds, words_of_criterion
 
 MOST_ROWS = 100
 MOST_KINDS = 12
+KINDS = ("From, to", "Thresholds", "Least", "Largest", "Not verified")
+MOST_SEEN = page.MOST_NUMBERS // (len(KINDS) - 1)
 
 
 def verdict(result: Result, summary: Summary | None) -> list[str]:
     found = thresholds(result)
     crossings = int((found.column("crossing") > 0).sum())
     head = "1 threshold" if crossings == 1 else f"{crossings} thresholds" if crossings else "no threshold"
-    box = page.verdict_box(head, None, list(sentences_on(found, summary)), doubt=bool(found.uncertain.any()))
+    return [
+        page.verdict_box(head, None, list(sentences_on(found, summary)), doubt=bool(found.uncertain.any()))
+    ]
+
+
+def meanings(result: Result) -> list[str]:
+    """What the classes are that change; nothing where no class does."""
+    found = thresholds(result)
     if found.quantity != "rattle_class":
-        return [box]
-    names = dict.fromkeys(name for kind in found.kinds for name in kind.split(" to "))
-    return [box, motion.class_meanings(names)]
+        return []
+    return [motion.class_meanings(dict.fromkeys(name for kind in found.kinds for name in kind.split(" to ")))]
+
+
+def numbers(result: Result) -> list[str]:
+    """The most common kinds of change: how many, and where they are least and largest."""
+    return page.numbers(kinds_of(thresholds(result)), KINDS)
 
 
 def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
@@ -82,9 +95,8 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
         yield f"It took {summary['scenes']} scenes; a grid as fine has {times:.3g} times as many."
 
 
-def tables(result: Result) -> list[str]:
-    """Each kind of change and where it is least and largest; then every threshold."""
-    found = thresholds(result)
+def kinds_of(found: Thresholds) -> list[list[str]]:
+    """Each kind of change, the most common first: how many, the least and the largest, and their doubts."""
     unit, crossed = found.range.unit, found.column("crossing") > 0
     rows = []
     for kind, count in Counter(found.kinds[crossed]).most_common(MOST_KINDS):
@@ -92,8 +104,15 @@ def tables(result: Result) -> list[str]:
         ends = places[[np.argmin(found.values[places]), np.argmax(found.values[places])]]
         told = [page.value(float(found.values[place]), unit) for place in ends]
         rows.append([kind, str(count), *told, str(int(found.uncertain[places].sum()))])
-    heads = ("From, to", "Thresholds", "Least", "Largest", "Not verified")
-    parts = [page.table(heads, rows, kinds=("", "number", "number", "number", "number"))] if rows else []
+    return rows
+
+
+def tables(result: Result) -> list[str]:
+    """Each kind of change; then every threshold."""
+    found = thresholds(result)
+    unit, crossed = found.range.unit, found.column("crossing") > 0
+    rows = kinds_of(found)
+    parts = [page.table(KINDS, rows, kinds=("", *["number"] * 4))] if len(rows) > MOST_SEEN else []
     if result.row_count > MOST_ROWS:
         words = f"All {result.row_count} rows stand in the result file; the first {MOST_ROWS} are these."
         parts.append(page.paragraph(words, "note"))
