@@ -18,7 +18,8 @@ module judged_scene
       quantity_coast_film_minimum, quantity_coast_load_maximum, quantity_crest_factor, quantity_damping_ratio, &
       quantity_deflection, quantity_deflection_share, quantity_dissipated_energy, quantity_dissipated_power, &
       quantity_double_sided, quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
-      quantity_inertia_ratio, quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, &
+      quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, quantity_inertia_ratio, &
+      quantity_evaluations, quantity_film_error, quantity_film_force_rms, quantity_film_maximum, &
       quantity_film_maximum_error, quantity_film_minimum, quantity_film_minimum_error, quantity_film_regime, &
       quantity_gear_position_maximum, quantity_gear_position_minimum, quantity_impact_impulse_maximum_coast, &
       quantity_impact_impulse_maximum_drive, quantity_impact_impulse_mean_coast, quantity_impact_impulse_mean_drive, &
@@ -180,6 +181,11 @@ contains
             value = highest(seen_load)%value
          case (quantity_acceleration_rms)
             value = judged%severity%acceleration_rms
+         case (quantity_gear_acceleration_rms)
+            if (judged%resolved%gear_arm > 0.0_dp) value = judged%severity%acceleration_rms/judged%resolved%gear_arm
+         case (quantity_gear_acceleration_maximum)
+            if (judged%resolved%gear_arm > 0.0_dp) &
+               value = max(-lowest(seen_acceleration)%value, highest(seen_acceleration)%value)/judged%resolved%gear_arm
          case (quantity_crest_factor)
             if (judged%severity%acceleration_rms > judged%resolved%noise_floor) &
                value = max(abs(lowest(seen_acceleration)%value), abs(highest(seen_acceleration)%value)) &

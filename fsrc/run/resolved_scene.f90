@@ -20,6 +20,8 @@ module resolved_scene
       type(problem_t) :: problem = problem_t()
       !> Drag torque on a loose gear of &gear
       type(drag_t) :: drag
+      !> Arm by which a force along the normal of the flanks turns the loose gear of &gear [m]; 0: there is none
+      real(dp) :: gear_arm = 0.0_dp
       !> Film that carries Q + m g [m]; 0 where no rigid film does: then nothing that rests on it is known
       real(dp) :: steady_film = 0.0_dp
       !> Of small motions about it, with the total derivatives of the scene's own film; 0: they do not oscillate, or it is not known
@@ -54,6 +56,8 @@ contains
 
       resolved%problem = problem_of(scene)
       if (scene%gear%given) resolved%drag = scene%drag
+      ! The mass of the contact is the inertia of the loose gear over the square of the arm.
+      if (scene%gear%given) resolved%gear_arm = sqrt(scene%gear%loose_inertia/scene%excitation%mass)
       resolved%tooth_compliance = 1.0_dp/scene%contact%flank_stiffness(steel_tooth)
       if (scene%contact%stiffness > 0.0_dp) resolved%tooth_compliance = 1.0_dp/scene%contact%stiffness
       static_load = scene%excitation%static_load()

@@ -26,7 +26,8 @@ module quantities
          quantity_window_periods, quantity_samples_per_period, quantity_series_coarse, quantity_harmonics_by_integrals, &
          quantity_film_minimum, quantity_film_maximum, quantity_velocity_minimum, quantity_velocity_maximum, &
          quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_load_minimum, quantity_load_maximum, &
-         quantity_acceleration_rms, quantity_crest_factor, quantity_acceleration_kurtosis, quantity_film_force_rms, &
+         quantity_acceleration_rms, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum, &
+         quantity_crest_factor, quantity_acceleration_kurtosis, quantity_film_force_rms, &
          quantity_dissipated_energy, quantity_dissipated_power, quantity_coast_film_minimum, quantity_coast_film_maximum, &
          quantity_coast_load_maximum, quantity_reversal, quantity_unloaded_share, quantity_separation, &
          quantity_impacts_per_period_drive, quantity_impacts_per_period_coast, quantity_impact_load_maximum_drive, &
@@ -59,7 +60,7 @@ module quantities
       integer :: code
       character(32) :: name
       !> SI unit, '-' for a pure number
-      character(4) :: unit
+      character(6) :: unit
       integer :: kind
       integer :: part
       integer :: need
@@ -131,6 +132,14 @@ module quantities
          'summary sweep campaign', &
          'Root of the mean square of the acceleration over the window; with a &gear relative to the shaft, along the line of '// &
          'action.', digits=4), &
+      quantity_t(quantity_gear_acceleration_rms, 'gear_acceleration_rms', 'rad/s2', a_number, part_window, needs_nothing, &
+         'summary gears campaign log', &
+         'Rms of the angular acceleration of the loose gear of &gear, relative to a gear that follows the shaft without a gap.', &
+         digits=4), &
+      quantity_t(quantity_gear_acceleration_maximum, 'gear_acceleration_maximum', 'rad/s2', a_number, part_window, &
+         needs_acceleration_range, 'summary gears campaign log', &
+         'Largest size of the angular acceleration of the loose gear, relative to a gear that follows the shaft without a gap.', &
+         digits=4), &
       quantity_t(quantity_crest_factor, 'crest_factor', '-', a_number, part_window, needs_acceleration_range, &
          'summary campaign', &
          'Largest size of the acceleration over acceleration_rms; of a cosine 1.414.'), &

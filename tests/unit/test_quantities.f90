@@ -13,6 +13,7 @@ module test_quantities
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
    use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, quantity_impacts_per_period_drive, &
+                         quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, &
                          quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, &
                           quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
                          quantity_drag_bearing, quantity_drag_churning, quantity_drag_synchroniser, quantity_drag_torque, &
@@ -94,7 +95,7 @@ contains
                   .not. has_elastic_teeth(single%resolved%problem)) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid teeth')
          else if (any(i == [quantity_drag_torque, quantity_drag_bearing, quantity_drag_synchroniser, quantity_drag_churning, &
-                            quantity_inertia_ratio])) then
+                            quantity_inertia_ratio, quantity_gear_acceleration_rms, quantity_gear_acceleration_maximum])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no gear')
          else if (i == quantity_closure_range) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid flanks')

@@ -537,3 +537,16 @@ def test_single_scenes_of_a_campaign_take_their_tables_along(call, run, tmp_path
             found = summary_of(again / "results" / f"{label}.summary.nml")
             assert found["drag_torque"] == rows["drag_torque"][row]
             assert found["inertia_ratio"] == rows["inertia_ratio"][row]
+
+
+def test_the_gear_turns_as_its_tooth_moves(call, tmp_path: Path) -> None:
+    """The angular acceleration is that along the normal over the arm of the base circle, in summary and row."""
+    call(scene(COMPUTED))
+    alone = summary_of(tmp_path / "results" / "pair.summary.nml")
+    helix = np.radians(28.0)
+    across = 0.0022 / np.cos(helix)
+    angle = np.arctan(np.tan(np.radians(20.0)) / np.cos(helix))
+    arm = 0.5 * across * 37 * np.cos(angle) * np.sqrt(1.0 - (np.sin(helix) * np.cos(np.radians(20.0))) ** 2)
+    peak = max(-alone["acceleration_minimum"], alone["acceleration_maximum"])
+    assert alone["gear_acceleration_rms"] == pytest.approx(alone["acceleration_rms"] / arm, rel=1e-12)
+    assert alone["gear_acceleration_maximum"] == pytest.approx(peak / arm, rel=1e-12)

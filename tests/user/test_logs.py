@@ -209,7 +209,14 @@ def stiffness_words(told: Mapping[str, Any], given: Mapping[str, Any]) -> str | 
 
 def ending_of_motion(told: Mapping[str, Any]) -> str | None:
     """Vibration severity and impacts, as far as they are known."""
-    parts = [f"dissipated power {short(told['dissipated_power'], 4)} W"] if "dissipated_power" in told else []
+    parts = [
+        f"gear acceleration {end} {short(told[f'gear_acceleration_{end}'], 4)} rad/s2"
+        for end in ("rms", "maximum")
+        if f"gear_acceleration_{end}" in told
+    ]
+    parts += (
+        [f"dissipated power {short(told['dissipated_power'], 4)} W"] if "dissipated_power" in told else []
+    )
     if "double_sided" in told:
         parts.append(f"double sided {'yes' if told['double_sided'] else 'no'}")
     return f"  {', '.join(parts)}" if parts else None

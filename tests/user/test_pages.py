@@ -25,7 +25,7 @@ Told = Mapping[str, Any]
 Rows = Sequence[list[str]]
 SCALED = {"\N{MICRO SIGN}m": "m", "nm": "m", "mm/s": "m/s", "ms": "s", "MPa": "Pa", "GPa": "Pa", "mJ": "J"}
 WITHOUT = {"-": "", "of key": ""}
-PLAIN = {"m/s\N{SUPERSCRIPT TWO}": "m/s2", "\N{DEGREE SIGN}C": "degC"}
+PLAIN = {"m/s\N{SUPERSCRIPT TWO}": "m/s2", "rad/s\N{SUPERSCRIPT TWO}": "rad/s2", "\N{DEGREE SIGN}C": "degC"}
 
 
 def assert_shows(cell: str, value: Any, unit: str = "", digits: int = 6) -> None:

@@ -123,6 +123,7 @@ NUMBERS = {
     "acceleration_rms": "Acceleration, rms",
     "acceleration_minimum": "Acceleration, least",
     "acceleration_maximum": "Acceleration, largest",
+    "gear_acceleration_rms": "Angular acceleration of the loose gear, rms",
     "impacts_per_period_drive": "Impacts a period on the drive flank",
     "impacts_per_period_coast": "Impacts a period on the coast flank",
     "impact_load_maximum_drive": "Largest impact on the drive flank",

@@ -27,7 +27,13 @@ STEPS = {
     "Pa": ((1e9, 1e-9, "GPa"), (1e5, 1e-6, "MPa")),
     "J": ((1e-2, 1.0, "J"), (1e-6, 1e3, "mJ")),
 }
-UNIT_WORDS = {"m/s2": "m/s\N{SUPERSCRIPT TWO}", "degC": "\N{DEGREE SIGN}C", "-": "", "of key": ""}
+UNIT_WORDS = {
+    "m/s2": "m/s\N{SUPERSCRIPT TWO}",
+    "rad/s2": "rad/s\N{SUPERSCRIPT TWO}",
+    "degC": "\N{DEGREE SIGN}C",
+    "-": "",
+    "of key": "",
+}
 DIGITS = 6
 FEW_DIGITS = 4
 WIDTH = 4.6  # inches of figures: their type is legible on a telephone
