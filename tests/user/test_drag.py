@@ -540,7 +540,7 @@ def test_single_scenes_of_a_campaign_take_their_tables_along(call, run, tmp_path
 
 
 def test_the_gear_turns_as_its_tooth_moves(call, tmp_path: Path) -> None:
-    """The angular acceleration is that along the normal over the arm of the base circle, in summary and row."""
+    """The angular acceleration is that along the normal over the arm of the base circle."""
     call(scene(COMPUTED))
     alone = summary_of(tmp_path / "results" / "pair.summary.nml")
     helix = np.radians(28.0)
