@@ -1,5 +1,5 @@
 !> What the steps of a window tell, whatever samples are taken of it: the extremes of the motion, the sums by which the
-!> window must close, and, where they are asked for, its Fourier integrals (fsrc/THEORY.md, sections 8 and 10).
+!> window must close, and, where they are asked for, its Fourier integrals (fsrc/THEORY.md, sections 8 and 11).
 !>
 !> An impact may be a millionth of a period long. The steps of the engine follow it, equidistant samples do not; by parts, the
 !> velocity of an impact is a step, and no integral misses it.
