@@ -1,6 +1,7 @@
 !> A judged scene, whether a single one, a value of a sweep or a row of a campaign, and the values of all quantities of it.
 module judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use coexisting_motions, only: coexisting_motions_t, loudest_motion, quietest_motion
    use verification, only: verification_t
    use engine, only: motion_count_t
    use force, only: inertia_ratio
@@ -35,7 +36,11 @@ module judged_scene
       quantity_irregular_fraction_is_bound, quantity_lyapunov_exponent, &
       quantity_law_contradicted, quantity_closure_range, quantity_harmonic_count, quantity_harmonic_count_is_bound, &
       quantity_harmonics_by_integrals, &
-      quantity_load_maximum, quantity_load_minimum, quantity_severity_error, quantity_model_limit, quantity_natural_frequency, &
+      quantity_load_maximum, quantity_load_minimum, &
+      quantity_loudest_acceleration_rms, quantity_loudest_class, &
+      quantity_loudest_film_force_rms, quantity_loudest_film_minimum, quantity_motions, quantity_quietest_acceleration_rms, &
+      quantity_quietest_class, quantity_starts_solved, quantity_unsettled_starts, &
+      quantity_severity_error, quantity_model_limit, quantity_natural_frequency, &
       quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, quantity_pressure_maximum, &
       quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, quantity_sampling_sufficient, &
       quantity_series_coarse, quantity_status, quantity_steady_film, quantity_steps, quantity_steps_cut, &
@@ -79,6 +84,8 @@ module judged_scene
       type(verification_t) :: verification
       !> The periodic motion behind it, where one was looked for
       type(periodic_orbit_t) :: orbit
+      !> The motions that all starts have led to, where others were followed
+      type(coexisting_motions_t) :: coexisting
    end type judged_scene_t
 
    public :: quantity_value, quantity_list, largest_load
@@ -232,6 +239,10 @@ contains
             if (spectrum%moving) value = flag(spectrum%sampling_sufficient)
          case (quantity_rattle_class)
             value = real(judged%rattle%class, dp)
+         case (quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_loudest_class, &
+               quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, quantity_loudest_film_minimum, &
+               quantity_quietest_class, quantity_quietest_acceleration_rms)
+            if (allocated(judged%coexisting%motions)) value = value_of_motions(quantity, judged%coexisting)
          case (quantity_lyapunov_exponent)
             if (judged%rattle%parting%periods > 0) value = judged%rattle%parting%exponent
          case (quantity_verified)
@@ -271,6 +282,37 @@ contains
          end select
       end associate
    end function window_value
+
+   !> Value of a quantity of all motions of the starts.
+   pure real(dp) function value_of_motions(quantity, coexisting) result(value)
+      integer, intent(in) :: quantity
+      !> With one motion at least
+      type(coexisting_motions_t), intent(in) :: coexisting
+
+      associate (loudest => coexisting%motions(loudest_motion(coexisting)), &
+                 quietest => coexisting%motions(quietest_motion(coexisting)))
+         select case (quantity)
+         case (quantity_motions)
+            value = real(size(coexisting%motions), dp)
+         case (quantity_starts_solved)
+            value = real(coexisting%starts_solved, dp)
+         case (quantity_unsettled_starts)
+            value = real(coexisting%unsettled_starts, dp)
+         case (quantity_loudest_class)
+            value = real(loudest%class, dp)
+         case (quantity_loudest_acceleration_rms)
+            value = loudest%acceleration_rms
+         case (quantity_loudest_film_force_rms)
+            value = loudest%film_force_rms
+         case (quantity_loudest_film_minimum)
+            value = loudest%film_minimum
+         case (quantity_quietest_class)
+            value = real(quietest%class, dp)
+         case default
+            value = quietest%acceleration_rms
+         end select
+      end associate
+   end function value_of_motions
 
    !> Value of a quantity that rests on separation and impacts; those of the coast flank are known where there is one.
    pure real(dp) function impact_value(quantity, judged) result(value)

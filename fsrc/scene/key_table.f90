@@ -394,6 +394,10 @@ module key_table
             'End of the run: all periods, or as soon as the motion is verified to repeat; then one orbit is the window.'), &
       key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', of_motions, &
             'Periods of the force that are solved (the most, until steady); at least those of the spectrum window.'), &
+      key_t('solver', 'starts', integer_kind, '-', '', range_t(1.0_dp, .false., 1.0e4_dp, .false.), '', &
+            'scene.task=motion|campaign|threshold & solver.method=taylor', &
+            'Starts that the motions of a scene are looked for from; absent: 29 of a motion, 3 of a campaign or threshold. 1: '// &
+               'its own start alone.'), &
       key_t('solver', 'time_limit', real_kind, 's', '', positive, '', 'scene.task=motion', &
             'Wall time after which the run ends cleanly, to be resumed; absent: none.'), &
       key_t('solver', 'samples_per_period', integer_kind, '-', '512', at_least_8, '', &

@@ -14,7 +14,7 @@ module quantities
                                  needs_load_range = 4, needs_regime = 5, needs_coast_load_range = 6, needs_net_load_range = 7, &
                                  needs_coast_film_range = 8, needs_position_range = 9, needs_deflection = 10, &
                                  needs_spectrum = 11, needs_verification = 12, needs_impacts = 13, needs_verified_impacts = 14, &
-                                 needs_orbit = 15, needs_closure_range = 16, need_count = 16
+                                 needs_orbit = 15, needs_closure_range = 16, needs_starts = 17, need_count = 17
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_spectrum = 3, part_class = 4, part_errors = 5, &
@@ -44,6 +44,9 @@ module quantities
          quantity_harmonics, quantity_first_harmonic, quantity_harmonic_count, quantity_harmonic_count_is_bound, &
          quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, &
          quantity_irregular_fraction_is_bound, quantity_sampling_sufficient, quantity_rattle_class, &
+         quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_loudest_class, &
+         quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, quantity_loudest_film_minimum, &
+         quantity_quietest_class, quantity_quietest_acceleration_rms, &
          quantity_lyapunov_exponent, quantity_verified, &
          quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
          quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
@@ -281,6 +284,30 @@ module quantities
       quantity_t(quantity_rattle_class, 'rattle_class', '-', a_code, part_class, needs_spectrum, 'summary sweep campaign', &
          'Class of the motion by its spectrum.', &
          'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
+      quantity_t(quantity_motions, 'motions', '-', a_count, part_class, needs_starts, 'summary campaign', &
+         'Different motions that the starts of solver.starts lead to; 1 is no proof that there is no other.'), &
+      quantity_t(quantity_starts_solved, 'starts_solved', '-', a_count, part_class, needs_starts, 'summary campaign', &
+         'Starts whose motions were solved, that of the scene with them.'), &
+      quantity_t(quantity_unsettled_starts, 'unsettled_starts', '-', a_count, part_class, needs_starts, 'summary campaign', &
+         'Starts whose motions were not seen to repeat: irregular ones, and those that take longer or fail.'), &
+      quantity_t(quantity_loudest_class, 'loudest_class', '-', a_code, part_class, needs_starts, 'summary campaign', &
+         'Class of the motion with the largest acceleration_rms that a start leads to.', &
+         'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
+      quantity_t(quantity_loudest_acceleration_rms, 'loudest_acceleration_rms', 'm/s2', a_number, part_class, needs_starts, &
+         'summary campaign', &
+         'Its acceleration_rms.', digits=4), &
+      quantity_t(quantity_loudest_film_force_rms, 'loudest_film_force_rms', 'N', a_number, part_class, needs_starts, &
+         'summary campaign', &
+         'Its film_force_rms.', digits=4), &
+      quantity_t(quantity_loudest_film_minimum, 'loudest_film_minimum', 'm', a_number, part_class, needs_starts, &
+         'summary campaign', &
+         'Its film_minimum.'), &
+      quantity_t(quantity_quietest_class, 'quietest_class', '-', a_code, part_class, needs_starts, 'summary campaign', &
+         'Class of the motion with the smallest acceleration_rms that a start leads to.', &
+         'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
+      quantity_t(quantity_quietest_acceleration_rms, 'quietest_acceleration_rms', 'm/s2', a_number, part_class, needs_starts, &
+         'summary campaign', &
+         'Its acceleration_rms.', digits=4), &
       quantity_t(quantity_lyapunov_exponent, 'lyapunov_exponent', '-', a_number, part_class, needs_spectrum, &
          'summary sweep campaign', &
          'Mean logarithm by which a neighbouring motion parts, a period of the force; where a motion does not repeat.'), &

@@ -6,14 +6,15 @@ module scene_reader
    use former_names, only: present_word, renamed_text
    use input_entry, only: numbers_text, place_of, value_text
    use input_key, only: name_limit, table_kind
-   use key_table, only: keys, starts_group
+   use key_table, only: find_key, keys, starts_group
    use keys_in_use, only: in_use
    use kinds, only: dp
    use namelist_text, only: assignment_t, repeated_group, scan_namelists
    use odd_numbers, only: odd_numbers_of_input, odd_swings
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
-   use scene_types, only: forced_orders, output_t, scene_t, task_campaign, task_sweep, task_threshold
+   use scene_types, only: forced_orders, output_t, scene_t, task_campaign, task_motion, task_sweep, &
+      task_threshold
    use signal_reader, only: take_signal
    use table_reader, only: take_drag_table, take_excitation_table
    use task_reader, only: read_campaign, read_points, read_sweep, read_threshold
@@ -24,6 +25,8 @@ module scene_reader
 
    !> Inputs are small; a larger file is not one.
    integer, parameter :: size_limit = 16777216
+   !> Starts of a scene where solver.starts is absent
+   integer, parameter :: starts_of_motion = 29, starts_of_campaign = 3
 
    !> One key set on the command line.
    type, public :: override_t
@@ -304,6 +307,11 @@ contains
          solver%steps_per_period = input%count('solver', 'steps_per_period')
          solver%kept_per_period = input%count('solver', 'samples_per_period')
          solver%until = input%choice('solver', 'until')
+         solver%starts = 1
+         if (in_use(input, find_key('solver', 'starts'))) then
+            solver%starts = merge(starts_of_motion, starts_of_campaign, scene%task == task_motion)
+            if (input%is_given('solver', 'starts')) solver%starts = input%count('solver', 'starts')
+         end if
          solver%time_limit = input%number('solver', 'time_limit')
          spectrum%verify = input%flag('spectrum', 'verify')
          spectrum%verification_tolerance = input%number('spectrum', 'verification_tolerance')

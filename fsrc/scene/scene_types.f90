@@ -255,6 +255,8 @@ module scene_types
       !> Relative accuracy of the film [-]
       real(dp) :: accuracy = 1.0e-8_dp
       integer :: until = until_periods
+      !> Starts from which motions of the scene are looked for; 1: its own alone
+      integer :: starts = 1
       !> Wall time [s]; 0: no limit
       real(dp) :: time_limit = 0.0_dp
    contains

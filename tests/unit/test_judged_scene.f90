@@ -3,6 +3,7 @@ module test_judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use canonical_scenes, only: loose_gear
    use checks, only: check_list_t
+   use coexisting_motions, only: told_motion_t
    use impacts, only: impact_t
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use kinds, only: dp
@@ -10,7 +11,7 @@ module test_judged_scene
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, seen_position, &
                             seen_quantities, seen_velocity
    use quantities, only: quantity_table
-   use rattle_class, only: class_idle
+   use rattle_class, only: class_creep, class_idle, class_irregular
    use resolved_scene, only: resolve
    use scene_types, only: drag_computed, scene_t
    implicit none(type, external)
@@ -88,6 +89,14 @@ contains
       judged%verification%harmonic_errors = [58.0_dp, 59.0_dp]
       judged%orbit%period = 2
       judged%orbit%multipliers = [(0.3_dp, -0.4_dp), (0.1_dp, 0.0_dp)]
+      judged%coexisting%motions = [told_motion_t(class=class_idle, acceleration_rms=82.0_dp, film_force_rms=83.0_dp, &
+                                                film_minimum=84.0_dp), &
+                                   told_motion_t(class=class_irregular, acceleration_rms=85.0_dp, film_force_rms=86.0_dp, &
+                                                 film_minimum=87.0_dp), &
+                                   told_motion_t(class=class_creep, acceleration_rms=81.0_dp, film_force_rms=88.0_dp, &
+                                                 film_minimum=89.0_dp)]
+      judged%coexisting%starts_solved = 29
+      judged%coexisting%unsettled_starts = 2
       judged%impacts%exists = .true.
       judged%impacts%periods = 4
       judged%impacts%unloaded_share = 0.25_dp
@@ -163,6 +172,15 @@ contains
       call expect('acceleration_error', 56.0_dp)
       call expect('severity_error', 57.0_dp)
       call expect('floquet_modulus', 0.5_dp)
+      call expect('motions', 3.0_dp)
+      call expect('starts_solved', 29.0_dp)
+      call expect('unsettled_starts', 2.0_dp)
+      call expect('loudest_class', real(class_irregular, dp))
+      call expect('loudest_acceleration_rms', 85.0_dp)
+      call expect('loudest_film_force_rms', 86.0_dp)
+      call expect('loudest_film_minimum', 87.0_dp)
+      call expect('quietest_class', real(class_creep, dp))
+      call expect('quietest_acceleration_rms', 81.0_dp)
       call expect('unloaded_share', 0.25_dp)
       call expect('impact_periods', 4.0_dp)
       call expect('impacts_drive', 8.0_dp)

@@ -12,7 +12,8 @@ module test_quantities
    use key_table, only: find_key
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
-   use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, quantity_impacts_per_period_drive, &
+   use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, needs_starts, &
+                         quantity_impacts_per_period_drive, &
                          quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, &
                          quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, &
                           quantities_told_in, quantity_lyapunov_exponent, quantity_impacts_coast, &
@@ -99,6 +100,8 @@ contains
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no gear')
          else if (i == quantity_closure_range) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid flanks')
+         else if (quantity_table(i)%need == needs_starts) then
+            call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of one start')
          else if (i == quantity_lyapunov_exponent) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of a motion that repeats')
          else

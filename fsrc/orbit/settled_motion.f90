@@ -1,0 +1,57 @@
+!> Motions that repeat, and which of them are the same: a motion of several periods may be met in any of them.
+module settled_motion
+   use kinds, only: dp
+   use motion_start, only: characteristic_velocity, gap_of_starts
+   use problem, only: of_film, of_velocity, problem_t
+   implicit none(type, external)
+   private
+
+   !> Share of the gap by which films, and of the characteristic velocity by which velocities of one motion may differ [-].
+   real(dp), parameter, public :: same_state = 0.01_dp
+   !> Relative difference of the acceleration rms up to which motions are the same [-].
+   real(dp), parameter, public :: same_rms = 0.05_dp
+
+   !> A motion that repeats.
+   type, public :: settled_motion_t
+      !> Periods of the force after which it repeats; 0: it does not
+      integer :: period = 0
+      !> Numbers of its state, period: at the start of each period of the force
+      real(dp), allocatable :: states(:, :)
+      !> [m/s2]
+      real(dp) :: acceleration_rms = 0.0_dp
+   end type settled_motion_t
+
+   public :: same_motion, is_near
+
+contains
+
+   !> Whether two motions of a problem are the same: they repeat after as many periods, from some period on with the same states,
+   !> and shake as much.
+   pure logical function same_motion(problem, one, other) result(same)
+      type(problem_t), intent(in) :: problem
+      type(settled_motion_t), intent(in) :: one
+      type(settled_motion_t), intent(in) :: other
+      integer :: shift, i
+
+      same = .false.
+      if (one%period == 0 .or. one%period /= other%period) return
+      if (abs(one%acceleration_rms - other%acceleration_rms) > same_rms*max(one%acceleration_rms, other%acceleration_rms)) return
+      do shift = 0, one%period - 1
+         same = all([(is_near(problem, one%states(:, i), other%states(:, modulo(i - 1 + shift, one%period) + 1)), &
+                      i=1, one%period)])
+         if (same) return
+      end do
+   end function same_motion
+
+   !> Whether two states are those of one motion, as far as film and velocity tell.
+   pure logical function is_near(problem, state, other)
+      type(problem_t), intent(in) :: problem
+      !> Their numbers
+      real(dp), intent(in) :: state(:)
+      real(dp), intent(in) :: other(:)
+
+      is_near = abs(state(of_film) - other(of_film)) <= same_state*gap_of_starts(problem) .and. &
+                abs(state(of_velocity) - other(of_velocity)) <= same_state*characteristic_velocity(problem)
+   end function is_near
+
+end module settled_motion
