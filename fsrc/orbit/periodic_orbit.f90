@@ -18,6 +18,9 @@ module periodic_orbit
    integer, parameter :: longest_period = 8
    !> Accuracy of the period map, and of the fixed point.
    real(dp), parameter :: map_accuracy = 1.0e-12_dp, converged = 1.0e-10_dp
+   !> Accuracy of the map while a fixed point is still sought, and the correction from which on it is found. Most searches end
+   !> before, since an irregular motion comes near periodic ones that are none of its own, or near none.
+   real(dp), parameter :: search_accuracy = 1.0e-9_dp, found_so_far = 1.0e-5_dp
    !> Rounding over the thousands of steps of a period may disturb the map by more than that: changes below this that no longer
    !> fall to a tenth, as Newton's would, are such disturbances.
    real(dp), parameter :: largest_disturbance = 1.0e-7_dp, slowest_fall = 0.1_dp
@@ -95,7 +98,7 @@ contains
       scale = counts_as(problem, state)
       images(:, 1) = state
       do period = 1, longest_period
-         call map_states(problem, 1, map_accuracy, images, mapped)
+         call map_states(problem, 1, search_accuracy, images, mapped)
          if (.not. mapped) return
          if (maxval(abs(images(:, 1) - state)*scale) > nearness*thinnest_film(problem, state)) cycle
          orbit = newton(problem, period, state, scale, nearness)
@@ -162,7 +165,8 @@ contains
    end function shortest
 
    !> Fixed point of the map of some periods, and the multipliers there. The slopes of the map take many times what its value takes:
-   !> steps keep those of the step before as long as the changes fall fast, and the last one takes those at its end.
+   !> steps keep those of the step before as long as the changes fall fast, and the last one takes those at its end. Slopes are
+   !> differences to one side while the fixed point is sought with a coarser map, and central ones then.
    function newton(problem, period, start, scale, nearness) result(orbit)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: period
@@ -177,13 +181,14 @@ contains
                   solution(size(start), 1), thickness, moved, moved_before, distance, reach, &
                   disturbance, disturbance_before
       integer :: slopes_taken, i, n, last
-      logical :: mapped, anew, settled, solved
+      logical :: mapped, anew, settled, solved, near_by
 
       n = size(start)
       state = start
       disturbance = huge(disturbance)
       moved = huge(moved)
       anew = .true.
+      near_by = .false.
       slopes_taken = 0
       do
          if (anew) slopes_taken = slopes_taken + 1
@@ -192,15 +197,20 @@ contains
          step = difference_step*sizes
          states = spread(state, 2, 2*n + 1)
          do i = 1, n
-            states(i, 2*i - 1) = state(i) + step(i)
-            states(i, 2*i) = state(i) - step(i)
+            states(i, i) = state(i) + step(i)
+            states(i, n + i) = state(i) - step(i)
          end do
-         last = merge(2*n, 0, anew)
-         call map_states(problem, period, map_accuracy, states(:, 0:last), mapped)
+         last = 0
+         if (anew) last = merge(2*n, n, near_by)
+         call map_states(problem, period, merge(map_accuracy, search_accuracy, near_by), states(:, 0:last), mapped)
          if (.not. mapped) return
          if (anew) then
             do i = 1, n
-               jacobian(:, i) = (states(:, 2*i - 1) - states(:, 2*i))/(2.0_dp*step(i))
+               if (near_by) then
+                  jacobian(:, i) = (states(:, i) - states(:, n + i))/(2.0_dp*step(i))
+               else
+                  jacobian(:, i) = (states(:, i) - states(:, 0))/step(i)
+               end if
             end do
             ! (1 - J) change = image - state, in units of the scale
             do i = 1, n
@@ -226,7 +236,7 @@ contains
          disturbance_before = disturbance
          disturbance = maxval(abs(change)/sizes)
          distance = maxval(abs(state - start)*scale)/thickness
-         settled = anew .and. (moved <= converged .or. (disturbance <= largest_disturbance .and. &
+         settled = near_by .and. anew .and. (moved <= converged .or. (disturbance <= largest_disturbance .and. &
                                                         disturbance >= slowest_fall*disturbance_before))
          ! Changes that halve at least lead no farther than the last one went.
          reach = huge(reach)
@@ -234,7 +244,12 @@ contains
          if (settled) reach = 0.0_dp
          if (distance - reach > nearness) return
          if (.not. settled) then
-            anew = moved <= converged
+            anew = near_by .and. moved <= converged
+            if (.not. near_by .and. moved <= found_so_far) then
+               near_by = .true.
+               moved = huge(moved)
+               disturbance = huge(disturbance)
+            end if
             cycle
          end if
          orbit%multipliers = eigenvalues(jacobian*spread(scale, 2, n)/spread(scale, 1, n))

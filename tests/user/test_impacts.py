@@ -159,7 +159,7 @@ def test_a_motion_that_is_irregular_now_and_then_is_uncertain(run, scene_text, t
         load={
             "mass": "0.5734554628920673",
             "steady_force": "0.5780725646130213",
-            "force_amplitude": "111.80496692454845",
+            "force_amplitude": "111.5",
             "frequency": "56.53389784980788",
         },
         film={"model": "'reynolds'"},
