@@ -110,8 +110,8 @@ contains
    !> Take away what killed runs have left beside the files of this run. While it holds the lock no other run is at work.
    subroutine remove_leftovers(stem)
       character(*), intent(in) :: stem
-      character(*), parameter :: kinds(5) = [character(16) :: '.rattle', '.profiles.rattle', '.state', '.summary.nml', &
-                                             '.progress.nml']
+      character(*), parameter :: kinds(6) = [character(16) :: '.rattle', '.profiles.rattle', '.motions.rattle', '.state', &
+                                             '.summary.nml', '.progress.nml']
       character(*), parameter :: word = repeat('[0-9a-f]', 16)
       character(max(len(result_magic), len(summary_magic))) :: start
       type(word_t), allocatable :: paths(:)

@@ -4,6 +4,8 @@ module output_place
    use file_system, only: file_state_t, first_bytes, is_directory, is_link, is_writable, make_directory, path_exists, state_of_path
    use log_file, only: log_magic
    use output_lock, only: lock_magic, lock_path, output_lock_t
+   use motion_start, only: start_count
+   use problem, only: problem_of
    use result_format, only: result_magic
    use scene_types, only: compute_profile, is_shared_task, scene_t, task_film, task_motion, task_threshold
    use summary_file, only: summary_magic
@@ -11,8 +13,8 @@ module output_place
    implicit none(type, external)
    private
 
-   public :: stem, result_path, profiles_path, state_path, summary_path, log_path, progress_path, check_output_place, &
-             claim_output_place
+   public :: stem, result_path, profiles_path, motions_path, has_motions_table, state_path, summary_path, &
+             log_path, progress_path, check_output_place, claim_output_place
 
 contains
 
@@ -31,6 +33,23 @@ contains
 
       path = stem(scene)//'.profiles.rattle'
    end function profiles_path
+
+   !> Path of the table of all motions of a scene.
+   pure function motions_path(scene) result(path)
+      type(scene_t), intent(in) :: scene
+      character(:), allocatable :: path
+
+      path = stem(scene)//'.motions.rattle'
+   end function motions_path
+
+   !> Whether a scene has a table of its motions: where several starts are followed.
+   pure logical function has_motions_table(scene)
+      type(scene_t), intent(in) :: scene
+
+      has_motions_table = .false.
+      if (scene%task == task_motion .and. scene%solver%starts > 1) &
+         has_motions_table = start_count(problem_of(scene), scene%solver) > 1
+   end function has_motions_table
 
    !> Path of the progress of a campaign.
    pure function progress_path(scene) result(path)
@@ -106,6 +125,7 @@ contains
          return
       end if
       if (scene%task /= task_motion .or. scene%output%series) call check_kind(result_path(scene), result_magic, .false.)
+      if (has_motions_table(scene)) call check_kind(motions_path(scene), result_magic, .false.)
       if (scene%task == task_film .and. scene%points%compute(compute_profile)) &
          call check_kind(profiles_path(scene), result_magic, .false.)
       if (scene%task == task_motion .or. scene%task == task_threshold) call check_kind(state_path(scene), result_magic, .false.)

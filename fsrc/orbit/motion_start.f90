@@ -4,12 +4,11 @@ module motion_start
    use carried_loads, only: initial_state
    use constants, only: two_pi
    use engine, only: motion_state_t
-   use force, only: force_t
    use kinds, only: dp, int64
    use linear_motion, only: natural_motion
    use problem, only: film_at_rest, films_at_rest, has_two_flanks, problem_t, static_load
    use random_numbers, only: random_bit_count, random_bits
-   use scene_types, only: method_newmark
+   use scene_types, only: method_newmark, solver_t
    implicit none(type, external)
    private
 
@@ -38,7 +37,8 @@ module motion_start
    !> Least share of the oscillating force that a tooth is taken to rest under on the coast flank [-].
    real(dp), parameter :: least_load = 0.01_dp
 
-   public :: characteristic_velocity, gap_of_starts, motion_starts, state_of_start, one_start_reason, one_start_sentence
+   public :: characteristic_velocity, gap_of_starts, motion_starts, start_is_given, state_of_start, &
+             one_start_reason, one_start_sentence, start_count
 
 contains
 
@@ -82,14 +82,13 @@ contains
       !> Of those that are drawn
       integer, intent(in) :: seed
       type(motion_start_t) :: starts(count)
-      real(dp) :: gap, velocity, rest
+      real(dp) :: gap, velocity
       integer :: i
 
       gap = gap_of_starts(problem)
       velocity = characteristic_velocity(problem)
-      rest = film_at_rest(problem, static_load(problem))
       starts(1) = motion_start_t('rest', problem%initial_film, problem%initial_velocity)
-      if (abs(problem%initial_velocity) > 0.0_dp .or. abs(problem%initial_film - rest) > 0.0_dp) starts(1)%name = 'given'
+      if (start_is_given(problem)) starts(1)%name = 'given'
       if (count > 1) starts(2) = motion_start_t(merge('coast', 'far  ', has_two_flanks(problem)), other_flank(problem, gap), 0.0_dp)
       if (count > 2) starts(3) = motion_start_t('middle', 0.5_dp*gap, middle_velocity*velocity)
       do i = chosen_starts + 1, count
@@ -97,6 +96,14 @@ contains
                                     velocity*drawn_velocity*(2.0_dp*drawn(seed, 2, i) - 1.0_dp))
       end do
    end function motion_starts
+
+   !> Whether a problem starts from another film or velocity than those at rest.
+   pure logical function start_is_given(problem)
+      type(problem_t), intent(in) :: problem
+
+      start_is_given = abs(problem%initial_velocity) > 0.0_dp .or. &
+                       abs(problem%initial_film - film_at_rest(problem, static_load(problem))) > 0.0_dp
+   end function start_is_given
 
    !> Film of a tooth that rests on the flank that its static load does not press it on [m].
    pure real(dp) function other_flank(problem, gap) result(film)
@@ -155,6 +162,16 @@ contains
          if (.not. natural_frequency > 0.0_dp .or. damping_ratio > enough_damping) reason = one_by_damping
       end if
    end function one_start_reason
+
+   !> How many starts of a scene are followed.
+   pure integer function start_count(problem, solver)
+      type(problem_t), intent(in) :: problem
+      !> Of the scene
+      type(solver_t), intent(in) :: solver
+
+      start_count = solver%starts
+      if (one_start_reason(problem, solver%method) /= several_starts) start_count = 1
+   end function start_count
 
    !> The reason in words.
    pure function one_start_sentence(reason) result(sentence)

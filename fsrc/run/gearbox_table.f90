@@ -1,6 +1,7 @@
 !> The table of all gear pairs of an input: what became of each, and what they do together.
 module gearbox_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use coexisting_motions, only: motions_sentence
    use earlier_files, only: begin_anew
    use errors, only: error_t, exit_bad_input, raise
    use force_signal, only: force_signal_t, sum_in_phase
@@ -11,7 +12,8 @@ module gearbox_table
    use output_place, only: log_path, summary_path
    use quantities, only: a_code, a_flag, quantity_acceleration_maximum, quantity_acceleration_minimum, &
                          quantity_acceleration_rms, quantity_verified, quantity_dissipated_power, quantity_double_sided, &
-                         quantity_film_force_rms, quantity_film_minimum, quantity_rattle_class, quantity_table, quantity_verdict, &
+                         quantity_film_force_rms, quantity_film_minimum, quantity_loudest_acceleration_rms, &
+                         quantity_loudest_class, quantity_motions, quantity_rattle_class, quantity_table, quantity_verdict, &
                          quantity_word
    use scene_report, only: acceleration_words
    use scene_status, only: is_success, status_complete, status_interrupted, status_name
@@ -24,11 +26,12 @@ module gearbox_table
    private
 
    !> What is told of a pair.
-   integer, parameter :: told(10) = [quantity_rattle_class, quantity_verified, quantity_double_sided, quantity_film_minimum, &
+   integer, parameter :: told(13) = [quantity_rattle_class, quantity_verified, quantity_double_sided, quantity_film_minimum, &
                                     quantity_acceleration_minimum, quantity_acceleration_maximum, quantity_acceleration_rms, &
-                                    quantity_film_force_rms, quantity_dissipated_power, quantity_verdict]
+                                    quantity_film_force_rms, quantity_dissipated_power, quantity_verdict, quantity_motions, &
+                                    quantity_loudest_class, quantity_loudest_acceleration_rms]
    integer, parameter :: place_minimum = 5, place_maximum = 6, place_rms = 7, place_force = 8, place_power = 9, &
-                         place_verdict = 10
+                         place_verdict = 10, place_motions = 11
 
    !> A row of the table: what is told of a pair, NaN where it is unknown.
    type, public :: pair_row_t
@@ -39,6 +42,8 @@ module gearbox_table
       integer(int64) :: summary_checksum = 0_int64
       real(dp) :: numbers(size(told)) = 0.0_dp
       type(force_signal_t) :: film_force
+      !> What is known of all its motions
+      character(:), allocatable :: motions
    end type pair_row_t
 
    !> What all pairs do together: power that heats the oil [W]; rms of the film force that the bearings feel, as if the forces knew
@@ -66,6 +71,7 @@ contains
          row%numbers(i) = quantity_value(told(i), judged)
       end do
       row%film_force = judged%film_force
+      row%motions = motions_sentence(judged%coexisting)
    end function row_of_pair
 
    !> The scene that stands for all pairs, as far as files go.
@@ -149,6 +155,7 @@ contains
                end select
             end associate
          end do
+         if (len(words_of_motions(rows(i))) > 0) call summary%add('motions_text', words_of_motions(rows(i)))
       end do
       call summary%write(summary_path(gearbox), error)
       if (.not. allocated(error)) call log%line('  '//summary_path(gearbox))
@@ -226,8 +233,22 @@ contains
                     number_cell(sums%power))
       call log%line('  '//cell('together, in phase', width + 88)//number_cell(sums%force_in_phase))
       call log%line('  '//sums%words)
+      do i = 1, size(rows)
+         associate (row => rows(order(i)))
+            if (row%numbers(place_motions) > 1.0_dp) call log%line('  '//trim(row%name)//': '//words_of_motions(row))
+         end associate
+      end do
       call log%line('  peak and rms of the acceleration'//acceleration_words(gearbox))
    end subroutine report_rows
+
+   !> What is known of all motions of a pair; empty where nothing is.
+   pure function words_of_motions(row) result(words)
+      type(pair_row_t), intent(in) :: row
+      character(:), allocatable :: words
+
+      words = ''
+      if (allocated(row%motions)) words = row%motions
+   end function words_of_motions
 
    !> The rows by their film force, the largest first, those without one last.
    pure function by_force(rows) result(order)

@@ -10,7 +10,7 @@ module resume
    use errors, only: error_t, exit_bad_input, raise
    use file_system, only: file_state_t, state_of_path
    use kinds, only: dp, int64
-   use output_place, only: result_path, state_path
+   use output_place, only: motions_path, result_path, state_path
    use problem, only: problem_of, state_number_t, state_numbers
    use repetition, only: kept_states, orbit_watch_t
    use result_format, only: column_name_bytes, column_unit_bytes
@@ -30,7 +30,8 @@ module resume
                                                 '-', '-']
 
    !> Keys that may change when a run is carried on: they do not touch what has been solved.
-   character(*), parameter :: free_keys(11) = [character(31) :: 'solver.periods', 'solver.time_limit', 'solver.until', &
+   character(*), parameter :: free_keys(12) = [character(31) :: 'solver.periods', 'solver.starts', 'solver.time_limit', &
+                                               'solver.until', &
                                                'spectrum.periods', 'spectrum.harmonic_threshold', 'spectrum.idle_harmonics', &
                                                'spectrum.quiet_limit', 'spectrum.irregular_limit', 'spectrum.impact_limit', &
                                                'spectrum.verify', 'spectrum.verification_tolerance']
@@ -77,6 +78,8 @@ contains
       character(column_unit_bytes), allocatable :: units(:)
       real(dp), allocatable :: row(:, :)
 
+      call check_earlier_result(scene, motions_path(scene), free_keys, error)
+      if (allocated(error)) return
       kept = state_of_path(state_path(scene))
       if (kept%bytes == 0_int64) then
          call check_series(scene, error)

@@ -5,13 +5,15 @@ module run_scene
    use engine, only: checkpoint_t, ending_t
    use errors, only: error_t
    use finished_files, only: place_files
+   use follow_starts, only: find_all_motions
    use gearbox_table, only: whole_gearbox
    use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
    use log_file, only: log_t
    use newmark_engine, only: solve_newmark
-   use output_place, only: log_path, result_path, state_path, summary_path
+   use motions_table, only: write_motions
+   use output_place, only: has_motions_table, log_path, motions_path, result_path, state_path, summary_path
    use progress, only: progress_t
    use resolved_scene, only: request_of, resolve
    use resume, only: load_state, save_state
@@ -89,15 +91,18 @@ contains
          solve_seconds = wall_seconds() - started
          call note_ending(ending, judged)
          if (.not. allocated(error)) call judge(scene, recorder, record, ending, judged, error)
+         if (judged%judged .and. .not. allocated(error)) call find_all_motions(scene, ending, started, judged, error)
          ! A signal that came meanwhile has cut the verification short.
          if (is_success(judged%status) .and. caught_signal() /= 0) judged%status = status_interrupted
          if (judged%judged) call recorder%add_extremes(record, judged%periods - judged%window_periods, judged%series_coarse)
          call recorder%close(write_error)
          if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
          if (.not. allocated(error)) call save_state(scene, state, error)
+         if (.not. allocated(error) .and. has_motions_table(scene)) call write_motions(scene, judged, error)
       end if
       if (allocated(error)) judged%status = status_not_written
-      call write_scene_summary(summary_path(scene), scene, judged, series_of(scene), wall_seconds() - started, write_error)
+      call write_scene_summary(summary_path(scene), scene, judged, series_of(scene), wall_seconds() - started, write_error, &
+                               motions_of(scene))
       if (.not. allocated(error) .and. allocated(write_error)) call move_alloc(write_error, error)
       if (scene%gearbox /= '') then
          call place_files(result_files(scene), summary_path(scene), error, summary_path(whole_gearbox(scene)))
@@ -111,13 +116,28 @@ contains
       call log%close()
    end subroutine run_one_scene
 
-   !> Series and state.
+   !> Series, state and table of motions.
    pure function result_files(scene) result(paths)
       type(scene_t), intent(in) :: scene
       type(word_t), allocatable :: paths(:)
+      integer :: n
 
-      paths = [series_of(scene), word_t(state_path(scene))]
+      ! One by one: gfortran 12 loses the texts of a list that is built of function results.
+      n = merge(1, 0, scene%output%series)
+      allocate (paths(n + merge(2, 1, has_motions_table(scene))))
+      if (n > 0) paths(1)%text = result_path(scene)
+      paths(n + 1)%text = state_path(scene)
+      if (size(paths) > n + 1) paths(n + 2)%text = motions_path(scene)
    end function result_files
+
+   !> The table of motions, if there is one.
+   pure function motions_of(scene) result(paths)
+      type(scene_t), intent(in) :: scene
+      type(word_t), allocatable :: paths(:)
+
+      allocate (paths(merge(1, 0, has_motions_table(scene))))
+      if (size(paths) > 0) paths(1)%text = motions_path(scene)
+   end function motions_of
 
    !> The series, if it is asked for.
    pure function series_of(scene) result(paths)

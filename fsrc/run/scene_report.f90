@@ -1,6 +1,7 @@
 !> What the terminal and the log tell of a scene.
 module scene_report
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use coexisting_motions, only: motions_sentence, own_start_words
    use verification, only: verification_sentence, verification_word
    use film_law, only: with_exact_film
    use film_state, only: load_t
@@ -10,7 +11,7 @@ module scene_report
    use kinds, only: dp
    use log_file, only: log_magic, log_t
    use node_extremes, only: seen_acceleration, seen_film
-   use output_place, only: result_path, summary_path
+   use output_place, only: has_motions_table, motions_path, result_path, summary_path
    use problem, only: reference_film
    use quantities, only: a_code, a_flag, part_cost, part_scene, part_window, quantity_closure_range, quantity_deflection_share, &
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
@@ -276,6 +277,7 @@ contains
          call report_part(log, judged, part)
       end do
       if (scene%output%series) call log%line('  '//result_path(scene))
+      if (has_motions_table(scene)) call log%line('  '//motions_path(scene))
       call log%line('  '//summary_path(scene))
    end subroutine report_ending
 
@@ -312,6 +314,9 @@ contains
       limit = nint(quantity_value(quantity_model_limit, judged))
       if (limit /= within_model) call log%line('  warning: '//model_limit_sentence(limit)//' (model_limit)')
       call report_verification(log, judged)
+      if (allocated(judged%coexisting%motions)) call log%line('  '//motions_sentence(judged%coexisting))
+      if (judged%coexisting%starts_solved > 1) call log%line('  '//integer_text(judged%coexisting%starts_solved - 1)// &
+         ' further starts were followed for '//integer_text(judged%coexisting%extra_periods)//' periods')
       call log%line('  '//regime_sentence(judged%regime))
       if (judged%regime%law_contradicted) &
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted); '// &
@@ -339,6 +344,8 @@ contains
 
          words = ''
          if (judged%verification%exists) words = ' ('//verification_word(judged%verification)//')'
+         if (.not. allocated(judged%coexisting%motions)) return
+         if (size(judged%coexisting%motions) > 1) words = words//', '//own_start_words(judged%coexisting)
       end function verified_in_brackets
 
    end subroutine report_window

@@ -1,6 +1,7 @@
 !> Result of a scene as the &summary group.
 module scene_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use coexisting_motions, only: motions_sentence
    use verification, only: verification_sentence, verification_word
    use errors, only: error_t
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
@@ -26,7 +27,7 @@ module scene_summary
 contains
 
    !> Write the summary of a scene beside its place, for place_files to bring it there.
-   subroutine write_scene_summary(path, scene, judged, results, seconds, error)
+   subroutine write_scene_summary(path, scene, judged, results, seconds, error, motions)
       !> Path of the summary
       character(*), intent(in) :: path
       !> Checked scene
@@ -39,10 +40,16 @@ contains
       real(dp), intent(in) :: seconds
       !> Set if the file cannot be written
       type(error_t), allocatable, intent(out) :: error
+      !> Path of its table of motions, if it has one
+      type(word_t), intent(in) :: motions(:)
       type(summary_t) :: summary
+      integer :: i
 
       call add_head(summary, scene, judged%status, judged%time)
       call add_results(summary, results, judged%status)
+      do i = 1, merge(0, size(motions), judged%status == status_not_written)
+         call summary%add('motions_checksum', checksum_of_new_result(motions(i)%text))
+      end do
       call summary%add('law', choice_word('film', 'law', scene%film%law))
       call summary%add('model', choice_word('film', 'model', scene%film%model))
       call summary%add('speed_used', judged%resolved%problem%contact%film%speed)
@@ -57,6 +64,7 @@ contains
             call summary%add('verification', verification_word(judged%verification))
             call summary%add('verification_text', verification_sentence(judged%verification))
          end if
+         if (allocated(judged%coexisting%motions)) call summary%add('motions_text', motions_sentence(judged%coexisting))
          call add_part(summary, judged, part_errors)
          call add_part(summary, judged, part_orbit)
          call add_part(summary, judged, part_regime)

@@ -1,6 +1,9 @@
 !> All motions of one operating point that its starts have led to, and which of them shakes most and least.
 module coexisting_motions
    use kinds, only: dp
+   use motion_start, only: one_start_sentence, several_starts
+   use quantities, only: quantity_rattle_class, quantity_word
+   use text, only: integer_text, short_text, spaced
    implicit none(type, external)
    private
 
@@ -17,6 +20,8 @@ module coexisting_motions
       !> Starts that lead to it, and whether that of the scene is one of them
       integer :: starts = 0
       logical :: from_own_start = .false.
+      !> Whether film and velocity of its state alone start it again
+      logical :: restarts = .false.
       !> Acceleration rms [m/s2], film force rms [N] and least film [m]
       real(dp) :: acceleration_rms = 0.0_dp
       real(dp) :: film_force_rms = 0.0_dp
@@ -33,10 +38,17 @@ module coexisting_motions
       !> Starts among those that settled whose film and velocity were drawn
       integer :: drawn_starts = 0
       !> Why there is one start only, as of one_start_reason
-      integer :: one_start_reason = 0
+      integer :: one_start_reason = several_starts
+      !> Whether the scene itself starts from another film or velocity than those at rest
+      logical :: start_is_given = .false.
+      !> Periods that the other starts were followed
+      integer :: extra_periods = 0
    end type coexisting_motions_t
 
-   public :: loudest_motion, quietest_motion
+   !> Probability with which a motion of a larger share of the starts would have been met [-].
+   real(dp), parameter :: certainty = 0.95_dp
+
+   public :: loudest_motion, quietest_motion, largest_missed_share, motions_sentence, own_start_words
 
 contains
 
@@ -55,5 +67,66 @@ contains
       place = 0
       if (allocated(coexisting%motions)) place = minloc(coexisting%motions%acceleration_rms, dim=1)
    end function quietest_motion
+
+   !> Share of the drawn starts that a motion which none of them met has less than, with 95 %: 1 - (1 - p)^n = 0.95 [-].
+   elemental real(dp) function largest_missed_share(drawn) result(share)
+      !> How many drawn starts have settled
+      integer, intent(in) :: drawn
+
+      share = 1.0_dp
+      if (drawn > 0) share = 1.0_dp - (1.0_dp - certainty)**(1.0_dp/real(drawn, dp))
+   end function largest_missed_share
+
+   !> Which start the motion of a scene comes from.
+   pure function own_start_words(coexisting) result(words)
+      type(coexisting_motions_t), intent(in) :: coexisting
+      character(:), allocatable :: words
+
+      words = trim(merge('from the given start', 'from rest           ', coexisting%start_is_given))
+   end function own_start_words
+
+   !> What is known of all motions, in words; empty where nothing is.
+   pure function motions_sentence(coexisting) result(sentence)
+      type(coexisting_motions_t), intent(in) :: coexisting
+      character(:), allocatable :: sentence
+      integer :: i
+
+      sentence = ''
+      if (.not. allocated(coexisting%motions)) return
+      associate (solved => coexisting%starts_solved, unsettled => coexisting%unsettled_starts, motions => coexisting%motions)
+         if (solved == 1) then
+            sentence = one_start_sentence(coexisting%one_start_reason)
+            if (len(sentence) == 0) sentence = 'one start: other motions were not looked for (solver.starts)'
+            return
+         end if
+         if (size(motions) == 1) then
+            sentence = 'one motion from '//integer_text(solved)//' starts'
+         else
+            sentence = integer_text(size(motions))//' motions: '
+            do i = 1, size(motions)
+               if (i > 1) sentence = sentence//', '
+               sentence = sentence//spaced(quantity_word(quantity_rattle_class, motions(i)%class))//' '// &
+                          short_text(motions(i)%acceleration_rms, 4)//' m/s2 ('
+               if (motions(i)%from_own_start) sentence = sentence//own_start_words(coexisting)//', '
+               sentence = sentence//integer_text(motions(i)%starts)//' of '//integer_text(solved)
+               if (i == 1) sentence = sentence//' starts'
+               sentence = sentence//')'
+            end do
+         end if
+         if (unsettled > 0) sentence = sentence//'; of '//integer_text(unsettled)//' starts the motion does not repeat, or not yet'
+         if (coexisting%drawn_starts > 0) &
+            sentence = sentence//trim(merge(': any other', '; any other', size(motions) == 1 .and. unsettled == 0))// &
+                       ' has less than '//percent(largest_missed_share(coexisting%drawn_starts))// &
+                       ' of the sampled starts (95 %)'
+      end associate
+   end function motions_sentence
+
+   !> A share in whole percent, rounded up.
+   pure function percent(share) result(words)
+      real(dp), intent(in) :: share
+      character(:), allocatable :: words
+
+      words = integer_text(ceiling(100.0_dp*share))//' %'
+   end function percent
 
 end module coexisting_motions

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     import xarray
 
 TIME = "time"
+# How the table of all motions of a scene ends.
+MOTIONS_ENDING = ".motions.rattle"
 
 
 class Columns(Mapping[str, np.ndarray]):
@@ -159,6 +161,12 @@ class Result(ResultFile):
         if not np.isfinite(values).all():
             raise ResultError(f"The column '{name}' of {self.path} holds values that are not finite.")
         return values
+
+    @property
+    def motions(self) -> Result | None:
+        """The motions that the starts of the scene led to, one per row; None where one start was followed."""
+        path = self.path.with_name(self.path.name.removesuffix(".rattle") + MOTIONS_ENDING)
+        return read(path) if path.exists() else None
 
     @property
     def scene_name(self) -> str:

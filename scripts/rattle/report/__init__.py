@@ -11,7 +11,7 @@ from rattle.codes import QUANTITIES, spoken, words_of
 from rattle.figures import campaign_look as look
 from rattle.figures import film, film_points
 from rattle.report import asked, campaign, motion, page, sweep, threshold
-from rattle.result import Result, read
+from rattle.result import MOTIONS_ENDING, Result, read
 from rattle.result_file import ResultFile
 from rattle.summary import Summary, comparison_table, read_summary
 
@@ -48,6 +48,8 @@ FILM_CAPTIONS = {
 
 def report(paths: Sequence[Path]) -> str:
     """The page on all results, in the order given."""
+    # What the table of all motions of a scene tells, the part on the scene does.
+    paths = [path for path in paths if not path.name.endswith(MOTIONS_ENDING)] or paths
     results = [opened(path) for path in paths]
     names = [path.name.removesuffix(".rattle") for path in paths]
     boxes = gearboxes(results)
@@ -71,6 +73,11 @@ def page_of_box(results: Sequence[ResultFile], names: Sequence[str], box: Summar
     """All gear pairs of an input: verdict, the severest in pictures, numbers; each pair behind a fold."""
     summaries = [summary for result in results if (summary := motion.summary_of(result))]
     words, table = together(box)
+    others = [
+        f"{gear}: {str(told['motions_text']).strip()}."
+        for gear, told in box["gears"].items()
+        if told.get("motions", 1) > 1
+    ]
     hit = [gear for gear, told in box["gears"].items() if "impacts" in str(told.get("verdict", ""))]
     told = [
         f"{gear}: {str(told['verdict']).strip()}" for gear, told in box["gears"].items() if "verdict" in told
@@ -82,7 +89,7 @@ def page_of_box(results: Sequence[ResultFile], names: Sequence[str], box: Summar
         folds += page.fold(name, part(result, name), f"result-{place}")
     return [
         page.paragraph(ABOUT.format(what=OF_MOTIONS), "lead"),
-        page.verdict_box(head, None, [f"{'; '.join(told)}." if told else "", words], doubt=False),
+        page.verdict_box(head, None, [f"{'; '.join(told)}." if told else "", *others, words], doubt=False),
         *odd_numbers_of(box, summaries),
         *severest_pair(results, box),
         *page.appendix(folds),
@@ -127,6 +134,8 @@ def part(result: ResultFile, name: str) -> list[str]:
         parts = campaign_part(result)
     elif isinstance(result, Result) and result.row_count == 0:
         parts = ([page.paragraph("This result holds no row, so there is nothing to tell of it.", "note")], [])
+    elif isinstance(result, Result) and result.path.name.endswith(MOTIONS_ENDING):
+        parts = table_part(result)
     elif isinstance(result, Result):
         makers = {"motion": motion_part, "sweep": sweep_part, "threshold": threshold_part, "film": film_part}
         parts = makers.get(result.task, table_part)(result)

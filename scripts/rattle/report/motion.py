@@ -202,6 +202,8 @@ def verdict_sentences(result: Result, summary: Summary) -> Iterator[str]:
         yield (
             "The scene was not solved a second time, so nothing is known of how far its class can be trusted."
         )
+    if summary.get("starts_solved", 1) > 1:
+        yield f"From other starts: {str(summary['motions_text']).strip()}."
     if summary.get("sampling_sufficient") is False:
         yield "There are too few samples a period for this motion: its harmonics are not those of the motion."
     periods = summary.get("orbit_period")
@@ -369,6 +371,7 @@ def computed(result: ResultFile, summary: Summary | None) -> list[str]:
         elif name not in QUANTITIES and name not in (
             "name",
             "input_warnings",
+            "motions_text",
             "program_version",
             "status_text",
             "verification",

@@ -1,0 +1,434 @@
+!> All motions of one scene: its starts are followed side by side until each is on a motion that is known, or repeats by itself.
+!>
+!> A start is given up to a known stable motion once it was next to it, and to no other, at the ends of two periods running. A
+!> start whose periods come near each other is handed to Newton's method on the period map, and what that finds is a motion of its
+!> own unless it is one that is known.
+module follow_starts
+   use carried_loads, only: counts_as, thinnest_film
+   use coexisting_motions, only: coexisting_motions_t, told_motion_t
+   use engine, only: ending_t, motion_state_t, request_t, status_of_stop
+   use errors, only: error_t
+   use fine_window, only: solve_whole_window, window_t
+   use irregular_motion, only: follow_irregular
+   use judged_scene, only: judged_scene_t
+   use kinds, only: dp
+   use many_motions, only: solve_motions
+   use motion_start, only: chosen_starts, motion_start_t, motion_starts, one_start_reason, start_count, &
+      start_is_given, state_of_start
+   use node_extremes, only: seen_film
+   use periodic_orbit, only: attracting_period, map_states, periodic_orbit_t
+   use problem, only: of_film, of_velocity, problem_t, state_size
+   use rattle_class, only: class_irregular, class_irregular_so_far, note_orbit, rattle_verdict_t
+   use resolved_scene, only: request_of
+   use scene_status, only: is_success, status_complete
+   use scene_types, only: scene_t
+   use settled_motion, only: is_near, same_motion, settled_motion_t
+   use signals, only: must_stop
+   use text_output, only: lock_texts, unlock_texts
+   use verify_scene, only: nearby_orbit
+   use vibration_severity, only: severity_of_record, vibration_severity_t
+   use window_extremes, only: extremes_of_record, window_extremes_t
+   implicit none(type, external)
+   private
+
+   !> Accuracy with which starts are followed: it decides where they lead, not what is told of it.
+   real(dp), parameter :: start_accuracy = 1.0e-6_dp
+   !> Periods of a round, after which it is seen where starts are, and most periods of a start.
+   integer, parameter :: round_periods = 4, most_periods = 120
+   !> Longest period that is looked for, as by the search for periodic motions.
+   integer, parameter :: longest_period = 8
+   !> Distance between two periods, relative to the film, from which on Newton's method is tried, and by how much it has to fall
+   !> before it is tried again [-].
+   real(dp), parameter :: first_try = 0.005_dp, next_try = 0.1_dp
+   !> Periods after which a motion that was started again by film and velocity has to be itself.
+   integer, parameter :: restart_periods = 40
+   !> Seed of the starts that are drawn.
+   integer, parameter :: seed = 1
+
+   !> What is known of the starts beside that of the scene.
+   type :: follower_t
+      type(motion_state_t), allocatable :: states(:)
+      !> Number of a state, ends of the last periods (the newest last), start
+      real(dp), allocatable :: past(:, :, :)
+      !> Periods done, and the motion that it leads to; 0: not known yet
+      integer, allocatable :: periods(:), motion(:)
+      !> Whether it could not be followed
+      logical, allocatable :: failed(:)
+      !> Distance at the last try of Newton's method [-]
+      real(dp), allocatable :: tried(:)
+   end type follower_t
+
+   public :: find_all_motions
+
+contains
+
+   !> Find the motions that the starts of a judged scene lead to. After a signal to stop the answer is of no use.
+   subroutine find_all_motions(scene, ending, started, judged, error)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> How its own motion ended
+      type(ending_t), intent(in) :: ending
+      !> When the run began, on the clock of wall_seconds [s]
+      real(dp), intent(in) :: started
+      !> Its judged scene; the other motions are added
+      type(judged_scene_t), intent(inout) :: judged
+      !> Set if there is not enough memory
+      type(error_t), allocatable, intent(out) :: error
+      type(settled_motion_t), allocatable :: settled(:)
+      type(motion_start_t), allocatable :: starts(:)
+      type(follower_t) :: followers
+      integer :: count, i
+
+      associate (problem => judged%resolved%problem, coexisting => judged%coexisting)
+         coexisting%start_is_given = start_is_given(problem)
+         coexisting%one_start_reason = one_start_reason(problem, scene%solver%method)
+         count = start_count(problem, scene%solver)
+         call note_own_motion(scene, ending, count > 1, judged, settled)
+         if (count > 1) then
+            starts = motion_starts(problem, count, seed)
+            call begin_starts(problem, starts(2:), followers)
+            call follow(scene, judged, started, followers, settled, error)
+            if (allocated(error) .or. must_stop()) return
+            call note_unsettled(scene, judged, followers, error)
+            if (allocated(error) .or. must_stop()) return
+            coexisting%starts_solved = count
+            coexisting%unsettled_starts = coexisting%unsettled_starts + size(pack(followers%motion, &
+                                                                                 unsettled(followers, coexisting)))
+            coexisting%drawn_starts = size(pack(followers%motion(chosen_starts:), &
+                                                .not. (followers%motion(chosen_starts:) == 0)))
+            do i = 1, size(coexisting%motions)
+               coexisting%motions(i)%starts = coexisting%motions(i)%starts + size(pack(followers%motion, followers%motion == i))
+               call find_restart(problem, i, settled, coexisting%motions(i))
+            end do
+            coexisting%extra_periods = sum(followers%periods)
+         end if
+      end associate
+   end subroutine find_all_motions
+
+   !> Starts whose motions were not seen to repeat.
+   pure function unsettled(followers, coexisting) result(is_unsettled)
+      type(follower_t), intent(in) :: followers
+      type(coexisting_motions_t), intent(in) :: coexisting
+      logical :: is_unsettled(size(followers%motion))
+      integer :: i
+
+      is_unsettled = followers%motion == 0
+      do i = 1, size(is_unsettled)
+         if (followers%motion(i) > 0) is_unsettled(i) = coexisting%motions(followers%motion(i))%period == 0
+      end do
+   end function unsettled
+
+   !> The motion of the scene itself is the first one.
+   subroutine note_own_motion(scene, ending, for_others, judged, settled)
+      type(scene_t), intent(in) :: scene
+      type(ending_t), intent(in) :: ending
+      !> Whether others are to be held against it
+      logical, intent(in) :: for_others
+      type(judged_scene_t), intent(inout) :: judged
+      !> The same, as far as it repeats
+      type(settled_motion_t), allocatable, intent(out) :: settled(:)
+      type(periodic_orbit_t) :: orbit
+      type(told_motion_t) :: own
+
+      orbit = judged%orbit
+      if (orbit%period == 0 .and. for_others .and. .not. scene%spectrum%verify) &
+         orbit = nearby_orbit(judged%resolved%problem, ending)
+      own%class = judged%rattle%class
+      own%period = attracting_period(orbit)
+      own%state = ending%numbers
+      if (own%period > 0) then
+         own%state = orbit%state
+         own%floquet_modulus = abs(orbit%multipliers(1))
+      else if (judged%repeats_after > 0 .and. orbit%period == 0) then
+         own%period = judged%repeats_after
+      end if
+      own%from_own_start = .true.
+      own%starts = 1
+      own%acceleration_rms = judged%severity%acceleration_rms
+      own%film_force_rms = judged%severity%film_force_rms
+      own%film_minimum = judged%extremes%lowest(seen_film)%value
+      allocate (settled(1))
+      settled(1) = settled_of(judged%resolved%problem, own)
+      own%period = settled(1)%period
+      allocate (judged%coexisting%motions(1))
+      judged%coexisting%motions(1) = own
+      judged%coexisting%starts_solved = 1
+      judged%coexisting%unsettled_starts = merge(1, 0, own%period == 0)
+   end subroutine note_own_motion
+
+   !> The states of a motion that repeats, one of each period.
+   type(settled_motion_t) function settled_of(problem, told) result(settled)
+      type(problem_t), intent(in) :: problem
+      !> Its state, period and rms
+      type(told_motion_t), intent(in) :: told
+      real(dp) :: states(size(told%state), 1)
+      integer :: i
+      logical :: mapped
+
+      allocate (settled%states(size(told%state), told%period))
+      settled%acceleration_rms = told%acceleration_rms
+      states(:, 1) = told%state
+      do i = 1, told%period
+         settled%states(:, i) = states(:, 1)
+         if (i == told%period) exit
+         call map_states(problem, 1, start_accuracy, states, mapped)
+         if (.not. mapped) return
+      end do
+      settled%period = told%period
+   end function settled_of
+
+   !> Starts that have not moved yet.
+   subroutine begin_starts(problem, starts, followers)
+      type(problem_t), intent(in) :: problem
+      type(motion_start_t), intent(in) :: starts(:)
+      type(follower_t), intent(out) :: followers
+      integer :: i, n
+
+      n = size(starts)
+      allocate (followers%states(n), followers%failed(n), followers%tried(n))
+      allocate (followers%past(state_size(problem), longest_period + 1, n), source=0.0_dp)
+      allocate (followers%periods(n), followers%motion(n), source=0)
+      followers%failed = .false.
+      followers%tried = huge(1.0_dp)
+      do i = 1, n
+         followers%states(i) = state_of_start(problem, starts(i))
+      end do
+   end subroutine begin_starts
+
+   !> Follow all starts until each is on a known motion, or has had its periods.
+   subroutine follow(scene, judged, started, followers, settled, error)
+      type(scene_t), intent(in) :: scene
+      type(judged_scene_t), intent(inout) :: judged
+      real(dp), intent(in) :: started
+      type(follower_t), intent(inout) :: followers
+      !> Motions that are known; others are added
+      type(settled_motion_t), allocatable, intent(inout) :: settled(:)
+      type(error_t), allocatable, intent(out) :: error
+      integer, allocatable :: left(:)
+      integer :: most, i
+
+      most = min(most_periods, max(scene%solver%periods, longest_period + 1))
+      do
+         left = pack([(i, i=1, size(followers%motion))], followers%motion == 0 .and. .not. followers%failed .and. &
+                     followers%periods < most)
+         if (size(left) == 0 .or. must_stop()) return
+         if (status_of_stop(request_of(scene), started) /= status_complete) return
+         call go_on(judged%resolved%problem, left, followers)
+         do i = 1, size(left)
+            if (followers%failed(left(i))) cycle
+            followers%motion(left(i)) = known_motion(judged%resolved%problem, followers%past(:, :, left(i)), settled)
+            if (followers%motion(left(i)) > 0) cycle
+            call look_for_repetition(scene, judged, left(i), followers, settled, error)
+            if (allocated(error) .or. must_stop()) return
+         end do
+      end do
+   end subroutine follow
+
+   !> Follow some starts for a round.
+   subroutine go_on(problem, left, followers)
+      type(problem_t), intent(in) :: problem
+      !> Which
+      integer, intent(in) :: left(:)
+      type(follower_t), intent(inout) :: followers
+      type(problem_t) :: problems(size(left))
+      type(ending_t) :: endings(size(left))
+      real(dp), allocatable :: states(:, :, :)
+      integer :: i
+
+      problems = problem
+      allocate (states(round_periods, state_size(problem), size(left)), source=0.0_dp)
+      call unlock_texts()
+      call solve_motions(problems, followers%states(left), &
+                         request_t(accuracy=start_accuracy, periods=round_periods, samples_per_period=1, &
+                                   sampled_periods=round_periods), states, endings)
+      call lock_texts()
+      do i = 1, size(left)
+         associate (place => left(i))
+            followers%periods(place) = followers%periods(place) + endings(i)%periods
+            followers%failed(place) = endings(i)%status /= status_complete
+            if (followers%failed(place)) cycle
+            followers%states(place) = motion_state_t(numbers=endings(i)%numbers, implicit=endings(i)%implicit)
+            followers%past(:, :, place) = eoshift(followers%past(:, :, place), round_periods, dim=2)
+            followers%past(:, longest_period + 2 - round_periods:, place) = transpose(states(:, :, i))
+         end associate
+      end do
+   end subroutine go_on
+
+   !> Place of the known motion that a start was next to at the ends of its last two periods; 0: none, or several.
+   pure integer function known_motion(problem, past, settled) result(place)
+      type(problem_t), intent(in) :: problem
+      !> Number of a state, period, the newest last
+      real(dp), intent(in) :: past(:, :)
+      type(settled_motion_t), intent(in) :: settled(:)
+      integer :: i, j, n
+
+      n = size(past, 2)
+      place = 0
+      do i = 1, size(settled)
+         do j = 1, settled(i)%period
+            if (.not. is_near(problem, past(:, n - 1), settled(i)%states(:, j))) cycle
+            if (.not. is_near(problem, past(:, n), settled(i)%states(:, modulo(j, settled(i)%period) + 1))) cycle
+            if (place > 0 .and. place /= i) then
+               place = 0
+               return
+            end if
+            place = i
+         end do
+      end do
+   end function known_motion
+
+   !> Where the periods of a start come near each other, find the motion that it settles on.
+   subroutine look_for_repetition(scene, judged, place, followers, settled, error)
+      type(scene_t), intent(in) :: scene
+      type(judged_scene_t), intent(inout) :: judged
+      !> Which start
+      integer, intent(in) :: place
+      type(follower_t), intent(inout) :: followers
+      !> Motions that are known; another one is added
+      type(settled_motion_t), allocatable, intent(inout) :: settled(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(periodic_orbit_t) :: orbit
+      type(told_motion_t) :: told
+      type(settled_motion_t) :: one
+      type(ending_t) :: here
+      real(dp) :: distance
+      integer :: i
+
+      if (followers%periods(place) <= longest_period) return
+      associate (problem => judged%resolved%problem, past => followers%past(:, :, place))
+         distance = distance_of_periods(problem, past)
+         if (distance > first_try .or. distance > next_try*followers%tried(place)) return
+         followers%tried(place) = distance
+         here%numbers = followers%states(place)%numbers
+         orbit = nearby_orbit(problem, here)
+         if (attracting_period(orbit) == 0) return
+         told%period = orbit%period
+         told%state = orbit%state
+         told%floquet_modulus = abs(orbit%multipliers(1))
+         call judge_motion(scene, judged, motion_state_t(numbers=orbit%state), orbit%period, told, here, error)
+         if (allocated(error) .or. told%class == 0) return
+         one = settled_of(problem, told)
+         do i = 1, size(settled)
+            if (same_motion(problem, one, settled(i))) followers%motion(place) = i
+         end do
+         if (followers%motion(place) > 0 .or. one%period == 0) return
+         settled = [settled, one]
+         judged%coexisting%motions = [judged%coexisting%motions, told]
+         followers%motion(place) = size(settled)
+      end associate
+   end subroutine look_for_repetition
+
+   !> Least distance between the last state and those one to eight periods before, relative to the film.
+   pure real(dp) function distance_of_periods(problem, past) result(distance)
+      type(problem_t), intent(in) :: problem
+      !> Number of a state, period, the newest last
+      real(dp), intent(in) :: past(:, :)
+      real(dp) :: scale(size(past, 1))
+      integer :: i, n
+
+      n = size(past, 2)
+      scale = counts_as(problem, past(:, n))
+      distance = minval([(maxval(abs(past(:, n) - past(:, i))*scale), i=1, n - 1)])/thinnest_film(problem, past(:, n))
+   end function distance_of_periods
+
+   !> Class and severity of a motion, over some periods from a state on it.
+   subroutine judge_motion(scene, judged, start, periods, told, ending, error)
+      type(scene_t), intent(in) :: scene
+      type(judged_scene_t), intent(in) :: judged
+      type(motion_state_t), intent(in) :: start
+      integer, intent(in) :: periods
+      !> With its period; class 0 where it could not be solved
+      type(told_motion_t), intent(inout) :: told
+      !> How it ended
+      type(ending_t), intent(out) :: ending
+      type(error_t), allocatable, intent(out) :: error
+      type(window_t) :: window
+      type(rattle_verdict_t) :: verdict
+      type(vibration_severity_t) :: severity
+      type(window_extremes_t) :: extremes
+
+      told%class = 0
+      window%periods = periods
+      window%samples_per_period = scene%solver%samples_per_period()
+      call solve_whole_window(scene, judged%resolved%problem, start, scene%solver%accuracy, periods, &
+                              judged%resolved%noise_floor, window, verdict, ending, error)
+      if (allocated(error)) return
+      if (.not. is_success(ending%status)) return
+      call note_orbit(verdict, told%period)
+      told%class = verdict%class
+      severity = severity_of_record(window%record, judged%resolved%problem%frequency)
+      extremes = extremes_of_record(window%record)
+      told%acceleration_rms = severity%acceleration_rms
+      told%film_force_rms = severity%film_force_rms
+      told%film_minimum = extremes%lowest(seen_film)%value
+   end subroutine judge_motion
+
+   !> Starts that do not settle: where their motion is irregular, it is one motion, that of the scene if that is irregular too.
+   subroutine note_unsettled(scene, judged, followers, error)
+      type(scene_t), intent(in) :: scene
+      type(judged_scene_t), intent(inout) :: judged
+      type(follower_t), intent(inout) :: followers
+      type(error_t), allocatable, intent(out) :: error
+      type(told_motion_t) :: told
+      type(ending_t) :: endings(1)
+      type(rattle_verdict_t) :: verdicts(1)
+      integer :: repeat_after(1), first, place
+
+      first = findloc(followers%motion == 0 .and. .not. followers%failed, .true., dim=1)
+      if (first == 0) return
+      place = findloc(judged%coexisting%motions%class, class_irregular, dim=1)
+      if (place == 0) then
+         call judge_motion(scene, judged, followers%states(first), scene%spectrum%periods, told, endings(1), error)
+         if (allocated(error)) return
+         if (told%class /= class_irregular_so_far) return
+         verdicts%class = told%class
+         repeat_after = 0
+         call follow_irregular([judged%resolved%problem], endings, verdicts, repeat_after)
+         if (must_stop() .or. verdicts(1)%class /= class_irregular) return
+         told%class = class_irregular
+         told%state = endings(1)%numbers
+         judged%coexisting%motions = [judged%coexisting%motions, told]
+         place = size(judged%coexisting%motions)
+      end if
+      where (followers%motion == 0 .and. .not. followers%failed) followers%motion = place
+   end subroutine note_unsettled
+
+   !> Take the state of a motion from which film and velocity alone start it again: contacts with numbers of their own begin at
+   !> rest then, and come into the motion by themselves, but perhaps into another one.
+   subroutine find_restart(problem, place, settled, told)
+      type(problem_t), intent(in) :: problem
+      !> Its place among those that are known
+      integer, intent(in) :: place
+      type(settled_motion_t), intent(in) :: settled(:)
+      type(told_motion_t), intent(inout) :: told
+      type(ending_t), allocatable :: endings(:)
+      type(motion_state_t), allocatable :: starts(:)
+      type(problem_t), allocatable :: problems(:)
+      real(dp), allocatable :: states(:, :, :)
+      integer :: i, n
+
+      told%restarts = told%period > 0
+      if (.not. told%restarts .or. size(told%state) == of_velocity) return
+      n = told%period
+      allocate (endings(n), starts(n), problems(n))
+      problems = problem
+      do i = 1, n
+         associate (state => settled(place)%states(:, i))
+            starts(i) = state_of_start(problem, motion_start_t('given', state(of_film), state(of_velocity)))
+         end associate
+      end do
+      allocate (states(2, size(told%state), n), source=0.0_dp)
+      call unlock_texts()
+      call solve_motions(problems, starts, request_t(accuracy=start_accuracy, periods=restart_periods, samples_per_period=1, &
+                                                     sampled_periods=2), states, endings)
+      call lock_texts()
+      do i = 1, n
+         told%restarts = endings(i)%status == status_complete .and. &
+                         known_motion(problem, transpose(states(:, :, i)), settled) == place
+         if (.not. told%restarts) cycle
+         told%state = settled(place)%states(:, i)
+         return
+      end do
+   end subroutine find_restart
+
+end module follow_starts
