@@ -77,6 +77,7 @@ contains
       type(settled_motion_t), allocatable :: settled(:)
       type(motion_start_t), allocatable :: starts(:)
       type(follower_t) :: followers
+      logical, allocatable :: is_unsettled(:)
       integer :: count, i
 
       associate (problem => judged%resolved%problem, coexisting => judged%coexisting)
@@ -92,10 +93,10 @@ contains
             call note_unsettled(scene, judged, followers, error)
             if (allocated(error) .or. must_stop()) return
             coexisting%starts_solved = count
-            coexisting%unsettled_starts = coexisting%unsettled_starts + size(pack(followers%motion, &
-                                                                                 unsettled(followers, coexisting)))
-            coexisting%drawn_starts = size(pack(followers%motion(chosen_starts:), &
-                                                .not. (followers%motion(chosen_starts:) == 0)))
+            is_unsettled = unsettled(followers, coexisting)
+            coexisting%unsettled_starts = coexisting%unsettled_starts + size(pack(is_unsettled, is_unsettled))
+            ! The own start is not among those that were followed here.
+            coexisting%drawn_starts = size(pack(is_unsettled(chosen_starts:),.not. is_unsettled(chosen_starts:)))
             do i = 1, size(coexisting%motions)
                coexisting%motions(i)%starts = coexisting%motions(i)%starts + size(pack(followers%motion, followers%motion == i))
                call find_restart(problem, i, settled, coexisting%motions(i))

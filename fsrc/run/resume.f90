@@ -78,11 +78,10 @@ contains
       character(column_unit_bytes), allocatable :: units(:)
       real(dp), allocatable :: row(:, :)
 
-      call check_earlier_result(scene, motions_path(scene), free_keys, error)
-      if (allocated(error)) return
       kept = state_of_path(state_path(scene))
       if (kept%bytes == 0_int64) then
          call check_series(scene, error)
+         if (.not. allocated(error)) call check_earlier_result(scene, motions_path(scene), free_keys, error)
          if (.not. allocated(error)) call check_lone_summary(scene, error)
          return
       end if
@@ -95,6 +94,7 @@ contains
       if (.not. allocated(error)) call reader%verify_rows(1_int64, error)
       if (.not. allocated(error)) call reader%read_rows(1_int64, row, error)
       call reader%close()
+      if (.not. allocated(error)) call check_earlier_result(scene, motions_path(scene), free_keys, error)
       if (allocated(error)) return
       state = state_of(row(:, 1), size(numbers))
       if (state%periods == 0) then

@@ -21,7 +21,11 @@ FILM_DIGITS = 5
 CHECKSUM_MARK = b"! checksum "
 ENDING = ".summary.nml"
 # Keys that hold the checksum of a result, and how the name of that result ends.
-RESULTS = {"result_checksum": ".rattle", "profiles_checksum": ".profiles.rattle", "motions_checksum": ".motions.rattle"}
+RESULTS = {
+    "result_checksum": ".rattle",
+    "profiles_checksum": ".profiles.rattle",
+    "motions_checksum": ".motions.rattle",
+}
 DIFFERENT = "one of the two is of another run, or damaged; rattle --overwrite writes both anew"
 
 

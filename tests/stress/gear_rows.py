@@ -35,6 +35,8 @@ TOLERANCE = 1e-9
 # Where these samples are too few, a single scene takes more and a row integrates over its steps: errors of
 # the motion, of 1e-6, stand against the largest harmonic.
 BY_INTEGRALS = 1e-3
+# A single scene is followed from more starts than a row.
+OF_STARTS = re.compile(r"motions|starts_solved|unsettled_starts|loudest_\w+|quietest_\w+")
 SPECTRAL = ("harmonic_distortion", "irregular_fraction")
 
 
@@ -176,7 +178,8 @@ def recordable(program: Path) -> list[str]:
     page = subprocess.run([program, "--keys"], capture_output=True, text=True, check=True).stdout
     (line,) = (line for line in page.splitlines() if line.startswith("| `record` |"))
     names = [row.split(",")[0] for row in table.splitlines()[1:]]
-    return [name for name in names if re.search(rf"\b{name}\b", line.split("|")[4])]
+    kept = [name for name in names if not OF_STARTS.fullmatch(name)]
+    return [name for name in kept if re.search(rf"\b{name}\b", line.split("|")[4])]
 
 
 def faults_of(program: Path, case: Case, recorded: list[str], folder: Path) -> Iterator[str]:

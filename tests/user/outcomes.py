@@ -48,3 +48,8 @@ def assert_faults(found: list[str], file: object, expected: list[str]) -> None:
     assert len(found) == len(wanted), "\n".join(found)
     for fault, start in zip(found, wanted, strict=True):
         assert fault.startswith(start)
+
+
+def series_in(folder: Path) -> list[Path]:
+    """The results in a folder, by name, without the tables of all motions of a scene beside them."""
+    return sorted(path for path in folder.glob("*.rattle") if not path.name.endswith(".motions.rattle"))

@@ -11,6 +11,7 @@ from pathlib import Path
 import campaign_runs
 import campaign_writer
 import pytest
+from outcomes import series_in
 from result_writer import result_bytes
 from script_calls import SCRIPTS, called_here
 from test_thresholds import threshold_text
@@ -120,7 +121,7 @@ def results(tmp_path_factory, rattle, run, repository, scene_text) -> Path:
     listed.write(folder / "unbegun_list.rattle", undone=chunks, closed=False)
     gears = (repository / "input" / "gearbox.nml").read_text()
     solve("box", gears, "--set", "scene.name=box", "--set", "solver.periods=20", codes=(0, 1))
-    first = next(path for path in sorted(folder.glob("box.*.rattle")))
+    first = next(path for path in series_in(folder) if path.name.startswith("box."))
     shutil.copy(first, folder / "box.one.rattle")
     shutil.copy(first.with_suffix(".summary.nml"), folder / "box.one.summary.nml")
     shutil.copy(folder / "motion.summary.nml", folder / "alone.summary.nml")

@@ -10,6 +10,7 @@ import campaign_writer
 import numpy as np
 import pytest
 from figure_words import RELATIVE, assert_says, film_of, words_of
+from outcomes import series_in
 from test_drawn_thresholds import ROWS, level_result, written
 from told import SPOKEN
 
@@ -42,7 +43,7 @@ def solved(run, repository, tmp_path_factory):
     folder = tmp_path_factory.mktemp("drawn")
     inputs = [repository / "input" / f"{name}.nml" for name in (*READY, "stiff_or_not")]
     assert run(*inputs, "--output", folder, cwd=folder).returncode == 0
-    return {path.stem: path for path in folder.glob("*.rattle")}
+    return {path.stem: path for path in series_in(folder)}
 
 
 class Motion:

@@ -10,6 +10,7 @@ from typing import Any
 import campaign_runs
 import numpy as np
 import pytest
+from outcomes import series_in
 from test_thresholds import threshold_text
 from told import ANY, SPOKEN, assert_told, counted, short, stated_error
 
@@ -39,7 +40,12 @@ def log_of(path: Path) -> list[str]:
 
 
 def files(path: Path) -> list[str]:
-    return [f"  {path}", f"  {path.with_suffix('.summary.nml')}"]
+    motions = path.with_suffix(".motions.rattle")
+    return [
+        f"  {path}",
+        *([f"  {motions}"] if motions.exists() else []),
+        f"  {path.with_suffix('.summary.nml')}",
+    ]
 
 
 def um(length: float, digits: int) -> str:
@@ -107,6 +113,10 @@ def lines_of_window(told: Mapping[str, Any], given: Mapping[str, Any]) -> list[s
         f"  warning: {coarse_words(told, given)}" if told["series_coarse"] else None,
         f"  warning: {', and '.join(limits)} (model_limit)" if limits else None,
         *(lines_of_verification(told) if verification else []),
+        f"  {told['motions_text']}",
+        f"  {told['starts_solved'] - 1} further starts were followed for {ANY} periods"
+        if told["starts_solved"] > 1
+        else None,
         f"  {regime_words(told)}",
         contradicted if told["law_contradicted"] else None,
         stiffness_words(told, given),
@@ -132,10 +142,11 @@ def spectrum_words(told: Mapping[str, Any], verification: str) -> str:
         return f"  no motion but rounding: {class_words(told)}"
     bound = "at least " if told["harmonic_count_is_bound"] else ""
     share = "at least " if told["harmonic_distortion_is_bound"] else ""
+    start = ", from rest" if told["motions"] > 1 else ""
     return (
         f"  {bound}{told['harmonic_count']} harmonics, harmonic distortion {share}"
         f"{short(told['harmonic_distortion'], 3)}, {short(told['reversals_per_period'], 3)} reversals a "
-        f"period: {class_words(told)}{verification}"
+        f"period: {class_words(told)}{verification}{start}"
     )
 
 
@@ -272,7 +283,7 @@ def test_the_log_of_a_motion_is_its_summary(solve, scene_text, name):
 @pytest.mark.parametrize("name", ("engine_cycle", "loose_pair", "loose_gear", "idle", "creep_period_two"))
 def test_the_log_of_a_ready_scene_is_its_summary(run, repository, tmp_path, name):
     assert run(repository / "input" / f"{name}.nml", "--output", tmp_path, cwd=tmp_path).returncode == 0
-    path = next(tmp_path.glob("*.rattle"))
+    (path,) = series_in(tmp_path)
     found = log_of(path)
     if name == "engine_cycle":
         assert "; engine orders 0.5 to 12 are kept, " in found.pop(1)
@@ -312,12 +323,15 @@ def test_the_log_of_a_gearbox_is_its_table(run, repository, tmp_path, change, co
     ended = run("box.nml", "--set", "scene.name=box", "--output", tmp_path, cwd=tmp_path)
     assert ended.returncode == code, ended.stderr
     table = rattle.read_summary(tmp_path / "box.summary.nml")
-    head, heads, units, *rows, uncorrelated, in_phase, words, relative, file = (
-        (tmp_path / "box.log").read_text().splitlines()
-    )
+    lines = (tmp_path / "box.log").read_text().splitlines()
+    ranked = sorted(table["gears"].items(), key=lambda pair: -pair[1].get("film_force_rms", -1.0))
+    others = [f"  {gear}: {told['motions_text']}" for gear, told in ranked if told.get("motions", 1) > 1]
+    behind_sums = slice(len(lines) - 2 - len(others), len(lines) - 2)
+    assert lines[behind_sums] == others
+    del lines[behind_sums]
+    head, heads, units, *rows, uncorrelated, in_phase, words, relative, file = lines
     assert head == f"rattle {table['program_version']}, gearbox box: {len(table['gears'])} pairs"
     cells = [[cell for cell in re.split("  +", row.strip()) if cell] for row in rows]
-    ranked = sorted(table["gears"].items(), key=lambda pair: -pair[1].get("film_force_rms", -1.0))
     assert cells == [told_by_the_table(gear, told) for gear, told in ranked]
     assert tuple(re.split("  +", heads.strip())) == HEADS and tuple(re.split("  +", units.strip())) == UNITS
     # Every unit, and the words of "together", stand under their head.

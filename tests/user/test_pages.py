@@ -261,6 +261,8 @@ def sentences_on_motion(told: Told, given: Mapping[str, Any]) -> tuple[list[str]
     choose(
         found, silent, "verification" in told, told.get("verification_text", "No reason."), "a second time"
     )
+    if told.get("starts_solved", 1) > 1:
+        found.append(f"From other starts: {told['motions_text']}.")
     if told["model_limit"] != "within":
         found.append("1 nm" if "narrow" in told["model_limit"] else "a tenth of the radius")
     share, elastic = told["deflection_share"], "stiffness" in given["contact"]

@@ -1,0 +1,241 @@
+"""All motions of one operating point: told, sealed, started again, and followed by an independent solver."""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from outcomes import summary_of
+from scipy.integrate import solve_ivp
+from script_calls import call_script
+
+import rattle as package
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reference"))
+import elastohydrodynamic_closure
+
+# A pair that comes back to one motion from everywhere within a few periods.
+LOOSE = {
+    "contact": {"radius": "7.5e-3", "length": "0.02", "backlash": "1.0e-4"},
+    "lubricant": {"viscosity": "0.05", "pressure_viscosity": "2.0e-8"},
+    "kinematics": {"entrainment_speed": "1.07"},
+    "load": {
+        "mass": "0.45",
+        "steady_force": "5.0",
+        "gravity": "0.0",
+        "frequency": "26.7",
+        "force_amplitude": "7.9",
+    },
+    "film": {"law": "'iso-viscous'", "model": "'reynolds'"},
+    "solver": {"method": "'taylor'", "steps_per_period": None, "periods": "40"},
+}
+
+
+@pytest.fixture(scope="module")
+def two_motions(run, repository: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder in which the ready input with two motions was solved."""
+    folder = tmp_path_factory.mktemp("two_motions")
+    ended = run(repository / "input" / "two_motions.nml", cwd=folder)
+    assert ended.returncode == 0, ended.stderr
+    return folder
+
+
+def test_both_motions_are_told(two_motions: Path) -> None:
+    results = two_motions / "results"
+    told = summary_of(results / "two_motions.summary.nml")
+    assert (told["motions"], told["starts_solved"], told["unsettled_starts"]) == (2, 29, 0)
+    table = package.read(results / "two_motions.rattle").motions
+    frame = table.frame()
+    assert frame.rattle_class_word.tolist() == ["idle", "subharmonic"]
+    assert frame.orbit_period.tolist() == [1, 2] and frame.starts.sum() == 29
+    assert frame.from_own_start.tolist() == [1, 0]
+    # The columns that there were are those of the motion from rest; table and summary agree.
+    assert told["rattle_class"] == told["quietest_class"] == "idle"
+    assert told["acceleration_rms"] == told["quietest_acceleration_rms"] == frame.acceleration_rms[0]
+    assert told["loudest_class"] == "subharmonic"
+    for name in ("acceleration_rms", "film_force_rms", "film_minimum"):
+        assert told[f"loudest_{name}"] == frame[name][1]
+    assert frame.film_force_rms[1] > 1.2 * frame.film_force_rms[0]
+    assert (frame.floquet_modulus < 1.0).all()
+    log = (results / "two_motions.log").read_text()
+    assert re.search(r": idle \((verified|uncertain)\), from rest\n", log)
+    sentence = re.search(
+        r"2 motions: idle 27\.\d+ m/s2 \(from rest, (\d+) of 29 starts\), "
+        r"subharmonic 35\.\d+ m/s2 \((\d+) of 29\)",
+        log,
+    )
+    assert [int(starts) for starts in sentence.groups()] == frame.starts.tolist()
+    assert told["motions_text"].startswith(sentence[0])
+
+
+def test_a_motion_starts_again_by_its_film_and_velocity(run, repository: Path, two_motions: Path) -> None:
+    frame = package.read(two_motions / "results" / "two_motions.motions.rattle").frame()
+    assert frame.restarts.all()
+    for row in frame.itertuples():
+        ended = run(
+            *("--set", f"film.initial_film={row.film!r}", "--set", f"film.initial_velocity={row.velocity!r}"),
+            *("--set", "solver.starts=1", "--set", "scene.name='again'", "--overwrite"),
+            repository / "input" / "two_motions.nml",
+            cwd=two_motions,
+        )
+        assert ended.returncode == 0, ended.stderr
+        told = summary_of(two_motions / "results" / "again.summary.nml")
+        assert told["rattle_class"] == row.rattle_class_word
+        assert told["orbit_period"] == row.orbit_period
+        for name in ("acceleration_rms", "film_force_rms", "film_minimum"):
+            assert told[name] == pytest.approx(getattr(row, name), rel=1e-5)
+
+
+def test_an_independent_solver_stays_on_each_motion(two_motions: Path) -> None:
+    """scipy's Radau method on the equations of springs and Reynolds films, from the told state."""
+    told = summary_of(two_motions / "results" / "two_motions.summary.nml")
+    frame = package.read(two_motions / "results" / "two_motions.motions.rattle").frame()
+    radius, mass, stiffness = (float(told[name]) for name in ("radius", "mass", "stiffness"))
+    speed = 2.0 * told["entrainment_speed"]
+    group = 12.0 * told["length"] * speed * told["viscosity"] * radius
+    orders, amplitudes, phases = (
+        np.array(told[f"force_{name}"]) for name in ("orders", "amplitudes", "phases")
+    )
+    turn = 2.0 * math.pi * told["frequency"]
+
+    def velocity(film, compression):
+        """Velocity at which a film carries its spring, by the inverse of Phi(A)."""
+        load = math.log(max(stiffness * compression * film / group, 1e-300))
+        return (
+            0.25
+            * speed
+            * math.sqrt(2.0 * film / radius)
+            * math.sinh(float(elastohydrodynamic_closure.INVERSE(load)))
+        )
+
+    def rates(time, state):
+        """Film, velocity of the gear and both compressions, all in micrometres."""
+        film, gear, drive, coast = 1e-6 * state
+        other = told["backlash"] - film + drive + coast
+        squeeze = velocity(film, drive)
+        force = told["steady_force"] + np.sum(amplitudes * np.cos(orders * turn * time + phases))
+        acceleration = (stiffness * (drive - coast) - force) / mass
+        return 1e6 * np.array([squeeze, acceleration, squeeze - gear, velocity(other, coast) + gear])
+
+    for row in frame.itertuples():
+        start = 1e6 * np.array([row.film, row.velocity, row.drive_compression, row.coast_compression])
+        period = row.orbit_period / told["frequency"]
+        solution = solve_ivp(
+            rates, (0.0, period), start, method="Radau", rtol=1e-7, atol=1e-11, dense_output=True
+        )
+        assert solution.success
+        # Back where it began: within a thousandth of the gap, and of the characteristic velocity.
+        swing = float(np.sum(amplitudes / (mass * orders * turn)))
+        assert abs(solution.y[0, -1] - start[0]) < 1e-3 * 1e6 * told["backlash"]
+        assert abs(solution.y[1, -1] - start[1]) < 1e-3 * 1e6 * swing
+        # The integral of the square of the acceleration over the steps of the solution.
+        square = sum(
+            np.trapezoid(np.square([1e-6 * rates(t, solution.sol(t))[1] for t in fine]), fine)
+            for fine in (np.linspace(*ends, 9) for ends in zip(solution.t[:-1], solution.t[1:], strict=True))
+        )
+        assert math.sqrt(square / period) == pytest.approx(row.acceleration_rms, rel=1e-3)
+
+
+def test_one_motion_is_told_with_what_may_be_missed(run, scene_text, tmp_path: Path) -> None:
+    """The share p with 1 - (1 - p)^n = 0.95 of the n starts that are drawn: all but the first three."""
+    (tmp_path / "scene.nml").write_text(scene_text(**LOOSE))
+    for starts in (29, 62):
+        ended = run("--set", f"solver.starts={starts}", "--overwrite", "scene.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+        told = summary_of(tmp_path / "results" / "scene.summary.nml")
+        assert (told["motions"], told["starts_solved"], told["unsettled_starts"]) == (1, starts, 0)
+        share = math.ceil(100.0 * (1.0 - 0.05 ** (1.0 / (starts - 3))))
+        assert (
+            f"one motion from {starts} starts: any other has less than {share} % of the sampled starts (95 %)"
+            in ended.stdout
+        )
+        assert told["loudest_acceleration_rms"] == told["acceleration_rms"]
+
+
+def test_one_start_is_the_same_series(run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(scene_text(**LOOSE))
+    rows = []
+    for starts in (1, 29):
+        ended = run("--set", f"solver.starts={starts}", "--overwrite", "scene.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+        frame = package.read(tmp_path / "results" / "scene.rattle").frame()
+        rows.append(frame.to_numpy().tobytes())
+        if starts == 1:
+            assert not (tmp_path / "results" / "scene.motions.rattle").exists()
+            assert "one start: other motions were not looked for" in ended.stdout
+    assert rows[0] == rows[1]
+
+
+def test_why_one_start_is_enough(run, scene_text, tmp_path: Path) -> None:
+    taylor = {"method": "'taylor'", "steps_per_period": None, "periods": "20"}
+    for changes, words in (
+        ({}, "one start: the method of the paper"),
+        ({"solver": taylor}, "one start: on one flank and damped above half of the critical damping"),
+        (
+            {**LOOSE, "load": {**LOOSE["load"], "force_amplitude": "0.0"}},
+            "one start: nothing oscillates",
+        ),
+    ):
+        (tmp_path / "scene.nml").write_text(scene_text(**changes))
+        ended = run("--overwrite", "scene.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+        assert words in ended.stdout
+        assert not (tmp_path / "results" / "scene.motions.rattle").exists()
+        assert summary_of(tmp_path / "results" / "scene.summary.nml")["starts_solved"] == 1
+    (tmp_path / "scene.nml").write_text(scene_text(solver={"starts": "5"}))
+    refused = run("--check", "scene.nml", cwd=tmp_path)
+    assert (
+        refused.returncode == 2
+        and "solver starts: this key is used only with solver.method=taylor" in refused.stderr
+    )
+
+
+def test_the_table_of_motions_is_written_like_other_results(run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(scene_text(**LOOSE))
+    assert run("scene.nml", cwd=tmp_path).returncode == 0
+    results = tmp_path / "results"
+    table = results / "scene.motions.rattle"
+    first = table.read_bytes()
+    for name in ("scene.rattle", "scene.state", "scene.summary.nml", "scene.log"):
+        (results / name).unlink()
+    refused = run("scene.nml", cwd=tmp_path)
+    assert (
+        refused.returncode == 2 and "scene.motions.rattle exists; --overwrite replaces it" in refused.stderr
+    )
+    assert run("--overwrite", "--threads", "1", "scene.nml", cwd=tmp_path).returncode == 0
+    assert table.read_bytes() == first
+    # The summary knows the table that it belongs to, and a bit is missed.
+    assert package.read_summary(results / "scene.summary.nml")["motions"] == 1
+    assert run("--overwrite", "--set", "load.mass=0.5", "scene.nml", cwd=tmp_path).returncode == 0
+    table.write_bytes(first)
+    with pytest.raises(package.SummaryError, match=r"scene\.motions\.rattle beside"):
+        package.read_summary(results / "scene.summary.nml")
+    refused = run("--resume", "scene.nml", cwd=tmp_path)
+    assert refused.returncode == 2
+
+
+def test_a_run_is_carried_on_with_more_starts(run, scene_text, tmp_path: Path) -> None:
+    (tmp_path / "scene.nml").write_text(scene_text(**LOOSE))
+    for name, arguments in (
+        ("parts", ("--set", "solver.starts=5", "--set", "solver.periods=30")),
+        ("parts", ("--resume",)),
+        ("whole", ()),
+    ):
+        ended = run("--output", name, *arguments, "scene.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+    for ending in ("rattle", "motions.rattle", "state"):
+        assert (tmp_path / "parts" / f"scene.{ending}").read_bytes() == (
+            tmp_path / "whole" / f"scene.{ending}"
+        ).read_bytes()
+
+
+def test_a_report_tells_all_motions_once(two_motions: Path, repository: Path) -> None:
+    results = sorted((two_motions / "results").glob("two_motions*.rattle"))
+    assert len(results) == 2
+    call_script("report.py", *results, "--output", two_motions / "page.html", cwd=two_motions)
+    page = (two_motions / "page.html").read_text()
+    assert page.count("From other starts: 2 motions: idle") == 1
