@@ -321,9 +321,12 @@ contains
       if (judged%regime%law_contradicted) &
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted); '// &
                        fitting_law(judged%regime%regime))
-      if (nint(quantity_value(quantity_closure_range, judged)) == outside_closure) &
-         call log%line('  warning: '//closure_range_sentence(judged%resolved%problem%contact%film, largest_load(judged), &
-                                                             judged%regime%pressure_maximum))
+      ! Of films that do not bend it is not a number.
+      if (judged%resolved%problem%contact%film%bends) then
+         if (nint(quantity_value(quantity_closure_range, judged)) == outside_closure) &
+            call log%line('  warning: '//closure_range_sentence(judged%resolved%problem%contact%film, largest_load(judged), &
+                                                                judged%regime%pressure_maximum))
+      end if
       warning = stiffness_warning(scene, 'under its largest load', quantity_value(quantity_deflection_share, judged))
       if (len(warning) > 0) call log%line('  '//warning)
 
