@@ -24,6 +24,8 @@ module campaign_progress
       integer(int64) :: beyond_model = 0_int64, undersampled = 0_int64
       !> Scenes whose class was put to the test, and those of them whose class does not stand
       integer(int64) :: tested = 0_int64, uncertain = 0_int64, irregular_so_far = 0_int64
+      !> Scenes whose motions are known, and those of them that have several
+      integer(int64) :: followed = 0_int64, several = 0_int64
       logical :: quiet = .false.
       character(:), allocatable :: path
       logical, private :: on_terminal = .false.
@@ -61,7 +63,7 @@ contains
    end subroutine start
 
    !> Count solved scenes.
-   subroutine add(self, done, failed, beyond_model, undersampled, tested, uncertain, irregular_so_far)
+   subroutine add(self, done, failed, beyond_model, undersampled, tested, uncertain, irregular_so_far, followed, several)
       class(campaign_progress_t), intent(inout) :: self
       !> Scenes solved, and those of them that failed
       integer(int64), intent(in) :: done
@@ -74,6 +76,9 @@ contains
       integer(int64), intent(in) :: uncertain
       !> and of those, or of all where none are, how many are irregular so far
       integer(int64), intent(in) :: irregular_so_far
+      !> Scenes whose motions are known, and those of them that have several
+      integer(int64), intent(in) :: followed
+      integer(int64), intent(in) :: several
 
       !$omp atomic
       self%done = self%done + done
@@ -89,6 +94,10 @@ contains
       self%uncertain = self%uncertain + uncertain
       !$omp atomic
       self%irregular_so_far = self%irregular_so_far + irregular_so_far
+      !$omp atomic
+      self%followed = self%followed + followed
+      !$omp atomic
+      self%several = self%several + several
    end subroutine add
 
    !> Whether it is time to tell.
@@ -148,6 +157,8 @@ contains
       self%tested = sum_over_ranks(self%tested)
       self%uncertain = sum_over_ranks(self%uncertain)
       self%irregular_so_far = sum_over_ranks(self%irregular_so_far)
+      self%followed = sum_over_ranks(self%followed)
+      self%several = sum_over_ranks(self%several)
    end subroutine add_up
 
    !> The last word.

@@ -4,7 +4,7 @@ module campaign_record
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: keys
    use kinds, only: dp, int64
-   use quantities, only: a_list, quantity_t, quantity_table
+   use quantities, only: a_list, needs_starts, quantity_t, quantity_table
    use result_format, only: column_name_bytes, column_unit_bytes
    use scene_types, only: scene_t
    use text, only: integer_text
@@ -15,7 +15,7 @@ module campaign_record
    !> Numbers of a list that are recorded.
    integer, parameter :: recorded_numbers = 8
 
-   public :: record_columns, record_row
+   public :: record_columns, record_motions, record_row
 
 contains
 
@@ -101,5 +101,24 @@ contains
          end if
       end do
    end subroutine record_row
+
+   !> Put what is known of all motions of a scene into its row.
+   pure subroutine record_motions(scene, judged, row)
+      !> Base scene, for the choice of columns
+      type(scene_t), intent(in) :: scene
+      !> With the motions
+      type(judged_scene_t), intent(in) :: judged
+      !> With all other columns
+      real(dp), intent(inout) :: row(:)
+      integer :: i, column
+
+      column = size(row)
+      do i = size(scene%campaign%record), 1, -1
+         associate (quantity => quantity_table(scene%campaign%record(i)))
+            if (quantity%need == needs_starts) row(column) = quantity_value(quantity%code, judged)
+            column = column - merge(recorded_numbers, 1, quantity%kind == a_list)
+         end associate
+      end do
+   end subroutine record_motions
 
 end module campaign_record

@@ -10,7 +10,7 @@ module prepared_campaign
    use scene_types, only: scene_t, task_threshold
    use schedule, only: chunk_rows_for, most_scenes
    use signals, only: lift_time_limit, limit_time
-   use solve_chunk, only: chunk_bytes
+   use solve_chunk, only: chunk_bytes, scenes_of_block
    use text, only: integer_text
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads
@@ -56,7 +56,7 @@ contains
       call plan_campaign(scene, file, campaign%plan, campaign%warnings, faults)
       if (hurried) call lift_time_limit()
       if (faults%count() > 0) return
-      campaign%layout%chunk_rows = int(chunk_rows_for(campaign%plan%size), int64)
+      campaign%layout%chunk_rows = int(chunk_rows_for(campaign%plan%size, scenes_of_block(scene, campaign%plan)), int64)
       call share_of_part(scene, campaign%plan%size, merge(1_int64, campaign%layout%chunk_rows, scene%task == task_threshold), &
                          campaign%first, last)
       campaign%layout%input_text = scene%resolved_input

@@ -21,7 +21,7 @@ module run_campaign
    use scene_types, only: scene_t
    use schedule, only: pace_t
    use signals, only: caught_signal
-   use solve_chunk, only: chunk_space_t, solve_scenes
+   use solve_chunk, only: chunk_space_t, scenes_of_block, solve_scenes
    use summary_file, only: summary_t
    use table_task, only: table_task_t
    use text, only: counted, integer_text, short_text
@@ -236,7 +236,9 @@ contains
                            flagged(campaign%layout%names == 'sampling_sufficient', -rows, 0.0_dp), &
                            flagged(campaign%layout%names == 'verified', rows, 0.0_dp), &
                            flagged(campaign%layout%names == 'verified', -rows, 0.0_dp), &
-                           flagged(campaign%layout%names == 'rattle_class', rows, real(class_irregular_so_far, dp)))
+                           flagged(campaign%layout%names == 'rattle_class', rows, real(class_irregular_so_far, dp)), &
+                           flagged(campaign%layout%names == 'motions', rows, 1.0_dp), &
+                           flagged(campaign%layout%names == 'motions', rows, 2.0_dp))
          scenes = scenes + last_row - first_row + 1_int64
          deallocate (rows)
       end do
@@ -278,7 +280,7 @@ contains
       call add_counts(summary, self, status)
       call write_summary(self%scene, summary, close_error)
       if (.not. allocated(error) .and. allocated(close_error)) call move_alloc(close_error, error)
-      call report_ending(self%log, self%scene, self%progress)
+      call report_ending(self%log, self%scene, self%campaign, self%progress)
    end subroutine close_files
 
    subroutine add_counts(summary, task, status)
@@ -302,6 +304,8 @@ contains
             call summary%add('scenes_not_verified_in_this_run', progress%uncertain)
          if (any(task%campaign%layout%names == 'rattle_class')) &
             call summary%add('scenes_irregular_so_far_in_this_run', progress%irregular_so_far)
+         if (any(task%campaign%layout%names == 'motions')) &
+            call summary%add('scenes_with_several_motions_in_this_run', progress%several)
       end associate
       call summary%add('wall_seconds', wall_seconds() - task%started)
    end subroutine add_counts
@@ -327,9 +331,10 @@ contains
    end subroutine write_summary
 
    !> What has to be known about the scenes of this run, and where the files are.
-   subroutine report_ending(log, scene, progress)
+   subroutine report_ending(log, scene, campaign, progress)
       type(log_t), intent(in) :: log
       type(scene_t), intent(in) :: scene
+      type(campaign_t), intent(in) :: campaign
       type(campaign_progress_t), intent(in) :: progress
 
       if (progress%beyond_model > 0) call log%line('  warning: '//counted(progress%beyond_model, 'scene')//' beyond what the '// &
@@ -342,6 +347,11 @@ contains
          ' irregular so far: without repetition, and no neighbouring motion parts for good (rattle_class)')
       call log%line('  '//result_path(scene))
       call log%line('  '//summary_path(scene))
+      if (progress%followed > 0 .and. scene%solver%starts > 1) &
+         call log%line('  '//integer_text(progress%several)//' of '//counted(progress%followed, 'scene')// &
+                       ' have several motions; '//integer_text(scene%solver%starts)//' starts'// &
+                       trim(merge(' and neighbours', '               ', scenes_of_block(scene, campaign%plan) > 1))// &
+                       ' are no proof of others'' absence')
    end subroutine report_ending
 
    !> Scenes in chunks that are done.

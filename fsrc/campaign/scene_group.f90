@@ -7,6 +7,7 @@ module scene_group
    use finer_windows, only: classify_finer
    use irregular_motion, only: follow_irregular
    use kinds, only: dp
+   use known_motions, only: known_motions_t
    use many_motions, only: solve_motions
    use node_extremes, only: seen_quantities
    use carried_loads, only: accelerations_of_samples
@@ -39,12 +40,12 @@ module scene_group
       real(dp), allocatable, private :: accelerations(:)
    end type scene_group_t
 
-   public :: solve_group, classify_group, find_orbits, follow_group
+   public :: solve_group, has_window, classify_group, find_orbits, follow_group
 
 contains
 
    !> Solve scenes side by side.
-   subroutine solve_group(problems, starts, request, wants, group, impact_limits)
+   subroutine solve_group(problems, starts, request, wants, group, impact_limits, known)
       !> What moves, and where each motion starts
       type(problem_t), intent(in) :: problems(:)
       type(motion_state_t), intent(in) :: starts(:)
@@ -56,6 +57,8 @@ contains
       type(scene_group_t), intent(inout) :: group
       !> Multiples of the largest force above which loads are impacts, where these are asked for
       real(dp), intent(in), optional :: impact_limits(:)
+      !> Periodic motions that are known of each scene: a motion that comes to one of them has no window
+      type(known_motions_t), intent(in), optional :: known(:)
       type(window_record_t) :: blank
       integer :: samples, numbers, n, i
 
@@ -78,9 +81,17 @@ contains
          group%records(i) = blank
          if (present(impact_limits)) group%records(i)%loads%impact_limit = impact_limits(i)
       end do
-      call solve_motions(problems, starts, request, group%states(:, :, :n), group%endings(:n), records=group%records(:n))
+      call solve_motions(problems, starts, request, group%states(:, :, :n), group%endings(:n), records=group%records(:n), &
+                         known=known)
       group%repeat_after(:n) = group%endings(:n)%orbit
    end subroutine solve_group
+
+   !> Whether a motion has a window: it has not failed, nor come to a known one.
+   elemental logical function has_window(ending)
+      type(ending_t), intent(in) :: ending
+
+      has_window = is_success(ending%status) .and. ending%known == 0
+   end function has_window
 
    !> Classes of the windows, by as many samples as they need, or by integrals over the steps. After a signal to stop
    !> they are of no use.
@@ -107,7 +118,7 @@ contains
       coarse = .false.
       do i = 1, size(problems)
          if (must_stop()) return
-         if (.not. is_success(group%endings(i)%status)) cycle
+         if (.not. has_window(group%endings(i))) cycle
          associate (samples => group%endings(i)%samples, verdict => group%verdicts(i))
             call accelerations_of_samples(problems(i), request%samples_per_period, group%states(:samples, :, i), &
                                           group%accelerations(:samples))
@@ -125,7 +136,7 @@ contains
          group%verdicts(number) = finer
       end if
       do i = 1, size(problems)
-         if (is_success(group%endings(i)%status)) call note_orbit(group%verdicts(i), group%endings(i)%orbit)
+         if (has_window(group%endings(i))) call note_orbit(group%verdicts(i), group%endings(i)%orbit)
       end do
    end subroutine classify_group
 

@@ -35,11 +35,13 @@ contains
    !> Scenes in a chunk of the file, which holds or does not hold all of it. It depends on the campaign alone, never on threads,
    !> ranks or what scenes take, so that the bytes of the result do not: as few as a table of chunks allows, since a thread takes as
    !> many chunks at a time as are done in a few seconds.
-   pure integer function chunk_rows_for(scene_count)
+   pure integer function chunk_rows_for(scene_count, block)
       !> Scenes of the campaign
       integer(int64), intent(in) :: scene_count
+      !> Scenes that are solved together, of which a chunk holds all
+      integer, intent(in) :: block
 
-      chunk_rows_for = 1
+      chunk_rows_for = block
       do while (chunk_rows_for < largest_chunk .and. (scene_count - 1_int64)/chunk_rows_for >= most_chunks)
          chunk_rows_for = 2*chunk_rows_for
       end do

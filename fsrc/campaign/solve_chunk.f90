@@ -1,21 +1,24 @@
 !> Solves and judges the scenes of a chunk: the kernels of the single scene, eight scenes to a register.
 module solve_chunk
    use campaign_verification, only: verify_group, compared
-   use campaign_record, only: record_row
+   use campaign_record, only: record_motions, record_row
    use errors, only: error_t
-   use engine, only: ending_t, request_t, reserved_periods, start_of
+   use engine, only: asks_for_same, ending_t, request_t, reserved_periods, start_of
    use judge_scene, only: note_record, note_regime
    use judged_scene, only: judged_scene_t
    use key_table, only: find_key
    use force, only: force_of, largest_oscillation
+   use grid_blocks, only: block_scenes
+   use handed_motions, only: find_other_motions, hand_on_motions
    use kinds, only: dp, int64
    use memory_need, only: window_bytes
    use node_extremes, only: seen_quantities
    use periodic_orbit, only: periodic_orbit_t
-   use quantities, only: asks_to_verify, need_count, needs_verification, needs_impacts, needs_of, needs_orbit, needs_regime, &
-      needs_spectrum, needs_verified_impacts
+   use quantities, only: asks_to_verify, need_count, needs_verification, needs_impacts, needs_starts, needs_of, needs_orbit, &
+      needs_regime, needs_spectrum, needs_verified_impacts
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
-   use sampling, only: chunk_values, largest_value, sample_plan_t
+   use row_motions, only: motion_from_rest, row_motions_t
+   use sampling, only: chunk_values, largest_value, method_grid, sample_plan_t
    use scene_group, only: classify_group, find_orbits, follow_group, scene_group_t, solve_group
    use scene_status, only: is_success, status_invalid
    use scene_types, only: least_static_load, scene_t, spectrum_choice_t
@@ -45,7 +48,7 @@ module solve_chunk
       type(judged_scene_t) :: judged
    end type chunk_space_t
 
-   public :: solve_scenes, chunk_bytes
+   public :: solve_scenes, scenes_of_block, chunk_bytes
 
 contains
 
@@ -81,7 +84,7 @@ contains
          if (must_stop()) return
          count = min(batch, size(rows, 2) - start + 1)
          call chunk_values(plan, first + int(start - 1, int64), values(:, :count))
-         call solve_batch(scene, plan%positions, values(:, :count), first + int(start - 1, int64), needed, space, &
+         call solve_batch(scene, plan, values(:, :count), first + int(start - 1, int64), needed, space, &
                           rows(:, start:start + count - 1), error)
          if (allocated(error)) return
       end do
@@ -96,8 +99,8 @@ contains
 
       scene_bytes = fixed_bytes + window_periods(base, plan)*(period_bytes + sample_bytes* &
                                                               real(base%campaign%samples_per_period, dp))
-      ! The tighter solution stands beside it.
-      if (asks_to_verify(base%campaign%record)) scene_bytes = 2.0_dp*scene_bytes
+      ! The tighter solution stands beside it, or the motion from another start.
+      if (asks_to_verify(base%campaign%record) .or. has_starts(base)) scene_bytes = 2.0_dp*scene_bytes
    end function scene_bytes
 
    !> Most periods of a window.
@@ -115,7 +118,31 @@ contains
       type(sample_plan_t), intent(in) :: plan
 
       scenes_together = max(fewest_together, min(most_together, int(most_bytes/scene_bytes(base, plan))))
+      ! Blocks are whole.
+      associate (block => scenes_of_block(base, plan))
+         scenes_together = max(1, scenes_together/block)*block
+      end associate
    end function scenes_together
+
+   !> Whether scenes are solved from more starts than one.
+   pure logical function has_starts(base)
+      type(scene_t), intent(in) :: base
+      logical :: needed(need_count)
+
+      needed = needs_of(base%campaign%record)
+      has_starts = base%solver%starts > 1 .and. needed(needs_starts)
+   end function has_starts
+
+   !> Scenes that hand their motions to each other and have to be solved together: those of a block of the grid.
+   pure integer function scenes_of_block(base, plan)
+      !> Checked base scene
+      type(scene_t), intent(in) :: base
+      !> The plan
+      type(sample_plan_t), intent(in) :: plan
+
+      scenes_of_block = 1
+      if (has_starts(base) .and. base%campaign%neighbours) scenes_of_block = block_scenes(plan)
+   end function scenes_of_block
 
    !> Memory that a thread takes to solve a chunk [bytes].
    pure real(dp) function chunk_bytes(base, plan, scenes)
@@ -131,11 +158,11 @@ contains
    end function chunk_bytes
 
    !> Rows of a batch.
-   subroutine solve_batch(scene, positions, values, first, needed, space, rows, error)
+   subroutine solve_batch(scene, plan, values, first, needed, space, rows, error)
       !> Base scene; its varied keys are changed
       type(scene_t), intent(inout) :: scene
-      !> Varied keys by their positions in the key table
-      integer, intent(in) :: positions(:)
+      !> The plan, values of the varied keys, and number of the first scene
+      type(sample_plan_t), intent(in) :: plan
       real(dp), intent(in) :: values(:, :)
       integer(int64), intent(in) :: first
       !> What the columns need
@@ -147,14 +174,15 @@ contains
       type(resolved_scene_t) :: resolved(size(values, 2))
       type(request_t) :: requests(size(values, 2))
       type(spectrum_choice_t) :: choices(size(values, 2))
+      type(row_motions_t) :: found(size(values, 2))
       real(dp) :: costs(size(values, 2))
       integer :: order(size(values, 2)), i, solved, together, start
       logical :: valid(size(values, 2))
 
       solved = 0
       do i = 1, size(values, 2)
-         call set_varied_keys(scene, positions, values(:, i))
-         valid(i) = is_valid_scene(scene, positions, values(:, i))
+         call set_varied_keys(scene, plan%positions, values(:, i))
+         valid(i) = is_valid_scene(scene, plan%positions, values(:, i))
          costs(i) = huge(1.0_dp)
          if (.not. valid(i)) cycle
          solved = solved + 1
@@ -172,14 +200,54 @@ contains
             do i = 1, together
                call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%agree(i), space%judged)
                call record_row(scene, first + int(group(i) - 1, int64), values(:, group(i)), space%judged, rows(:, group(i)))
+               if (needed(needs_starts)) found(group(i)) = &
+                  motion_from_rest(resolved(group(i))%problem, requests(group(i))%samples_per_period, i, space%group)
             end do
          end associate
       end do
+      if (needed(needs_starts)) then
+         call find_motions(scene, plan, first, resolved, choices, requests, order(:solved), space, found, error)
+         if (must_stop() .or. allocated(error)) return
+         do i = 1, solved
+            space%judged%judged = allocated(found(order(i))%told%motions)
+            space%judged%coexisting = found(order(i))%told
+            call record_motions(scene, space%judged, rows(:, order(i)))
+         end do
+      end if
       call note_ending(resolved_scene_t(), ending_t(status=status_invalid), space%judged)
       do i = solved + 1, size(values, 2)
          call record_row(scene, first + int(order(i) - 1, int64), values(:, order(i)), space%judged, rows(:, order(i)))
       end do
    end subroutine solve_batch
+
+   !> Motions of scenes from other starts than rest, and from their neighbours.
+   subroutine find_motions(scene, plan, first, resolved, choices, requests, order, space, found, error)
+      !> Base scene
+      type(scene_t), intent(in) :: scene
+      !> The plan, and number of the first scene
+      type(sample_plan_t), intent(in) :: plan
+      integer(int64), intent(in) :: first
+      type(resolved_scene_t), intent(in) :: resolved(:)
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      type(request_t), intent(in) :: requests(:)
+      !> Scenes that were solved, in this order
+      integer, intent(in) :: order(:)
+      type(chunk_space_t), intent(inout) :: space
+      !> With the motions from rest
+      type(row_motions_t), intent(inout) :: found(:)
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
+      integer :: i
+
+      do i = 1, size(found)
+         if (.not. allocated(found(i)%settled)) allocate (found(i)%settled(0))
+      end do
+      if (.not. has_starts(scene)) return
+      call find_other_motions(scene, resolved, choices, requests, order, space%tight, found, error)
+      if (must_stop() .or. allocated(error)) return
+      if (scene%campaign%neighbours .and. plan%method == method_grid) &
+         call hand_on_motions(plan, first, resolved, choices, requests, space%tight, found, error)
+   end subroutine find_motions
 
    !> Solve scenes that ask for the same, find their classes, and whether they stand, as far as columns ask for it.
    subroutine solve_side_by_side(resolved, choices, request, needed, space, error)
@@ -224,10 +292,7 @@ contains
       type(request_t), intent(in) :: requests(:)
 
       alike = .true.
-      if (size(requests) < 2) return
-      alike = all(requests%periods == requests(1)%periods) .and. &
-              all(requests%sampled_periods == requests(1)%sampled_periods) .and. &
-              .not. any(abs(requests%accuracy - requests(1)%accuracy) > 0.0_dp)
+      if (size(requests) > 1) alike = all(asks_for_same(requests, requests(1)))
    end function alike
 
    !> What is asked of the engine.

@@ -156,7 +156,7 @@ contains
          answers(is_solved, first:last) = 1.0_dp
          !$omp end critical (threshold_answers)
          call progress%add(last - first + 1_int64, count(.not. is_success(nint(rows(status, :))), kind=int64), &
-                           0_int64, 0_int64, 0_int64, 0_int64, 0_int64)
+                           0_int64, 0_int64, 0_int64, 0_int64, 0_int64, 0_int64, 0_int64)
          deallocate (rows)
          if (this_rank() == 0) then
             if (omp_get_thread_num() == 0) call keep_up(scene, threshold, wanted, testing, answers, progress, log, outcome)

@@ -74,6 +74,8 @@ module engine
       real(dp) :: time = 0.0_dp, film = 0.0_dp
       !> Periods after which a steady motion repeats, else 0
       integer :: orbit = 0
+      !> Place of the known motion that it has come to, else 0: it is that motion then, and has no samples of its own
+      integer :: known = 0
       !> Bound of the relative distance of the film from the motion that repeats [-]
       real(dp) :: distance = 0.0_dp
       !> Samples written: of whole periods, and of the one in which the motion failed
@@ -145,7 +147,7 @@ module engine
       end subroutine watch_period
    end interface
 
-   public :: start_of, status_of_stop, last_search_period, reserved_periods
+   public :: start_of, asks_for_same, status_of_stop, last_search_period, reserved_periods
 
 contains
 
@@ -155,6 +157,15 @@ contains
 
       start_of = motion_state_t(numbers=initial_state(problem))
    end function start_of
+
+   !> Whether two requests are the same for motions that are solved side by side.
+   elemental logical function asks_for_same(one, other)
+      type(request_t), intent(in) :: one
+      type(request_t), intent(in) :: other
+
+      asks_for_same = one%periods == other%periods .and. one%sampled_periods == other%sampled_periods .and. &
+                      .not. abs(one%accuracy - other%accuracy) > 0.0_dp
+   end function asks_for_same
 
    !> Last period of a run until steady after which it may be found that the motion repeats: the longest orbit and
    !> the window have to follow.

@@ -13,11 +13,12 @@ module lane_integration
    use engine, only: ending_t, motion_count_t, motion_state_t, request_t
    use film_series, only: series_of, set_coefficients
    use kinds, only: dp, int64
+   use known_motions, only: known_motions_t
    use lane_advance, only: advance, largest_series_rate, shortest_step, take_series_step, take_springs_step
    use lane_block, only: load_problem, lost_film, place_block, rest_lane, start_period, start_status
    use lane_functions, only: lanes
    use lane_inner, only: place_inner
-   use lane_repetition, only: find_repetition, restore_departure
+   use lane_repetition, only: find_repetition, look_for_known, restore_departure
    use lane_run, only: lane_run_t, lane_watch_t
    use lane_state, only: place_state, state_of_lane, take_state, thinner_scaled_film, velocity_of_lane
    use lane_sampling, only: begin_samples, end_samples, lane_samples_t, take_samples
@@ -38,7 +39,7 @@ module lane_integration
 contains
 
    !> Solve scenes, by Taylor series (all of one film law that has one) or by collocation.
-   subroutine integrate_lanes(by_series, problems, starts, queue, request, states, endings, watches, records)
+   subroutine integrate_lanes(by_series, problems, starts, queue, request, states, endings, watches, records, known)
       !> Taylor series, else collocation
       logical, intent(in) :: by_series
       !> What moves, and where each motion starts
@@ -57,6 +58,8 @@ contains
       !> What the steps of the sampled periods tell, scene by scene; what stands in the record of a motion that begins within
       !> its sampled periods is kept and added to
       type(window_record_t), optional, intent(inout) :: records(:)
+      !> Periodic motions that are known, scene by scene
+      type(known_motions_t), optional, intent(in) :: known(:)
       type(lane_run_t) :: run
       real(dp), allocatable, target :: room(:)
       integer :: l, events
@@ -95,7 +98,7 @@ contains
                cycle
             end if
             if (run%block%remaining(l) <= 0.0_dp) then
-               call end_period(l, problems, request, states, run, records)
+               call end_period(l, problems, request, states, run, records, known)
             else if (in_trouble(l, run) .and. run%watches(l)%departure%period > 0) then
                run%watches(l)%ending%count%steps = run%watches(l)%ending%count%steps + nint(run%block%period_steps(l), int64)
                call start_period(l, run%block)
@@ -206,7 +209,7 @@ contains
    end function samples_before
 
    !> A period has ended: does the motion repeat, are samples due?
-   pure subroutine end_period(lane, problems, request, states, run, records)
+   pure subroutine end_period(lane, problems, request, states, run, records, known)
       !> Lane
       integer, intent(in) :: lane
       type(problem_t), intent(in) :: problems(:)
@@ -214,6 +217,7 @@ contains
       real(dp), contiguous, intent(inout) :: states(:, :, :)
       type(lane_run_t), intent(inout) :: run
       type(window_record_t), optional, intent(inout) :: records(:)
+      type(known_motions_t), optional, intent(in) :: known(:)
 
       associate (watch => run%watches(lane), block => run%block)
          if (present(records) .and. run%samples%sampled(lane)) &
@@ -222,7 +226,8 @@ contains
          call start_period(lane, block)
          watch%period = watch%period + 1
          call take_state(lane, block, run%inner(lane), watch%state)
-         call find_repetition(lane, problems(watch%scene), request, states, run)
+         if (present(known)) call look_for_known(lane, problems(watch%scene), known(watch%scene), request, run)
+         if (watch%ending%known == 0) call find_repetition(lane, problems(watch%scene), request, states, run)
          if (watch%period >= watch%sample_from .and. watch%period < watch%last_period) &
             call begin_period(lane, run, records)
       end associate

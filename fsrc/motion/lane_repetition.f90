@@ -9,11 +9,12 @@
 !> the unit circle, the same in two successive estimates, and a place that is near. So a motion that leaves an unstable one
 !> is not led back to it.
 module lane_repetition
-   use engine, only: last_search_period, request_t
+   use engine, only: last_search_period, motion_state_t, request_t
    use kinds, only: dp, int64
+   use known_motions, only: known_motions_t, reached_motion
    use lane_run, only: departure_t, lane_run_t, lane_watch_t
    use lane_sampling, only: repeat_samples
-   use lane_state, only: films_of_lane, place_state, thinner_scaled_film
+   use lane_state, only: films_of_lane, place_state, state_of_lane, thinner_scaled_film
    use problem, only: films_at_rest, has_elastic_teeth, of_film, of_velocity, problem_t, settling_of, settling_t, static_load
    use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, &
       start_watch, state_of_age, weight_of_film
@@ -38,7 +39,7 @@ module lane_repetition
    !> Sine of the angle below which two differences are parallel.
    real(dp), parameter :: parallel = 0.02_dp
 
-   public :: find_repetition, restore_departure, forecast_rest
+   public :: find_repetition, look_for_known, restore_departure, forecast_rest
 
 contains
 
@@ -77,6 +78,34 @@ contains
          end if
       end associate
    end subroutine find_repetition
+
+   !> Look whether the motion has come to one that is known. It is then that motion, and goes no further. An excursion, which did
+   !> not start where the motion did, is no witness.
+   pure subroutine look_for_known(lane, problem, known, request, run)
+      !> Lane
+      integer, intent(in) :: lane
+      !> What moves there
+      type(problem_t), intent(in) :: problem
+      !> What is known of it
+      type(known_motions_t), intent(in) :: known
+      !> What is asked for
+      type(request_t), intent(in) :: request
+      !> The block, its period counted and its state that of the period's end
+      type(lane_run_t), intent(inout) :: run
+      type(motion_state_t) :: here
+
+      associate (watch => run%watches(lane))
+         if (.not. is_searching(watch, request) .or. watch%departure%period > 0) return
+         here = state_of_lane(lane, run%block, run%inner(lane))
+         if (allocated(watch%earlier)) watch%ending%known = reached_motion(problem, known, watch%earlier, here%numbers)
+         call move_alloc(here%numbers, watch%earlier)
+         if (watch%ending%known == 0) return
+         watch%ending%orbit = size(known%motions(watch%ending%known)%states, 2)
+         watch%ending%status = status_steady
+         watch%sample_from = watch%period
+         watch%last_period = watch%period
+      end associate
+   end subroutine look_for_known
 
    !> Whether it is still to be found that a motion repeats. A run without samples is one to be carried on: there the last state
    !> counts like the others.

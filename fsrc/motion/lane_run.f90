@@ -32,6 +32,8 @@ module lane_run
       real(dp), allocatable :: state(:)
       !> Film that one of each number of the state counts as; that of the velocity is set at the end of every period [-]
       real(dp), allocatable :: weights(:)
+      !> State at the end of the period before, where known motions are looked for
+      real(dp), allocatable :: earlier(:)
       !> Looks for repetition, and for return to the last bit
       type(orbit_watch_t) :: states = orbit_watch_t()
       type(recurrence_t) :: past = recurrence_t()

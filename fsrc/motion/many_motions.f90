@@ -8,6 +8,7 @@ module many_motions
    use film_series, only: has_series
    use force, only: largest_oscillation
    use kinds, only: dp
+   use known_motions, only: known_motions_t
    use lane_block, only: lane_accuracy
    use lane_integration, only: integrate_lanes
    use carried_loads, only: net_load
@@ -23,7 +24,7 @@ module many_motions
 contains
 
    !> Solve all problems. Their order decides only which share a block: those of like cost should be neighbours, the longest first.
-   subroutine solve_motions(problems, starts, request, states, endings, watches, records)
+   subroutine solve_motions(problems, starts, request, states, endings, watches, records, known)
       !> What moves
       type(problem_t), intent(in) :: problems(:)
       !> Where each motion starts
@@ -38,6 +39,8 @@ contains
       type(orbit_watch_t), optional, intent(inout) :: watches(:)
       !> What the steps of the sampled periods tell, problem by problem; a motion that is carried on within them adds to it
       type(window_record_t), optional, intent(inout) :: records(:)
+      !> Periodic motions that are known, problem by problem: a run until steady that comes to one of them ends there
+      type(known_motions_t), optional, intent(in) :: known(:)
       type(motion_state_t), allocatable :: rest(:)
       logical, allocatable :: explicit(:), left(:), alike(:)
       integer, allocatable :: number(:)
@@ -52,7 +55,7 @@ contains
          first = findloc(left, .true., dim=1)
          alike(:) = same_kind(problems, problems(first))
          call integrate_lanes(.true., problems, starts, pack(number, left .and. alike), request, states, endings, watches, &
-                              records)
+                              records, known)
          left(:) = left .and. .not. alike
       end do
 
@@ -68,7 +71,7 @@ contains
       do i = 0, 1
          alike(:) = left .and. (has_inner_numbers(problems) .eqv. i == 1)
          if (any(alike)) &
-            call integrate_lanes(.false., problems, rest, pack(number, alike), request, states, endings, watches, records)
+            call integrate_lanes(.false., problems, rest, pack(number, alike), request, states, endings, watches, records, known)
       end do
    end subroutine solve_motions
 

@@ -29,7 +29,7 @@ module input_key
       !> SI unit, '-' for a pure number, empty where it does not apply
       character(8) :: unit
       !> 'required', a value, or empty: optional, its absence means what the sentence says
-      character(384) :: default
+      character(512) :: default
       !> Allowed numbers
       type(range_t) :: range
       !> Allowed words, separated by blanks; empty: any text that the reader accepts

@@ -504,9 +504,12 @@ module key_table
       key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
             'natural_frequency damping_ratio harmonic_count harmonic_count_is_bound harmonic_distortion '// &
             'harmonic_distortion_is_bound irregular_fraction irregular_fraction_is_bound reversals_per_period '// &
-            'rattle_class sampling_sufficient film_regime alpha_p_maximum model_limit harmonics', any_number, recordable, &
+            'rattle_class motions loudest_class loudest_acceleration_rms sampling_sufficient film_regime alpha_p_maximum '// &
+            'model_limit harmonics', any_number, recordable, &
             'scene.task=campaign', &
             'Recorded of every scene beside number, varied keys and status; verified (1 or 0) solves each again, tighter.'), &
+      key_t('campaign', 'neighbours', logical_kind, '', '.true.', any_number, '', 'scene.task=campaign & campaign.sample=grid', &
+            'Whether motions found at a point of a grid are handed as starts to its neighbours that have none like them.'), &
       key_t('campaign', 'samples_per_period', integer_kind, '-', '256', range_t(32.0_dp, .false., 16384.0_dp, .false.), '', &
             of_campaigns, &
             'Samples of a period that a scene is judged by; where they are too few, its steps are integrated over.'), &

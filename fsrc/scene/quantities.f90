@@ -433,6 +433,8 @@ contains
       needed(needs_load_range) = any(needed([needs_load_range, needs_deflection, needs_impacts, needs_closure_range]))
       needed(needs_regime) = any(needed([needs_regime, needs_closure_range]))
       needed(needs_net_load_range) = any(needed([needs_net_load_range, needs_impacts]))
+      needed(needs_film_range) = any(needed([needs_film_range, needs_starts]))
+      needed(needs_spectrum) = any(needed([needs_spectrum, needs_starts]))
       needed(needs_coast_film_range) = any(needed([needs_film_range, needs_coast_film_range]))
       needed(needs_coast_load_range) = any(needed([needs_coast_load_range, needs_deflection, needs_closure_range]))
    end function needs_of

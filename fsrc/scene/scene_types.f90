@@ -334,6 +334,8 @@ module scene_types
       character(:), allocatable :: csv
       !> Recorded quantities, by their codes
       integer, allocatable :: record(:)
+      !> Whether neighbours on a grid hand each other their motions
+      logical :: neighbours = .true.
       integer :: samples_per_period = 256
       logical :: allow_invalid = .false.
       logical :: confirm_size = .false.

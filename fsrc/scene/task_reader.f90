@@ -99,6 +99,7 @@ contains
          campaign%record(i) = quantity_code(recorded(i)%text)
       end do
       campaign%samples_per_period = input%count('campaign', 'samples_per_period')
+      campaign%neighbours = input%flag('campaign', 'neighbours')
       campaign%allow_invalid = input%flag('campaign', 'allow_invalid')
       campaign%confirm_size = input%flag('campaign', 'confirm_size')
       campaign%part = input%count('campaign', 'part')

@@ -44,14 +44,16 @@ contains
    subroutine test_chunk_rows(checks)
       type(check_list_t), intent(inout) :: checks
 
-      call checks%check(chunk_rows_for(0_int64) == 1, 'a part without scenes')
-      call checks%check(chunk_rows_for(1_int64) == 1, 'one scene')
-      call checks%check(chunk_rows_for(16384_int64) == 1, 'the most scenes for 1')
-      call checks%check(chunk_rows_for(16385_int64) == 2, 'the fewest scenes for 2')
-      call checks%check(chunk_rows_for(4096_int64*16384_int64) == 4096, 'the most scenes for 4096')
-      call checks%check(chunk_rows_for(4096_int64*16384_int64 + 1_int64) == 8192, 'the fewest scenes for 8192')
-      call checks%check(chunk_rows_for(1000000_int64) == 64, 'a million scenes')
-      call checks%check(chunk_rows_for(huge(1_int64)) == 8192, 'beyond any size')
+      call checks%check(chunk_rows_for(0_int64, 1) == 1, 'a part without scenes')
+      call checks%check(chunk_rows_for(1_int64, 1) == 1, 'one scene')
+      call checks%check(chunk_rows_for(16384_int64, 1) == 1, 'the most scenes for 1')
+      call checks%check(chunk_rows_for(16385_int64, 1) == 2, 'the fewest scenes for 2')
+      call checks%check(chunk_rows_for(4096_int64*16384_int64, 1) == 4096, 'the most scenes for 4096')
+      call checks%check(chunk_rows_for(4096_int64*16384_int64 + 1_int64, 1) == 8192, 'the fewest scenes for 8192')
+      call checks%check(chunk_rows_for(1000000_int64, 1) == 64, 'a million scenes')
+      call checks%check(chunk_rows_for(huge(1_int64), 1) == 8192, 'beyond any size')
+      call checks%check(chunk_rows_for(145_int64, 116) == 116, 'a block of a grid')
+      call checks%check(chunk_rows_for(116_int64*16384_int64 + 1_int64, 116) == 232, 'two blocks of a grid')
    end subroutine test_chunk_rows
 
    !> No more than 10 s of work are under way at once, as long as scenes cost no more than 2.5 times those before them, and a scene

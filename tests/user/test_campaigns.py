@@ -54,7 +54,7 @@ def test_threads_and_parts_give_the_same_bytes(run, folder: Path) -> None:
 
 def test_more_parts_than_chunks_merge(run, folder: Path) -> None:
     """Four chunks of a scene in six parts: two parts hold no scene, and the others are the whole."""
-    small = ["--set", "campaign.count=2,2"]
+    small = ["--set", "campaign.count=2,2", "--set", "campaign.neighbours=F"]
     whole = solve(run, folder, *small)
     for part in range(1, 7):
         options = [*small, "--set", "campaign.parts=6", "--set", f"campaign.part={part}"]

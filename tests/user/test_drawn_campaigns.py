@@ -30,6 +30,7 @@ import rattle
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
 from rattle.codes import CLASSES
+from rattle.figures import campaign as campaign_figure
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, campaign_slice, campaign_summary, fit, style
 
@@ -189,6 +190,24 @@ def test_what_is_not_verified_is_hatched_over_its_colour(made, tmp_path, column)
         if isinstance(area, QuadContourSet) and area.filled and area.hatches[0] == look.UNCERTAIN_HATCH:
             assert (area.get_facecolor()[:, 3] == 0.0).all()
     assert f"not verified ({look.share(int(lacking.sum()), 300)})" in drawn.legend_words(figure)
+
+
+@pytest.mark.parametrize(
+    ("column", "drawn_motion"), [("loudest_class", "the loudest"), ("film_minimum", "that from rest")]
+)
+def test_several_motions_are_hatched_crosswise(made, tmp_path, column, drawn_motion):
+    """The legend says which of them is drawn; the usual map is that of the loudest."""
+    motions = 1.0 + (made.column("film_minimum") > np.nanmedian(made.column("film_minimum")))
+    assert campaign_figure.usual_columns(read(made, tmp_path)) == ["rattle_class"]
+    made.rows = np.column_stack([made.rows, motions, made.column("rattle_class")])
+    made.columns = [*made.columns, ("motions", "-"), ("loudest_class", "-")]
+    campaign = read(made, tmp_path)
+    figure = draw_map(campaign, column, contours=())
+    several = motions.reshape(15, 20) > 1.0
+    np.testing.assert_array_equal(hatched(figure.axes[0])[look.SEVERAL_HATCH], several)
+    share = look.share(int(several.sum()), 300)
+    assert f"several motions, {drawn_motion} drawn ({share})" in drawn.legend_words(figure)
+    assert campaign_figure.usual_columns(campaign) == ["loudest_class"]
 
 
 def test_a_map_of_verifications_needs_no_hatch(made, tmp_path):

@@ -19,7 +19,8 @@ from rattle.outputs import Writer
 from rattle.thresholds import thresholds
 
 DESCRIPTION = (
-    "Draw a campaign: a map of the verdict, or where that is not recorded of the class, or of any column "
+    "Draw a campaign: a map of the verdict, or where that is not recorded of the class, that of the loudest "
+    "motion if there are several, or of any column "
     "over two varied keys (default), columns along one key (--along), or one page on all of it (--summary)."
 )
 PAGE_WIDTH = 150.0  # mm, the least in which a page can be read
@@ -155,8 +156,12 @@ def draw_maps(
 
 
 def usual_columns(campaign: Campaign) -> list[str]:
-    """What a map shows unless a column is asked for: the verdict where that is recorded, else the class."""
-    return ["verdict" if "verdict" in campaign else "rattle_class"]
+    """What a map shows unless a column is asked for: the verdict where that is recorded, else the class.
+
+    Of several motions it is the class of the loudest.
+    """
+    usual = ("verdict", "loudest_class", "rattle_class")
+    return [next((name for name in usual if name in campaign), "rattle_class")]
 
 
 def overlay_of(options: Namespace) -> campaign_map.Options:

@@ -54,6 +54,8 @@ UNCERTAIN_WORDS = "not verified"
 IRREGULAR_SO_FAR = 6
 SO_FAR_HATCH = "\\\\\\\\\\\\"
 SO_FAR_WORDS = "irregular so far"
+CLASSES = ("rattle_class", "loudest_class", "quietest_class")
+SEVERAL_HATCH = "xxx"
 MICROMETRES = "\N{MICRO SIGN}m"
 
 
@@ -71,8 +73,8 @@ def code_colours(column: str) -> Mapping[int, str] | None:
     words = words_of(column)
     if words is None:
         return None
-    if column in ("rattle_class", "verdict"):
-        return CLASS_COLOURS if column == "rattle_class" else VERDICT_COLOURS
+    if column == "verdict" or column in CLASSES:
+        return CLASS_COLOURS if column in CLASSES else VERDICT_COLOURS
     return FLAG_COLOURS.get(column) or dict(zip(words, OTHER_COLOURS, strict=False))
 
 
@@ -112,29 +114,39 @@ class Doubt:
 
 
 def doubts(campaign: Campaign, column: str) -> list[Doubt]:
-    """What maps of a column mark: scenes irregular so far, apart from others that are not verified.
+    """What maps of a column mark: scenes irregular so far, others that are not verified, several motions.
 
     A map of the verdict marks where that is not verified, whatever the class.
     """
     if column in ("verified", "verdict_verified", "impacts_verified", "status"):
         return []
-    if column == "verdict":
-        lacking = campaign.done & (verdict_flags(campaign) == 0.0)
-        return [Doubt(lacking, UNCERTAIN_WORDS, UNCERTAIN_HATCH, "o")] if lacking.any() else []
-    classes = column == "rattle_class"
     nowhere = np.zeros(campaign.row_count, dtype=bool)
     so_far, lacking = nowhere, nowhere
-    if "rattle_class" in campaign:
-        so_far = campaign.done & (campaign["rattle_class"] == IRREGULAR_SO_FAR)
-    if "verified" in campaign:
-        lacking = campaign.done & (campaign["verified"] == 0.0) & ~so_far
+    if column == "verdict":
+        lacking = campaign.done & (verdict_flags(campaign) == 0.0)
+    else:
+        if "rattle_class" in campaign:
+            so_far = campaign.done & (campaign["rattle_class"] == IRREGULAR_SO_FAR)
+        if "verified" in campaign:
+            lacking = campaign.done & (campaign["verified"] == 0.0) & ~so_far
+    own_colour = CLASS_COLOURS[IRREGULAR_SO_FAR] if column == "rattle_class" else "none"
     found = [
         Doubt(lacking, UNCERTAIN_WORDS, UNCERTAIN_HATCH, "o"),
-        Doubt(
-            so_far, SO_FAR_WORDS, SO_FAR_HATCH, "D", CLASS_COLOURS[IRREGULAR_SO_FAR] if classes else "none"
-        ),
+        Doubt(so_far, SO_FAR_WORDS, SO_FAR_HATCH, "D", own_colour),
+        several_motions(campaign, column),
     ]
     return [doubt for doubt in found if doubt.scenes.any()]
+
+
+def several_motions(campaign: Campaign, column: str) -> Doubt:
+    """Scenes with more than one motion; which of them is drawn the legend says."""
+    several = np.zeros(campaign.row_count, dtype=bool)
+    if "motions" in campaign:
+        several = campaign.done & (campaign["motions"] > 1.0)
+    drawn = {"loudest": "the loudest", "quietest": "the quietest"}.get(
+        column.partition("_")[0], "that from rest"
+    )
+    return Doubt(several, f"several motions, {drawn} drawn", SEVERAL_HATCH, "s")
 
 
 def verdict_flags(campaign: Campaign) -> np.ndarray:

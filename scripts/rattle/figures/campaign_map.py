@@ -410,7 +410,7 @@ def _code_patches(column: str, values: np.ndarray, palette: Mapping[int, str], w
     patches = []
     for code, colour in palette.items():
         count = int((values == code).sum())
-        if count or column in ("rattle_class", "verdict"):
+        if count or column == "verdict" or column in look.CLASSES:
             words = f"{look.words_in_legends(column, code)} ({look.share(count, whole)})"
             patches.append(Patch(facecolor=colour, edgecolor=look.HATCH_COLOUR, linewidth=0.5, label=words))
     return patches

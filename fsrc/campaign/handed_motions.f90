@@ -1,0 +1,145 @@
+!> All motions of the scenes of a batch that are looked for: from the starts of each scene, and on a grid from the motions of its
+!> neighbours, in rounds until no scene lacks a motion that a neighbour has.
+module handed_motions
+   use engine, only: motion_state_t, request_t
+   use errors, only: error_t
+   use grid_blocks, only: neighbours_of
+   use kinds, only: dp, int64
+   use motion_start, only: motion_start_t, motion_starts, one_start_reason, several_starts, state_of_start
+   use rattle_class, only: class_irregular
+   use resolved_scene, only: resolved_scene_t
+   use row_motions, only: are_alike, handed_state, row_motions_t, solve_trials, trial_t
+   use sampling, only: sample_plan_t
+   use scene_group, only: scene_group_t
+   use scene_types, only: scene_t, spectrum_choice_t
+   use settled_motion, only: settled_motion_t
+   use signals, only: must_stop
+   use varied_keys, only: pair_position
+   implicit none(type, external)
+   private
+
+   !> Seed of the starts that are drawn
+   integer, parameter :: start_seed = 1
+
+   !> Motions that a scene was handed: numbers of the scenes that had them, and their places there
+   type :: handed_t
+      integer, allocatable :: scenes(:), places(:)
+   end type handed_t
+
+   public :: find_other_motions, hand_on_motions
+
+contains
+
+   !> Motions from all starts of the scenes but the first, rest. After a signal to stop they are of no use.
+   subroutine find_other_motions(scene, resolved, choices, requests, order, space, found, error)
+      !> Base scene
+      type(scene_t), intent(in) :: scene
+      !> Scenes of the batch, limits of their classes, and what was asked of the engine
+      type(resolved_scene_t), intent(in) :: resolved(:)
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      type(request_t), intent(in) :: requests(:)
+      !> Those of them that were solved from rest, in the order in which they are solved
+      integer, intent(in) :: order(:)
+      !> Work space
+      type(scene_group_t), intent(inout) :: space
+      type(row_motions_t), intent(inout) :: found(:)
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
+      type(motion_start_t), allocatable :: starts(:, :)
+      type(motion_state_t) :: state
+      type(trial_t) :: trials(size(order))
+      integer, allocatable :: left(:)
+      integer :: number, i
+
+      do i = 1, size(order)
+         found(order(i))%told%one_start_reason = one_start_reason(resolved(order(i))%problem, scene%solver%method)
+      end do
+      left = pack(order, found(order)%told%one_start_reason == several_starts .and. found(order)%told%starts_solved > 0)
+      allocate (starts(scene%solver%starts, size(left)))
+      do i = 1, size(left)
+         starts(:, i) = motion_starts(resolved(left(i))%problem, scene%solver%starts, start_seed)
+      end do
+      do number = 2, scene%solver%starts
+         do i = 1, size(left)
+            state = state_of_start(resolved(left(i))%problem, starts(number, i))
+            trials(i) = trial_t(left(i), state%numbers)
+         end do
+         call solve_trials(resolved, choices, requests, trials(:size(left)), space, found, error)
+         if (must_stop() .or. allocated(error)) return
+      end do
+   end subroutine find_other_motions
+
+   !> Hand every motion to the neighbours that have none like it, in rounds ordered by the numbers of the scenes.
+   subroutine hand_on_motions(plan, first, resolved, choices, requests, space, found, error)
+      type(sample_plan_t), intent(in) :: plan
+      !> Number of the first scene of the batch
+      integer(int64), intent(in) :: first
+      !> Scenes of the batch, limits of their classes, and what was asked of the engine
+      type(resolved_scene_t), intent(in) :: resolved(:)
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      type(request_t), intent(in) :: requests(:)
+      !> Work space
+      type(scene_group_t), intent(inout) :: space
+      type(row_motions_t), intent(inout) :: found(:)
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
+      type(handed_t) :: handed(size(found))
+      type(trial_t), allocatable :: trials(:)
+      integer :: i
+
+      do i = 1, size(handed)
+         allocate (handed(i)%scenes(0), handed(i)%places(0))
+      end do
+      do
+         call next_round(plan, first, resolved, found, handed, trials)
+         if (size(trials) == 0) return
+         call solve_trials(resolved, choices, requests, trials, space, found, error)
+         if (must_stop() .or. allocated(error)) return
+      end do
+   end subroutine hand_on_motions
+
+   !> Starts of the next round. Of motions that are alike a scene is handed one in a round.
+   subroutine next_round(plan, first, resolved, found, handed, trials)
+      type(sample_plan_t), intent(in) :: plan
+      integer(int64), intent(in) :: first
+      type(resolved_scene_t), intent(in) :: resolved(:)
+      type(row_motions_t), intent(in) :: found(:)
+      type(handed_t), intent(inout) :: handed(:)
+      type(trial_t), allocatable, intent(out) :: trials(:)
+      type(settled_motion_t), allocatable :: known(:)
+      integer(int64), allocatable :: neighbours(:)
+      integer :: to, from, i, place
+
+      allocate (trials(0))
+      do to = 1, size(found)
+         if (.not. takes_part(found(to))) cycle
+         neighbours = neighbours_of(plan, first + int(to - 1, int64), plan%positions /= pair_position())
+         known = found(to)%settled
+         do i = 1, size(neighbours)
+            if (neighbours(i) < first .or. neighbours(i) >= first + size(found, kind=int64)) cycle
+            from = int(neighbours(i) - first) + 1
+            if (.not. takes_part(found(from))) cycle
+            do place = 1, size(found(from)%settled)
+               associate (motion => found(from)%settled(place))
+                  if (any(handed(to)%scenes == from .and. handed(to)%places == place)) cycle
+                  if (any(are_alike(known, motion))) cycle
+                  ! Where one that is neither periodic nor known to be irregular is going, nobody knows.
+                  if (motion%period == 0 .and. found(from)%told%motions(place)%class /= class_irregular) cycle
+                  handed(to)%scenes = [handed(to)%scenes, from]
+                  handed(to)%places = [handed(to)%places, place]
+                  known = [known, motion]
+                  trials = [trials, trial_t(to, handed_state(resolved(to)%problem, motion, resolved(from)%problem))]
+               end associate
+            end do
+         end do
+      end do
+   end subroutine next_round
+
+   !> Whether a scene was solved from several starts: one that needs no other start needs no neighbours, nor has anything for them.
+   pure logical function takes_part(found)
+      type(row_motions_t), intent(in) :: found
+
+      takes_part = found%told%starts_solved > 1
+   end function takes_part
+
+end module handed_motions

@@ -1,0 +1,292 @@
+!> Motions of the scenes of a campaign from other starts than rest: all scenes of a batch side by side, one start after the other.
+!> A start ends as soon as it has come to a motion that is known of its scene.
+module row_motions
+   use carried_loads, only: keep_by_contacts, kept_by_contacts
+   use coexisting_motions, only: coexisting_motions_t, told_motion_t
+   use engine, only: asks_for_same, motion_state_t, request_t
+   use errors, only: error_t
+   use irregular_motion, only: follow_irregular
+   use kinds, only: dp
+   use known_motions, only: are_near, known_motions_t
+   use motion_start, only: characteristic_velocity, gap_of_starts
+   use node_extremes, only: seen_film, seen_quantities
+   use problem, only: problem_t, state_size
+   use rattle_class, only: class_irregular, class_irregular_so_far, rattle_verdict_t
+   use resolved_scene, only: resolved_scene_t
+   use scene_group, only: classify_group, has_window, scene_group_t, solve_group
+   use scene_status, only: is_success
+   use scene_types, only: spectrum_choice_t
+   use settled_motion, only: same_motion, same_state, settled_motion_t
+   use signals, only: must_stop
+   use vibration_severity, only: severity_of_record, vibration_severity_t
+   implicit none(type, external)
+   private
+
+   !> Accuracy that is enough to tell motions apart [-]
+   real(dp), parameter :: enough_accuracy = 1.0e-6_dp
+   !> Ratio of their accelerations within which motions of one period count as alike
+   real(dp), parameter :: alike_ratio = 1.25_dp
+
+   !> All motions that are known of a scene.
+   type, public :: row_motions_t
+      !> As they are told; none where the one from rest failed
+      type(coexisting_motions_t) :: told
+      !> The same ones with all their states; of those that do not repeat the last state alone
+      type(settled_motion_t), allocatable :: settled(:)
+   end type row_motions_t
+
+   !> A state to start from.
+   type, public :: trial_t
+      !> Place of its scene in the batch
+      integer :: scene = 0
+      real(dp), allocatable :: state(:)
+   end type trial_t
+
+   public :: motion_from_rest, solve_trials, handed_state, are_alike
+
+contains
+
+   !> The motion of a scene that was solved from its own start.
+   pure type(row_motions_t) function motion_from_rest(problem, samples_per_period, place, group) result(found)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      integer, intent(in) :: samples_per_period
+      !> Place of the scene in its group
+      integer, intent(in) :: place
+      !> With its class
+      type(scene_group_t), intent(in) :: group
+
+      allocate (found%settled(0))
+      if (.not. is_success(group%endings(place)%status)) return
+      found%settled = [settled_of(problem, samples_per_period, place, group)]
+      found%told%motions = [told_of(problem, place, group, found%settled(1))]
+      found%told%motions(1)%from_own_start = .true.
+      found%told%starts_solved = 1
+      if (found%settled(1)%period == 0) found%told%unsettled_starts = 1
+   end function motion_from_rest
+
+   !> A motion by its window. Where the run ended before the motion repeats within the accuracy, the states of the window tell after
+   !> how many periods they come again near enough.
+   pure type(settled_motion_t) function settled_of(problem, samples_per_period, place, group) result(settled)
+      type(problem_t), intent(in) :: problem
+      integer, intent(in) :: samples_per_period
+      integer, intent(in) :: place
+      type(scene_group_t), intent(in) :: group
+      type(vibration_severity_t) :: severity
+      real(dp), allocatable :: states(:, :)
+      integer :: periods, i
+
+      associate (ending => group%endings(place))
+         severity = severity_of_record(group%records(place), problem%frequency)
+         settled%acceleration_rms = severity%acceleration_rms
+         periods = ending%samples/samples_per_period
+         allocate (states(state_size(problem), periods))
+         do i = 1, periods
+            states(:, i) = group%states(i*samples_per_period, :size(states, 1), place)
+         end do
+         settled%period = ending%orbit
+         if (settled%period == 0) settled%period = near_orbit(problem, near_states(problem), states)
+         settled%states = states(:, periods - max(1, settled%period) + 1:)
+      end associate
+   end function settled_of
+
+   !> What is told of a motion by its window.
+   pure type(told_motion_t) function told_of(problem, place, group, settled) result(told)
+      type(problem_t), intent(in) :: problem
+      integer, intent(in) :: place
+      type(scene_group_t), intent(in) :: group
+      type(settled_motion_t), intent(in) :: settled
+      type(vibration_severity_t) :: severity
+
+      severity = severity_of_record(group%records(place), problem%frequency)
+      told%class = group%verdicts(place)%class
+      told%period = settled%period
+      allocate (told%state, source=settled%states(:, 1))
+      told%starts = 1
+      told%acceleration_rms = severity%acceleration_rms
+      told%film_force_rms = severity%film_force_rms
+      told%film_minimum = group%records(place)%lowest(seen_film)%value
+   end function told_of
+
+   !> Periods of the force after which the states of a window come again near enough, 0 if they do not within half of it.
+   pure integer function near_orbit(problem, measure, states) result(orbit)
+      type(problem_t), intent(in) :: problem
+      type(known_motions_t), intent(in) :: measure
+      !> Number of the state, end of a period
+      real(dp), intent(in) :: states(:, :)
+      integer :: i
+
+      do orbit = 1, size(states, 2)/2
+         if (all([(are_near(problem, measure, states(:, i), states(:, i + orbit)), i=1, size(states, 2) - orbit)])) return
+      end do
+      orbit = 0
+   end function near_orbit
+
+   !> What counts as near of a problem, and the motions that are known of it and repeat.
+   pure type(known_motions_t) function known_of(problem, settled) result(known)
+      type(problem_t), intent(in) :: problem
+      type(settled_motion_t), intent(in) :: settled(:)
+      integer, allocatable :: place(:)
+      integer :: i
+
+      known = near_states(problem)
+      place = pack([(i, i=1, size(settled))], settled%period > 0)
+      allocate (known%motions(size(place)))
+      do i = 1, size(place)
+         known%motions(i)%states = settled(place(i))%states
+      end do
+   end function known_of
+
+   !> What counts as near of a problem.
+   pure type(known_motions_t) function near_states(problem) result(measure)
+      type(problem_t), intent(in) :: problem
+
+      measure%near_film = same_state*gap_of_starts(problem)
+      measure%near_velocity = same_state*characteristic_velocity(problem)
+   end function near_states
+
+   !> Solve some starts side by side, and add the motions that they lead to and that are not known yet. After a signal to stop
+   !> the motions are of no use.
+   subroutine solve_trials(resolved, choices, requests, trials, space, found, error)
+      !> Scenes of a batch, limits of their classes, and what was asked of the engine
+      type(resolved_scene_t), intent(in) :: resolved(:)
+      type(spectrum_choice_t), intent(in) :: choices(:)
+      type(request_t), intent(in) :: requests(:)
+      !> The starts; the first of those that lead to one motion counts
+      type(trial_t), intent(in) :: trials(:)
+      !> Work space
+      type(scene_group_t), intent(inout) :: space
+      type(row_motions_t), intent(inout) :: found(:)
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
+      logical :: left(size(trials)), together(size(trials))
+      integer :: first, i
+
+      left = .true.
+      do while (any(left))
+         first = findloc(left, .true., dim=1)
+         together = left .and. [(asks_for_same(requests(trials(first)%scene), requests(trials(i)%scene)), i=1, size(trials))]
+         call solve_alike(pack([(i, i=1, size(trials))], together))
+         if (must_stop() .or. allocated(error)) return
+         left = left .and. .not. together
+      end do
+
+   contains
+
+      !> Solve starts of scenes that ask for the same.
+      subroutine solve_alike(own)
+         integer, intent(in) :: own(:)
+         type(request_t) :: request
+         type(motion_state_t) :: starts(size(own))
+         type(known_motions_t) :: known(size(own))
+         real(dp) :: noise(size(own))
+         logical :: wants(seen_quantities)
+         integer :: k
+
+         associate (scenes => trials(own)%scene)
+            request = requests(scenes(1))
+            request%accuracy = max(request%accuracy, enough_accuracy)
+            request%until_steady = .true.
+            request%forecast = .true.
+            do k = 1, size(own)
+               starts(k)%numbers = trials(own(k))%state
+               known(k) = known_of(resolved(scenes(k))%problem, found(scenes(k))%settled)
+               noise(k) = resolved(scenes(k))%noise_floor_at(request%accuracy)
+            end do
+            wants = .false.
+            wants(seen_film) = .true.
+            call solve_group(resolved(scenes)%problem, starts, request, wants, space, known=known)
+            call classify_group(resolved(scenes)%problem, choices(scenes), noise, request, space)
+            if (allocated(space%error)) call move_alloc(space%error, error)
+            if (must_stop() .or. allocated(error)) return
+            call follow_new(resolved(scenes)%problem, scenes, found, space)
+            do k = 1, size(own)
+               call add_motion(resolved(scenes(k))%problem, request%samples_per_period, k, space, found(scenes(k)))
+            end do
+         end associate
+      end subroutine solve_alike
+
+   end subroutine solve_trials
+
+   !> Follow the motions that are off their harmonics, where all that are known repeat.
+   subroutine follow_new(problems, scenes, found, space)
+      type(problem_t), intent(in) :: problems(:)
+      !> Places of their scenes in the batch
+      integer, intent(in) :: scenes(:)
+      type(row_motions_t), intent(in) :: found(:)
+      type(scene_group_t), intent(inout) :: space
+      type(rattle_verdict_t), allocatable :: verdicts(:)
+      integer, allocatable :: new(:), repeat_after(:)
+      integer :: k
+
+      new = pack([(k, k=1, size(problems))], [(is_new(k), k=1, size(problems))])
+      if (size(new) == 0) return
+      allocate (verdicts, source=space%verdicts(new))
+      repeat_after = space%repeat_after(new)
+      call follow_irregular(problems(new), space%endings(new), verdicts, repeat_after)
+      space%verdicts(new) = verdicts
+
+   contains
+
+      logical function is_new(place)
+         integer, intent(in) :: place
+
+         is_new = .false.
+         if (.not. has_window(space%endings(place))) return
+         if (space%verdicts(place)%class /= class_irregular_so_far) return
+         is_new = all(found(scenes(place))%settled%period > 0)
+      end function is_new
+
+   end subroutine follow_new
+
+   !> Count a start, and add its motion if that is none of those that are known: one that repeats within the accuracy and whose
+   !> states are others, or an irregular one where all others repeat. Two irregular ones cannot be told apart.
+   pure subroutine add_motion(problem, samples_per_period, place, group, found)
+      type(problem_t), intent(in) :: problem
+      integer, intent(in) :: samples_per_period
+      !> Place of the start in its group
+      integer, intent(in) :: place
+      type(scene_group_t), intent(in) :: group
+      type(row_motions_t), intent(inout) :: found
+      type(settled_motion_t) :: motion
+      integer :: i
+
+      found%told%starts_solved = found%told%starts_solved + 1
+      if (group%endings(place)%known > 0) return
+      if (group%endings(place)%orbit == 0) found%told%unsettled_starts = found%told%unsettled_starts + 1
+      if (.not. is_success(group%endings(place)%status)) return
+      motion = settled_of(problem, samples_per_period, place, group)
+      if (group%endings(place)%orbit > 0) then
+         if (any([(same_motion(problem, found%settled(i), motion), i=1, size(found%settled))])) return
+      else
+         motion%period = 0
+         motion%states = motion%states(:, size(motion%states, 2):)
+         if (group%verdicts(place)%class /= class_irregular .or. any(found%settled%period == 0)) return
+      end if
+      found%settled = [found%settled, motion]
+      found%told%motions = [found%told%motions, told_of(problem, place, group, motion)]
+   end subroutine add_motion
+
+   !> Whether two motions are alike: of one period and with nearly the same acceleration, or both do not repeat.
+   elemental logical function are_alike(one, other)
+      type(settled_motion_t), intent(in) :: one
+      type(settled_motion_t), intent(in) :: other
+
+      are_alike = one%period == other%period .and. &
+                  (one%period == 0 .or. (one%acceleration_rms <= alike_ratio*other%acceleration_rms .and. &
+                                         other%acceleration_rms <= alike_ratio*one%acceleration_rms))
+   end function are_alike
+
+   !> State from which a scene starts with the motion of another one: its films, velocity, and what its contacts carry.
+   pure function handed_state(problem, motion, from) result(state)
+      type(problem_t), intent(in) :: problem
+      !> Motion of the other one, and what moves there
+      type(settled_motion_t), intent(in) :: motion
+      type(problem_t), intent(in) :: from
+      real(dp), allocatable :: state(:)
+
+      state = motion%states(:, 1)
+      call keep_by_contacts(problem, kept_by_contacts(from, motion%states(:, 1)), state)
+   end function handed_state
+
+end module row_motions

@@ -1,0 +1,69 @@
+!> Periodic motions that are known of a problem. A motion from another start that has come to one of them need not be followed
+!> any further.
+module known_motions
+   use kinds, only: dp
+   use problem, only: compression_count, of_drive_compression, of_film, of_velocity, problem_t
+   implicit none(type, external)
+   private
+
+   !> A periodic motion by its states.
+   type, public :: known_motion_t
+      !> States at the starts of its periods of the force, one after the other: number of the state, period
+      real(dp), allocatable :: states(:, :)
+   end type known_motion_t
+
+   !> What is known of the stable periodic motions of a problem.
+   type, public :: known_motions_t
+      type(known_motion_t), allocatable :: motions(:)
+      !> Largest differences of films and compressions [m] and of velocities [m/s] of states that count as one
+      real(dp) :: near_film = 0.0_dp
+      real(dp) :: near_velocity = 0.0_dp
+   end type known_motions_t
+
+   public :: reached_motion, are_near
+
+contains
+
+   !> The known motion that two successive states both belong to, one period apart, 0: none.
+   pure integer function reached_motion(problem, known, older, newer) result(reached)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> What is known of it
+      type(known_motions_t), intent(in) :: known
+      !> Numbers of the states at the starts of two successive periods
+      real(dp), intent(in) :: older(:)
+      real(dp), intent(in) :: newer(:)
+      integer :: next, period
+
+      if (allocated(known%motions)) then
+         do reached = 1, size(known%motions)
+            associate (states => known%motions(reached)%states)
+               do period = 1, size(states, 2)
+                  next = modulo(period, size(states, 2)) + 1
+                  if (are_near(problem, known, older, states(:, period)) .and. &
+                      are_near(problem, known, newer, states(:, next))) return
+               end do
+            end associate
+         end do
+      end if
+      reached = 0
+   end function reached_motion
+
+   !> Whether two states count as one by film, velocity and compressions; what films have behind these follows them.
+   pure logical function are_near(problem, known, one, other)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      !> What counts as near
+      type(known_motions_t), intent(in) :: known
+      !> Numbers of the states
+      real(dp), intent(in) :: one(:)
+      real(dp), intent(in) :: other(:)
+      integer :: last
+
+      last = of_velocity + compression_count(problem)
+      are_near = abs(one(of_velocity) - other(of_velocity)) <= known%near_velocity .and. &
+                 abs(one(of_film) - other(of_film)) <= known%near_film .and. &
+                 all(abs(one(of_drive_compression:last) - other(of_drive_compression:last)) <= known%near_film)
+   end function are_near
+
+end module known_motions
