@@ -2,12 +2,13 @@
 !> regime map of Johnson (1970) and the rule by which a computed film is called iso-viscous, piezo-viscous or elastohydrodynamic.
 module regime
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use constants, only: two_pi
    use flank_elasticity, only: equivalent_radius, plane_strain_modulus
    use kinds, only: dp
    implicit none(type, external)
    private
 
-   public :: equivalent_radius, plane_strain_modulus, contact_deflection, grubin_film
+   public :: equivalent_radius, plane_strain_modulus, contact_deflection, hertzian_pressure, grubin_film
    public :: viscosity_group, elasticity_group, film_parameter, limiting_films, mapped_regime, film_regime
 
    !> Codes of the regime map, in the order of `limiting_films`.
@@ -45,6 +46,19 @@ contains
 
       deflection = 4.0_dp*radius*(pressure/modulus)**2
    end function contact_deflection
+
+   !> Largest pressure of a line contact without oil (Hertz) [Pa].
+   elemental real(dp) function hertzian_pressure(radius, length, modulus, load)
+      !> R and l [m]
+      real(dp), intent(in) :: radius
+      real(dp), intent(in) :: length
+      !> E* [Pa]
+      real(dp), intent(in) :: modulus
+      !> W [N]
+      real(dp), intent(in) :: load
+
+      hertzian_pressure = sqrt(load*modulus/(two_pi*radius*length))
+   end function hertzian_pressure
 
    !> Elastohydrodynamic film of Grubin as printed in eq (33), h0/R = 2.076 u*^0.72 Wbar^-0.091. Its load
    !> group is Wbar = W/(E' R l), not the group of eq (20), and E' = E* of eq (3); its speed is the

@@ -1,5 +1,6 @@
 !> A scene with all that follows from it before anything is solved.
 module resolved_scene
+   use constants, only: two_pi
    use elastic_step, only: pass_share
    use engine, only: request_t
    use film_pressure, only: pressure_scale
@@ -10,7 +11,8 @@ module resolved_scene
    use regime, only: steel_tooth
    use regime_check, only: steady_alpha_p
    use rupture, only: squeeze_group
-   use scene_types, only: drag_t, iteration_newton, least_static_load, method_newmark, predictor_extrapolated, scene_t, until_steady
+   use scene_types, only: drag_t, excitation_t, iteration_newton, least_static_load, method_newmark, predictor_extrapolated, &
+                          scene_t, until_steady
    use taylor_step_control, only: film_weight, momentum_weight
    implicit none(type, external)
    private
@@ -35,6 +37,8 @@ module resolved_scene
       real(dp) :: alpha_p = 0.0_dp
       !> By how much a tooth deflects under a load; one that is taken for rigid as a steel tooth [m/N]
       real(dp) :: tooth_compliance = 0.0_dp
+      !> Load of an impact without oil at the sum of the velocity amplitudes that the force gives the mass [N]
+      real(dp) :: dry_impact = 0.0_dp
       !> Amplitude of acceleration that rounding and the accuracy of the scene's own method explain [m/s2]
       real(dp) :: noise_floor = 0.0_dp
       !> What of it rounding explains, and what an accuracy of one would [m/s2]
@@ -60,6 +64,7 @@ contains
       if (scene%gear%given) resolved%gear_arm = sqrt(scene%gear%loose_inertia/scene%excitation%mass)
       resolved%tooth_compliance = 1.0_dp/scene%contact%flank_stiffness(steel_tooth)
       if (scene%contact%stiffness > 0.0_dp) resolved%tooth_compliance = 1.0_dp/scene%contact%stiffness
+      resolved%dry_impact = free_velocity(scene%excitation)*sqrt(scene%excitation%mass/resolved%tooth_compliance)
       static_load = scene%excitation%static_load()
       rest = films_at_rest(resolved%problem, static_load)
       resolved%steady_film = rest(1)
@@ -86,6 +91,15 @@ contains
          resolved%alpha_p = steady_alpha_p(film, minval(rest))
       end associate
    end function resolve
+
+   !> Sum of the amplitudes of velocity that all harmonics of the force give a mass that nothing holds [m/s].
+   pure real(dp) function free_velocity(excitation)
+      type(excitation_t), intent(in) :: excitation
+
+      free_velocity = excitation%force_amplitude
+      if (allocated(excitation%force_orders)) free_velocity = sum(excitation%force_amplitudes/real(excitation%force_orders, dp))
+      free_velocity = excitation%force_scale*free_velocity/(two_pi*excitation%frequency*excitation%mass)
+   end function free_velocity
 
    !> What a scene asks of its engine.
    pure type(request_t) function request_of(scene) result(request)

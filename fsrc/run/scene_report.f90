@@ -6,7 +6,7 @@ module scene_report
    use film_law, only: with_exact_film
    use film_state, only: load_t
    use flank_contact, only: contact_words, load_at_rest
-   use force, only: inertia_ratio
+   use force, only: inertia_ratio, largest_oscillation
    use judged_scene, only: judged_scene_t, largest_load, quantity_value
    use kinds, only: dp
    use log_file, only: log_magic, log_t
@@ -17,7 +17,8 @@ module scene_report
                          quantity_iterations_per_step, quantity_model_limit, quantity_orbit_stability, quantity_rattle_class, &
                          quantity_t, quantity_table, quantity_verdict, quantity_verdict_verified, quantity_word
    use film_pressure, only: exact_pressure
-   use regime, only: deflection_limit, film_elastohydrodynamic, film_iso_viscous, rigid_limit, steel_tooth
+   use regime, only: contact_deflection, deflection_limit, film_elastohydrodynamic, film_iso_viscous, film_regime, &
+                     hertzian_pressure, rigid_limit, steel_tooth
    use regime_check, only: check_regime, closure_range_sentence, fitting_law, model_limit, model_limit_sentence, outside_closure, &
                            regime_sentence, regime_verdict_t, within_model
    use resolved_scene, only: resolve, resolved_scene_t
@@ -244,8 +245,41 @@ contains
       else
          line = line//'pressure thickens the oil, '
       end if
-      line = line//fitting_law(verdict%regime)//new_line('a')
+      line = line//fitting_law(verdict%regime)//new_line('a')//largest_load_advice(scene, exact, thinner)
    end function law_advice
+
+   !> The largest load to be expected, and the film law that it asks for. Where the force lifts the tooth off its flank it is that
+   !> of an impact without oil, which oil softens.
+   pure function largest_load_advice(scene, exact, thinner) result(line)
+      type(scene_t), intent(in) :: scene
+      !> It with its Reynolds iso-viscous film
+      type(resolved_scene_t), intent(in) :: exact
+      !> The thinner of its films at rest [m]
+      real(dp), intent(in) :: thinner
+      character(:), allocatable :: line
+      character(:), allocatable :: reason
+      type(load_t) :: rest
+      real(dp) :: load, pressure, static, deflection
+
+      associate (film => exact%problem%contact%film, force => exact%problem%force)
+         static = abs(scene%excitation%static_load())
+         load = static + largest_oscillation(force)
+         reason = 'as the force has it'
+         if (largest_oscillation(force) > static .and. exact%dry_impact > load) then
+            load = exact%dry_impact
+            reason = 'an impact without oil at the speed that the force gives'
+         end if
+         rest = load_at_rest(exact%problem%contact, thinner, 0.0_dp)
+         pressure = hertzian_pressure(film%radius, scene%contact%length, film%modulus, load)
+         ! What the steady film of this load would have, if that is less: the pressure goes with the load to 3/2.
+         pressure = min(pressure, exact_pressure(film%radius, film%speed, film%viscosity, thinner, 0.0_dp)* &
+                        (load/rest%load)**1.5_dp)
+         deflection = contact_deflection(film%radius, pressure, film%modulus)
+         line = '! largest load expected                '//short_text(load, 3)//' N, '//reason//': alpha p '// &
+                short_text(film%pressure_viscosity*pressure, 3)//', '// &
+                fitting_law(film_regime(film%pressure_viscosity*pressure, deflection, thinner*rest%load/load))//new_line('a')
+      end associate
+   end function largest_load_advice
 
    !> How the scene ended and what it amounts to.
    subroutine report_ending(log, scene, judged, solve_seconds)

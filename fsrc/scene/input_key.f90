@@ -47,6 +47,8 @@ module input_key
       type(range_t) :: computable = range_t()
       !> Group that gives this key where it stands; empty: none does
       character(8) :: given_by = ''
+      !> Default where &gear stands, if it is another
+      character(24) :: with_gear = ''
    end type key_t
 
    !> Longest name of a scene, and longest text of any key.
@@ -67,13 +69,13 @@ contains
                  merge(number < key%range%upper, number <= key%range%upper, key%range%upper_open)
    end function in_range
 
-   !> Whether an engineer may mean this number.
+   !> Whether an engineer may mean this number. Zero, where it is allowed, is none of what it counts, in any unit.
    pure logical function is_sensible(key, number)
       type(key_t), intent(in) :: key
       !> Finite number
       real(dp), intent(in) :: number
 
-      is_sensible = number >= key%sensible%lower .and. number <= key%sensible%upper
+      is_sensible = (number >= key%sensible%lower .and. number <= key%sensible%upper) .or. .not. abs(number) > 0.0_dp
    end function is_sensible
 
    !> Whether a film and its motion can be computed with this number.

@@ -43,7 +43,9 @@ contains
       unit = trim(key%unit)
       if (unit == '-') unit = ''
       if (len(unit) > 0) unit = ' ['//unit//']'
-      text = '   ! '//trim(key%sentence)//unit//' Allowed: '//allowed_text(key)//'.'//end_of_line
+      text = '   ! '//trim(key%sentence)//unit//' Allowed: '//allowed_text(key)//'.'
+      if (key%with_gear /= '') text = text//' Default with &gear: '//trim(key%with_gear)//'.'
+      text = text//end_of_line
       ! An example is there to be run; one of another task would contradict the motion that the template solves.
       if (key%example /= '' .and. all(optional_groups /= key%group) .and. &
           (key%used_when == '' .or. index(key%used_when, 'motion') > 0)) then
@@ -131,6 +133,7 @@ contains
       default = trim(key%default)
       if (default == 'required') default = '**required**'
       if (default == '') default = '-'
+      if (key%with_gear /= '') default = default//'; with &gear '//trim(key%with_gear)
       meaning = trim(key%sentence)
       if (key%given_by /= '') meaning = meaning//' Follows from `&'//trim(key%given_by)//'` where that stands.'
       own = trim(key%used_when(len(conditions) + 1:))

@@ -104,7 +104,8 @@ module key_table
             computable=a_pressure_viscosity, given_by='oil'), &
       key_t('lubricant', 'viscosity_law', text_kind, '', 'barus', any_number, 'constant barus roelands', '', &
             'How viscosity rises with pressure: barus is eta0 exp(alpha q) (29). constant and roelands are for the '// &
-            'elastohydrodynamic law, roelands for a film task with model = numerical, too.'), &
+            'elastohydrodynamic law, roelands for a film task with model = numerical, too.', &
+            with_gear='roelands'), &
       key_t('kinematics', 'entrainment_speed', real_kind, 'm/s', '', positive, '', '', &
             'Entrainment speed U, the mean of the two surface speeds; give this, rolling_speed, or both surface speeds.', &
             example='1.905', &
@@ -179,10 +180,11 @@ module key_table
       key_t('film', 'law', text_kind, '', 'required', any_number, words_of_laws, of_motions, &
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle; elastohydrodynamic, '// &
             'where pressure bends the flanks.', &
-            example='iso-viscous'), &
+            example='iso-viscous', with_gear='elastohydrodynamic'), &
       key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical closure', '', &
             'Whose film: published, the paper''s formulas with U as their u; reynolds, exact with u = 2U; closure, of the '// &
-            'elastohydrodynamic law. Film task: absent means both of the first, numerical adds the finite-volume solution.'), &
+            'elastohydrodynamic law, its default. Film task: absent means both of the first, numerical adds finite volumes.', &
+            with_gear='reynolds'), &
       key_t('film', 'rupture', text_kind, '', 'half-pi', any_number, 'half-pi solved', &
             'film.law=iso-viscous & film.model=published', &
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
@@ -307,11 +309,11 @@ module key_table
             'Backlash, the clearance between both flanks along their normal; absent: the drive flank alone.', &
             sensible=range_t(lower=1.0e-6_dp, upper=1.0e-2_dp), &
             computable=a_play), &
-      key_t('gear', 'tooth_stiffness', real_kind, 'N/m2', '', positive, '', of_motions, &
+      key_t('gear', 'tooth_stiffness', real_kind, 'N/m2', '', not_negative, '', of_motions, &
             'Stiffness of the teeth for each metre of face width, c'' of ISO 6336-1 (1.4e10 for steel); a flank has it times '// &
-            'face_width and contact_lines; absent: rigid.', &
+            'face_width and contact_lines; 0: rigid.', &
             sensible=range_t(lower=1.0e7_dp, upper=1.0e12_dp), &
-            computable=a_stiffness), &
+            computable=range_t(0.0_dp, .false., 1.0e20_dp, .false.), with_gear='14.0e9'), &
       key_t('shaft', 'speed_rpm', real_kind, '1/min', 'required', positive, '', of_motions, &
             'Mean speed of the shaft.', &
             example='800.0', &
@@ -391,7 +393,8 @@ module key_table
             'solver.method=taylor', &
             'Relative accuracy of the film that an error-controlled method aims at.'), &
       key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion|campaign|threshold', &
-            'End of the run: all periods, or as soon as the motion is verified to repeat; then one orbit is the window.'), &
+            'End of the run: all periods, or as soon as the motion is verified to repeat; then one orbit is the window.', &
+            with_gear='steady'), &
       key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', of_motions, &
             'Periods of the force that are solved (the most, until steady); at least those of the spectrum window.'), &
       key_t('solver', 'starts', integer_kind, '-', '', range_t(1.0_dp, .false., 1.0e4_dp, .false.), '', &
@@ -402,7 +405,8 @@ module key_table
             'Wall time after which the run ends cleanly, to be resumed; absent: none.'), &
       key_t('solver', 'samples_per_period', integer_kind, '-', '512', at_least_8, '', &
             'solver.method=taylor', &
-            'Samples of a period that are kept; the steps are chosen by the accuracy.'), &
+            'Samples of a period that are kept; the steps are chosen by the accuracy.', &
+            with_gear='4096'), &
       key_t('solver', 'iteration', text_kind, '', 'newton', any_number, 'newton successive', 'solver.method=newmark', &
             'Iteration in a step: newton with the exact slopes of the film, or the paper''s successive one.'), &
       key_t('solver', 'predictor', text_kind, '', 'extrapolated', any_number, 'extrapolated previous', &

@@ -97,7 +97,8 @@ contains
       integer :: i
 
       do i = 1, size(keys)
-         if (keys(i)%default /= 'required' .or. input%entries(i)%given .or. .not. in_use(input, i)) cycle
+         if (keys(i)%default /= 'required' .or. .not. in_use(input, i)) cycle
+         if (input%entries(i)%given .or. input%entries(i)%present) cycle
          ! Which keys a task requires is not known before the task is.
          if (keys(i)%used_when /= '' .and. input%is_faulty('scene', 'task')) cycle
          if (keys(i)%given_by == 'oil' .and. input%has_group('gear')) then
@@ -136,11 +137,11 @@ contains
       character(:), allocatable :: first
       integer :: i, dot
 
-      if ((input%is_given('contact', 'stiffness') .or. input%is_given('gear', 'tooth_stiffness')) .and. &
+      if ((input%is_given('contact', 'stiffness') .or. input%number('gear', 'tooth_stiffness') > 0.0_dp) .and. &
           input%word('solver', 'method') == 'newmark' .and. input%word('film', 'law') /= 'elastohydrodynamic') &
          call input%add_fault('solver', 'method', 'the paper''s method is for the rigid teeth of the paper; take taylor, or '// &
-                              'leave '//trim(merge('contact.stiffness   ', 'gear.tooth_stiffness', &
-                                                   input%is_given('contact', 'stiffness')))//' out', faults)
+                              trim(merge('leave contact.stiffness out ', 'set gear.tooth_stiffness = 0', &
+                                         input%is_given('contact', 'stiffness'))), faults)
       if (input%word('film', 'law') == 'elastohydrodynamic' .and. input%word('solver', 'method') == 'newmark') &
          call input%add_fault('solver', 'method', 'the paper''s method is for the rigid flanks of the paper; take taylor', faults)
       call input%put_numbers(scene)
@@ -334,7 +335,7 @@ contains
          call input%add_fault('lubricant', 'viscosity_law', "'constant' needs "//law, faults)
       ! The default stands in the resolved input of pairs of which others are elastic.
       if (.not. (input%flag('contact', 'flattening_included') .or. elastic .or. input%is_given('contact', 'stiffness') .or. &
-                 input%is_given('gear', 'tooth_stiffness'))) &
+                 input%number('gear', 'tooth_stiffness') > 0.0_dp)) &
          call input%add_fault('contact', 'flattening_included', 'rigid flanks have nothing to include; give a stiffness or '//law, &
                               faults)
    end subroutine check_film_model

@@ -3,7 +3,7 @@ module scene_input
    use errors, only: fault_list_t
    use former_names, only: present_key
    use input_entry, only: continues_list, entry_t, new_entry, set_entry
-   use input_key, only: integer_kind, real_kind
+   use input_key, only: integer_kind, key_t, real_kind
    use key_table, only: find_key, keys, known_group, nearest_group, nearest_key
    use kinds, only: dp
    use namelist_text, only: assignment_t, repeated_group
@@ -27,7 +27,7 @@ module scene_input
       procedure :: set_all
       procedure :: put_numbers
       procedure :: put_laws
-      procedure :: choose_model
+      procedure :: choose_defaults
       procedure :: is_given
       procedure :: has_group
       procedure :: is_faulty
@@ -139,13 +139,28 @@ contains
       scene%contact%flattening_included = self%flag('contact', 'flattening_included')
    end subroutine put_laws
 
-   !> The elastohydrodynamic law has a model of its own; where none is given it is this one.
-   pure subroutine choose_model(self)
+   !> Defaults that hang on other keys: gear pairs have their own, the elastohydrodynamic law its model, and no other law another
+   !> law of viscosity than Barus'.
+   subroutine choose_defaults(self)
       class(scene_input_t), intent(inout) :: self
+      type(key_t) :: key
+      integer :: i, line
 
-      if (self%word('film', 'law') == 'elastohydrodynamic' .and. .not. self%is_given('film', 'model')) &
-         self%entries(find_key('film', 'model'))%word = 'closure'
-   end subroutine choose_model
+      do i = 1, size(keys)
+         if (keys(i)%with_gear == '' .or. self%entries(i)%given .or. .not. self%has_group('gear')) cycle
+         key = keys(i)
+         key%default = key%with_gear
+         line = self%entries(i)%line
+         self%entries(i) = new_entry(key, self%file)
+         self%entries(i)%line = line
+      end do
+      if (self%word('film', 'law') == 'elastohydrodynamic') then
+         if (.not. self%is_given('film', 'model')) self%entries(find_key('film', 'model'))%word = 'closure'
+      else
+         i = find_key('lubricant', 'viscosity_law')
+         if (.not. self%entries(i)%given) self%entries(i)%word = trim(keys(i)%default)
+      end if
+   end subroutine choose_defaults
 
    !> Whether the user set a key.
    pure logical function is_given(self, group, name)

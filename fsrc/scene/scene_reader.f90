@@ -87,7 +87,7 @@ contains
          own = fault_list_t()
          call set_all_keys(inputs(i), assignments, file, overrides, own)
          allocate (scenes(i)%warnings(0))
-         call inputs(i)%choose_model()
+         call inputs(i)%choose_defaults()
          call take_signal(inputs(i), 'load', scenes(i)%warnings, own)
          call take_signal(inputs(i), 'shaft', scenes(i)%warnings, own)
          call take_drag_table(inputs(i), scenes(i)%gear, own)
@@ -168,8 +168,20 @@ contains
       scene%output = read_output(input)
       scene%lines = input%entries%line
       scene%resolved_input = resolved_text(input, trim(scene%name))//input%found
-      scene%warnings = [scene%warnings, former_names_of_input(input), odd_numbers_of_input(input), odd_swings(input, scene%shaft)]
+      scene%warnings = [scene%warnings, former_names_of_input(input), odd_numbers_of_input(input), odd_swings(input, scene%shaft), &
+                        published_film_of_gear(input)]
    end subroutine put_values
+
+   !> That the paper's film is none for gears, where a pair has it.
+   function published_film_of_gear(input) result(lines)
+      type(scene_input_t), intent(in) :: input
+      type(word_t), allocatable :: lines(:)
+
+      allocate (lines(0))
+      if (.not. input%has_group('gear') .or. input%word('film', 'model') /= 'published') return
+      lines = [word_t('warning: '//place_of(input%entries(find_key('film', 'model')))//": the published films are those of the "// &
+                      "paper's scenes, and off by factors for gear pairs; leave &film model out, or take 'reynolds'")]
+   end function published_film_of_gear
 
    !> What is said of former names of keys and quantities in an input.
    function former_names_of_input(input) result(lines)
@@ -369,8 +381,8 @@ contains
          if (keys(i)%group == 'output') is_told = is_told .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
          ! It matters to flanks that give way.
          if (keys(i)%name == 'flattening_included') &
-            is_told = is_told .and. (input%is_given('contact', 'stiffness') .or. input%is_given('gear', 'tooth_stiffness') .or. &
-                                     input%word('film', 'law') == 'elastohydrodynamic')
+            is_told = is_told .and. (input%is_given('contact', 'stiffness') .or. input%word('film', 'law') == 'elastohydrodynamic' &
+                                     .or. input%number('gear', 'tooth_stiffness') > 0.0_dp)
          ! In a film task the absent model means more than its default.
          if (keys(i)%name == 'model') &
             is_told = is_told .and. (input%entries(i)%given .or. input%word('scene', 'task') /= 'film')

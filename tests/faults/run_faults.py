@@ -82,13 +82,13 @@ THRESHOLD = """&scene task = 'threshold' /
 """
 GEARBOX = """&scene name = 'scene' /
 &gear name = '1st', teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96
-   face_width = 0.016, loose_inertia = 1.715e-3, drag_torque = 0.1, backlash = 1e-4 /
+   face_width = 0.016, loose_inertia = 1.715e-3, drag_torque = 0.1, backlash = 1e-4, tooth_stiffness = 0 /
 &gear name = '4th', teeth_1 = 33, teeth_2 = 32, normal_module = 1.85e-3, helix_angle_deg = 30.8
-   face_width = 0.016, loose_inertia = 2.8e-4, drag_torque = 0.05, backlash = 8e-5 /
+   face_width = 0.016, loose_inertia = 2.8e-4, drag_torque = 0.05, backlash = 8e-5, tooth_stiffness = 0 /
 &shaft speed_rpm = 800.0, orders = 2.0, 4.0, accelerations = 600.0, 100.0 /
 &oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 0.0 /
 &film law = 'iso-viscous', model = 'reynolds' /
-&solver periods = 40, accuracy = 1e-6 /
+&solver until = 'periods', periods = 40, accuracy = 1e-6, samples_per_period = 512 /
 &spectrum periods = 2 verify = .false. /
 &output directory = 'results' /
 """

@@ -89,7 +89,7 @@ def draw(number: int, table: dict[str, bool]) -> Case:
         },
         "load": {"force_scale": dice.uniform(0.3, 1.0), "force_mean": dice.uniform(-0.2, 0.5)},
         "film": {"law": dice.choice(("'iso-viscous'", "'piezo-viscous'")), "model": "'reynolds'"},
-        "solver": {"accuracy": 1e-6, "periods": 4, "samples_per_period": SAMPLES},
+        "solver": {"until": "'periods'", "accuracy": 1e-6, "periods": 4, "samples_per_period": SAMPLES},
         "spectrum": {"periods": 2},
     }
     gear, shaft, oil = groups["gear"], groups["shaft"], groups["oil"]
@@ -112,6 +112,7 @@ def draw(number: int, table: dict[str, bool]) -> Case:
         if key in table
         and key not in ("solver.samples_per_period", "shaft.cycle_revolutions", "shaft.signal_orders")
     ]
+    gear.setdefault("tooth_stiffness", 0.0)
     # A signal of a speed at other speeds is where derivation once went wrong.
     chosen = dice.sample(varied, dice.randint(1, 3))
     if dice.random() < 0.3 and "shaft.speed_rpm" not in chosen:

@@ -169,7 +169,7 @@ def test_a_gear_with_the_contact_of_a_known_motion(run, tmp_path: Path) -> None:
 &gear
    teeth_1 = 30, teeth_2 = 30, normal_module = {2 * base_radius / 30 / math.cos(math.radians(20.0))!r}
    face_width = 0.02, loose_inertia = {mass * base_radius**2!r}, drag_torque = {5.0 * base_radius!r}
-   backlash = 1e-4
+   backlash = 1e-4, tooth_stiffness = 0.0
 /
 &shaft
    speed_rpm = {speed!r}, orders = {order!r}, {2 * order!r}, {3 * order!r}, phases = 0.0, 0.5, 1.1
@@ -177,7 +177,7 @@ def test_a_gear_with_the_contact_of_a_known_motion(run, tmp_path: Path) -> None:
 /
 &lubricant viscosity = 0.05, pressure_viscosity = 2e-8 /
 &film law = 'iso-viscous', model = 'reynolds' /
-&solver periods = 40, samples_per_period = 2048 /
+&solver until = 'periods', periods = 40, samples_per_period = 2048 /
 &spectrum periods = 4 /
 """)
     ended = run("known.nml", cwd=tmp_path)
@@ -463,3 +463,96 @@ def test_check_advises_a_film_law(settings: list[str], advice: str, check) -> No
         line for line in check(PAIR, *settings).stdout.splitlines() if "Reynolds film at rest" in line
     )
     assert line.endswith(advice)
+
+
+# --- defaults of gear pairs ------------------------------------------------------------------------------
+
+BARE = PAIR.partition("&film")[0]
+DEFAULTS = {
+    "law": "'elastohydrodynamic'",
+    "model": "'closure'",
+    "viscosity_law": "'roelands'",
+    "tooth_stiffness": "1.4E10",
+    "until": "'steady'",
+    "samples_per_period": "4096",
+}
+
+
+def resolved(echo: str) -> dict[str, str]:
+    return dict(re.findall(r"^   (\w+) = (.+)$", echo, re.M))
+
+
+def test_a_gear_without_film_and_solver_has_the_defaults_of_gears(check, scene_text, run, tmp_path) -> None:
+    told = resolved(check(BARE).stdout)
+    assert {name: told[name] for name in DEFAULTS} == DEFAULTS
+    scene = resolved(run("--check", "-", cwd=tmp_path, stdin=scene_text()).stdout)
+    assert (scene["until"], scene["model"]) == ("'periods'", "'published'")
+    assert "tooth_stiffness" not in scene
+
+
+def test_defaults_of_gears_solve_what_their_keys_do(run, tmp_path: Path) -> None:
+    """The same bytes, and `until = 'steady'` ended it."""
+    named = "&film law = 'elastohydrodynamic', model = 'closure' /\n&solver until = 'steady', periods = 60,"
+    named += " accuracy = 1e-6, samples_per_period = 4096 /\n&lubricant viscosity_law = 'roelands' /\n"
+    brief = BARE + "&solver periods = 60, accuracy = 1e-6 /\n"
+    full = BARE.replace("backlash = 1e-4", "backlash = 1e-4, tooth_stiffness = 1.4e10") + named
+    for folder, text in (("brief", brief), ("full", full)):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "pair.nml").write_text(text)
+        assert run("pair.nml", cwd=tmp_path / folder).returncode == 0
+    paths = [tmp_path / folder / "results" / "pair.rattle" for folder in ("brief", "full")]
+    assert paths[0].read_bytes() == paths[1].read_bytes()
+    assert summary_of(paths[0].with_suffix(".summary.nml"))["status"] == "steady"
+
+
+def test_other_laws_of_a_gear_have_their_own_defaults(check) -> None:
+    told = resolved(check(BARE + "&film law = 'iso-viscous' /\n").stdout)
+    assert (told["model"], told["viscosity_law"]) == ("'reynolds'", "'barus'")
+
+
+def test_rigid_teeth_are_a_stiffness_of_zero(check) -> None:
+    told = check(PAIR.replace("backlash = 1e-4", "backlash = 1e-4, tooth_stiffness = 0"))
+    assert "contact.stiffness" not in told.stdout and "meant in" not in told.stdout
+
+
+def test_a_published_film_of_a_gear_is_warned_of(check) -> None:
+    published = "pair.nml:8: the published films are those of the paper's scenes"
+    assert published in check(PAIR.replace("reynolds", "published")).stdout
+    assert published not in check(PAIR).stdout
+
+
+def test_newmark_asks_for_rigid_teeth_of_a_gear(run, tmp_path: Path) -> None:
+    text = BARE + "&film law = 'iso-viscous' /\n&solver method = 'newmark' /\n"
+    refused = run("--check", "-", cwd=tmp_path, stdin=text)
+    assert refused.returncode == 2 and "set gear.tooth_stiffness = 0" in refused.stderr
+    rigid = text.replace("backlash = 1e-4", "backlash = 1e-4, tooth_stiffness = 0")
+    assert run("--check", "-", cwd=tmp_path, stdin=rigid).returncode == 0
+
+
+@pytest.mark.parametrize("temperature", (-30, 0, 40, 100))
+def test_check_expects_the_law_that_the_motion_asks_for(temperature: int, check, run, tmp_path) -> None:
+    """Impacts of a gear that leaves its flank are below those without oil, which no other load is."""
+    text = BARE.replace("temperature_celsius = 40.0", f"temperature_celsius = {temperature}")
+    text = text.replace(
+        "drag_torque = 0.10",
+        "bearing_mean_diameter = 0.046, synchroniser_cones = 2\n"
+        "   synchroniser_diameter = 0.076, synchroniser_width = 0.008, synchroniser_gap = 0.2e-3",
+    )
+    text += "&film law = 'iso-viscous' /\n&solver periods = 60, accuracy = 1e-6 /\n"
+    (line,) = (line for line in check(text).stdout.splitlines() if "largest load expected" in line)
+    assert run("pair.nml", cwd=tmp_path).returncode == 0
+    told = summary_of(tmp_path / "results" / "pair.summary.nml")
+    load = float(re.search(r"expected +(\S+) N", line)[1])
+    lifted = told["inertia_ratio"] > 1.0
+    assert ("an impact without oil" in line) == lifted
+    mass, frequency = told["mass"], told["frequency"]
+    speed = told["force_amplitudes"] / (2.0 * math.pi * frequency * mass)
+    dry = speed * math.sqrt(mass * told["stiffness"])
+    steady = told["steady_force"] + told["force_amplitudes"]
+    assert load == pytest.approx(dry if lifted else steady, rel=5e-3)
+    assert 0.1 * load < told["load_maximum"] < 1.01 * load or not lifted
+    fits = {"iso-viscous": "iso-viscous with", "piezo-viscous": "piezo-viscous with"}
+    if not lifted:
+        assert fits[told["film_regime"]] in line
+    elif told["film_regime"] == "elastohydrodynamic":
+        assert "elastohydrodynamic fits" in line
