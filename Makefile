@@ -294,7 +294,7 @@ SANITIZED_RUN = $(call sanitized,rattle) --quiet --overwrite --output $(SANITIZE
 sanitize:
 	@$(MAKE) --no-print-directory BUILD=$(SANITIZED) SANITIZE=1 $(SANITIZED)/unit_tests $(SANITIZED)/rattle
 	@$(call sanitized,unit_tests)
-	@$(SANITIZED_RUN) $(foreach name,idle creep creep_false_harmonic creep_period_two loose_gear loose_pair engine_cycle gearbox film,input/$(name).nml)
+	@$(SANITIZED_RUN) $(foreach name,idle creep creep_false_harmonic creep_period_two loose_gear loose_pair engine_cycle gearbox elastohydrodynamic film,input/$(name).nml)
 	@$(SANITIZED_RUN) --set sweep.count=5 input/sweep.nml
 	@$(SANITIZED_RUN) --set sweep.count=3 input/stiff_or_not.nml
 	@$(SANITIZED_RUN) --set campaign.count=4,4 input/map.nml

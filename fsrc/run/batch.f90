@@ -5,8 +5,10 @@ module batch
    use engine, only: checkpoint_t
    use earlier_files, only: check_earlier_files
    use errors, only: error_t, exit_complete, exit_scene_failed, fault_list_t
+   use flank_contact, only: contact_of, inner_count
    use gearbox_table, only: check_earlier_table, pair_row_t, row_of_pair, whole_gearbox, write_table
    use judged_scene, only: judged_scene_t
+   use key_table, only: find_key
    use memory_need, only: expect_scene_memory, scenes_that_fit
    use output_lock, only: output_lock_t
    use output_place, only: check_output_place, claim_output_place
@@ -17,7 +19,7 @@ module batch
    use run_sweep, only: run_sweep_task
    use scene_report, only: law_sentence, resolved_lines
    use scene_status, only: is_success, status_complete, status_interrupted
-   use scene_types, only: scene_t, task_film, task_motion, task_sweep
+   use scene_types, only: method_newmark, scene_t, task_film, task_motion, task_sweep
    use signals, only: caught_signal
    use text, only: integer_text
    use text_output, only: end_turn, lock_texts, put_line, put_text, share_output, speak_for, unlock_texts
@@ -57,6 +59,7 @@ contains
 
       exit_code = exit_complete
       call check_names(scenes, faults)
+      call check_methods(scenes, faults)
       call check_memory(scenes, faults)
       if (.not. command%check) then
          ! Look first, make folders after, so that a fault in one scene leaves nothing behind for another.
@@ -286,6 +289,20 @@ contains
       share_files = scene%name == other%name .or. scene%name == other%gearbox .or. scene%gearbox == other%name
       if (scene%gearbox /= '' .and. scene%source /= other%source) share_files = share_files .or. scene%gearbox == other%gearbox
    end function share_files
+
+   !> Newmark's method follows h and h' alone.
+   subroutine check_methods(scenes, faults)
+      type(scene_t), intent(in) :: scenes(:)
+      type(fault_list_t), intent(inout) :: faults
+      integer :: i
+
+      do i = 1, size(scenes)
+         if (scenes(i)%task == task_film .or. scenes(i)%solver%method /= method_newmark) cycle
+         if (inner_count(contact_of(scenes(i))) == 0) cycle
+         call faults%add(scenes(i)%source, scenes(i)%lines(find_key('solver', 'method')), 'solver', 'method', &
+                         'the paper''s method cannot follow a film with a state of its own; take taylor')
+      end do
+   end subroutine check_methods
 
    !> There is memory for every scene.
    subroutine check_memory(scenes, faults)

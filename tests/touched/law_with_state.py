@@ -38,7 +38,7 @@ def change(tree: Tree) -> None:
 
 
 def look(folder: Path, scratch: Path) -> None:
-    """The film at rest carries the static load, and elastic teeth take the law as well."""
+    """The film at rest carries the static load, elastic teeth take the law, and Newmark's method is refused."""
     told = scene.read_summary(folder / "law_with_state.summary.nml")
     steady = REACH - (scene.STEADY_FORCE + scene.MASS * scene.GRAVITY) / STIFFNESS
     if not isclose(told["steady_film"], steady, rel_tol=1e-9):
@@ -48,3 +48,9 @@ def look(folder: Path, scratch: Path) -> None:
     elastic = scene.read_summary(folder / "stiff_chain.summary.nml")
     if not isclose(elastic["film_minimum"], told["film_minimum"], rel_tol=1e-3):
         raise ToyError(f"its film is {told['film_minimum']}, between stiff teeth {elastic['film_minimum']}")
+    refused = ["--set", "solver.method=newmark", "--set", "scene.name=refused", "law_with_state.nml"]
+    ended = subprocess.run(
+        [scratch / "build/rattle", *refused], cwd=folder, capture_output=True, text=True, check=False
+    )
+    if ended.returncode != 2 or "&solver method: the paper's method cannot follow" not in ended.stderr:
+        raise ToyError(f"Newmark's method takes it: {ended.returncode}, {ended.stderr}")
