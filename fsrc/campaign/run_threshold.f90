@@ -1,4 +1,4 @@
-!> Thresholds: a scan of every trace, then passes over all traces together, each the middles of all brackets that are still wide,
+!> Thresholds: a scan of every trace, then rounds over all traces together, each of the middles of all brackets that are still wide,
 !> then the verifications of their ends, all solved as the scenes of a campaign are. Some traces are searched at a time; NAME.state
 !> keeps what was found, for --resume. table_task runs them.
 module run_threshold

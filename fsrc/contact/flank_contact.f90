@@ -3,8 +3,8 @@
 !>     W(h, h', y) = d/kappa      with elastic teeth, else d = 0.
 !>
 !> h is its film, d the compression of its spring, y the state of the film where its law has one. Rigid and elastic teeth, films
-!> with and without a state are contacts of different numbers; one flank or two are one contact or two. Flanks that bend give way
-!> by what follows the width of the contact beside d, w(h, W) of module film_law.
+!> with and without a state are contacts of different numbers; one flank or two are one contact or two. Flanks that bend are
+!> compressed by what follows the width of the contact beside d, w(h, W) of module film_law.
 module flank_contact
    use film_law, only: film_kernel, film_load, film_loads, film_over_gap, kernel_of, film_t, law_words, mixed_film_loads, &
       never_pulls, new_film, overflow_load, squeeze_velocity, steady_film, width_compression
@@ -45,7 +45,7 @@ module flank_contact
 
    public :: contact_of, contact_words, is_elastic, carries_positive_loads, is_costly, inner_count, inner_number, inner_at_rest, &
              film_under, load_of_contact, load_at_rest, loads_of_contact, mixed_loads, velocity_under, equation_of_film, &
-             yields_at_rest, &
+             compliance_at_rest, &
              overflow_load, film_kernel, kernel_of_contact, film_over_gap, width_compression
 
 contains
@@ -79,7 +79,7 @@ contains
       kernel => kernel_of(contact%film)
    end function kernel_of_contact
 
-   !> Whether it gives.
+   !> Whether its flank or tooth is elastic.
    elemental logical function is_elastic(contact)
       type(flank_contact_t), intent(in) :: contact
 
@@ -246,9 +246,9 @@ contains
       tells_velocity = velocity_by_load < 0.0_dp .and. velocity_by_load*still%by_velocity < flattest
    end function tells_velocity
 
-   !> What a flank at rest gives way by, if its film or its load change a little: of the film a share is left to the gear and the
+   !> Compliance of a flank at rest against small changes of its film or its load: of the film a share is left to the gear and the
    !> load.
-   pure subroutine yields_at_rest(contact, film, load, own_share, compliance)
+   pure subroutine compliance_at_rest(contact, film, load, own_share, compliance)
       type(flank_contact_t), intent(in) :: contact
       !> h [m] and W [N]
       real(dp), intent(in) :: film
@@ -262,7 +262,7 @@ contains
       call width_compression(contact%film, film, load, wider, by_film, by_load)
       own_share = 1.0_dp - by_film
       compliance = contact%compliance + by_load
-   end subroutine yields_at_rest
+   end subroutine compliance_at_rest
 
    !> Whether a film carries positive loads only, down to nothing.
    elemental logical function carries_positive_loads(contact)

@@ -1,4 +1,4 @@
-!> Film between flanks that give way, without pressures in nodes: rolling and squeeze flow of the rigid film, each with the factor by
+!> Film between elastic flanks, without pressures in nodes: rolling and squeeze flow of the rigid film, each with the factor by
 !> which bent flanks and thickened oil change it. In Moes' variables, with E* of (3), u = u1 + u2 and
 !> eps = (eta0 u/(E* R))^(1/4),
 !>
@@ -8,8 +8,8 @@
 !>     g_r = (1 + 0.830 s) (eta(0.278 q)/eta0)^0.864 ,   g_s = (1 + 0.765 s)^(3/2) eta(0.213 q)/eta0 ,
 !>     s = M/H ,   q = M/b ,   b^2 = 2 H + 8 M/pi .
 !>
-!> H is the smallest film, Phi that of the Reynolds iso-viscous film. The flanks give way by M c in all, of which c is a number of
-!> the flank but for the width of the contact, - (2/pi) ln(0.516 H + 0.245 M). The constants are fitted to films solved in nodes:
+!> H is the smallest film, Phi that of the Reynolds iso-viscous film. The flanks are compressed by M c in all, of which c is a number
+!> of the flank but for the width of the contact, - (2/pi) ln(0.516 H + 0.245 M). The constants are fitted to films solved in nodes:
 !> what they were fitted to, and how far they are off, stands in input/README.md.
 module elastohydrodynamic_closure
    use constants, only: pi
@@ -238,7 +238,7 @@ contains
       film = exp(place)
    end function closure_steady_film
 
-   !> By how much the flanks give way for the width of the contact, - (2/pi) M ln(0.516 H + 0.245 M), and its slopes. A load below
+   !> Compression of the flanks by the width of the contact, - (2/pi) M ln(0.516 H + 0.245 M), and its slopes. A load below
    !> zero, which interpolation may ask of, has the width of none.
    elemental subroutine closure_width(closure, film, load, gives, by_film, by_load)
       type(closure_t), intent(in) :: closure

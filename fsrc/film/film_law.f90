@@ -39,7 +39,7 @@ module film_law
       logical :: exact = .false.
       !> Whether an evaluation costs much more than the arithmetic around it
       logical :: costly = .false.
-      !> Whether its flanks bend: they give way by what follows the width of the contact, too
+      !> Whether its flanks bend: their compression follows the width of the contact, too
       logical :: bends = .false.
       !> Equivalent radius R of (2) [m]
       real(dp) :: radius = 0.0_dp
@@ -395,7 +395,7 @@ contains
       end select
    end subroutine squeeze_velocity
 
-   !> By how much flanks that bend give way under a load beside the compliance behind them, and its slopes; 0 of flanks that do not.
+   !> Compression of flanks that bend, beside the compliance behind them, and its slopes; 0 of flanks that do not.
    elemental subroutine width_compression(film, thickness, load, gives, by_film, by_load)
       type(film_t), intent(in) :: film
       !> Film thickness h [m]
@@ -420,7 +420,7 @@ contains
       end if
    end subroutine width_compression
 
-   !> Film of a flank: the gap, with what the compliance behind it gives, and what flanks that bend give way by beside it [m].
+   !> Film of a flank: the gap, with the compression of the compliance behind it, and that of flanks that bend beside it [m].
    elemental real(dp) function film_over_gap(film, gap, load, near) result(thickness)
       type(film_t), intent(in) :: film
       !> [m]

@@ -155,7 +155,7 @@ contains
       integer, intent(out) :: status
 
       !> Share of a cell by which the rupture may stray outside; prevents changing cells to and fro.
-      real(dp), parameter :: play = 0.02_dp
+      real(dp), parameter :: margin = 0.02_dp
       real(dp) :: position
 
       rupture = grid%step*(real(last, dp) + 0.5_dp)
@@ -163,7 +163,7 @@ contains
          call rupture_newton(problem, grid, last, pressure(0:last), rupture, iterations, status)
          if (status /= reynolds_converged) return
          position = rupture/grid%step - real(last, dp)
-         if (position >= -play .and. position <= 1.0_dp + play) return
+         if (position >= -margin .and. position <= 1.0_dp + margin) return
          last = last + merge(1, -1, position > 1.0_dp)
          pressure(last + 1:) = 0.0_dp
          status = reynolds_unresolved

@@ -7,7 +7,7 @@ module collocation_newton
    use lane_block, only: lane_block_t
    use lane_functions, only: half_block, lanes
    use radau_nodes, only: node, once, stages, twice
-   use taylor_step_control, only: film_weight, momentum_weight
+   use taylor_step_control, only: film_weight, lienard_weight
    implicit none(type, external)
    private
 
@@ -28,14 +28,14 @@ module collocation_newton
 
 contains
 
-   !> Film and momentum at the nodes, in the halves of the block where a lane is busy.
-   pure subroutine stage_states(busy, block, k, film, momentum)
+   !> Film and velocity at the nodes, in the halves of the block where a lane is busy.
+   pure subroutine stage_states(busy, block, k, film, lienard)
       logical, intent(in) :: busy(lanes)
       type(lane_block_t), intent(in) :: block
       real(dp), intent(in) :: k(lanes, stages)
       !> H and V at the nodes [-]
       real(dp), intent(out) :: film(lanes, stages)
-      real(dp), intent(out) :: momentum(lanes, stages)
+      real(dp), intent(out) :: lienard(lanes, stages)
       real(dp) :: first, second
       integer :: half, i, j, l
 
@@ -50,8 +50,8 @@ contains
                   first = first + once(i, j)*k(l, j)
                   second = second + twice(i, j)*k(l, j)
                end do
-               momentum(l, i) = block%momentum(l, 0) + block%step(l)*first
-               film(l, i) = block%film(l, 0) + block%step(l)*(node(i)*block%momentum(l, 0) &
+               lienard(l, i) = block%lienard(l, 0) + block%step(l)*first
+               film(l, i) = block%film(l, 0) + block%step(l)*(node(i)*block%lienard(l, 0) &
                   + block%step(l)*second)
             end do
          end do
@@ -59,22 +59,22 @@ contains
    end subroutine stage_states
 
    !> Net load of films without a state of their own, and its slopes in H and V, in scaled units.
-   pure type(load_t) function scaled_load(contact, block, lane, film, momentum) result(load)
+   pure type(load_t) function scaled_load(contact, block, lane, film, lienard) result(load)
       type(flank_contact_t), intent(in) :: contact
       type(lane_block_t), intent(in) :: block
       integer, intent(in) :: lane
       !> H [-]
       real(dp), intent(in) :: film
       !> V = H' [-]
-      real(dp), intent(in) :: momentum
+      real(dp), intent(in) :: lienard
       real(dp), parameter :: none(0) = [real(dp) ::]
       type(load_t) :: coast
 
-      load = load_of_contact(contact, film*block%film_scale(lane), momentum*block%velocity_scale(lane), none)
+      load = load_of_contact(contact, film*block%film_scale(lane), lienard*block%velocity_scale(lane), none)
       call scale_load(block, lane, load)
       if (.not. block%backlash(lane) < huge(1.0_dp)) return
       coast = load_of_contact(contact, (block%backlash(lane) - film)*block%film_scale(lane), &
-                              -momentum*block%velocity_scale(lane), none)
+                              -lienard*block%velocity_scale(lane), none)
       call scale_load(block, lane, coast)
       call subtract_coast(coast, load)
    end function scaled_load
@@ -109,16 +109,16 @@ contains
    end subroutine subtract_coast
 
    !> Net loads at the nodes of all busy lanes, up to the first node where there is no film.
-   pure subroutine loads_of_stages(contacts, film, momentum, block, busy, load, by_film, by_momentum)
+   pure subroutine loads_of_stages(contacts, film, lienard, block, busy, load, by_film, by_lienard)
       type(flank_contact_t), intent(in) :: contacts(lanes)
       real(dp), intent(in) :: film(lanes, stages)
-      real(dp), intent(in) :: momentum(lanes, stages)
+      real(dp), intent(in) :: lienard(lanes, stages)
       type(lane_block_t), intent(in) :: block
       logical, intent(in) :: busy(lanes)
       !> Loads [-] and their slopes in H and V
       real(dp), intent(out) :: load(lanes, stages)
       real(dp), intent(out) :: by_film(lanes, stages)
-      real(dp), intent(out) :: by_momentum(lanes, stages)
+      real(dp), intent(out) :: by_lienard(lanes, stages)
       real(dp), dimension(lanes*stages) :: thickness, velocity
       type(load_t) :: loads(lanes*stages), net
       integer :: lane_of(lanes*stages), stage_of(lanes*stages)
@@ -126,7 +126,7 @@ contains
 
       load = 0.0_dp
       by_film = 0.0_dp
-      by_momentum = 0.0_dp
+      by_lienard = 0.0_dp
       n = 0
       do l = 1, lanes
          if (.not. busy(l)) cycle
@@ -136,7 +136,7 @@ contains
             lane_of(n) = l
             stage_of(n) = i
             thickness(n) = film(l, i)*block%film_scale(l)
-            velocity(n) = momentum(l, i)*block%velocity_scale(l)
+            velocity(n) = lienard(l, i)*block%velocity_scale(l)
          end do
       end do
       call mixed_loads(contacts, lane_of(:n), thickness(:n), velocity(:n), loads(:n))
@@ -145,7 +145,7 @@ contains
          call scale_load(block, l, loads(i))
          load(l, stage_of(i)) = loads(i)%load
          by_film(l, stage_of(i)) = loads(i)%by_film
-         by_momentum(l, stage_of(i)) = loads(i)%by_velocity
+         by_lienard(l, stage_of(i)) = loads(i)%by_velocity
       end do
       n = 0
       do l = 1, lanes
@@ -156,7 +156,7 @@ contains
             lane_of(n) = l
             stage_of(n) = i
             thickness(n) = (block%backlash(l) - film(l, i))*block%film_scale(l)
-            velocity(n) = -momentum(l, i)*block%velocity_scale(l)
+            velocity(n) = -lienard(l, i)*block%velocity_scale(l)
          end do
       end do
       if (n == 0) return
@@ -164,11 +164,11 @@ contains
       do i = 1, n
          l = lane_of(i)
          call scale_load(block, l, loads(i))
-         net = load_t(load(l, stage_of(i)), by_film(l, stage_of(i)), by_momentum(l, stage_of(i)))
+         net = load_t(load(l, stage_of(i)), by_film(l, stage_of(i)), by_lienard(l, stage_of(i)))
          call subtract_coast(loads(i), net)
          load(l, stage_of(i)) = net%load
          by_film(l, stage_of(i)) = net%by_film
-         by_momentum(l, stage_of(i)) = net%by_velocity
+         by_lienard(l, stage_of(i)) = net%by_velocity
       end do
    end subroutine loads_of_stages
 
@@ -184,23 +184,23 @@ contains
 
    !> Newton's equations of all busy lanes; a lane whose film law has no value is given up, and gets equations
    !> that change nothing, as do the lanes that are done beside busy ones.
-   pure subroutine residual_and_matrix(contacts, force, k, film, momentum, block, busy, residual, matrix)
+   pure subroutine residual_and_matrix(contacts, force, k, film, lienard, block, busy, residual, matrix)
       type(flank_contact_t), intent(in) :: contacts(lanes)
       real(dp), intent(in) :: force(lanes, stages)
       real(dp), intent(in) :: k(lanes, stages)
       real(dp), intent(in) :: film(lanes, stages)
-      real(dp), intent(in) :: momentum(lanes, stages)
+      real(dp), intent(in) :: lienard(lanes, stages)
       type(lane_block_t), intent(inout) :: block
       logical, intent(inout) :: busy(lanes)
       !> Right-hand side [-]
       real(dp), intent(out) :: residual(lanes, stages)
       !> Matrix [-]
       real(dp), intent(out) :: matrix(lanes, stages, stages)
-      real(dp), dimension(lanes, stages) :: load, by_film, by_momentum
+      real(dp), dimension(lanes, stages) :: load, by_film, by_lienard
       integer :: half, l, i, j
 
       residual = 0.0_dp
-      call loads_of_stages(contacts, film, momentum, block, busy, load, by_film, by_momentum)
+      call loads_of_stages(contacts, film, lienard, block, busy, load, by_film, by_lienard)
       do l = 1, lanes
          do i = 1, stages
             if (.not. busy(l)) exit
@@ -209,11 +209,11 @@ contains
             if (busy(l)) residual(l, i) = load(l, i) - force(l, i) - k(l, i)
          end do
          if (busy(l)) then
-            block%damping_rate(l) = max(0.0_dp, -maxval(by_momentum(l, :)))
+            block%damping_rate(l) = max(0.0_dp, -maxval(by_lienard(l, :)))
          else
             residual(l, :) = 0.0_dp
             by_film(l, :) = 0.0_dp
-            by_momentum(l, :) = 0.0_dp
+            by_lienard(l, :) = 0.0_dp
          end if
       end do
       do half = 1, lanes, half_block
@@ -223,7 +223,7 @@ contains
                !$omp simd
                do l = half, half + half_block - 1
                   matrix(l, i, j) = merge(1.0_dp, 0.0_dp, i == j) &
-                     - block%step(l)*(block%step(l)*by_film(l, i)*twice(i, j) + by_momentum(l, i)*once(i, j))
+                     - block%step(l)*(block%step(l)*by_film(l, i)*twice(i, j) + by_lienard(l, i)*once(i, j))
                end do
             end do
          end do
@@ -301,7 +301,7 @@ contains
          k(l, :) = k(l, :) + correction(l, :)
          change = maxval(abs(correction(l, :)))
          film_change = change*block%step(l)/allowed(block%film(l, 0), l, block) &
-            *min(block%step(l), momentum_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l)))
+            *min(block%step(l), lienard_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l)))
          ! From the second pass on: the next correction will be smaller by the same factor at least, and where
          ! corrections fall fast by its square, if the slopes of the film law are the total ones. But not where a
          ! correction went too far, to where the film is stiff: the ones that lead back are small, and many.

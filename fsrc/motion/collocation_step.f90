@@ -13,7 +13,7 @@ module collocation_step
    use lane_force, only: force_values, total_forces
    use lane_functions, only: lanes
    use radau_nodes, only: node, power, stages
-   use taylor_step_control, only: momentum_weight
+   use taylor_step_control, only: lienard_weight
    implicit none(type, external)
    private
 
@@ -39,10 +39,10 @@ contains
       type(flank_contact_t), intent(in) :: contacts(lanes)
       !> Lanes with a scene
       logical, intent(in) :: occupied(lanes)
-      !> The block; leaves the film and momentum that the step leads to, whether they are to be trusted, and
+      !> The block; leaves the film and velocity that the step leads to, whether they are to be trusted, and
       !> series for the samples
       type(lane_block_t), intent(inout) :: block
-      real(dp) :: force(lanes, stages), k(lanes, stages), film(lanes, stages), momentum(lanes, stages)
+      real(dp) :: force(lanes, stages), k(lanes, stages), film(lanes, stages), lienard(lanes, stages)
       real(dp) :: residual(lanes, stages), matrix(lanes, stages, stages), imbalance(lanes)
       type(newton_pass_t) :: last
       logical :: busy(lanes)
@@ -54,16 +54,16 @@ contains
       busy = occupied
       block%trust = merge(1.0_dp, 0.0_dp, occupied)
       do pass = 1, most_passes
-         call stage_states(busy, block, k, film, momentum)
-         call residual_and_matrix(contacts, force, k, film, momentum, block, busy, residual, matrix)
+         call stage_states(busy, block, k, film, lienard)
+         call residual_and_matrix(contacts, force, k, film, lienard, block, busy, residual, matrix)
          imbalance = maxval(abs(residual), dim=2)
          call solve_lanes(busy, matrix, residual)
          call correct(contacts, busy, pass, imbalance, residual, last, block, k)
          if (.not. any(busy)) exit
       end do
       where (busy) block%trust = 0.0_dp
-      call stage_states(occupied, block, k, film, momentum)
-      call judge(occupied, k, film, momentum, block)
+      call stage_states(occupied, block, k, film, lienard)
+      call judge(occupied, k, film, lienard, block)
    end subroutine take_collocation_step
 
    !> Steps as proposed, cut to end with the period.
@@ -111,7 +111,7 @@ contains
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          if (.not. block%last_step(l) > 0.0_dp) then
-            load = scaled_load(contacts(l), block, l, block%film(l, 0), block%momentum(l, 0))
+            load = scaled_load(contacts(l), block, l, block%film(l, 0), block%lienard(l, 0))
             block%acceleration(l) = load%load - block%static_load(l) - oscillation(l)
          end if
          if (block%last_step(l) > 0.0_dp .and. block%step(l) < most_extrapolation*block%last_step(l)) then
@@ -128,25 +128,25 @@ contains
       end do
    end subroutine first_iterate
 
-   !> Error of the steps, whether they stand, and the next ones; series of film and momentum for the samples.
-   pure subroutine judge(occupied, k, film, momentum, block)
+   !> Error of the steps, whether they stand, and the next ones; series of film and velocity for the samples.
+   pure subroutine judge(occupied, k, film, lienard, block)
       logical, intent(in) :: occupied(lanes)
       real(dp), intent(in) :: k(lanes, stages)
       real(dp), intent(in) :: film(lanes, stages)
-      real(dp), intent(in) :: momentum(lanes, stages)
+      real(dp), intent(in) :: lienard(lanes, stages)
       type(lane_block_t), intent(inout) :: block
       real(dp) :: polynomial(stages), weight, top, next, between, error, growth
       integer :: l
 
       block%next_film = block%film(:, 0)
-      block%next_momentum = block%momentum(:, 0)
+      block%next_lienard = block%lienard(:, 0)
       do l = 1, lanes
          if (.not. occupied(l)) cycle
          growth = least_growth
          if (block%trust(l) > 0.0_dp) then
             polynomial = matmul(power, k(l, :))
             call highest_terms(polynomial, top, next)
-            weight = momentum_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l))
+            weight = lienard_weight(thinner(block%film(l, 0), l, block), block%damping_rate(l), block%force(l))
             error = max(top/last_share, next/next_share)*block%step(l) &
                *max(block%step(l)/real(4*stages**2, dp), weight/real(2*stages, dp))
             between = abs(at_start(polynomial) - block%acceleration(l))*twice_between*block%step(l)**2
@@ -160,7 +160,7 @@ contains
          block%proposed(l) = growth*block%step(l)
          if (block%trust(l) > 0.0_dp) then
             block%next_film(l) = film(l, stages)
-            block%next_momentum(l) = momentum(l, stages)
+            block%next_lienard(l) = lienard(l, stages)
             block%polynomial(l, :) = polynomial
             block%acceleration(l) = k(l, stages)
             block%last_step(l) = block%step(l)
@@ -205,7 +205,7 @@ contains
       next = top*sqrt(top/fourth)
    end subroutine highest_terms
 
-   !> Film and momentum of the step as power series about its start.
+   !> Film and velocity of the step as power series about its start.
    pure subroutine series_of_step(lane, block)
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
@@ -221,12 +221,12 @@ contains
          shifted(0) = block%polynomial(lane, i) - shifted(0)
       end do
       block%film(lane, 1:) = 0.0_dp
-      block%momentum(lane, 1:) = 0.0_dp
-      block%film(lane, 1) = block%momentum(lane, 0)
+      block%lienard(lane, 1:) = 0.0_dp
+      block%film(lane, 1) = block%lienard(lane, 0)
       scale = 1.0_dp
       do j = 0, stages - 1
-         block%momentum(lane, j + 1) = shifted(j)*scale/real(j + 1, dp)
-         block%film(lane, j + 2) = block%momentum(lane, j + 1)/real(j + 2, dp)
+         block%lienard(lane, j + 1) = shifted(j)*scale/real(j + 1, dp)
+         block%film(lane, j + 2) = block%lienard(lane, j + 1)/real(j + 2, dp)
          scale = scale/block%step(lane)
       end do
    end subroutine series_of_step

@@ -91,7 +91,7 @@ contains
       call choose_steps(block)
       call forces_of_stages(block, force)
       block%next_film = block%film(:, 0)
-      block%next_momentum = block%momentum(:, 0)
+      block%next_lienard = block%lienard(:, 0)
       block%trust = 0.0_dp
       do l = 1, lanes
          if (.not. occupied(l)) cycle
@@ -134,7 +134,7 @@ contains
          film = block%film(lane, 0)
          if (flank == 2) film = block%backlash(lane) - film
          carried = load_of_contact(contact, film*block%film_scale(lane), &
-                                   sign_of(flank)*block%momentum(lane, 0)*block%velocity_scale(lane), &
+                                   sign_of(flank)*block%lienard(lane, 0)*block%velocity_scale(lane), &
                                    inner%now(inner%count*(flank - 1) + 1:inner%count*flank))
          load = carried%load/block%force_scale(lane)
       end if
@@ -304,8 +304,8 @@ contains
       associate (s => block%step(lane), kappa => block%compliance(lane))
          trial%acceleration = trial%load(:, 1) - force
          if (trial%flanks == 2) trial%acceleration = trial%acceleration - trial%load(:, 2)
-         trial%momentum = block%momentum(lane, 0) + s*matmul(once, trial%acceleration)
-         trial%way = s*(node*block%momentum(lane, 0) + s*matmul(twice, trial%acceleration))
+         trial%lienard = block%lienard(lane, 0) + s*matmul(once, trial%acceleration)
+         trial%way = s*(node*block%lienard(lane, 0) + s*matmul(twice, trial%acceleration))
          do flank = 1, trial%flanks
             yielded = kappa*trial%load(:, flank) - block%compression(lane, flank, 0)
             trial%film(:, flank) = trial%start(flank) + (sign_of(flank)*trial%way + yielded)
@@ -313,12 +313,12 @@ contains
                call bend(contact, lane, flank, block, trial)
                yielded = yielded + (trial%width(:, flank) - trial%start_width(flank))
             end if
-            trial%velocity(:, flank) = sign_of(flank)*trial%momentum + matmul(slope, yielded)/s
+            trial%velocity(:, flank) = sign_of(flank)*trial%lienard + matmul(slope, yielded)/s
          end do
       end associate
    end subroutine states
 
-   !> Films of flanks that bend, from those that would be there if their width did not matter, and what they give way by.
+   !> Films of flanks that bend, from those that would be there if their width did not matter, and their compressions.
    pure subroutine bend(contact, lane, flank, block, trial)
       type(flank_contact_t), intent(in) :: contact
       integer, intent(in) :: lane
@@ -521,7 +521,7 @@ contains
                          rounding*maxval(trial%film(:, :trial%flanks)))
    end function allowed_here
 
-   !> Error of the step, whether it stands, and the next one; series of film, momentum and compressions for the samples.
+   !> Error of the step, whether it stands, and the next one; series of film, velocity and compressions for the samples.
    pure subroutine judge(bends, lane, trial, block, inner, states)
       !> Whether flanks bend
       logical, intent(in) :: bends
@@ -556,7 +556,7 @@ contains
                              *max(least_growth, min(most_growth, step_share/sqrt(sqrt(sqrt(max(error, tiny(1.0_dp)))))))
       if (.not. block%trust(lane) > 0.0_dp) return
       block%next_film(lane) = trial%film(stages, 1)
-      block%next_momentum(lane) = trial%momentum(stages)
+      block%next_lienard(lane) = trial%lienard(stages)
       block%next_compression(lane, :trial%flanks) = block%compliance(lane)*trial%load(stages, :trial%flanks)
       block%polynomial(lane, :) = polynomial(:, 0)
       block%load_polynomial(lane, :, :trial%flanks) = polynomial(:, 1:trial%flanks)
@@ -567,7 +567,7 @@ contains
       if (inner%count > 0) call series_of_states(block%step(lane), trial%flanks, states%films, inner)
    end subroutine judge
 
-   !> Power series of film, momentum and compressions about the start of the step.
+   !> Power series of film, velocity and compressions about the start of the step.
    pure subroutine series_of_step(lane, flanks, block)
       integer, intent(in) :: lane
       integer, intent(in) :: flanks
@@ -576,15 +576,15 @@ contains
       integer :: flank, j
 
       block%film(lane, 1:) = 0.0_dp
-      block%momentum(lane, 1:) = 0.0_dp
+      block%lienard(lane, 1:) = 0.0_dp
       block%compression(lane, :, 1:) = 0.0_dp
       associate (s => block%step(lane))
          shifted = powers_of_place(block%polynomial(lane, :))
-         block%film(lane, 1) = block%momentum(lane, 0)
+         block%film(lane, 1) = block%lienard(lane, 0)
          scale = 1.0_dp
          do j = 0, stages - 1
-            block%momentum(lane, j + 1) = shifted(j)*scale/real(j + 1, dp)
-            block%film(lane, j + 2) = block%momentum(lane, j + 1)/real(j + 2, dp)
+            block%lienard(lane, j + 1) = shifted(j)*scale/real(j + 1, dp)
+            block%film(lane, j + 2) = block%lienard(lane, j + 1)/real(j + 2, dp)
             scale = scale/s
          end do
          do flank = 1, flanks
@@ -600,7 +600,7 @@ contains
       end associate
    end subroutine series_of_step
 
-   !> Add what the drive flank gives way by for its width to the series of the film.
+   !> Add the compression of the drive flank by its width to the series of the film.
    pure subroutine add_width(lane, trial, block)
       integer, intent(in) :: lane
       type(trial_t), intent(in) :: trial

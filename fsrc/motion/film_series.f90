@@ -34,7 +34,7 @@ module film_series
       logical :: exists = .false.
       !> Whether it is that of a tooth between two flanks
       logical :: two_flanks = .false.
-      !> Whether the teeth give
+      !> Whether the teeth are elastic
       logical :: springs = .false.
       !> Whether its films carry positive loads only
       logical :: never_pulls = .false.
@@ -97,10 +97,10 @@ contains
       has_series = series%exists .and. accuracy >= series%best_accuracy
    end function has_series
 
-   !> Scaled coefficients of the film in a lane that holds its motion, and the momentum by which the series goes on.
+   !> Scaled coefficients of the film in a lane that holds its motion, and the Lienard variable by which the series goes on.
    pure subroutine set_coefficients(problem, carried_on, lane, block)
       type(problem_t), intent(in) :: problem
-      !> Whether the motion brings its momentum along
+      !> Whether the motion brings its Lienard variable along
       logical, intent(in) :: carried_on
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
@@ -114,7 +114,7 @@ contains
             ! Lienard's form, which elastic teeth do not take.
             if (.not. has_elastic_teeth(problem)) block%slip(lane) = block%damping(lane)
             if (.not. carried_on) &
-               block%momentum(lane, 0) = block%momentum(lane, 0) - slip_velocity(block%film(lane, 0), lane, block)
+               block%lienard(lane, 0) = block%lienard(lane, 0) - slip_velocity(block%film(lane, 0), lane, block)
          case (kernel_solved_fast)
             block%strength(lane) = film%rolling/film_scale/force_scale
             block%damping(lane) = film%squeeze_rate*velocity_scale/sqrt(film_scale)
@@ -131,7 +131,7 @@ contains
       end associate
    end subroutine set_coefficients
 
-   !> Series of film and momentum about the states of a block. A law without one has a damping rate that no step follows.
+   !> Series of film and Lienard variable about the states of a block. A law without one has a damping rate that no step follows.
    pure subroutine expand_motion(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
@@ -145,19 +145,19 @@ contains
       select case (series%kernel)
       case (kernel_piezo)
          call piezo_viscous_series(block%strength, block%damping, block%static_load, force, block%film, &
-                                   block%momentum, block%damping_rate)
+                                   block%lienard, block%damping_rate)
       case (kernel_half_pi)
          call iso_viscous_series(block%strength, block%damping, block%static_load, force, block%film, &
-                                 block%momentum, block%damping_rate)
+                                 block%lienard, block%damping_rate)
       case (kernel_reynolds_piezo)
          call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%static_load, force, block%film, &
-                                    block%momentum, block%damping_rate, block%piezo_expansion(1))
+                                    block%lienard, block%damping_rate, block%piezo_expansion(1))
       case (kernel_solved_fast, kernel_reynolds_iso)
          call rupture_series(series%pieces, block%strength, block%damping, block%static_load, force, block%film, &
-                             block%momentum, block%damping_rate, block%expansion(1))
+                             block%lienard, block%damping_rate, block%expansion(1))
       case default
          block%film(:, 1:) = 0.0_dp
-         block%momentum(:, 1:) = 0.0_dp
+         block%lienard(:, 1:) = 0.0_dp
          block%damping_rate = unfollowable_rate
       end select
    end subroutine expand_motion
@@ -172,24 +172,24 @@ contains
       select case (series%kernel)
       case (kernel_half_pi)
          call iso_viscous_series_of_two(block%strength, block%damping, block%backlash, block%static_load, force, block%film, &
-                                        block%momentum, block%damping_rate)
+                                        block%lienard, block%damping_rate)
       case (kernel_solved_fast, kernel_reynolds_iso)
          call rupture_series_of_two(series%pieces, block%strength, block%damping, block%backlash, block%static_load, force, &
-                                    block%film, block%momentum, block%damping_rate, block%expansion)
+                                    block%film, block%lienard, block%damping_rate, block%expansion)
       case (kernel_piezo)
          call piezo_viscous_series_of_two(block%strength, block%damping, block%backlash, block%static_load, force, block%film, &
-                                          block%momentum, block%damping_rate)
+                                          block%lienard, block%damping_rate)
       case (kernel_reynolds_piezo)
          call reynolds_piezo_series_of_two(block%strength, block%damping, block%pressing, block%backlash, block%static_load, &
-                                           force, block%film, block%momentum, block%damping_rate, block%piezo_expansion)
+                                           force, block%film, block%lienard, block%damping_rate, block%piezo_expansion)
       case default
          block%film(:, 1:) = 0.0_dp
-         block%momentum(:, 1:) = 0.0_dp
+         block%lienard(:, 1:) = 0.0_dp
          block%damping_rate = unfollowable_rate
       end select
    end subroutine expand_between_flanks
 
-   !> Series of films, gear and compressions where teeth give. The film of the coast flank is told apart: it is what backlash, drive
+   !> Series of films, gear and compressions of elastic teeth. The film of the coast flank is told apart: it is what backlash, drive
    !> film and springs leave.
    pure subroutine expand_springs(series, block, films)
       type(film_series_t), intent(in) :: series
@@ -211,10 +211,10 @@ contains
       select case (series%kernel)
       case (kernel_half_pi)
          call iso_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, films, &
-                                  block%momentum, block%compression)
+                                  block%lienard, block%compression)
       case (kernel_piezo)
          call piezo_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, films, &
-                                    block%momentum, block%compression)
+                                    block%lienard, block%compression)
          block%damping_rate = merge(0.0_dp, unfollowable_rate, block%damping*minval(block%compression(:, :flanks, 0), dim=2) &
                                     > shortest_rest)
       case (kernel_solved_fast, kernel_reynolds_iso)
@@ -224,19 +224,19 @@ contains
             block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
          end do
          call rupture_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, block%squeeze, &
-                              films, block%momentum, block%compression)
+                              films, block%lienard, block%compression)
       case (kernel_reynolds_piezo)
          do flank = 1, flanks
             call expand_pressed_film(series, flank, films(:, 0, flank), &
                                      load_group(series, films(:, 0, flank), block%compression(:, flank, 0), block), &
-                                     (block%piezo_expansion(flank)%momentum), block)
+                                     (block%piezo_expansion(flank)%lienard), block)
             block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
          end do
          call reynolds_piezo_springs(flanks, block%strength, block%damping, block%pressing, block%compliance, block%static_load, &
-                                     force, block%piezo_expansion, films, block%momentum, block%compression)
+                                     force, block%piezo_expansion, films, block%lienard, block%compression)
       case default
          films(:, 1:, :) = 0.0_dp
-         block%momentum(:, 1:) = 0.0_dp
+         block%lienard(:, 1:) = 0.0_dp
          block%compression(:, :, 1:) = 0.0_dp
       end select
       block%film(:, 1:) = films(:, 1:, 1)
@@ -281,7 +281,7 @@ contains
          if (all(known)) return
          squeeze%load = load
          of_one = sqrt(max(film, tiny(1.0_dp)))/block%damping
-         velocity = merge(expansion%momentum, near, known)
+         velocity = merge(expansion%lienard, near, known)
          call expand_reynolds_piezo(film, velocity, block%damping, block%pressing, expansion)
          change = (load - expansion%terms(:, 0))/expansion%load_slope
          do l = 1, lanes
@@ -375,7 +375,7 @@ contains
             call expand_pressed_film(series, flank, merge(next_films(:, flank), films(:, 0, flank), block%trust > 0.0_dp), place, &
                                      rise, block)
             associate (there => block%piezo_expansion(flank))
-               velocity = there%momentum
+               velocity = there%lienard
                disturbance = (abs(there%group) + abs(place/there%load_slope))*there%film*there%root/block%damping
             end associate
          else
@@ -408,12 +408,12 @@ contains
       case (kernel_half_pi)
          ! Its load is smooth: the last terms tell the error.
       case (kernel_piezo)
-         call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, block%film, block%momentum, &
-                                       block%next_film, block%next_momentum, block%trust)
+         call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, block%film, block%lienard, &
+                                       block%next_film, block%next_lienard, block%trust)
          if (series%two_flanks) &
             call reject_unresolved_growth(block%strength, block%damping, block%force, block%accuracy, &
-                                          block%backlash - block%film(:, 0), -block%momentum(:, 0), &
-                                          block%backlash - block%next_film, -block%next_momentum, block%trust)
+                                          block%backlash - block%film(:, 0), -block%lienard(:, 0), &
+                                          block%backlash - block%next_film, -block%next_lienard, block%trust)
       case (kernel_solved_fast, kernel_reynolds_iso, kernel_reynolds_piezo)
          call check_forces(series, rise, block)
       case default
@@ -428,7 +428,7 @@ contains
       !> V' at the ends by the series [-]
       real(dp), intent(in) :: rise(lanes)
       type(lane_block_t), intent(inout) :: block
-      real(dp), dimension(lanes) :: phase, film, momentum, thinner, carried, largest, rate_of_damping
+      real(dp), dimension(lanes) :: phase, film, lienard, thinner, carried, largest, rate_of_damping
       type(lane_phase_t) :: circle
 
       carried = 0.0_dp
@@ -437,26 +437,26 @@ contains
       phase = block%phase + block%step
       call turn_to(phase, circle)
       film = merge(block%next_film, block%film(:, 0), block%trust > 0.0_dp)
-      momentum = merge(block%next_momentum, block%momentum(:, 0), block%trust > 0.0_dp)
+      lienard = merge(block%next_lienard, block%lienard(:, 0), block%trust > 0.0_dp)
       thinner = film
-      call load_at_end(series, 1, film, momentum, block, carried, largest, rate_of_damping)
+      call load_at_end(series, 1, film, lienard, block, carried, largest, rate_of_damping)
       if (series%two_flanks) then
          thinner = min(film, block%backlash - film)
-         call load_at_end(series, 2, block%backlash - film, -momentum, block, carried, largest, rate_of_damping)
+         call load_at_end(series, 2, block%backlash - film, -lienard, block, carried, largest, rate_of_damping)
       end if
       call reject_large_defect(series%share, block%static_load + force_values(block%oscillation, circle), block%force, &
-                               block%accuracy, carried, largest, rate_of_damping, thinner, momentum, rise, block%trust)
+                               block%accuracy, carried, largest, rate_of_damping, thinner, lienard, rise, block%trust)
       call move_forces(circle, block%trust, block%oscillation)
    end subroutine check_forces
 
    !> Expand the load of one film at the ends of steps, and add it to what is carried.
-   pure subroutine load_at_end(series, flank, film, momentum, block, carried, largest, rate_of_damping)
+   pure subroutine load_at_end(series, flank, film, lienard, block, carried, largest, rate_of_damping)
       type(film_series_t), intent(in) :: series
       !> 1 drive, 2 coast, whose load is subtracted
       integer, intent(in) :: flank
       !> Of the film [-]
       real(dp), intent(in) :: film(lanes)
-      real(dp), intent(in) :: momentum(lanes)
+      real(dp), intent(in) :: lienard(lanes)
       type(lane_block_t), intent(inout) :: block
       !> Net load, sum of the loads of all films, -dV'/dV of the films so far [-]
       real(dp), intent(inout) :: carried(lanes)
@@ -465,13 +465,13 @@ contains
 
       if (series%kernel == kernel_reynolds_piezo) then
          associate (there => block%piezo_expansion(flank))
-            call expand_reynolds_piezo(film, momentum, block%damping, block%pressing, there)
+            call expand_reynolds_piezo(film, lienard, block%damping, block%pressing, there)
             block%trust = block%trust*there%inside
             call add_load(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, carried, largest, rate_of_damping)
          end associate
       else
          associate (there => block%expansion(flank))
-            call expand_load(series%pieces, film, momentum, block%damping, there)
+            call expand_load(series%pieces, film, lienard, block%damping, there)
             call add_load(there%inverse_film, there%root, there%terms(:, 0), there%load_slope, carried, largest, rate_of_damping)
          end associate
       end if

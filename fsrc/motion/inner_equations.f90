@@ -23,11 +23,11 @@ module inner_equations
       integer :: flanks = 1
       !> Loads W, films H, film velocities H', and the films at the start
       real(dp) :: load(stages, 2) = 0.0_dp, film(stages, 2) = 0.0_dp, velocity(stages, 2) = 0.0_dp, start(2) = 0.0_dp
-      !> What flanks that bend give way by for their width, at the start too; how that follows the film, as a share of the gear's
-      !> way, and what a load moves its film by
+      !> Compression of flanks that bend by their width, at the start too; how the compression follows the film, as a share of the
+      !> gear's way, and what a load moves its film by
       real(dp) :: width(stages, 2) = 0.0_dp, start_width(2) = 0.0_dp, follows(stages, 2) = 0.0_dp, compliance(stages, 2) = 0.0_dp
       !> A, and of the gear V and Z - Z at the start
-      real(dp) :: acceleration(stages) = 0.0_dp, momentum(stages) = 0.0_dp, way(stages) = 0.0_dp
+      real(dp) :: acceleration(stages) = 0.0_dp, lienard(stages) = 0.0_dp, way(stages) = 0.0_dp
    end type trial_t
 
    !> States of both films through the step, and what the gear sees of them.

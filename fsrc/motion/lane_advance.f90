@@ -34,12 +34,12 @@ contains
       block%remaining = 1.0_dp - block%phase
       call expand_motion(series, block)
       thinner = min(block%film(:, 0), block%backlash - block%film(:, 0))
-      call lane_steps(series%last_order, series%share, block%accuracy, block%force, thinner, block%film, block%momentum, &
+      call lane_steps(series%last_order, series%share, block%accuracy, block%force, thinner, block%film, block%lienard, &
                       block%damping_rate, block%remaining, block%limit, block%step)
       if (series%checked_at_end) then
-         call evaluate_rupture_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum, next_rise)
+         call evaluate_rupture_series(block%film, block%lienard, block%step, block%next_film, block%next_lienard, next_rise)
       else
-         call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
+         call evaluate_series(block%film, block%lienard, block%step, block%next_film, block%next_lienard)
       end if
       !$omp simd
       do l = 1, lanes
@@ -47,7 +47,7 @@ contains
             *merge(1.0_dp, 0.0_dp, block%next_film(l) < largest_film_ratio*block%film(l, 0)) &
             *merge(1.0_dp, 0.0_dp, block%backlash(l) - block%next_film(l) &
                    > smallest_film_ratio*(block%backlash(l) - block%film(l, 0))) &
-            *merge(1.0_dp, 0.0_dp, abs(block%next_momentum(l)) < huge(1.0_dp)) &
+            *merge(1.0_dp, 0.0_dp, abs(block%next_lienard(l)) < huge(1.0_dp)) &
             *merge(1.0_dp, 0.0_dp, block%damping_rate(l) < largest_series_rate)
       end do
       call check_ends(series, next_rise, block)
@@ -75,9 +75,9 @@ contains
          if (flanks == 2) largest(:, k) = max(largest(:, k), abs(films(:, k, 2)), abs(block%compression(:, 2, k)))
       end do
       undamped = 0.0_dp
-      call lane_steps(series%last_order, series%share, block%accuracy, block%force, largest(:, 0), largest, block%momentum, &
+      call lane_steps(series%last_order, series%share, block%accuracy, block%force, largest(:, 0), largest, block%lienard, &
                       undamped, block%remaining, block%limit, block%step)
-      call evaluate_series(block%film, block%momentum, block%step, block%next_film, block%next_momentum)
+      call evaluate_series(block%film, block%lienard, block%step, block%next_film, block%next_lienard)
       do flank = 1, flanks
          block%next_compression(:, flank) = block%compression(:, flank, series%last_order)
          !GCC$ unroll 16
@@ -107,7 +107,7 @@ contains
             end do
          end do
       end do
-      block%trust = block%trust*merge(1.0_dp, 0.0_dp, abs(block%next_momentum) < huge(1.0_dp)) &
+      block%trust = block%trust*merge(1.0_dp, 0.0_dp, abs(block%next_lienard) < huge(1.0_dp)) &
          *merge(1.0_dp, 0.0_dp, block%damping_rate < largest_series_rate)
       call check_springs(series, films, next_films, block)
    end subroutine take_springs_step
@@ -128,7 +128,7 @@ contains
       !$omp simd private(calm) reduction(+: quiet)
       do l = 1, lanes
          block%film(l, 0) = merge(block%next_film(l), block%film(l, 0), block%trust(l) > 0.0_dp)
-         block%momentum(l, 0) = merge(block%next_momentum(l), block%momentum(l, 0), block%trust(l) > 0.0_dp)
+         block%lienard(l, 0) = merge(block%next_lienard(l), block%lienard(l, 0), block%trust(l) > 0.0_dp)
          block%limit(l) = merge(1.0_dp, 0.25_dp*block%step(l), block%trust(l) > 0.0_dp)
          block%remaining(l) = merge(block%remaining(l) - block%step(l), 1.0_dp, block%trust(l) > 0.0_dp)
          block%phase(l) = block%phase(l) + block%trust(l)*block%step(l)

@@ -36,7 +36,7 @@ module lane_block
       real(dp) :: film_scale(lanes), velocity_scale(lanes), force_scale(lanes)
       !> Backlash, scaled; huge where there is one flank
       real(dp) :: backlash(lanes)
-      !> Film of the drive flank at which that of the coast flank counts as lost; huge where there is none, or where teeth give
+      !> Film of the drive flank at which that of the coast flank counts as lost; huge where there is none, or of elastic teeth
       real(dp) :: widest_film(lanes)
       !> Of elastic teeth: compliance, scaled; series of the compressions d_1 and d_2
       real(dp) :: compliance(lanes), compression(lanes, 2, 0:order)
@@ -46,12 +46,12 @@ module lane_block
       real(dp) :: next_compression(lanes, 2)
       !> Accuracy [-]
       real(dp) :: accuracy(lanes)
-      !> Series of H and V; coefficients 0 are the state
-      real(dp) :: film(lanes, 0:order), momentum(lanes, 0:order)
+      !> Series of H and of V, Lienard's variable or the velocity; coefficients 0 are the state
+      real(dp) :: film(lanes, 0:order), lienard(lanes, 0:order)
       !> Phase of the state, next step, what is left of the period, longest step allowed [periods]
       real(dp) :: phase(lanes), step(lanes), remaining(lanes), limit(lanes)
       !> State that the step leads to, and whether it is to be trusted (1) or not (0)
-      real(dp) :: next_film(lanes), next_momentum(lanes), trust(lanes)
+      real(dp) :: next_film(lanes), next_lienard(lanes), trust(lanes)
       !> H' = V + slip (1/sqrt(H) - 1/sqrt(B - H)): 2 b in Lienard's form, 0 where V is H' itself
       real(dp) :: slip(lanes)
       !> Damping rate at the state [1/periods]
@@ -66,7 +66,7 @@ module lane_block
       real(dp) :: period_steps(lanes)
       !> Of films with rupture: the load expanded last, of both flanks
       type(load_expansion_t) :: expansion(2)
-      !> and where teeth give, the squeeze groups
+      !> and of elastic teeth the squeeze groups
       type(squeeze_expansion_t) :: squeeze(2)
       !> Of the Reynolds piezo-viscous film: b, where the pressure group is b H^(-3/2), and its load expanded last
       real(dp) :: pressing(lanes)
@@ -175,8 +175,8 @@ contains
       if (has_two_flanks(problem)) block%force(lane) = max(block%force(lane), least_static_load/force_scale)
       block%accuracy(lane) = lane_accuracy(problem, accuracy)
       block%film(lane, 0) = start%numbers(of_film)/film_scale
-      block%momentum(lane, 0) = start%numbers(of_velocity)/block%velocity_scale(lane)
-      if (start%carried_on) block%momentum(lane, 0) = start%lienard_variable
+      block%lienard(lane, 0) = start%numbers(of_velocity)/block%velocity_scale(lane)
+      if (start%carried_on) block%lienard(lane, 0) = start%lienard_variable
       block%compliance(lane) = problem%contact%compliance*(force_scale/film_scale)
       block%compression(lane, :, 0) = 0.0_dp
       springs = compression_count(problem)
@@ -204,7 +204,7 @@ contains
       block%force(lane) = 1.0_dp
       block%accuracy(lane) = 1.0_dp
       block%film(lane, :) = 0.0_dp
-      block%momentum(lane, :) = 0.0_dp
+      block%lienard(lane, :) = 0.0_dp
       block%film(lane, 0) = 1.0_dp
       block%damping_rate(lane) = 0.0_dp
       block%compliance(lane) = 0.0_dp
@@ -218,7 +218,7 @@ contains
       block%phase(lane) = -1.0e6_dp
    end subroutine rest_lane
 
-   !> Start of a period: film and momentum alone decide all that follows, nothing else of the period before.
+   !> Start of a period: film and Lienard variable alone decide all that follows, nothing else of the period before.
    pure subroutine start_period(lane, block)
       integer, intent(in) :: lane
       type(lane_block_t), intent(inout) :: block
@@ -236,8 +236,8 @@ contains
       ! The velocity of a film on a spring is found by Newton's method: from that of the gear, not from where the last period ended.
       if (.not. block%compliance(lane) > 0.0_dp) return
       block%piezo_expansion(:)%film(lane) = 0.0_dp
-      block%piezo_expansion(1)%momentum(lane) = block%momentum(lane, 0)
-      block%piezo_expansion(2)%momentum(lane) = -block%momentum(lane, 0)
+      block%piezo_expansion(1)%lienard(lane) = block%lienard(lane, 0)
+      block%piezo_expansion(2)%lienard(lane) = -block%lienard(lane, 0)
    end subroutine start_period
 
    !> H' less V at some film.

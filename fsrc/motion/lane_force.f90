@@ -123,7 +123,7 @@ contains
       end do
    end function force_values
 
-   !> Derivatives of the part that oscillates where the lanes stand: coefficient k of the momentum takes factor(k) times derivative
+   !> Derivatives of the part that oscillates where the lanes stand: coefficient k of V takes factor(k) times derivative
    !> k from it. That of a cos(n t + phi) is n**(k-1) a times the cosine (k odd) or sine (k even) of n t + phi.
    pure subroutine force_derivatives(last, forces, derivatives)
       !> Last one that is wanted

@@ -19,7 +19,7 @@ module lane_repetition
    use repetition, only: longer_every, longest_orbit, look_back, note_state, orbit_watch_t, recurrence_t, &
       start_watch, state_of_age, weight_of_film
    use scene_status, only: status_steady
-   use taylor_step_control, only: momentum_weight
+   use taylor_step_control, only: lienard_weight
    implicit none(type, external)
    private
 
@@ -60,7 +60,7 @@ contains
 
       associate (watch => run%watches(lane), block => run%block)
          if (is_searching(watch, request)) then
-            weight = momentum_weight(thinner_scaled_film(watch%state, lane, block), block%damping_rate(lane), block%force(lane))
+            weight = lienard_weight(thinner_scaled_film(watch%state, lane, block), block%damping_rate(lane), block%force(lane))
             watch%weights(of_velocity) = weight
             call note_state(watch%states, watch%state, thinner_scaled_film(watch%state, lane, block), watch%weights, &
                             settling_of_lane(lane, problem, run), repetition_share*request%accuracy, orbit, distance)
@@ -131,7 +131,7 @@ contains
          rest = [block%film_scale(lane), problem%backlash - block%film_scale(lane)]
          if (has_elastic_teeth(problem)) rest = films_at_rest(problem, static_load(problem))
          settling_of_lane = settling_of(problem, films_of_lane(run%watches(lane)%state, lane, block)*block%film_scale(lane), rest)
-         ! The momentum of Lienard's form holds the damping.
+         ! Lienard's variable holds the damping.
          if (block%slip(lane) > 0.0_dp) settling_of_lane%damping = 0.0_dp
       end associate
    end function settling_of_lane
@@ -167,7 +167,7 @@ contains
    !> Jump to where the motion is forecast to settle, or restore the saved state if the jump failed. So a motion that does not
    !> repeat is the one that follows from its start, to the last bit.
    pure subroutine look_ahead(weight, lane, last, run)
-      !> Film that a momentum of one counts as [-]
+      !> Film that a Lienard variable of one counts as [-]
       real(dp), intent(in) :: weight
       !> Lane
       integer, intent(in) :: lane
@@ -231,16 +231,16 @@ contains
    end subroutine place
 
    !> The state in which the motion will come to rest.
-   pure subroutine forecast_rest(watch, momentum_weight, backlash, orbit, place)
+   pure subroutine forecast_rest(watch, lienard_weight, backlash, orbit, place)
       !> The last states of the motion
       type(orbit_watch_t), intent(in) :: watch
-      !> Film that a momentum of one counts as [-]
-      real(dp), intent(in) :: momentum_weight
+      !> Film that a Lienard variable of one counts as [-]
+      real(dp), intent(in) :: lienard_weight
       !> Scaled backlash, huge where there is one flank [-]
       real(dp), intent(in) :: backlash
       !> Periods after which it will repeat; 0: there is no forecast to be trusted
       integer, intent(out) :: orbit
-      !> Scaled film H and momentum V there [-]
+      !> Scaled film H and Lienard variable V there [-]
       real(dp), intent(out) :: place(2)
       real(dp) :: older(2), rest(2), multiplier, older_multiplier, state(2), weight(2)
       integer :: periods, longest
@@ -248,7 +248,7 @@ contains
       orbit = 0
       place = 0.0_dp
       state = state_of_age(watch, 0)
-      weight = [1.0_dp, momentum_weight]/weight_of_film(watch, 0)
+      weight = [1.0_dp, lienard_weight]/weight_of_film(watch, 0)
       ! Longer orbits are looked for now and again: most motions do not have them.
       longest = merge(longest_orbit, 1, modulo(watch%count, longer_every) == 0)
       do periods = 1, longest
@@ -266,7 +266,7 @@ contains
    !> Largest multiplier of the map of one orbit, and how far its fixed point is from a state. Huge where there is none.
    pure subroutine settle(watch, weight, orbit, age, multiplier, rest)
       type(orbit_watch_t), intent(in) :: watch
-      !> What film and momentum count
+      !> What film and Lienard variable count
       real(dp), intent(in) :: weight(2)
       !> Periods of the orbit
       integer, intent(in) :: orbit

@@ -63,7 +63,7 @@ contains
       type(lane_samples_t), intent(inout) :: samples
       !> Of all scenes: sample, number of its state, scene
       real(dp), contiguous, intent(inout) :: states(:, :, :)
-      real(dp) :: x(together), film(together), velocity(together), film_series(0:order), momentum_series(0:order)
+      real(dp) :: x(together), film(together), velocity(together), film_series(0:order), lienard_series(0:order)
       real(dp) :: due_until, number
       integer :: l, i, due, last, first, flank
 
@@ -71,7 +71,7 @@ contains
       do l = 1, lanes
          if (.not. (samples%sampled(l) .and. block%trust(l) > 0.0_dp)) cycle
          film_series = block%film(l, :)
-         momentum_series = block%momentum(l, :)
+         lienard_series = block%lienard(l, :)
          due_until = merge(1.0_dp, block%phase(l) + block%step(l), block%step(l) >= block%remaining(l))
          last = last_sample(due_until, samples%per_period)
          do
@@ -82,13 +82,13 @@ contains
             do i = 1, together
                x(i) = real(samples%next(l) + min(i, due) - 1, dp)/number - block%phase(l)
             end do
-            call evaluate_lane(film_series, momentum_series, block%slip(l), block%backlash(l), x, film, velocity)
+            call evaluate_lane(film_series, lienard_series, block%slip(l), block%backlash(l), x, film, velocity)
             first = samples%written(l) + 1
             states(first:first + due - 1, of_film, samples%column(l)) = film(:due)*block%film_scale(l)
             states(first:first + due - 1, of_velocity, samples%column(l)) = velocity(:due)*block%velocity_scale(l)
             do flank = 1, springs_of(l, block)
                film_series = block%compression(l, flank, :)
-               call evaluate_lane(film_series, momentum_series, 0.0_dp, huge(1.0_dp), x, film, velocity)
+               call evaluate_lane(film_series, lienard_series, 0.0_dp, huge(1.0_dp), x, film, velocity)
                states(first:first + due - 1, of_velocity + flank, samples%column(l)) = film(:due)*block%film_scale(l)
             end do
             if (springs_of(l, block) > 0) film_series = block%film(l, :)
@@ -137,10 +137,10 @@ contains
    end function last_sample
 
    !> H and H' of one lane at several distances from its point of expansion.
-   pure subroutine evaluate_lane(film_series, momentum_series, slip, backlash, x, film, velocity)
+   pure subroutine evaluate_lane(film_series, lienard_series, slip, backlash, x, film, velocity)
       !> Series of H and V [-]
       real(dp), intent(in) :: film_series(0:order)
-      real(dp), intent(in) :: momentum_series(0:order)
+      real(dp), intent(in) :: lienard_series(0:order)
       !> H' = V + slip (1/sqrt(H) - 1/sqrt(B - H)), and B, huge where there is one flank
       real(dp), intent(in) :: slip
       real(dp), intent(in) :: backlash
@@ -152,12 +152,12 @@ contains
       integer :: i, k
 
       film = film_series(order)
-      velocity = momentum_series(order)
+      velocity = lienard_series(order)
       do k = order - 1, 0, -1
          !$omp simd
          do i = 1, together
             film(i) = film(i)*x(i) + film_series(k)
-            velocity(i) = velocity(i)*x(i) + momentum_series(k)
+            velocity(i) = velocity(i)*x(i) + lienard_series(k)
          end do
       end do
       if (.not. slip > 0.0_dp) return

@@ -1,5 +1,5 @@
-!> How the numbers of a state stand in a lane: film, momentum and compressions scaled in its block, states of films beside it. This
-!> is the one place of the engine that knows which number is which.
+!> How the numbers of a state stand in a lane: film, Lienard variable and compressions scaled in its block, states of films beside it.
+!> This is the one place of the engine that knows which number is which.
 module lane_state
    use engine, only: motion_state_t
    use kinds, only: dp
@@ -34,7 +34,7 @@ contains
       integer, intent(in) :: lane
       type(lane_block_t), intent(in) :: block
 
-      velocity_of_lane = (block%momentum(lane, 0) + slip_velocity(block%film(lane, 0), lane, block))*block%velocity_scale(lane)
+      velocity_of_lane = (block%lienard(lane, 0) + slip_velocity(block%film(lane, 0), lane, block))*block%velocity_scale(lane)
    end function velocity_of_lane
 
    !> Scaled state of a lane: all that a period follows from, the Lienard variable in place of the velocity [-], states of films in
@@ -49,7 +49,7 @@ contains
 
       springs = springs_of(lane, block)
       state(of_film) = block%film(lane, 0)
-      state(of_velocity) = block%momentum(lane, 0)
+      state(of_velocity) = block%lienard(lane, 0)
       state(of_drive_compression:of_velocity + springs) = block%compression(lane, :springs, 0)
       if (inner%count > 0) state(of_drive_compression + springs:) = inner%now
    end subroutine take_state
@@ -81,7 +81,7 @@ contains
 
       springs = springs_of(lane, block)
       block%film(lane, 0) = state(of_film)
-      block%momentum(lane, 0) = state(of_velocity)
+      block%lienard(lane, 0) = state(of_velocity)
       block%compression(lane, :springs, 0) = state(of_drive_compression:of_velocity + springs)
       if (inner%count > 0) inner%now = state(of_drive_compression + springs:)
    end subroutine place_state

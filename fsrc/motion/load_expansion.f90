@@ -1,5 +1,5 @@
 !> Load of films with rupture about the states of a block of lanes, in powers of the squeeze group: what the Taylor series of
-!> module taylor_rupture starts from. Where teeth give, the squeeze group in powers of the load: what those of module
+!> module taylor_rupture starts from. Of elastic teeth the squeeze group in powers of the load: what those of module
 !> taylor_springs start from.
 !>
 !> The polynomials of module load_pieces, moved to where the films are. A step ends where the next one starts. It is looked up
@@ -18,7 +18,7 @@ module load_expansion
    !> Films of a block, all of one law, in the names of module taylor_rupture.
    type, public :: load_expansion_t
       !> H, V and c: what all else follows from. A film is positive: none has been looked up yet
-      real(dp), dimension(lanes) :: film = 0.0_dp, momentum = 0.0_dp, rate = 0.0_dp
+      real(dp), dimension(lanes) :: film = 0.0_dp, lienard = 0.0_dp, rate = 0.0_dp
       !> p, r, A
       real(dp), dimension(lanes) :: inverse_film = 0.0_dp, root = 0.0_dp, group = 0.0_dp
       !> 1/e: deviations of A are counted in units e of its piece
@@ -46,13 +46,13 @@ module load_expansion
 contains
 
    !> Expand the load about the films of a block, unless they are what it was last expanded about.
-   pure subroutine expand_load(law, film, momentum, rate, expansion)
+   pure subroutine expand_load(law, film, lienard, rate, expansion)
       !> Load: exact_load or published_load of module load_pieces, the one of the films before
       integer, intent(in) :: law
       !> H [-]
       real(dp), intent(in) :: film(lanes)
       !> V [-]
-      real(dp), intent(in) :: momentum(lanes)
+      real(dp), intent(in) :: lienard(lanes)
       !> c [periods]
       real(dp), intent(in) :: rate(lanes)
       !> The films
@@ -66,18 +66,18 @@ contains
       changed = 0.0_dp
       !$omp simd reduction(+: changed)
       do l = 1, lanes
-         changed = changed + merge(0.0_dp, 1.0_dp, abs(film(l) - expansion%film(l)) + abs(momentum(l) - expansion%momentum(l)) &
+         changed = changed + merge(0.0_dp, 1.0_dp, abs(film(l) - expansion%film(l)) + abs(lienard(l) - expansion%lienard(l)) &
                                    + abs(rate(l) - expansion%rate(l)) <= 0.0_dp)
       end do
       if (.not. changed > 0.0_dp) return
       !$omp simd private(piece)
       do l = 1, lanes
          expansion%film(l) = film(l)
-         expansion%momentum(l) = momentum(l)
+         expansion%lienard(l) = lienard(l)
          expansion%rate(l) = rate(l)
          expansion%inverse_film(l) = 1.0_dp/film(l)
          expansion%root(l) = sqrt(expansion%inverse_film(l))
-         expansion%group(l) = rate(l)*momentum(l)*expansion%root(l)
+         expansion%group(l) = rate(l)*lienard(l)*expansion%root(l)
          ! The coarse log of NaN is a large number.
          piece = min((coarse_log(2.0_dp + abs(expansion%group(l))) - first_log)*pieces_per_log, real(last_piece, dp))
          row(l) = int(piece + merge(real(last_piece + 1, dp), 0.0_dp, expansion%group(l) < 0.0_dp))

@@ -73,7 +73,7 @@ contains
       type(newmark_state_t) :: next
       real(dp) :: time_step
       integer(int64) :: next_look
-      integer :: i, passes
+      integer :: i, iterations
 
       time_step = 1.0_dp/(problem%frequency*real(size(force), dp))
       status = status_complete
@@ -86,8 +86,8 @@ contains
                exit
             end if
          end if
-         call take_step(kernel, problem, request, time_step, force(i), state, next, passes, status)
-         count%evaluations = count%evaluations + int(passes, int64)
+         call take_step(kernel, problem, request, time_step, force(i), state, next, iterations, status)
+         count%evaluations = count%evaluations + int(iterations, int64)
          if (status /= status_complete) then
             call cut_step(kernel, problem, request, time_step, real(i - 1, dp)/real(size(force), dp), &
                           1.0_dp/real(size(force), dp), 1, count%cuts + most_cuts, state, next, count, status)
@@ -125,7 +125,7 @@ contains
       integer, intent(inout) :: status
       type(newmark_state_t) :: from
       real(dp) :: half, end_phase, force
-      integer :: part, passes
+      integer :: part, iterations
 
       next = state
       if (status == status_not_converged .or. depth > deepest_cut .or. count%cuts >= last_cut) return
@@ -135,8 +135,8 @@ contains
       do part = 1, 2
          end_phase = phase + 0.5_dp*real(part, dp)*phase_step
          force = force_at(problem%force, end_phase)
-         call take_step(kernel, problem, request, half, force, from, next, passes, status)
-         count%evaluations = count%evaluations + int(passes, int64)
+         call take_step(kernel, problem, request, half, force, from, next, iterations, status)
+         count%evaluations = count%evaluations + int(iterations, int64)
          if (status /= status_complete) call cut_step(kernel, problem, request, half, end_phase - 0.5_dp*phase_step, &
                                                       0.5_dp*phase_step, depth + 1, last_cut, from, next, count, status)
          if (status /= status_complete) return

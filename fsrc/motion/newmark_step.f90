@@ -36,7 +36,7 @@ module newmark_step
 contains
 
    !> One step.
-   pure subroutine take_step(kernel, problem, request, time_step, force, state, next, passes, status)
+   pure subroutine take_step(kernel, problem, request, time_step, force, state, next, iterations, status)
       !> Kernel of the film
       procedure(film_kernel) :: kernel
       type(problem_t), intent(in) :: problem
@@ -49,7 +49,7 @@ contains
       !> State at its end
       type(newmark_state_t), intent(out) :: next
       !> Evaluations of the film, or of both
-      integer, intent(out) :: passes
+      integer, intent(out) :: iterations
       !> Status of scene_status
       integer, intent(out) :: status
       type(load_t) :: load
@@ -68,9 +68,9 @@ contains
       end if
       smallest_film = smallest_film_ratio*thinner_film(problem, state%film)
       status = status_film_lost
-      passes = 0
+      iterations = 0
       if (thinner_film(problem, next%film) <= smallest_film) return
-      do passes = 1, request%iteration_limit
+      do iterations = 1, request%iteration_limit
          call net_load(problem, next%film, next%velocity, load, kernel)
          if (.not. load%load < overflow_load) then
             status = problem%contact%film%status_without_load
@@ -92,7 +92,7 @@ contains
             return
          end if
       end do
-      passes = request%iteration_limit
+      iterations = request%iteration_limit
       status = status_not_converged
    end subroutine take_step
 

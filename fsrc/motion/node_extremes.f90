@@ -15,7 +15,7 @@ module node_extremes
    private
 
    !> Quantities whose extremes are looked for: h [m], z' [m/s], z'' [m/s2], load of the drive film [N], largest pressure of the
-   !> Reynolds films [Pa]; where there are two flanks load of the coast film and net load [N]; where teeth give film of the coast
+   !> Reynolds films [Pa]; where there are two flanks load of the coast film and net load [N]; of elastic teeth film of the coast
    !> flank and position of the gear [m].
    integer, parameter, public :: seen_film = 1, seen_velocity = 2, seen_acceleration = 3, seen_load = 4, seen_pressure = 5, &
                                  seen_coast_load = 6, seen_net_load = 7, seen_coast_film = 8, seen_position = 9

@@ -30,7 +30,7 @@ module reynolds_piezo_expansion
    !> Films of a block, in the names of module taylor_reynolds_piezo.
    type, public :: reynolds_piezo_expansion_t
       !> H, V, c and b: what all else follows from. A film is positive: none has been looked up yet
-      real(dp), dimension(lanes) :: film = 0.0_dp, momentum = 0.0_dp, rate = 0.0_dp, pressing = 0.0_dp
+      real(dp), dimension(lanes) :: film = 0.0_dp, lienard = 0.0_dp, rate = 0.0_dp, pressing = 0.0_dp
       !> 1 where there is an expansion, else 0
       real(dp) :: inside(lanes) = 0.0_dp
       !> p, r, A, B, sigma
@@ -44,7 +44,7 @@ module reynolds_piezo_expansion
       real(dp) :: terms(lanes, 0:load_terms - 1) = 0.0_dp
       !> dPsi/dA at constant B
       real(dp) :: load_slope(lanes) = 0.0_dp
-      !> Where teeth give: the series of sigma in time
+      !> Of elastic teeth: the series of sigma in time
       real(dp) :: sigma_series(lanes, 0:highest_time_power) = 1.0_dp
    end type reynolds_piezo_expansion_t
 
@@ -53,11 +53,11 @@ module reynolds_piezo_expansion
 contains
 
    !> Expand the load about the films of a block, unless they are what it was last expanded about.
-   pure subroutine expand_reynolds_piezo(film, momentum, rate, pressing, expansion)
+   pure subroutine expand_reynolds_piezo(film, lienard, rate, pressing, expansion)
       !> H [-]
       real(dp), intent(in) :: film(lanes)
       !> V [-]
-      real(dp), intent(in) :: momentum(lanes)
+      real(dp), intent(in) :: lienard(lanes)
       !> c [periods]
       real(dp), intent(in) :: rate(lanes)
       !> b [-]
@@ -71,19 +71,19 @@ contains
       changed = 0.0_dp
       !$omp simd reduction(+: changed)
       do l = 1, lanes
-         changed = changed + merge(0.0_dp, 1.0_dp, abs(film(l) - expansion%film(l)) + abs(momentum(l) - expansion%momentum(l)) &
+         changed = changed + merge(0.0_dp, 1.0_dp, abs(film(l) - expansion%film(l)) + abs(lienard(l) - expansion%lienard(l)) &
                                    + abs(rate(l) - expansion%rate(l)) + abs(pressing(l) - expansion%pressing(l)) <= 0.0_dp)
       end do
       if (.not. changed > 0.0_dp) return
       !$omp simd
       do l = 1, lanes
          expansion%film(l) = film(l)
-         expansion%momentum(l) = momentum(l)
+         expansion%lienard(l) = lienard(l)
          expansion%rate(l) = rate(l)
          expansion%pressing(l) = pressing(l)
          expansion%inverse_film(l) = 1.0_dp/film(l)
          expansion%root(l) = sqrt(expansion%inverse_film(l))
-         expansion%group(l) = rate(l)*momentum(l)*expansion%root(l)
+         expansion%group(l) = rate(l)*lienard(l)*expansion%root(l)
          expansion%pressure_group(l) = pressing(l)*expansion%inverse_film(l)*expansion%root(l)
       end do
       do l = 1, lanes, half_block

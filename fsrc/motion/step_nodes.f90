@@ -52,11 +52,11 @@ contains
       !> Nodes of the period so far
       type(step_nodes_t), intent(inout) :: nodes
       real(dp), dimension(nodes_per_piece) :: x, film, velocity, odd_film, odd_velocity
-      real(dp) :: film_series(0:order), momentum_series(0:order), length
+      real(dp) :: film_series(0:order), lienard_series(0:order), length
       integer :: pieces, piece, before, numbers, springs, i, k
 
       film_series = block%film(lane, :)
-      momentum_series = block%momentum(lane, :)
+      lienard_series = block%lienard(lane, :)
       pieces = max(1, ceiling(block%step(lane)/longest_piece))
       length = block%step(lane)/real(pieces, dp)
       springs = springs_of(lane, block)
@@ -66,22 +66,22 @@ contains
          x = (real(piece - 1, dp) + node_place)*length
          ! Even and odd powers apart: four sums that do not wait for each other.
          film = film_series(order)
-         velocity = momentum_series(order)
+         velocity = lienard_series(order)
          odd_film = film_series(order - 1)
-         odd_velocity = momentum_series(order - 1)
+         odd_velocity = lienard_series(order - 1)
          do k = order - 2, 2, -2
             !$omp simd
             do i = 1, nodes_per_piece
                film(i) = film(i)*(x(i)*x(i)) + film_series(k)
-               velocity(i) = velocity(i)*(x(i)*x(i)) + momentum_series(k)
+               velocity(i) = velocity(i)*(x(i)*x(i)) + lienard_series(k)
                odd_film(i) = odd_film(i)*(x(i)*x(i)) + film_series(k - 1)
-               odd_velocity(i) = odd_velocity(i)*(x(i)*x(i)) + momentum_series(k - 1)
+               odd_velocity(i) = odd_velocity(i)*(x(i)*x(i)) + lienard_series(k - 1)
             end do
          end do
          !$omp simd
          do i = 1, nodes_per_piece
             film(i) = film(i)*(x(i)*x(i)) + (odd_film(i)*x(i) + film_series(0))
-            velocity(i) = velocity(i)*(x(i)*x(i)) + (odd_velocity(i)*x(i) + momentum_series(0))
+            velocity(i) = velocity(i)*(x(i)*x(i)) + (odd_velocity(i)*x(i) + lienard_series(0))
             velocity(i) = velocity(i) + block%slip(lane)/sqrt(film(i))
          end do
          if (block%slip(lane) > 0.0_dp .and. block%backlash(lane) < huge(1.0_dp)) &

@@ -1,7 +1,7 @@
 !> Taylor series of the motion with the published iso-viscous film (35), for a block of lanes, on one flank or between two
 !> (fsrc/THEORY.md, section 4: names and equations are those of (35) there).
 !>
-!> The momentum is Lienard's V = H' - 2 b r, which stays well-conditioned however heavy the damping: there H' is the small
+!> V = H' - 2 b r is Lienard's variable, which stays well-conditioned however heavy the damping: there H' is the small
 !> difference of V and -2 b r, but the film depends on V alone.
 module taylor_iso_viscous
    use kinds, only: dp
@@ -16,7 +16,7 @@ module taylor_iso_viscous
 contains
 
    !> Coefficients 1 to `order` of H and V, and the damping rate.
-   pure subroutine iso_viscous_series(rolling, squeeze, load, force, film, momentum, &
+   pure subroutine iso_viscous_series(rolling, squeeze, load, force, film, lienard, &
       damping_rate)
       !> a [-]
       real(dp), intent(in) :: rolling(lanes)
@@ -29,7 +29,7 @@ contains
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       !> -dV'/dV at constant H: b H^(-3/2) [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
       real(dp) :: p(lanes, 0:order), r(lanes, 0:order)
@@ -44,8 +44,8 @@ contains
          half_root(l) = 0.5_dp*film(l, 0)*r(l, 0)
          both(l) = minus_p(l)*half_root(l)
          damping_rate(l) = 0.5_dp*squeeze(l)*p(l, 0)*r(l, 0)
-         film(l, 1) = momentum(l, 0) + squeeze(l)*r(l, 0)
-         momentum(l, 1) = rolling(l)*p(l, 0) - load(l) - force(l, 1)
+         film(l, 1) = lienard(l, 0) + squeeze(l)*r(l, 0)
+         lienard(l, 1) = rolling(l)*p(l, 0) - load(l) - force(l, 1)
          p(l, 1) = minus_p(l)*(film(l, 1)*p(l, 0))
          r(l, 1) = both(l)*(film(l, 1)*p(l, 0))
       end do
@@ -55,8 +55,8 @@ contains
       do k = 2, order - 1
          !$omp simd private(product, square)
          do l = 1, lanes
-            film(l, k) = inverse(k)*momentum(l, k - 1) + (inverse(k)*squeeze(l))*r(l, k - 1)
-            momentum(l, k) = (inverse(k)*rolling(l))*p(l, k - 1) - factor(k)*force(l, k)
+            film(l, k) = inverse(k)*lienard(l, k - 1) + (inverse(k)*squeeze(l))*r(l, k - 1)
+            lienard(l, k) = (inverse(k)*rolling(l))*p(l, k - 1) - factor(k)*force(l, k)
             square = 0.0_dp
             do j = 1, (k - 1)/2
                square = square + r(l, j)*r(l, k - j)
@@ -75,13 +75,13 @@ contains
       end do
       !$omp simd
       do l = 1, lanes
-         film(l, order) = inverse(order)*(momentum(l, order - 1) + squeeze(l)*r(l, order - 1))
-         momentum(l, order) = (inverse(order)*rolling(l))*p(l, order - 1) - factor(order)*force(l, order)
+         film(l, order) = inverse(order)*(lienard(l, order - 1) + squeeze(l)*r(l, order - 1))
+         lienard(l, order) = (inverse(order)*rolling(l))*p(l, order - 1) - factor(order)*force(l, order)
       end do
    end subroutine iso_viscous_series
 
    !> The same between two flanks.
-   pure subroutine iso_viscous_series_of_two(rolling, squeeze, backlash, load, force, film, momentum, damping_rate)
+   pure subroutine iso_viscous_series_of_two(rolling, squeeze, backlash, load, force, film, lienard, damping_rate)
       !> a [-]
       real(dp), intent(in) :: rolling(lanes)
       !> 2 b [-]
@@ -95,7 +95,7 @@ contains
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       !> -dV'/dV at constant H: b (H^(-3/2) + C^(-3/2)) [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
       !> Of the drive and the coast flank
@@ -118,8 +118,8 @@ contains
          end do
       end do
       damping_rate = 0.5_dp*squeeze*(p(:, 0, 1)*r(:, 0, 1) + p(:, 0, 2)*r(:, 0, 2))
-      film(:, 1) = momentum(:, 0) + squeeze*(r(:, 0, 1) - r(:, 0, 2))
-      momentum(:, 1) = rolling*(p(:, 0, 1) - p(:, 0, 2)) - load - force(:, 1)
+      film(:, 1) = lienard(:, 0) + squeeze*(r(:, 0, 1) - r(:, 0, 2))
+      lienard(:, 1) = rolling*(p(:, 0, 1) - p(:, 0, 2)) - load - force(:, 1)
       do flank = 1, 2
          p(:, 1, flank) = minus_p(:, flank)*(film(:, 1)*p(:, 0, flank))
          r(:, 1, flank) = both(:, flank)*(film(:, 1)*p(:, 0, flank))
@@ -128,8 +128,8 @@ contains
       do k = 2, order - 1
          !$omp simd
          do l = 1, lanes
-            film(l, k) = inverse(k)*momentum(l, k - 1) + (inverse(k)*squeeze(l))*(r(l, k - 1, 1) - r(l, k - 1, 2))
-            momentum(l, k) = (inverse(k)*rolling(l))*(p(l, k - 1, 1) - p(l, k - 1, 2)) - factor(k)*force(l, k)
+            film(l, k) = inverse(k)*lienard(l, k - 1) + (inverse(k)*squeeze(l))*(r(l, k - 1, 1) - r(l, k - 1, 2))
+            lienard(l, k) = (inverse(k)*rolling(l))*(p(l, k - 1, 1) - p(l, k - 1, 2)) - factor(k)*force(l, k)
          end do
          !GCC$ unroll 2
          do flank = 1, 2
@@ -150,8 +150,8 @@ contains
             end do
          end do
       end do
-      film(:, order) = inverse(order)*(momentum(:, order - 1) + squeeze*(r(:, order - 1, 1) - r(:, order - 1, 2)))
-      momentum(:, order) = (inverse(order)*rolling)*(p(:, order - 1, 1) - p(:, order - 1, 2)) - factor(order)*force(:, order)
+      film(:, order) = inverse(order)*(lienard(:, order - 1) + squeeze*(r(:, order - 1, 1) - r(:, order - 1, 2)))
+      lienard(:, order) = (inverse(order)*rolling)*(p(:, order - 1, 1) - p(:, order - 1, 2)) - factor(order)*force(:, order)
    end subroutine iso_viscous_series_of_two
 
 end module taylor_iso_viscous

@@ -22,7 +22,7 @@ module taylor_piezo_viscous
 contains
 
    !> Coefficients 1 to `order` of H and V, and the damping rate.
-   pure subroutine piezo_viscous_series(strength, rate, load, force, film, momentum, &
+   pure subroutine piezo_viscous_series(strength, rate, load, force, film, lienard, &
       damping_rate)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
@@ -35,7 +35,7 @@ contains
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       !> -dV'/dV = c S [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
       real(dp) :: y(lanes, 0:order), g(lanes, 0:order), s(lanes, 0:order)
@@ -44,7 +44,7 @@ contains
 
       !$omp simd
       do l = 1, lanes
-         exponent(l) = -rate(l)*momentum(l, 0)
+         exponent(l) = -rate(l)*lienard(l, 0)
       end do
       call lane_exponential(exponent, growth)
       !$omp simd
@@ -53,10 +53,10 @@ contains
          s(l, 0) = strength(l)*growth(l)*inverse_film(l)*inverse_film(l)*inverse_film(l)*sqrt(inverse_film(l))
          damping_rate(l) = rate(l)*s(l, 0)
          s(l, 0) = merge(s(l, 0), 1.0_dp, damping_rate(l) < largest_rate)
-         film(l, 1) = momentum(l, 0)
-         momentum(l, 1) = s(l, 0) - load(l) - force(l, 1)
-         y(l, 0) = inverse_film(l)*momentum(l, 0)
-         g(l, 0) = -3.5_dp*y(l, 0) - rate(l)*momentum(l, 1)
+         film(l, 1) = lienard(l, 0)
+         lienard(l, 1) = s(l, 0) - load(l) - force(l, 1)
+         y(l, 0) = inverse_film(l)*lienard(l, 0)
+         g(l, 0) = -3.5_dp*y(l, 0) - rate(l)*lienard(l, 1)
          s(l, 1) = s(l, 0)*g(l, 0)
       end do
       ! The products with the newest coefficients come last: all others can be summed while those are still
@@ -65,14 +65,14 @@ contains
       do k = 2, order - 1
          !$omp simd private(product)
          do l = 1, lanes
-            film(l, k) = inverse(k)*momentum(l, k - 1)
-            momentum(l, k) = inverse(k)*s(l, k - 1) - factor(k)*force(l, k)
-            product = momentum(l, k - 1)
+            film(l, k) = inverse(k)*lienard(l, k - 1)
+            lienard(l, k) = inverse(k)*s(l, k - 1) - factor(k)*force(l, k)
+            product = lienard(l, k - 1)
             do j = 1, k - 1
                product = product - film(l, k - j)*y(l, j - 1)
             end do
             y(l, k - 1) = inverse_film(l)*product
-            g(l, k - 1) = -3.5_dp*y(l, k - 1) - (real(k, dp)*rate(l))*momentum(l, k)
+            g(l, k - 1) = -3.5_dp*y(l, k - 1) - (real(k, dp)*rate(l))*lienard(l, k)
             product = 0.0_dp
             do j = 1, k - 2
                product = product + s(l, k - 1 - j)*g(l, j)
@@ -84,13 +84,13 @@ contains
       end do
       !$omp simd
       do l = 1, lanes
-         film(l, order) = inverse(order)*momentum(l, order - 1)
-         momentum(l, order) = inverse(order)*s(l, order - 1) - factor(order)*force(l, order)
+         film(l, order) = inverse(order)*lienard(l, order - 1)
+         lienard(l, order) = inverse(order)*s(l, order - 1) - factor(order)*force(l, order)
       end do
    end subroutine piezo_viscous_series
 
    !> The same between two flanks.
-   pure subroutine piezo_viscous_series_of_two(strength, rate, backlash, load, force, film, momentum, damping_rate)
+   pure subroutine piezo_viscous_series_of_two(strength, rate, backlash, load, force, film, lienard, damping_rate)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
       !> c [periods]
@@ -104,7 +104,7 @@ contains
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       !> -dV'/dV = c times both loads [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
       !> Sign of H_k and V_k for the drive and the coast film
@@ -116,7 +116,7 @@ contains
       damping_rate = 0.0_dp
       do flank = 1, 2
          turned_rate(:, flank) = turned(flank)*rate
-         call lane_exponential(-turned_rate(:, flank)*momentum(:, 0), growth)
+         call lane_exponential(-turned_rate(:, flank)*lienard(:, 0), growth)
          inverse_film = 1.0_dp/merge(film(:, 0), backlash - film(:, 0), flank == 1)
          turned_inverse(:, flank) = turned(flank)*inverse_film
          !$omp simd private(flank_rate)
@@ -127,30 +127,30 @@ contains
             s(l, 0, flank) = merge(s(l, 0, flank), 1.0_dp, flank_rate < largest_rate)
          end do
       end do
-      film(:, 1) = momentum(:, 0)
-      momentum(:, 1) = (s(:, 0, 1) - s(:, 0, 2)) - load - force(:, 1)
+      film(:, 1) = lienard(:, 0)
+      lienard(:, 1) = (s(:, 0, 1) - s(:, 0, 2)) - load - force(:, 1)
       do flank = 1, 2
-         y(:, 0, flank) = turned_inverse(:, flank)*momentum(:, 0)
-         g(:, 0, flank) = -3.5_dp*y(:, 0, flank) - turned_rate(:, flank)*momentum(:, 1)
+         y(:, 0, flank) = turned_inverse(:, flank)*lienard(:, 0)
+         g(:, 0, flank) = -3.5_dp*y(:, 0, flank) - turned_rate(:, flank)*lienard(:, 1)
          s(:, 1, flank) = s(:, 0, flank)*g(:, 0, flank)
       end do
       !GCC$ unroll 24
       do k = 2, order - 1
          !$omp simd
          do l = 1, lanes
-            film(l, k) = inverse(k)*momentum(l, k - 1)
-            momentum(l, k) = inverse(k)*(s(l, k - 1, 1) - s(l, k - 1, 2)) - factor(k)*force(l, k)
+            film(l, k) = inverse(k)*lienard(l, k - 1)
+            lienard(l, k) = inverse(k)*(s(l, k - 1, 1) - s(l, k - 1, 2)) - factor(k)*force(l, k)
          end do
          !GCC$ unroll 2
          do flank = 1, 2
             !$omp simd private(product)
             do l = 1, lanes
-               product = momentum(l, k - 1)
+               product = lienard(l, k - 1)
                do j = 1, k - 1
                   product = product - film(l, k - j)*y(l, j - 1, flank)
                end do
                y(l, k - 1, flank) = turned_inverse(l, flank)*product
-               g(l, k - 1, flank) = -3.5_dp*y(l, k - 1, flank) - (real(k, dp)*turned_rate(l, flank))*momentum(l, k)
+               g(l, k - 1, flank) = -3.5_dp*y(l, k - 1, flank) - (real(k, dp)*turned_rate(l, flank))*lienard(l, k)
                product = 0.0_dp
                do j = 0, k - 1
                   product = product + s(l, k - 1 - j, flank)*g(l, j, flank)
@@ -159,16 +159,16 @@ contains
             end do
          end do
       end do
-      film(:, order) = inverse(order)*momentum(:, order - 1)
-      momentum(:, order) = inverse(order)*(s(:, order - 1, 1) - s(:, order - 1, 2)) - factor(order)*force(:, order)
+      film(:, order) = inverse(order)*lienard(:, order - 1)
+      lienard(:, order) = inverse(order)*(s(:, order - 1, 1) - s(:, order - 1, 2)) - factor(order)*force(:, order)
    end subroutine piezo_viscous_series_of_two
 
    !> Reject steps in which the load grows by more than the series resolves. While the tooth moves away, the load falls below
    !> exp(-100) times the forces, and its coefficients vanish beside theirs. When the tooth comes back, the load grows by the same
    !> factor within one step of free fall, which the coefficients do not show. Logarithms to the base 2 of the load over the force
    !> show it: log2(S/P) = log2(a/P) - 7/2 log2 H - c V/ln 2.
-   pure subroutine reject_unresolved_growth(strength, rate, force, accuracy, film, momentum, next_film, &
-                                              next_momentum, trust)
+   pure subroutine reject_unresolved_growth(strength, rate, force, accuracy, film, lienard, next_film, &
+                                              next_lienard, trust)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
       !> c [periods]
@@ -179,10 +179,10 @@ contains
       real(dp), intent(in) :: accuracy(lanes)
       !> H and V at the start of the step [-]
       real(dp), intent(in) :: film(lanes)
-      real(dp), intent(in) :: momentum(lanes)
+      real(dp), intent(in) :: lienard(lanes)
       !> H and V at its end [-]
       real(dp), intent(in) :: next_film(lanes)
-      real(dp), intent(in) :: next_momentum(lanes)
+      real(dp), intent(in) :: next_lienard(lanes)
       !> 1 where the step is trusted, set to 0 where it is rejected
       real(dp), intent(inout) :: trust(lanes)
       real(dp), parameter :: octaves_per_unit = 1.4426950408889634_dp
@@ -192,9 +192,9 @@ contains
       !$omp simd private(growth, load)
       do l = 1, lanes
          growth = 3.5_dp/octave*(coarse_log(film(l)) - coarse_log(max(next_film(l), tiny(1.0_dp)))) &
-            - octaves_per_unit*rate(l)*(next_momentum(l) - momentum(l))
+            - octaves_per_unit*rate(l)*(next_lienard(l) - lienard(l))
          load = (coarse_log(strength(l)) - coarse_log(force(l)*accuracy(l)))/octave &
-            - 3.5_dp/octave*(coarse_log(film(l)) - log_of_one) - octaves_per_unit*rate(l)*momentum(l) + growth
+            - 3.5_dp/octave*(coarse_log(film(l)) - log_of_one) - octaves_per_unit*rate(l)*lienard(l) + growth
          trust(l) = trust(l)*(1.0_dp - merge(1.0_dp, 0.0_dp, growth > most_growth) &
                               *merge(1.0_dp, 0.0_dp, load > negligible))
       end do

@@ -27,7 +27,7 @@ module taylor_reynolds_piezo
 contains
 
    !> Coefficients 1 to `rupture_order` of H and V, and the damping rate.
-   pure subroutine reynolds_piezo_series(strength, rate, pressing, load, force, film, momentum, &
+   pure subroutine reynolds_piezo_series(strength, rate, pressing, load, force, film, lienard, &
                                          damping_rate, expansion)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
@@ -42,7 +42,7 @@ contains
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       !> -dV'/dV [1/periods]; huge where there is no expansion
       real(dp), intent(out) :: damping_rate(lanes)
       !> Films looked up last, those at the point of expansion afterwards
@@ -50,16 +50,16 @@ contains
       real(dp) :: c(half_block, series, 0:rupture_order)
       real(dp), dimension(half_block) :: half_root, unit_rate, sigma_slope
       !> What z, s and V' take from V, max p* and Psi of the same order
-      real(dp), dimension(half_block) :: z_by_momentum, sigma_by_peak, force_by_load
+      real(dp), dimension(half_block) :: z_by_lienard, sigma_by_peak, force_by_load
       real(dp) :: of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force, oscillation
       integer :: before, low, high, k, i, j, m, l
 
-      call expand_reynolds_piezo(film(:, 0), momentum(:, 0), rate, pressing, expansion)
+      call expand_reynolds_piezo(film(:, 0), lienard(:, 0), rate, pressing, expansion)
       do before = 0, lanes - 1, half_block
          !$omp simd
          do l = 1, half_block
             c(l, h, 0) = film(before + l, 0)
-            c(l, v, 0) = momentum(before + l, 0)
+            c(l, v, 0) = lienard(before + l, 0)
             c(l, p, 0) = expansion%inverse_film(before + l)
             c(l, r, 0) = expansion%root(before + l)
             c(l, group, 0) = expansion%pressure_group(before + l)
@@ -67,7 +67,7 @@ contains
             half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
             sigma_slope(l) = -0.5_dp/expansion%sigma(before + l)
             unit_rate(l) = rate(before + l)*expansion%inverse_unit(before + l)
-            z_by_momentum(l) = unit_rate(l)*c(l, r, 0)
+            z_by_lienard(l) = unit_rate(l)*c(l, r, 0)
             sigma_by_peak(l) = sigma_slope(l)*c(l, group, 0)
             force_by_load(l) = strength(before + l)*c(l, p, 0)
             c(l, v, 1) = force_by_load(l)*expansion%terms(before + l, 0) - load(before + l) - force(before + l, 1)
@@ -151,7 +151,7 @@ contains
                end do
                oscillation = factor(k + 1)*force(before + l, k + 1)
                ! The chain
-               c(l, z, k) = c(l, z, k) + z_by_momentum(l)*c(l, v, k)
+               c(l, z, k) = c(l, z, k) + z_by_lienard(l)*c(l, v, k)
                c(l, peak, k) = of_peak + expansion%peak(before + l, 1)*c(l, z, k)
                c(l, s, k) = sigma_slope(l)*of_s + sigma_by_peak(l)*c(l, peak, k)
                !GCC$ unroll 8
@@ -165,12 +165,12 @@ contains
          end do
          c(:, h, rupture_order) = inverse(rupture_order)*c(:, v, rupture_order - 1)
          film(before + 1:before + half_block, 1:rupture_order) = c(:, h, 1:)
-         momentum(before + 1:before + half_block, 1:rupture_order) = c(:, v, 1:)
+         lienard(before + 1:before + half_block, 1:rupture_order) = c(:, v, 1:)
       end do
    end subroutine reynolds_piezo_series
 
    !> The same between two flanks.
-   pure subroutine reynolds_piezo_series_of_two(strength, rate, pressing, backlash, load, force, film, momentum, damping_rate, &
+   pure subroutine reynolds_piezo_series_of_two(strength, rate, pressing, backlash, load, force, film, lienard, damping_rate, &
                                                 expansion)
       !> a [-]
       real(dp), intent(in) :: strength(lanes)
@@ -187,7 +187,7 @@ contains
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       !> -dV'/dV [1/periods]; huge where there is no expansion
       real(dp), intent(out) :: damping_rate(lanes)
       !> Films of the drive and the coast flank looked up last, those at the point of expansion afterwards
@@ -196,12 +196,12 @@ contains
       real(dp) :: c(half_block, series, 2, 0:rupture_order)
       real(dp), dimension(half_block, 2) :: half_root, unit_rate, sigma_slope, carried
       !> What z, s and V' take from V, max p* and Psi of the same order
-      real(dp), dimension(half_block, 2) :: z_by_momentum, sigma_by_peak
+      real(dp), dimension(half_block, 2) :: z_by_lienard, sigma_by_peak
       real(dp) :: of_p, of_r, of_z, of_group, of_power, of_peak, of_s, of_tail, of_force
       integer :: before, flank, low, high, k, i, j, m, l
 
-      call expand_reynolds_piezo(film(:, 0), momentum(:, 0), rate, pressing, expansion(1))
-      call expand_reynolds_piezo(backlash - film(:, 0), -momentum(:, 0), rate, pressing, expansion(2))
+      call expand_reynolds_piezo(film(:, 0), lienard(:, 0), rate, pressing, expansion(1))
+      call expand_reynolds_piezo(backlash - film(:, 0), -lienard(:, 0), rate, pressing, expansion(2))
       damping_rate = merge(-strength*rate*(expansion(1)%inverse_film*expansion(1)%root*expansion(1)%load_slope &
                                            + expansion(2)%inverse_film*expansion(2)%root*expansion(2)%load_slope), &
                            no_expansion, expansion(1)%inside*expansion(2)%inside > 0.0_dp)
@@ -210,7 +210,7 @@ contains
             !$omp simd
             do l = 1, half_block
                c(l, h, flank, 0) = expansion(flank)%film(before + l)
-               c(l, v, flank, 0) = expansion(flank)%momentum(before + l)
+               c(l, v, flank, 0) = expansion(flank)%lienard(before + l)
                c(l, p, flank, 0) = expansion(flank)%inverse_film(before + l)
                c(l, r, flank, 0) = expansion(flank)%root(before + l)
                c(l, group, flank, 0) = expansion(flank)%pressure_group(before + l)
@@ -218,7 +218,7 @@ contains
                half_root(l, flank) = 0.5_dp*c(l, h, flank, 0)*c(l, r, flank, 0)
                sigma_slope(l, flank) = -0.5_dp/expansion(flank)%sigma(before + l)
                unit_rate(l, flank) = rate(before + l)*expansion(flank)%inverse_unit(before + l)
-               z_by_momentum(l, flank) = unit_rate(l, flank)*c(l, r, flank, 0)
+               z_by_lienard(l, flank) = unit_rate(l, flank)*c(l, r, flank, 0)
                sigma_by_peak(l, flank) = sigma_slope(l, flank)*c(l, group, flank, 0)
                carried(l, flank) = c(l, p, flank, 0)*expansion(flank)%terms(before + l, 0)
             end do
@@ -303,7 +303,7 @@ contains
                      of_force = of_force + c(l, p, flank, k - j)*c(l, tail, flank, j)
                   end do
                   ! The chain
-                  c(l, z, flank, k) = c(l, z, flank, k) + z_by_momentum(l, flank)*c(l, v, flank, k)
+                  c(l, z, flank, k) = c(l, z, flank, k) + z_by_lienard(l, flank)*c(l, v, flank, k)
                   c(l, peak, flank, k) = of_peak + expansion(flank)%peak(before + l, 1)*c(l, z, flank, k)
                   c(l, s, flank, k) = sigma_slope(l, flank)*of_s + sigma_by_peak(l, flank)*c(l, peak, flank, k)
                   !GCC$ unroll 8
@@ -324,7 +324,7 @@ contains
          end do
          c(:, h, 1, rupture_order) = inverse(rupture_order)*c(:, v, 1, rupture_order - 1)
          film(before + 1:before + half_block, 1:rupture_order) = c(:, h, 1, 1:)
-         momentum(before + 1:before + half_block, 1:rupture_order) = c(:, v, 1, 1:)
+         lienard(before + 1:before + half_block, 1:rupture_order) = c(:, v, 1, 1:)
       end do
    end subroutine reynolds_piezo_series_of_two
 

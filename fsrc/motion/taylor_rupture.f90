@@ -29,7 +29,7 @@ module taylor_rupture
 contains
 
    !> Coefficients 1 to `rupture_order` of H and V, and the damping rate.
-   pure subroutine rupture_series(law, strength, rate, load, force, film, momentum, damping_rate, expansion)
+   pure subroutine rupture_series(law, strength, rate, load, force, film, lienard, damping_rate, expansion)
       !> Load, as module load_pieces numbers it
       integer, intent(in) :: law
       !> a [-]
@@ -43,7 +43,7 @@ contains
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       !> -dV'/dV [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
       !> Films looked up last, those at the point of expansion afterwards
@@ -53,11 +53,11 @@ contains
       real(dp) :: of_p, of_r, of_z, of_square, of_nest, of_force, oscillation
       integer :: once, k, j, i, l
 
-      call expand_load(law, film(:, 0), momentum(:, 0), rate, expansion)
+      call expand_load(law, film(:, 0), lienard(:, 0), rate, expansion)
       !$omp simd
       do l = 1, lanes
          c(l, h, 0) = film(l, 0)
-         c(l, v, 0) = momentum(l, 0)
+         c(l, v, 0) = lienard(l, 0)
          c(l, p, 0) = expansion%inverse_film(l)
          c(l, r, 0) = expansion%root(l)
          half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
@@ -124,11 +124,11 @@ contains
          end do
       end do
       film(:, 1:rupture_order) = c(:, h, 1:)
-      momentum(:, 1:rupture_order) = c(:, v, 1:)
+      lienard(:, 1:rupture_order) = c(:, v, 1:)
    end subroutine rupture_series
 
    !> The same between two flanks.
-   pure subroutine rupture_series_of_two(law, strength, rate, backlash, load, force, film, momentum, damping_rate, expansion)
+   pure subroutine rupture_series_of_two(law, strength, rate, backlash, load, force, film, lienard, damping_rate, expansion)
       !> Load, as module load_pieces numbers it
       integer, intent(in) :: law
       !> a [-]
@@ -144,7 +144,7 @@ contains
       !> Series of H [-]; coefficient 0 is given
       real(dp), intent(inout) :: film(lanes, 0:order)
       !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       !> -dV'/dV [1/periods]
       real(dp), intent(out) :: damping_rate(lanes)
       !> Films of the drive and the coast flank looked up last, those at the point of expansion afterwards
@@ -156,9 +156,9 @@ contains
       integer :: once, flank, k, j, i, l
 
       c(:, h, 1, 0) = film(:, 0)
-      c(:, v, 1, 0) = momentum(:, 0)
+      c(:, v, 1, 0) = lienard(:, 0)
       c(:, h, 2, 0) = backlash - film(:, 0)
-      c(:, v, 2, 0) = -momentum(:, 0)
+      c(:, v, 2, 0) = -lienard(:, 0)
       do flank = 1, 2
          call expand_load(law, c(:, h, flank, 0), c(:, v, flank, 0), rate, expansion(flank))
          !$omp simd
@@ -233,46 +233,46 @@ contains
          end do
       end do
       film(:, 1:rupture_order) = c(:, h, 1, 1:)
-      momentum(:, 1:rupture_order) = c(:, v, 1, 1:)
+      lienard(:, 1:rupture_order) = c(:, v, 1, 1:)
    end subroutine rupture_series_of_two
 
    !> Sums of the series of H, V and V', as evaluate_series takes them.
-   pure subroutine evaluate_rupture_series(film, momentum, x, film_sum, momentum_sum, rise_sum)
+   pure subroutine evaluate_rupture_series(film, lienard, x, film_sum, lienard_sum, rise_sum)
       !> Series of H [-]
       real(dp), intent(in) :: film(lanes, 0:order)
       !> Series of V [-]
-      real(dp), intent(in) :: momentum(lanes, 0:order)
+      real(dp), intent(in) :: lienard(lanes, 0:order)
       !> Distance from the point of expansion [periods]
       real(dp), intent(in) :: x(lanes)
       !> H there [-]
       real(dp), intent(out) :: film_sum(lanes)
       !> V there [-]
-      real(dp), intent(out) :: momentum_sum(lanes)
+      real(dp), intent(out) :: lienard_sum(lanes)
       !> V' there [-]
       real(dp), intent(out) :: rise_sum(lanes)
       integer, parameter :: last = rupture_order
-      real(dp) :: square, film_odd, film_even, momentum_odd, momentum_even, rise_odd, rise_even
+      real(dp) :: square, film_odd, film_even, lienard_odd, lienard_even, rise_odd, rise_even
       integer :: l, k
 
-      !$omp simd private(square, film_odd, film_even, momentum_odd, momentum_even, rise_odd, rise_even, k)
+      !$omp simd private(square, film_odd, film_even, lienard_odd, lienard_even, rise_odd, rise_even, k)
       do l = 1, lanes
          square = x(l)*x(l)
          film_even = film(l, last)
-         momentum_even = momentum(l, last)
-         rise_odd = real(last, dp)*momentum(l, last)
+         lienard_even = lienard(l, last)
+         rise_odd = real(last, dp)*lienard(l, last)
          film_odd = film(l, last - 1)
-         momentum_odd = momentum(l, last - 1)
-         rise_even = real(last - 1, dp)*momentum(l, last - 1)
+         lienard_odd = lienard(l, last - 1)
+         rise_even = real(last - 1, dp)*lienard(l, last - 1)
          do k = last - 2, 2, -2
             film_even = film_even*square + film(l, k)
-            momentum_even = momentum_even*square + momentum(l, k)
-            rise_odd = rise_odd*square + real(k, dp)*momentum(l, k)
+            lienard_even = lienard_even*square + lienard(l, k)
+            rise_odd = rise_odd*square + real(k, dp)*lienard(l, k)
             film_odd = film_odd*square + film(l, k - 1)
-            momentum_odd = momentum_odd*square + momentum(l, k - 1)
-            rise_even = rise_even*square + real(k - 1, dp)*momentum(l, k - 1)
+            lienard_odd = lienard_odd*square + lienard(l, k - 1)
+            rise_even = rise_even*square + real(k - 1, dp)*lienard(l, k - 1)
          end do
          film_sum(l) = film(l, 0) + (film_even*square + film_odd*x(l))
-         momentum_sum(l) = momentum(l, 0) + (momentum_even*square + momentum_odd*x(l))
+         lienard_sum(l) = lienard(l, 0) + (lienard_even*square + lienard_odd*x(l))
          rise_sum(l) = rise_even + rise_odd*x(l)
       end do
    end subroutine evaluate_rupture_series
@@ -287,7 +287,7 @@ contains
    !> the sum of the forces is off there, is that of the first terms left out, so D x/(n + 1) estimates the local error of V; it
    !> must not exceed what the step control grants the last term, in the measure of module taylor_step_control at the end of the
    !> step, less the rounding of the forces.
-   pure subroutine reject_large_defect(error_share, load, force, accuracy, carried, largest, rate_of_damping, film, momentum, &
+   pure subroutine reject_large_defect(error_share, load, force, accuracy, carried, largest, rate_of_damping, film, lienard, &
                                        rise, trust)
       !> Share of the accuracy that a step may use up, over its length [1/periods]
       real(dp), intent(in) :: error_share
@@ -302,7 +302,7 @@ contains
       real(dp), intent(in) :: rate_of_damping(lanes)
       !> The thinner film there, V and V', by the series [-]
       real(dp), intent(in) :: film(lanes)
-      real(dp), intent(in) :: momentum(lanes)
+      real(dp), intent(in) :: lienard(lanes)
       real(dp), intent(in) :: rise(lanes)
       !> 1 where the step is trusted, set to 0 where it is rejected
       real(dp), intent(inout) :: trust(lanes)
@@ -312,7 +312,7 @@ contains
       !$omp simd private(defect, square_film, granted)
       do l = 1, lanes
          defect = abs(carried(l) - load(l) - rise(l)) &
-            - equation_rounding*(largest(l) + force(l) + abs(rate_of_damping(l)*momentum(l)))
+            - equation_rounding*(largest(l) + force(l) + abs(rate_of_damping(l)*lienard(l)))
          ! 1 + H**2, and w (1 + H**2) times the accuracy.
          square_film = 1.0_dp + film(l)*film(l)
          granted = (most_defect*real(rupture_order + 1, dp))*error_share*film(l)*max(accuracy(l), rounding*square_film)

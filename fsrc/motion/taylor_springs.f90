@@ -29,7 +29,7 @@ module taylor_springs
 contains
 
    !> Coefficients 1 to `order` with the film (35).
-   pure subroutine iso_viscous_springs(flanks, rolling, squeeze, compliance, load, force, films, momentum, compression)
+   pure subroutine iso_viscous_springs(flanks, rolling, squeeze, compliance, load, force, films, lienard, compression)
       !> Flanks: 1 or 2
       integer, intent(in) :: flanks
       !> a, 2 b, kappa, q [-]
@@ -41,7 +41,7 @@ contains
       real(dp), intent(in) :: force(lanes, order)
       !> Series of H and C, of V and of d_1 and d_2 [-]; coefficients 0 are given
       real(dp), intent(inout) :: films(lanes, 0:order, 2)
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       real(dp), intent(inout) :: compression(lanes, 2, 0:order)
       !> Lane, series, flank, coefficient
       integer, parameter :: h = 1, d = 2, r = 3, series = 3
@@ -64,13 +64,13 @@ contains
          do k = 0, order - 1
             !$omp simd
             do l = 1, lanes
-               momentum(l, k + 1) = -factor(k + 1)*force(l, k + 1)
-               if (k == 0) momentum(l, 1) = momentum(l, 1) - load(l)
+               lienard(l, k + 1) = -factor(k + 1)*force(l, k + 1)
+               if (k == 0) lienard(l, 1) = lienard(l, 1) - load(l)
             end do
             do flank = 1, flanks
                !$omp simd private(product)
                do l = 1, lanes
-                  momentum(l, k + 1) = momentum(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
+                  lienard(l, k + 1) = lienard(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
                   product = 0.0_dp
                   do j = 1, k - 1
                      product = product + c(l, d, flank, j)*c(l, h, flank, k - j)
@@ -87,7 +87,7 @@ contains
                   if (mod(k, 2) == 1) product = product + c(l, r, flank, shiftr(k + 1, 1))*c(l, r, flank, shiftr(k + 1, 1))
                   product = product + twice_root(l, flank)*c(l, r, flank, k + 1)
                   c(l, h, flank, k + 1) = product
-                  c(l, d, flank, k + 1) = product - (inverse(k + 1)*sign_of(flank))*momentum(l, k)
+                  c(l, d, flank, k + 1) = product - (inverse(k + 1)*sign_of(flank))*lienard(l, k)
                end do
             end do
          end do
@@ -99,7 +99,7 @@ contains
    end subroutine iso_viscous_springs
 
    !> Coefficients 1 to `order` with the film (37).
-   pure subroutine piezo_viscous_springs(flanks, strength, rate, compliance, load, force, films, momentum, compression)
+   pure subroutine piezo_viscous_springs(flanks, strength, rate, compliance, load, force, films, lienard, compression)
       !> Flanks: 1 or 2
       integer, intent(in) :: flanks
       !> a, c, kappa, q [-]
@@ -111,7 +111,7 @@ contains
       real(dp), intent(in) :: force(lanes, order)
       !> Series of H and C, of V and of d_1 and d_2 [-]; coefficients 0 are given
       real(dp), intent(inout) :: films(lanes, 0:order, 2)
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       real(dp), intent(inout) :: compression(lanes, 2, 0:order)
       !> Lane, series, flank, coefficient
       integer, parameter :: h = 1, d = 2, y = 3, w = 4, series = 4
@@ -122,7 +122,7 @@ contains
 
       stiffness = 1.0_dp/compliance
       share = 1.0_dp/rate
-      momentum(:, 1) = -load - force(:, 1)
+      lienard(:, 1) = -load - force(:, 1)
       do flank = 1, flanks
          !$omp simd
          do l = 1, lanes
@@ -132,7 +132,7 @@ contains
             inverse_spring(l, flank) = 1.0_dp/max(compression(l, flank, 0), shortest_rest*share(l))
             velocity(l, flank) = share(l)*logarithm(strength(l)*compliance(l)*inverse_spring(l, flank)*inverse_film(l, flank) &
                                                     *inverse_film(l, flank)*inverse_film(l, flank)*sqrt(inverse_film(l, flank)))
-            momentum(l, 1) = momentum(l, 1) + (sign_of(flank)*stiffness(l))*compression(l, flank, 0)
+            lienard(l, 1) = lienard(l, 1) + (sign_of(flank)*stiffness(l))*compression(l, flank, 0)
          end do
       end do
       do once = 1, 1
@@ -140,15 +140,15 @@ contains
          do k = 0, order - 1
             !$omp simd
             do l = 1, lanes
-               if (k > 0) momentum(l, k + 1) = -factor(k + 1)*force(l, k + 1)
+               if (k > 0) lienard(l, k + 1) = -factor(k + 1)*force(l, k + 1)
             end do
             do flank = 1, flanks
                !$omp simd private(of_spring, of_film)
                do l = 1, lanes
-                  if (k > 0) momentum(l, k + 1) = momentum(l, k + 1) &
+                  if (k > 0) lienard(l, k + 1) = lienard(l, k + 1) &
                                                   + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
                   c(l, h, flank, k + 1) = inverse(k + 1)*velocity(l, flank)
-                  c(l, d, flank, k + 1) = inverse(k + 1)*(velocity(l, flank) - sign_of(flank)*momentum(l, k))
+                  c(l, d, flank, k + 1) = inverse(k + 1)*(velocity(l, flank) - sign_of(flank)*lienard(l, k))
                   of_spring = 0.0_dp
                   of_film = 0.0_dp
                   do j = k - 1, 1, -1
@@ -157,7 +157,7 @@ contains
                   end do
                   if (k > 0) of_spring = of_spring + c(l, d, flank, k)*c(l, w, flank, 0)
                   if (k > 0) of_film = of_film + c(l, h, flank, k)*c(l, y, flank, 0)
-                  c(l, w, flank, k) = inverse_spring(l, flank)*((velocity(l, flank) - sign_of(flank)*momentum(l, k)) - of_spring)
+                  c(l, w, flank, k) = inverse_spring(l, flank)*((velocity(l, flank) - sign_of(flank)*lienard(l, k)) - of_spring)
                   c(l, y, flank, k) = inverse_film(l, flank)*(velocity(l, flank) - of_film)
                   velocity(l, flank) = -(inverse(k + 1)*share(l))*(c(l, w, flank, k) + 3.5_dp*c(l, y, flank, k))
                end do
@@ -171,7 +171,7 @@ contains
    end subroutine piezo_viscous_springs
 
    !> Coefficients 1 to `rupture_order` with a film that ruptures.
-   pure subroutine rupture_springs(flanks, strength, rate, compliance, load, force, expansion, films, momentum, compression)
+   pure subroutine rupture_springs(flanks, strength, rate, compliance, load, force, expansion, films, lienard, compression)
       !> Flanks: 1 or 2
       integer, intent(in) :: flanks
       !> a, c, kappa, q [-]
@@ -185,7 +185,7 @@ contains
       type(squeeze_expansion_t), intent(in) :: expansion(2)
       !> Series of H and C, of V and of d_1 and d_2 [-]; coefficients 0 are given
       real(dp), intent(inout) :: films(lanes, 0:order, 2)
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       real(dp), intent(inout) :: compression(lanes, 2, 0:order)
       !> Names as above; square = z**2, nest + i: T_i
       integer, parameter :: last_pair = (rupture_order - 2)/2
@@ -198,7 +198,7 @@ contains
 
       stiffness = 1.0_dp/compliance
       share = 1.0_dp/rate
-      momentum(:, 1) = -load - force(:, 1)
+      lienard(:, 1) = -load - force(:, 1)
       do flank = 1, flanks
          !$omp simd
          do l = 1, lanes
@@ -208,9 +208,9 @@ contains
             inverse_root(l, flank) = 1.0_dp/c(l, r, flank, 0)
             unit_share(l, flank) = stiffness(l)/strength(l)*expansion(flank)%inverse_unit(l)
             velocity(l, flank) = share(l)*c(l, r, flank, 0)*expansion(flank)%terms(l, 0)
-            momentum(l, 1) = momentum(l, 1) + (sign_of(flank)*stiffness(l))*compression(l, flank, 0)
+            lienard(l, 1) = lienard(l, 1) + (sign_of(flank)*stiffness(l))*compression(l, flank, 0)
             c(l, h, flank, 1) = velocity(l, flank)
-            c(l, d, flank, 1) = velocity(l, flank) - sign_of(flank)*momentum(l, 0)
+            c(l, d, flank, 1) = velocity(l, flank) - sign_of(flank)*lienard(l, 0)
          end do
          do i = 0, last_pair
             c(:, nest + i, flank, 0) = expansion(flank)%terms(:, 2*i)
@@ -222,7 +222,7 @@ contains
          do k = 1, rupture_order - 1
             !$omp simd
             do l = 1, lanes
-               momentum(l, k + 1) = -factor(k + 1)*force(l, k + 1)
+               lienard(l, k + 1) = -factor(k + 1)*force(l, k + 1)
             end do
             do flank = 1, flanks
                !$omp simd private(of_load, of_root, of_square, of_nest, of_velocity)
@@ -262,9 +262,9 @@ contains
                   end do
                   of_velocity = of_velocity + c(l, r, flank, k)*c(l, nest, flank, 0)
                   velocity(l, flank) = share(l)*(of_velocity + c(l, r, flank, 0)*c(l, nest, flank, k))
-                  momentum(l, k + 1) = momentum(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
+                  lienard(l, k + 1) = lienard(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
                   c(l, h, flank, k + 1) = inverse(k + 1)*velocity(l, flank)
-                  c(l, d, flank, k + 1) = inverse(k + 1)*(velocity(l, flank) - sign_of(flank)*momentum(l, k))
+                  c(l, d, flank, k + 1) = inverse(k + 1)*(velocity(l, flank) - sign_of(flank)*lienard(l, k))
                end do
             end do
          end do
@@ -274,12 +274,12 @@ contains
          compression(:, flank, 1:rupture_order) = c(:, d, flank, 1:)
       end do
       films(:, rupture_order + 1:, :) = 0.0_dp
-      momentum(:, rupture_order + 1:) = 0.0_dp
+      lienard(:, rupture_order + 1:) = 0.0_dp
       compression(:, :, rupture_order + 1:) = 0.0_dp
    end subroutine rupture_springs
 
    !> Coefficients 1 to `rupture_order` with the Reynolds piezo-viscous film.
-   pure subroutine reynolds_piezo_springs(flanks, strength, rate, pressing, compliance, load, force, expansion, films, momentum, &
+   pure subroutine reynolds_piezo_springs(flanks, strength, rate, pressing, compliance, load, force, expansion, films, lienard, &
                                           compression)
       !> Flanks: 1 or 2
       integer, intent(in) :: flanks
@@ -295,7 +295,7 @@ contains
       type(reynolds_piezo_expansion_t), intent(inout) :: expansion(2)
       !> Series of H and C, of V and of d_1 and d_2 [-]; coefficients 0 are given
       real(dp), intent(inout) :: films(lanes, 0:order, 2)
-      real(dp), intent(inout) :: momentum(lanes, 0:order)
+      real(dp), intent(inout) :: lienard(lanes, 0:order)
       real(dp), intent(inout) :: compression(lanes, 2, 0:order)
       !> Names as in module taylor_reynolds_piezo; d, and root = sqrt(H)
       integer, parameter :: h = 1, d = 2, p = 3, r = 4, root = 5, group = 6, s = 7, peak = 8, tail = 9, &
@@ -309,7 +309,7 @@ contains
 
       stiffness = 1.0_dp/compliance
       share = 1.0_dp/rate
-      momentum(:, 1) = -load - force(:, 1)
+      lienard(:, 1) = -load - force(:, 1)
       do before = 0, lanes - 1, half_block
          do flank = 1, flanks
             !$omp simd
@@ -327,10 +327,10 @@ contains
                of_one(l, flank) = stiffness(before + l)/strength(before + l)
                unit(l, flank) = 1.0_dp/expansion(flank)%inverse_unit(before + l)
                group_by_load(l, flank) = expansion(flank)%inverse_unit(before + l)/expansion(flank)%load_slope(before + l)
-               momentum(before + l, 1) = momentum(before + l, 1) &
+               lienard(before + l, 1) = lienard(before + l, 1) &
                                          + (sign_of(flank)*stiffness(before + l))*compression(before + l, flank, 0)
-               c(l, h, flank, 1) = expansion(flank)%momentum(before + l)
-               c(l, d, flank, 1) = expansion(flank)%momentum(before + l) - sign_of(flank)*momentum(before + l, 0)
+               c(l, h, flank, 1) = expansion(flank)%lienard(before + l)
+               c(l, d, flank, 1) = expansion(flank)%lienard(before + l) - sign_of(flank)*lienard(before + l, 0)
             end do
             do j = 1, highest_sigma_power
                c(:, tail + j, flank, 0) = expansion(flank)%terms(before + 1:before + half_block, first_term(j))
@@ -340,12 +340,12 @@ contains
          do k = 1, rupture_order - 1
             !$omp simd
             do l = 1, half_block
-               momentum(before + l, k + 1) = -factor(k + 1)*force(before + l, k + 1)
+               lienard(before + l, k + 1) = -factor(k + 1)*force(before + l, k + 1)
             end do
             do flank = 1, flanks
                !$omp simd private(low, high, of_p, of_r, of_root, of_group, of_load, of_power, of_peak, of_s, of_tail, of_velocity)
                do l = 1, half_block
-                  momentum(before + l, k + 1) = momentum(before + l, k + 1) &
+                  lienard(before + l, k + 1) = lienard(before + l, k + 1) &
                                                 + (inverse(k + 1)*sign_of(flank)*stiffness(before + l))*c(l, d, flank, k)
                   of_p = 0.0_dp
                   of_root = c(l, h, flank, k)*c(l, r, flank, 0)
@@ -424,7 +424,7 @@ contains
                   end do
                   of_velocity = unit(l, flank)*of_velocity + expansion(flank)%group(before + l)*c(l, root, flank, k)
                   c(l, h, flank, k + 1) = (inverse(k + 1)*share(before + l))*of_velocity
-                  c(l, d, flank, k + 1) = c(l, h, flank, k + 1) - (inverse(k + 1)*sign_of(flank))*momentum(before + l, k)
+                  c(l, d, flank, k + 1) = c(l, h, flank, k + 1) - (inverse(k + 1)*sign_of(flank))*lienard(before + l, k)
                end do
             end do
          end do
@@ -438,7 +438,7 @@ contains
          end do
       end do
       films(:, rupture_order + 1:, :) = 0.0_dp
-      momentum(:, rupture_order + 1:) = 0.0_dp
+      lienard(:, rupture_order + 1:) = 0.0_dp
       compression(:, :, rupture_order + 1:) = 0.0_dp
    end subroutine reynolds_piezo_springs
 

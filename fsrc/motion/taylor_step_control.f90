@@ -20,19 +20,19 @@ module taylor_step_control
    real(dp), parameter, public :: rounding = 2.0_dp*epsilon(1.0_dp)
    !> Longest step [periods]
    real(dp), parameter :: longest_step = 0.25_dp
-   !> g of the header, one over the time a momentum acts where nothing damps [1/periods]
+   !> g of the header, one over the time a Lienard variable acts where nothing damps [1/periods]
    real(dp), parameter, public :: free_rate = 2.0_dp
 
    !> Relative error of the load that counts like one of the film
    real(dp), parameter, public :: load_error = 100.0_dp
 
-   public :: lane_steps, evaluate_series, film_weight, momentum_weight
+   public :: lane_steps, evaluate_series, film_weight, lienard_weight
 
 contains
 
    !> Step of every lane. The last steps of a period are cut so that its end is hit, two of equal length
    !> rather than a long and a short one.
-   pure subroutine lane_steps(last_order, share, accuracy, force, thinner, film, momentum, damping_rate, &
+   pure subroutine lane_steps(last_order, share, accuracy, force, thinner, film, lienard, damping_rate, &
       remaining, limit, step)
       !> Order n of the series
       integer, intent(in) :: last_order
@@ -47,7 +47,7 @@ contains
       !> Series of H [-], order last
       real(dp), intent(in) :: film(lanes, 0:order)
       !> Series of V [-], order last
-      real(dp), intent(in) :: momentum(lanes, 0:order)
+      real(dp), intent(in) :: lienard(lanes, 0:order)
       !> d of the header [1/periods]
       real(dp), intent(in) :: damping_rate(lanes)
       !> What is left of the period [periods]
@@ -64,10 +64,10 @@ contains
       !$omp simd private(weight, level, last, next_to_last, reach, left, ends)
       do l = 1, lanes
          left = remaining(l)
-         weight = momentum_weight(thinner(l), damping_rate(l), force(l))
+         weight = lienard_weight(thinner(l), damping_rate(l), force(l))
          level = coarse_log(share*max(accuracy(l)*film_weight(thinner(l)), rounding*film(l, 0)))
-         last = coarse_log(max(abs(film(l, last_order)), abs(momentum(l, last_order))*weight))
-         next_to_last = coarse_log(max(abs(film(l, last_order - 1)), abs(momentum(l, last_order - 1))*weight))
+         last = coarse_log(max(abs(film(l, last_order)), abs(lienard(l, last_order))*weight))
+         next_to_last = coarse_log(max(abs(film(l, last_order - 1)), abs(lienard(l, last_order - 1))*weight))
          reach = min((level - last)*root, (level - next_to_last)*next_root, 0.0_dp)
          reach = min(coarse_power(reach), longest_step, limit(l))
          ! 1 where the step ends the period, else 0, by its sign: a comparison would be compiled as a branch, and the loop
@@ -85,8 +85,8 @@ contains
       film_weight = film/(1.0_dp + film*film)
    end function film_weight
 
-   !> Film error that an error of one in the momentum counts as [h_s].
-   elemental real(dp) function momentum_weight(film, damping_rate, force)
+   !> Film error that an error of one in the Lienard variable counts as [h_s].
+   elemental real(dp) function lienard_weight(film, damping_rate, force)
       !> H [-]
       real(dp), intent(in) :: film
       !> d of the header [1/periods]
@@ -94,40 +94,40 @@ contains
       !> P of the header [-]
       real(dp), intent(in) :: force
 
-      momentum_weight = max(1.0_dp/(free_rate + damping_rate), &
+      lienard_weight = max(1.0_dp/(free_rate + damping_rate), &
          damping_rate*film_weight(film)/(load_error*force))
-   end function momentum_weight
+   end function lienard_weight
 
    !> Sum of two series. Even and odd powers go apart: four short chains instead of two long ones.
-   pure subroutine evaluate_series(film, momentum, x, film_sum, momentum_sum)
+   pure subroutine evaluate_series(film, lienard, x, film_sum, lienard_sum)
       !> Series of H [-], order last
       real(dp), intent(in) :: film(lanes, 0:order)
       !> Series of V [-], order last
-      real(dp), intent(in) :: momentum(lanes, 0:order)
+      real(dp), intent(in) :: lienard(lanes, 0:order)
       !> Distance from the point of expansion [periods]
       real(dp), intent(in) :: x(lanes)
       !> H there [-]
       real(dp), intent(out) :: film_sum(lanes)
       !> V there [-]
-      real(dp), intent(out) :: momentum_sum(lanes)
-      real(dp) :: square, film_odd, film_even, momentum_odd, momentum_even
+      real(dp), intent(out) :: lienard_sum(lanes)
+      real(dp) :: square, film_odd, film_even, lienard_odd, lienard_even
       integer :: l, k
 
-      !$omp simd private(square, film_odd, film_even, momentum_odd, momentum_even, k)
+      !$omp simd private(square, film_odd, film_even, lienard_odd, lienard_even, k)
       do l = 1, lanes
          square = x(l)*x(l)
          film_even = film(l, order)
-         momentum_even = momentum(l, order)
+         lienard_even = lienard(l, order)
          film_odd = film(l, order - 1)
-         momentum_odd = momentum(l, order - 1)
+         lienard_odd = lienard(l, order - 1)
          do k = order - 2, 2, -2
             film_even = film_even*square + film(l, k)
-            momentum_even = momentum_even*square + momentum(l, k)
+            lienard_even = lienard_even*square + lienard(l, k)
             film_odd = film_odd*square + film(l, k - 1)
-            momentum_odd = momentum_odd*square + momentum(l, k - 1)
+            lienard_odd = lienard_odd*square + lienard(l, k - 1)
          end do
          film_sum(l) = film(l, 0) + (film_even*square + film_odd*x(l))
-         momentum_sum(l) = momentum(l, 0) + (momentum_even*square + momentum_odd*x(l))
+         lienard_sum(l) = lienard(l, 0) + (lienard_even*square + lienard_odd*x(l))
       end do
    end subroutine evaluate_series
 

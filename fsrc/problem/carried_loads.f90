@@ -236,7 +236,7 @@ contains
       !> d_1 and d_2 [m]
       real(dp), intent(out) :: compression(2)
       type(load_t) :: drive, coast
-      real(dp) :: low, high, gap, room, wider, by_film, by_load
+      real(dp) :: low, high, gap, space, wider, by_film, by_load
       integer :: pass
       integer, parameter :: most_passes = 200
       real(dp), parameter :: thinnest = 1.0e-16_dp
@@ -247,15 +247,15 @@ contains
       compression(1) = problem%contact%compliance*drive%load
       if (.not. has_two_flanks(problem)) return
       call width_compression(problem%contact%film, problem%initial_film, drive%load, wider, by_film, by_load)
-      room = problem%backlash - problem%initial_film + compression(1) + wider
+      space = problem%backlash - problem%initial_film + compression(1) + wider
       ! The gap is what backlash and drive film leave, and what the spring of the coast flank gives: its load falls as it grows.
-      low = max(room, thinnest)
+      low = max(space, thinnest)
       high = huge(1.0_dp)
       gap = low
       do pass = 1, most_passes
          coast = load_at_rest(problem%contact, gap, -problem%initial_velocity)
          call width_compression(problem%contact%film, gap, coast%load, wider, by_film, by_load)
-         if (gap - problem%contact%compliance*coast%load - wider > room) then
+         if (gap - problem%contact%compliance*coast%load - wider > space) then
             high = gap
          else
             low = gap
@@ -398,7 +398,7 @@ contains
    end function counts_as
 
    !> What the numbers of a state count as, each in its unit. The map of a period is known to a share of each number: where a tooth
-   !> strikes through a thin film, to more than that of the film.
+   !> impacts through a thin film, to more than that of the film.
    pure function sizes_of_state(problem, state, scale) result(sizes)
       type(problem_t), intent(in) :: problem
       !> Its numbers

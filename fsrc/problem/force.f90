@@ -197,14 +197,14 @@ contains
          real(dp), intent(in) :: distance
          real(dp), parameter :: section = 0.6180339887498949_dp
          !> After these what is left is 1e-9 of the wave, its height off by less than rounding.
-         integer, parameter :: passes = 42
+         integer, parameter :: iterations = 42
          real(dp) :: ends(2), inner(2), values(2)
-         integer :: pass, k
+         integer :: iteration, k
 
          ends = phase + [-distance, distance]
          inner = [ends(2) - section*(ends(2) - ends(1)), ends(1) + section*(ends(2) - ends(1))]
          values = [(size_at(inner(k)), k=1, 2)]
-         do pass = 1, passes
+         do iteration = 1, iterations
             if (values(1) >= values(2)) then
                ends(2) = inner(2)
                inner = [ends(2) - section*(ends(2) - ends(1)), inner(1)]

@@ -9,7 +9,7 @@
 module linear_motion
    use constants, only: two_pi
    use film_state, only: load_t
-   use flank_contact, only: load_at_rest, yields_at_rest
+   use flank_contact, only: load_at_rest, compliance_at_rest
    use kinds, only: dp
    use problem, only: flank_count, has_elastic_teeth, problem_t
    implicit none(type, external)
@@ -36,7 +36,7 @@ contains
       flanks = flank_count(problem)
       do flank = 1, flanks
          load = load_at_rest(problem%contact, films(flank), 0.0_dp)
-         call yields_at_rest(problem%contact, films(flank), load%load, share, compliance)
+         call compliance_at_rest(problem%contact, films(flank), load%load, share, compliance)
          stiffness(flank) = -load%by_film/share
          damping(flank) = -load%by_velocity/share
          if (has_elastic_teeth(problem)) spring(flank) = 1.0_dp/compliance

@@ -16,7 +16,7 @@ module problem
    use film_law, only: width_compression
    use film_state, only: load_t, state_number_t
    use flank_contact, only: contact_of, film_under, flank_contact_t, inner_count, inner_number, is_elastic, load_at_rest, &
-      yields_at_rest
+      compliance_at_rest
    use force, only: force_of, force_t, largest_size
    use kinds, only: dp
    use scene_types, only: scene_t
@@ -40,7 +40,7 @@ module problem
       real(dp) :: initial_velocity = 0.0_dp
    end type problem_t
 
-   !> Places of the numbers of a state: film of the drive flank h_1 [m], velocity z' [m/s], and where teeth give compressions d_1
+   !> Places of the numbers of a state: film of the drive flank h_1 [m], velocity z' [m/s], and of elastic teeth compressions d_1
    !> and d_2 [m]; behind them stand the states of the films, of the drive flank and then of the coast flank.
    integer, parameter, public :: of_film = 1, of_velocity = 2, of_drive_compression = 3, of_coast_compression = 4
 
@@ -48,7 +48,7 @@ module problem
    type, public :: settling_t
       !> Stiffness k [1/periods^2]
       real(dp) :: stiffness = huge(1.0_dp)
-      !> Damping d, 0 where the momentum of the motion holds it [1/periods]
+      !> Damping d, 0 where Lienard's variable holds it [1/periods]
       real(dp) :: damping = 0.0_dp
       !> Smaller one of the rates at which it creeps, or turns and swings [1/periods]
       real(dp) :: rate = huge(1.0_dp)
@@ -97,7 +97,7 @@ contains
       has_two_flanks = problem%backlash < huge(1.0_dp)
    end function has_two_flanks
 
-   !> Whether the teeth give.
+   !> Whether the teeth are elastic.
    elemental logical function has_elastic_teeth(problem)
       type(problem_t), intent(in) :: problem
 
@@ -283,7 +283,7 @@ contains
    end function reference_film
 
    !> Stiffness [N/m] and damping [N s/m] against slow motions of the gear: of each film -dW/dh and -dW/dh' without squeeze
-   !> velocity, where teeth give in series with its spring.
+   !> velocity, with elastic teeth in series with its spring.
    pure subroutine linearise(problem, films, stiffness, damping)
       type(problem_t), intent(in) :: problem
       !> Films of drive and coast flank [m]
@@ -299,7 +299,7 @@ contains
       do flank = 1, flank_count(problem)
          load = load_at_rest(problem%contact, films(flank), 0.0_dp)
          ! What of the gear's way the film takes; the spring takes the rest.
-         call yields_at_rest(problem%contact, films(flank), load%load, own_share, compliance)
+         call compliance_at_rest(problem%contact, films(flank), load%load, own_share, compliance)
          share = 1.0_dp
          if (has_elastic_teeth(problem)) share = 1.0_dp/(own_share - compliance*load%by_film)
          stiffness = stiffness - load%by_film*share

@@ -13,7 +13,7 @@ module resolved_scene
    use rupture, only: squeeze_group
    use scene_types, only: drag_t, excitation_t, iteration_newton, least_static_load, method_newmark, predictor_extrapolated, &
                           scene_t, until_steady
-   use taylor_step_control, only: film_weight, momentum_weight
+   use taylor_step_control, only: film_weight, lienard_weight
    implicit none(type, external)
    private
 
@@ -131,8 +131,8 @@ contains
    end function noise_floor_at
 
    !> Acceleration by which the error-controlled engine may be off at the steady film, by an accuracy of one [m/s2]. Its
-   !> step control holds errors of film and momentum against one measure, that of the film as it is, that of the
-   !> momentum by its weight; the film error moves the load by the stiffness, the other by the damping.
+   !> step control holds errors of film and Lienard variable against one measure, that of the film as it is, that of the
+   !> Lienard variable by its weight; the film error moves the load by the stiffness, the other by the damping.
    pure real(dp) function noise_of_steps(film, stiffness, damping, load, frequency)
       !> Steady film [m]
       real(dp), intent(in) :: film
@@ -144,13 +144,13 @@ contains
       real(dp), intent(in) :: frequency
       !> A step is held to the accuracy times its length and a share, 4 to 40 a period, and may be a quarter of one long:
       !> up to ten times the accuracy. So much may be there of the film errors, which add up over many steps, and of the
-      !> load, which a long step of much damping changes; a momentum is forgotten sooner.
+      !> load, which a long step of much damping changes; a Lienard variable is forgotten sooner.
       real(dp), parameter :: most_share = 10.0_dp
-      real(dp) :: film_error, momentum_error
+      real(dp) :: film_error, lienard_error
 
       film_error = film_weight(1.0_dp)
-      momentum_error = film_error/momentum_weight(1.0_dp, damping/frequency, most_share*load/(film*frequency**2))
-      noise_of_steps = film*(most_share*stiffness*film_error + damping*frequency*momentum_error)
+      lienard_error = film_error/lienard_weight(1.0_dp, damping/frequency, most_share*load/(film*frequency**2))
+      noise_of_steps = film*(most_share*stiffness*film_error + damping*frequency*lienard_error)
    end function noise_of_steps
 
 end module resolved_scene

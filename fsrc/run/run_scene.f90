@@ -73,7 +73,7 @@ contains
       if (allocated(error)) return
       call report_start(log, scene, judged)
       if (state%orbit > 0) then
-         call log%line('  found steady by the earlier run; its orbit is solved again from period '//integer_text(state%periods))
+   call log%line('  found steady by the earlier run; its periodic motion is solved again from period '//integer_text(state%periods))
       else if (state%periods > 0) then
          call log%line('  carried on from period '//integer_text(state%periods))
       end if

@@ -292,13 +292,13 @@ contains
       !> Wall time of its solution [s]
       real(dp), intent(in) :: solve_seconds
       character(:), allocatable :: film
-      real(dp) :: passes
+      real(dp) :: iterations
       integer :: part
 
-      passes = 0.0_dp
-      if (judged%count%steps > 0) passes = quantity_value(quantity_iterations_per_step, judged)
+      iterations = 0.0_dp
+      if (judged%count%steps > 0) iterations = quantity_value(quantity_iterations_per_step, judged)
       call log%line('  '//integer_text(judged%count%steps)//' steps in '//short_text(solve_seconds, 3)//' s, '// &
-                    short_text(passes, 3)//' iterations a step, '//integer_text(judged%count%cuts)// &
+                    short_text(iterations, 3)//' iterations a step, '//integer_text(judged%count%cuts)// &
                     ' steps cut where the film law had no value')
       if (.not. is_success(judged%status)) then
          film = ', without a film to start from'

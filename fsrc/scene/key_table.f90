@@ -91,7 +91,7 @@ module key_table
             computable=a_stiffness, given_by='gear'), &
       key_t('contact', 'flattening_included', logical_kind, '', '.true.', any_number, '', of_motions, &
             'Whether that stiffness, or gear.tooth_stiffness, contains the flattening of the flanks, as that of ISO 6336-1 '// &
-            'does; else a plane contact, elastic to the depth R, gives way beside it.'), &
+            'does; else a plane contact, elastic to the depth R, is compressed beside it.'), &
       key_t('lubricant', 'viscosity', real_kind, 'Pa s', 'required', positive, '', '', &
             'Dynamic viscosity eta0 at ambient pressure.', &
             example='0.3', &
@@ -393,7 +393,7 @@ module key_table
             'solver.method=taylor', &
             'Relative accuracy of the film that an error-controlled method aims at.'), &
       key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion|campaign|threshold', &
-            'End of the run: all periods, or as soon as the motion is verified to repeat; then one orbit is the window.', &
+      'End of the run: all periods, or as soon as the motion is verified to repeat; then one period of the motion is the window.', &
             with_gear='steady'), &
       key_t('solver', 'periods', integer_kind, '-', '120', at_least_1, '', of_motions, &
             'Periods of the force that are solved (the most, until steady); at least those of the spectrum window.'), &

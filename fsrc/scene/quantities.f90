@@ -343,7 +343,7 @@ module quantities
          'What the Floquet multipliers say of the periodic motion.', &
          'stable|stable, period doubling near|stable, fold near|stable, torus near|unstable', first_code=1), &
       quantity_t(quantity_floquet_multipliers, 'floquet_multipliers', '-', a_list, part_orbit, needs_verification, 'summary', &
-         'What an orbit leaves of a disturbance: real and imaginary part of each, the larger first.'), &
+         'What a periodic motion leaves of a disturbance: real and imaginary part of each, the larger first.'), &
       quantity_t(quantity_floquet_modulus, 'floquet_modulus', '-', a_number, part_orbit, needs_verification, 'sweep', &
          'Modulus of the largest Floquet multiplier.'), &
       quantity_t(quantity_pressure_maximum, 'pressure_maximum', 'Pa', a_number, part_regime, needs_regime, 'summary campaign', &

@@ -379,7 +379,7 @@ contains
 
          is_told = input%entries(i)%present .and. in_use(input, i)
          if (keys(i)%group == 'output') is_told = is_told .and. keys(i)%name /= 'directory' .and. keys(i)%name /= 'overwrite'
-         ! It matters to flanks that give way.
+         ! The key matters to elastic flanks.
          if (keys(i)%name == 'flattening_included') &
             is_told = is_told .and. (input%is_given('contact', 'stiffness') .or. input%word('film', 'law') == 'elastohydrodynamic' &
                                      .or. input%number('gear', 'tooth_stiffness') > 0.0_dp)

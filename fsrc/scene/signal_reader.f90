@@ -167,7 +167,7 @@ contains
          forces = amplitudes*orders
          unit = ' rad/s'
          if (input%choice('shaft', 'signal_kind') == kind_speed_rpm) unit = ' 1/min'
-         fate = 'gives way to speed_rpm'
+         fate = 'is replaced by speed_rpm'
       end subroutine shaft_motion
 
       !> How many orders are kept: what was asked for, or what holds nearly all of the power.

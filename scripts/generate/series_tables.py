@@ -6,7 +6,7 @@ in A on pieces of the line, four from each 2 + |A| = 2**n to the next. No piece 
 its distance from +-2i, so a term of its Chebyshev series is worth a factor of 17, and the polynomial can be
 followed well beyond its piece, as a step of the motion does.
 
-Where teeth give, the load is known and A is not. The same loads are tabulated turned round: A as polynomials
+With elastic teeth the load is known and A is not. The inverse is tabulated, too: A as polynomials
 in the load less its limit on separation, four pieces from each power of two to the next.
 
 For the piezo-viscous film the same is done in A and sigma, in cells: powers of both up to a total degree,
@@ -180,7 +180,7 @@ def pieces_module():
         "   !> Pieces in an octave of 2 + |A|, and number of the last one, counted from 0.",
         f"   integer, parameter, public :: octave_pieces = {OCTAVE_PIECES}",
         f"   integer, parameter, public :: last_piece = {OCTAVES * OCTAVE_PIECES}",
-        "   !> The loads turned round: A in ascending powers of (load - limit - centre)/unit. Binary",
+        "   !> The inverse, A of the load: A in ascending powers of (load - limit - centre)/unit. Binary",
         "   !> logarithm of the least load, and number of the last piece, counted from 0.",
         f"   integer, parameter, public :: first_load = {LOAD_OCTAVES[0]}",
         f"   integer, parameter, public :: last_load_piece = {len(LOAD_OCTAVES) * OCTAVE_PIECES - 1}",

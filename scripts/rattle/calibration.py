@@ -249,13 +249,15 @@ def fit_thresholds(model: Model, span: tuple[float, float]) -> Fit:
     heard = model.measurements.values > 0.5
     lower, upper = logs[0], logs[-1]
     useful = changes > 0
-    for at, calm_above, loud, is_useful, state in zip(limits, at_low, heard, useful, states[0], strict=True):
+    for at, calm_above, rattles, is_useful, state in zip(
+        limits, at_low, heard, useful, states[0], strict=True
+    ):
         if not is_useful:
-            if state != loud:
+            if state != rattles:
                 notes.add("A measured point disagrees with the model over the whole range.")
             continue
         # More of the key calms the motion where it rattles at the lower end.
-        if loud == calm_above:
+        if rattles == calm_above:
             upper = min(upper, at)
         else:
             lower = max(lower, at)

@@ -226,7 +226,7 @@ class Result(ResultFile):
 
     @property
     def window_periods(self) -> int:
-        """Periods that the program judged: those of the &spectrum group, or the orbit of a steady motion."""
+        """Periods that the program judged: those of the &spectrum group, or one period of a steady motion."""
         if str(self.input.get("solver", {}).get("until", "periods")).strip() == "steady":
             if not self.summary_path.exists():
                 raise ResultError(

@@ -140,7 +140,7 @@ contains
          end select
       end do
       close (unit)
-      ! In units of the first film, and of the stiffness under which the static load gives way by it.
+      ! In units of the first film, and of the stiffness which the static load compresses by it.
       scene%contact%backlash = backlash*scene%film%initial_film
       if (compliance > 0.0_dp) &
          scene%contact%stiffness = scene%excitation%static_load()/(compliance*scene%film%initial_film)

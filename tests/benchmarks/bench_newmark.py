@@ -54,9 +54,9 @@ def main() -> None:
     for line in subprocess.run(
         [bench, *INPUTS], check=True, capture_output=True, text=True
     ).stdout.splitlines():
-        name, nanoseconds, passes = line.split(",")
+        name, nanoseconds, iterations = line.split(",")
         rows.append((f"{name}: a Newmark step, 512 a period", f"{float(nanoseconds):.1f} ns", "60 ns"))
-        rows.append((f"{name}: Newton's iterations a step", f"{float(passes):.3f}", "2"))
+        rows.append((f"{name}: Newton's iterations a step", f"{float(iterations):.3f}", "2"))
     with tempfile.TemporaryDirectory() as place:
         base = [program, "--quiet", "--overwrite", "--output", place, "--set", "spectrum.verify=.false."]
         long_run = ["--set", "solver.periods=4000", INPUTS[0]]

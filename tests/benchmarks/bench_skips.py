@@ -86,10 +86,10 @@ def main() -> None:
     print("|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as place:
         base = [program, "--quiet", "--overwrite", "--output", place]
-        for what, when, dear, cheap in ROWS:
+        for what, when, full, short in ROWS:
             times: dict[bool, list[float]] = {True: [], False: []}
             for _ in range(ROUNDS):
-                for needed, options in ((True, dear), (False, cheap)):
+                for needed, options in ((True, full), (False, short)):
                     start = time.perf_counter()
                     subprocess.run([*base, *options], check=True, stdout=subprocess.DEVNULL)
                     times[needed].append(1e3 * (time.perf_counter() - start))

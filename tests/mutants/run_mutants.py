@@ -2,7 +2,7 @@
 """Break the code in one place at a time and see whether a test notices.
 
 Each mutant of mutants.txt is put into a scratch copy of the checkout. The file is compiled again, then the
-unit tests run, then the user tests of its room, then all others, until one fails: the mutant is killed. One
+unit tests run, then the user tests of its folder, then all others, until one fails: the mutant is killed. One
 that no test notices has survived.
 """
 
@@ -337,8 +337,8 @@ class Scratch:
         """The files of user tests that most likely see a change of `path`, and all others."""
         folder = self.place / "tests" / "user"
         every = {found.stem.removeprefix("test_"): found for found in sorted(folder.glob("test_*.py"))}
-        room = max((start for start in NEAREST_TESTS if path.startswith(start)), key=len)
-        near = [name for wish in NEAREST_TESTS[room] for name in every if fnmatch(name, wish)]
+        folder = max((start for start in NEAREST_TESTS if path.startswith(start)), key=len)
+        near = [name for wish in NEAREST_TESTS[folder] for name in every if fnmatch(name, wish)]
         # The test of the list would see every mutant, by its text.
         blind = {"mutants"}
         if path.startswith("scripts"):
@@ -426,12 +426,12 @@ def table(paths: Sequence[Path]) -> str:
     counts: dict[str, Counter[str]] = {}
     for row in rows:
         parts = row["place"].split("/")
-        room = "/".join(parts[:-1]) if parts[0] == "scripts" else "/".join(parts[:2])
-        for name in (room, "**all**"):
+        folder = "/".join(parts[:-1]) if parts[0] == "scripts" else "/".join(parts[:2])
+        for name in (folder, "**all**"):
             counts.setdefault(name, Counter())[row["outcome"]] += 1
     counts["**all**"] = counts.pop("**all**", Counter())
     lines = ["| place | killed | survived | no difference |", "| --- | ---: | ---: | ---: |"]
-    lines += [f"| {room} | {n[KILLED]} | {n[SURVIVED]} | {n[SAME]} |" for room, n in counts.items()]
+    lines += [f"| {folder} | {n[KILLED]} | {n[SURVIVED]} | {n[SAME]} |" for folder, n in counts.items()]
     survivors = [row for row in rows if row["outcome"] == SURVIVED]
     lines += ["", f"{len(rows)} of {len(order)} mutants of the list were tried. Survivors:", ""]
     lines += [f"- `{row['place']}`: {row['reason']}" for row in survivors]

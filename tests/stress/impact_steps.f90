@@ -6,7 +6,7 @@
 !> the variable is ln(h/(b - h)), so that both films have all their digits. The
 !> time is in periods of the force. A step keeps its values at the nodes: what happens within it is their polynomial.
 !>
-!> Where teeth give, each film has its logarithm and its spring a compression d,
+!> With elastic teeth each film has its logarithm and its spring a compression d,
 !>
 !>     h' = w(h, d k) ,   d' = h' - v ,   v' = (d_1 k - d_2 k - F(t))/m - g ,
 !>

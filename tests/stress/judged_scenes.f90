@@ -1,6 +1,6 @@
 !> Random scenes as users have them judged: half of them those of random_scenes, over decades of every quantity, half of
 !> them loose gears of a transmission at engine orders of 5 to 60 Hz, with forces up to 50 static loads. These
-!> fly far and strike hard. The forces of half of all scenes have several orders, up to 32. Campaigns vary loose gears, sweeps
+!> fly far and have hard impacts. The forces of half of all scenes have several orders, up to 32. Campaigns vary loose gears, sweeps
 !> scenes of either kind. A scene depends on its number and the seed alone.
 module judged_scenes
    use constants, only: standard_gravity

@@ -38,7 +38,7 @@ def change(tree: Tree) -> None:
 
 
 def look(folder: Path, scratch: Path) -> None:
-    """The film at rest carries the static load, elastic teeth take the law, and Newmark's method is refused."""
+    """The film at rest carries the static load, elastic teeth take the law, Newmark's method does not."""
     told = scene.read_summary(folder / "law_with_state.summary.nml")
     steady = REACH - (scene.STEADY_FORCE + scene.MASS * scene.GRAVITY) / STIFFNESS
     if not isclose(told["steady_film"], steady, rel_tol=1e-9):

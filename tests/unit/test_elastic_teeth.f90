@@ -400,8 +400,8 @@ contains
       end do
    end subroutine test_film_that_ceases
 
-   !> Turned round, load and force press the other flank: the same motion with its films exchanged. Soft teeth let the film of the
-   !> flank that carries nothing grow beyond the backlash.
+   !> With the other sign load and force press the other flank: the same motion with its films exchanged. Soft teeth let the film of
+   !> the flank that carries nothing grow beyond the backlash.
    subroutine test_mirror(checks)
       type(check_list_t), intent(inout) :: checks
       real(dp), parameter :: stiffness(2) = [1.0e6_dp, 5.0e7_dp], load(2) = [30.0_dp, 0.5_dp]

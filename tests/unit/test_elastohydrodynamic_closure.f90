@@ -197,7 +197,7 @@ contains
       end do
    end subroutine test_slopes
 
-   !> What flanks give way by for the width of their contact: by its formula, its slopes, and from gaps to films.
+   !> Compression of flanks by the width of their contact: by its formula, its slopes, and from gaps to films.
    subroutine test_width(checks)
       type(check_list_t), intent(inout) :: checks
       real(dp), parameter :: step = 1.0e-6_dp, tolerance = 1.0e-8_dp

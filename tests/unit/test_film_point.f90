@@ -24,7 +24,7 @@ contains
       call test_figure_5(checks)
       call test_published(checks)
       call test_limit(checks)
-      call test_referee(checks)
+      call test_numerical_solution(checks)
    end subroutine run_film_point_tests
 
    !> alpha p = 1.65 with the groups as printed, 0.826 with p halved, then 201 MPa at w* = -5e-4.
@@ -103,7 +103,7 @@ contains
    end subroutine test_limit
 
    !> The finite volumes find the exact loads, extrapolated from 2048 and 4096 cells.
-   subroutine test_referee(checks)
+   subroutine test_numerical_solution(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       type(film_point_t) :: point
@@ -120,6 +120,6 @@ contains
          exact = iso_viscous_response(contact, point)
          call checks%check(load > exact%load, 'pressure adds load')
       end do
-   end subroutine test_referee
+   end subroutine test_numerical_solution
 
 end module test_film_point

@@ -38,7 +38,7 @@ contains
       type(motion_count_t) :: count
       real(dp), dimension(periods*steps) :: films, velocities, accelerations
       real(dp) :: dt, h, v, a, next_h, next_v, next_a, last_h, force, error
-      integer :: choice, status, i, passes
+      integer :: choice, status, i, iterations
 
       dt = 1.0_dp/(600.0_dp*real(steps, dp))
       do choice = 0, 9
@@ -50,7 +50,7 @@ contains
          h = first_film
          v = first_velocity
          a = (load_at_zero - stiffness*h - damping*v - 219.2_dp - 29.4_dp)/3.0_dp
-         passes = 1
+         iterations = 1
          error = 0.0_dp
          do i = 1, periods*steps
             force = 199.2_dp + 20.0_dp*cos(two_pi*real(i, dp)/real(steps, dp))
@@ -61,7 +61,7 @@ contains
                next_v = v + dt*a
             end if
             do
-               passes = passes + 1
+               iterations = iterations + 1
                last_h = next_h
                next_a = (load_at_zero - stiffness*next_h - damping*next_v - force - 29.4_dp)/3.0_dp
                call newmark_formulas(dt, h, v, a, next_a, next_h, next_v)
@@ -75,7 +75,7 @@ contains
          end do
          ! Rounding of the load, 1e-13 m/s2, over some hundred steps.
          call checks%check_close(error, 0.0_dp, 1.0e-9_dp, 'successive iteration by hand: states')
-         call checks%check(int(count%evaluations) == passes, 'successive iteration by hand: iterations')
+         call checks%check(int(count%evaluations) == iterations, 'successive iteration by hand: iterations')
       end do
    end subroutine test_by_hand
 
@@ -91,7 +91,7 @@ contains
       type(newmark_state_t) :: state
       real(dp), dimension(steps) :: force, films, velocities, accelerations
       real(dp) :: dt, h, v, a, next_h, next_v, next_a, last_h, load, slope_h, slope_w, error
-      integer :: choice, status, i, passes, done
+      integer :: choice, status, i, iterations, done
 
       problem = problem_of(canonical_scene(law_iso_viscous, steps))
       problem%initial_film = idle_steady_film
@@ -108,14 +108,14 @@ contains
          call advance_period(kernel_of(problem%contact%film), problem, method, force, state, count, films, velocities, &
             accelerations, done, &
             status)
-         passes = 1
+         iterations = 1
          error = 0.0_dp
          do i = 1, steps
             next_a = a
             next_h = h + dt*v + 0.5_dp*dt*dt*a
             next_v = v + dt*a
             do
-               passes = passes + 1
+               iterations = iterations + 1
                last_h = next_h
                call film_load(problem%contact%film, next_h, next_v, load, slope_h, slope_w)
                next_a = next_a + (load - force(i) - problem%weight - 3.0_dp*next_a) &
@@ -130,7 +130,7 @@ contains
                abs(accelerations(i) - a)/100.0_dp)
          end do
          call checks%check_close(error, 0.0_dp, 1.0e-10_dp, 'newton by hand: states')
-         call checks%check(int(count%evaluations) == passes .and. count%cuts == 0, 'newton by hand: iterations')
+         call checks%check(int(count%evaluations) == iterations .and. count%cuts == 0, 'newton by hand: iterations')
       end do
    end subroutine test_newton_by_hand
 

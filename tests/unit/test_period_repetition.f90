@@ -30,11 +30,11 @@ contains
       call test_slow_films(checks)
    end subroutine run_period_repetition_tests
 
-   !> Note films one after another, with momenta if given; the first that repeats ends it.
-   pure subroutine note_all(films, momenta, momentum_weight, tolerance, place, orbit, distance)
+   !> Note films one after another, with velocities if given; the first that repeats ends it.
+   pure subroutine note_all(films, velocities, velocity_weight, tolerance, place, orbit, distance)
       real(dp), intent(in) :: films(0:)         !> States from the start on [-]
-      real(dp), intent(in) :: momenta(0:)       !> Momenta [-]
-      real(dp), intent(in) :: momentum_weight   !> Film that a momentum of one counts as [-]
+      real(dp), intent(in) :: velocities(0:)       !> Momenta [-]
+      real(dp), intent(in) :: velocity_weight   !> Film that a velocity of one counts as [-]
       real(dp), intent(in) :: tolerance         !> Distance that is small enough [-]
       integer, intent(out) :: place             !> State at which the motion was found to repeat; none: the last
       integer, intent(out) :: orbit             !> Its periods, 0: not found
@@ -42,34 +42,34 @@ contains
 
       type(orbit_watch_t) :: watch
 
-      call start_watch([films(0), momenta(0)], films(0), watch)
+      call start_watch([films(0), velocities(0)], films(0), watch)
       orbit = 0
       distance = huge(1.0_dp)
       do place = 1, ubound(films, 1)
-         call note_state(watch, [films(place), momenta(place)], films(place), [1.0_dp, momentum_weight], settling_t(), tolerance, &
+       call note_state(watch, [films(place), velocities(place)], films(place), [1.0_dp, velocity_weight], settling_t(), tolerance, &
                          orbit, distance)
          if (orbit > 0) return
       end do
       place = ubound(films, 1)
    end subroutine note_all
 
-   !> A state that stays repeats as soon as there are four of them, and only if the momentum stays as well.
+   !> A state that stays repeats as soon as there are four of them, and only if the velocity stays as well.
    subroutine test_rest(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      real(dp) :: films(0:40), momenta(0:40), distance
+      real(dp) :: films(0:40), velocities(0:40), distance
       integer :: place, orbit, i
 
       films = 1.0_dp
-      momenta = 0.3_dp
-      call note_all(films, momenta, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
+      velocities = 0.3_dp
+      call note_all(films, velocities, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
       call checks%check(orbit == 1 .and. place == 3, 'rest: found with the fourth state')
       call checks%check_close(distance, 0.0_dp, 0.0_dp, 'rest: distance')
-      momenta = [(real(i, dp), i=0, 40)]
-      call note_all(films, momenta, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
-      call checks%check(orbit == 0, 'a momentum that grows does not repeat')
-      call note_all(films, momenta, 1.0e-30_dp, 1.0e-6_dp, place, orbit, distance)
-      call checks%check(orbit == 1, 'a momentum without weight does not count')
+      velocities = [(real(i, dp), i=0, 40)]
+      call note_all(films, velocities, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
+      call checks%check(orbit == 0, 'a velocity that grows does not repeat')
+      call note_all(films, velocities, 1.0e-30_dp, 1.0e-6_dp, place, orbit, distance)
+      call checks%check(orbit == 1, 'a velocity without weight does not count')
    end subroutine test_rest
 
    !> x_n = 1 + c q^n is c q^n away from where it goes, and that is the bound: found at the first state within.
@@ -77,20 +77,20 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       real(dp), parameter :: start = 1.0e-3_dp, tolerance = 1.0e-7_dp, ratios(4) = [0.05_dp, 0.5_dp, 0.9_dp, 0.98_dp]
-      real(dp) :: films(0:600), momenta(0:600), distance
+      real(dp) :: films(0:600), velocities(0:600), distance
       integer :: place, orbit, i, k
 
-      momenta = 0.0_dp
+      velocities = 0.0_dp
       do k = 1, size(ratios)
          films = [(1.0_dp + start*ratios(k)**i, i=0, 600)]
-         call note_all(films, momenta, 1.0_dp, tolerance, place, orbit, distance)
+         call note_all(films, velocities, 1.0_dp, tolerance, place, orbit, distance)
          call checks%check(orbit == 1, 'bound: found')
          call checks%check_close(distance, start*ratios(k)**place/film_weight_at_one, 1.0e-3_dp*tolerance, &
             'bound: the distance that is left')
          call checks%check(start*ratios(k)**(place - 1) > 0.99_dp*tolerance*film_weight_at_one, 'bound: not later than it holds')
-         ! The same in the momentum, which weighs three times as much.
+         ! The same in the velocity, which weighs three times as much.
          call note_all([(1.0_dp, i=0, 600)], (films - 1.0_dp)/3.0_dp, 3.0_dp, tolerance, i, orbit, distance)
-         call checks%check(orbit == 1 .and. i == place, 'bound: the momentum counts by its weight')
+         call checks%check(orbit == 1 .and. i == place, 'bound: the velocity counts by its weight')
       end do
    end subroutine test_bound
 
@@ -98,12 +98,12 @@ contains
    subroutine test_slow(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      real(dp) :: films(0:1200), momenta(0:1200), distance
+      real(dp) :: films(0:1200), velocities(0:1200), distance
       integer :: place, orbit, i
 
-      momenta = 0.0_dp
+      velocities = 0.0_dp
       films = [(1.0_dp + 0.01_dp*0.999_dp**i, i=0, 1200)]
-      call note_all(films, momenta, 1.0_dp, 1.0e-2_dp, place, orbit, distance)
+      call note_all(films, velocities, 1.0_dp, 1.0e-2_dp, place, orbit, distance)
       call checks%check(orbit == 0, 'slow: a ratio near one is not trusted')
    end subroutine test_slow
 
@@ -112,22 +112,22 @@ contains
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
       real(dp), parameter :: unit = 1.0e-4_dp*film_weight_at_one
-      real(dp) :: films(0:4), momenta(0:4), distance
+      real(dp) :: films(0:4), velocities(0:4), distance
       integer :: place, orbit
 
-      momenta = 0.0_dp
+      velocities = 0.0_dp
       ! Distances 1, 0.05, 0.04, 0.032 units: 0.128 are left, not 0.0017.
       films = 1.0_dp + unit*[0.0_dp, 1.0_dp, 1.05_dp, 1.09_dp, 1.122_dp]
-      call note_all(films, momenta, 1.0_dp, 0.01e-4_dp, place, orbit, distance)
+      call note_all(films, velocities, 1.0_dp, 0.01e-4_dp, place, orbit, distance)
       call checks%check(orbit == 0, 'chance: the oldest ratio is small')
-      call note_all(films, momenta, 1.0_dp, 0.13e-4_dp, place, orbit, distance)
+      call note_all(films, velocities, 1.0_dp, 0.13e-4_dp, place, orbit, distance)
       call checks%check(orbit == 1 .and. place == 4, 'chance: found within its bound')
       call checks%check_close(distance, 0.128e-4_dp, 1.0e-8_dp, 'chance: bound by the largest ratio')
       ! Distances 1, 0.8, 0.64, 0.001 units: 0.004 are left, not 1.6e-6.
       films = 1.0_dp + unit*[0.0_dp, 1.0_dp, 1.8_dp, 2.44_dp, 2.441_dp]
-      call note_all(films, momenta, 1.0_dp, 0.003e-4_dp, place, orbit, distance)
+      call note_all(films, velocities, 1.0_dp, 0.003e-4_dp, place, orbit, distance)
       call checks%check(orbit == 0, 'chance: the newest ratio is small')
-      call note_all(films, momenta, 1.0_dp, 0.005e-4_dp, place, orbit, distance)
+      call note_all(films, velocities, 1.0_dp, 0.005e-4_dp, place, orbit, distance)
       call checks%check(orbit == 1, 'chance: found within the bound of the older ratio')
    end subroutine test_chance
 
@@ -135,13 +135,13 @@ contains
    subroutine test_orbits(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      real(dp) :: films(0:200), momenta(0:200), distance
+      real(dp) :: films(0:200), velocities(0:200), distance
       integer :: place, orbit, period, i
 
-      momenta = 0.0_dp
+      velocities = 0.0_dp
       do period = 1, 9
          films = [(1.0_dp + 0.01_dp*real(modulo(i, period)**2, dp) + 0.01_dp*0.8_dp**i, i=0, 200)]
-         call note_all(films, momenta, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
+         call note_all(films, velocities, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
          call checks%check(orbit == merge(period, 0, period <= 8), 'orbits: their periods')
          if (orbit > 0) call checks%check(0.01_dp*0.8_dp**place <= 1.01e-6_dp*film_weight_at_one, 'orbits: not too early')
       end do
@@ -151,13 +151,13 @@ contains
    subroutine test_half_still(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
 
-      real(dp) :: films(0:400), momenta(0:400), distance
+      real(dp) :: films(0:400), velocities(0:400), distance
       integer :: place, orbit, still, i
 
-      momenta = 0.0_dp
+      velocities = 0.0_dp
       do still = 0, 1
          films = [(merge(1.02_dp, 0.98_dp + 0.1_dp*0.9_dp**shiftr(i, 1), modulo(i, 2) == still), i=0, 400)]
-         call note_all(films, momenta, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
+         call note_all(films, velocities, 1.0_dp, 1.0e-6_dp, place, orbit, distance)
          call checks%check(orbit == 2, 'half still: period two')
          call checks%check(0.1_dp*0.9_dp**shiftr(place, 1) <= 1.05e-6_dp*film_weight_at_one, 'half still: not too early')
       end do
@@ -170,7 +170,7 @@ contains
 
       real(dp), parameter :: rates(4) = [0.5_dp, 0.9_dp, 0.98_dp, 0.995_dp]
       real(dp), parameter :: degree = atan(1.0_dp)/45.0_dp, start = 1.0e-3_dp, tolerance = 1.0e-6_dp
-      real(dp) :: films(0:3000), momenta(0:3000), angle, distance, left
+      real(dp) :: films(0:3000), velocities(0:3000), angle, distance, left
       integer :: place, orbit, rate, turn, i
       logical :: single, near
 
@@ -182,9 +182,9 @@ contains
             do i = 0, ubound(films, 1)
                angle = degree*(0.5_dp*real(turn, dp)*real(i, dp) + 23.0_dp)
                films(i) = 1.0_dp + start*rates(rate)**i*cos(angle)
-               momenta(i) = start*rates(rate)**i*sin(angle)
+               velocities(i) = start*rates(rate)**i*sin(angle)
             end do
-            call note_all(films, momenta, 1.0_dp, tolerance, place, orbit, distance)
+            call note_all(films, velocities, 1.0_dp, tolerance, place, orbit, distance)
             left = start*rates(rate)**place/film_weight_at_one
             single = single .and. orbit == 1
             near = near .and. left <= 2.0_dp*tolerance
@@ -200,18 +200,18 @@ contains
 
       real(dp), parameter :: multipliers(6) = [-0.998_dp, -0.995_dp, -0.5_dp, 0.5_dp, 0.995_dp, 0.998_dp]
       real(dp), parameter :: start = 1.0e-3_dp, tolerance = 1.0e-6_dp
-      real(dp) :: films(0:6000), momenta(0:6000), distance
+      real(dp) :: films(0:6000), velocities(0:6000), distance
       integer :: place, orbit, first, second, i
 
       do first = 1, size(multipliers)
          do second = 1, size(multipliers)
             do i = 0, ubound(films, 1)
                films(i) = 1.0_dp + start*(multipliers(first)**i + 0.3_dp*multipliers(second)**i)
-               momenta(i) = start*(0.5_dp*multipliers(first)**i - multipliers(second)**i)
+               velocities(i) = start*(0.5_dp*multipliers(first)**i - multipliers(second)**i)
             end do
-            call note_all(films, momenta, 1.0_dp, tolerance, place, orbit, distance)
+            call note_all(films, velocities, 1.0_dp, tolerance, place, orbit, distance)
             call checks%check(orbit == 1, 'pairs: one period')
-            call checks%check(max(abs(films(place) - 1.0_dp), abs(momenta(place)))/film_weight_at_one <= 1.5_dp*tolerance, &
+            call checks%check(max(abs(films(place) - 1.0_dp), abs(velocities(place)))/film_weight_at_one <= 1.5_dp*tolerance, &
                'pairs: not too early')
          end do
       end do
@@ -225,7 +225,7 @@ contains
       real(dp), parameter :: dampings(4) = [0.02_dp, 0.3_dp, 10.0_dp, 1.0e4_dp], rates(4) = [1.0e-4_dp, 0.013_dp, 0.1_dp, 0.6_dp]
       real(dp), parameter :: tolerance = 1.0e-7_dp
       type(settling_t) :: settling
-      real(dp) :: fast, left(0:1), distance, film, momentum
+      real(dp) :: fast, left(0:1), distance, film, velocity
       integer :: orbit, i, r, start, mean
       complex(dp) :: roots(2), parts(2), root
       type(orbit_watch_t) :: watch
@@ -241,10 +241,10 @@ contains
             do start = 0, 2
                ! Film and velocity that the start is away by; the slow direction alone is the second.
                film = merge(0.0_dp, 1.0e-3_dp, start == 0)
-               momentum = merge(1.0e-3_dp, merge(-1.0e-3_dp*rates(r), 0.0_dp, start == 1), start == 0)
-               parts(1) = (momentum - roots(2)*film)/(roots(1) - roots(2))
+               velocity = merge(1.0e-3_dp, merge(-1.0e-3_dp*rates(r), 0.0_dp, start == 1), start == 0)
+               parts(1) = (velocity - roots(2)*film)/(roots(1) - roots(2))
                parts(2) = film - parts(1)
-               call start_watch([1.0_dp + film, momentum], 1.0_dp + film, watch)
+               call start_watch([1.0_dp + film, velocity], 1.0_dp + film, watch)
                orbit = 0
                do mean = 1, 1000000
                   left(0) = real(sum(parts*exp(roots*mean)), dp)

@@ -15,7 +15,7 @@ module test_settling_forecast
 
    !> Fixed point of the linear maps, H and V.
    real(dp), parameter :: rest(2) = [1.2_dp, -0.4_dp]
-   !> Film that a momentum of one counts as.
+   !> Film that a velocity of one counts as.
    real(dp), parameter :: weight = 0.1_dp
 
    public :: run_settling_forecast_tests
@@ -34,13 +34,13 @@ contains
    end subroutine run_settling_forecast_tests
 
    !> Forecast from the first states of x -> rest + M (x - rest).
-   subroutine follow(map, states, start, found, film, momentum)
+   subroutine follow(map, states, start, found, film, velocity)
       real(dp), intent(in) :: map(2, 2)   !> M
       integer, intent(in) :: states       !> States seen
       real(dp), intent(in) :: start(2)    !> First difference from the fixed point
       logical, intent(out) :: found       !> Whether there is a forecast
       real(dp), intent(out) :: film       !> Forecast
-      real(dp), intent(out) :: momentum   !> Forecast
+      real(dp), intent(out) :: velocity   !> Forecast
       type(orbit_watch_t) :: watch
       real(dp) :: away(2), place(2), distance
       integer :: i, orbit
@@ -53,7 +53,7 @@ contains
       end do
       call forecast_rest(watch, weight, huge(1.0_dp), orbit, place)
       film = place(1)
-      momentum = place(2)
+      velocity = place(2)
       found = orbit > 0
    end subroutine follow
 
@@ -65,17 +65,17 @@ contains
                                                      -0.9_dp, 0.0_dp, 0.05_dp, 0.4_dp, &  ! one alternates
                                                      0.6_dp, -0.7_dp, 0.7_dp, 0.6_dp, &   ! a spiral, |lambda| = 0.92
                                                      0.95_dp, 0.0_dp, 0.0_dp, 0.0_dp], [2, 2, 4])  ! one direction is forgotten
-      real(dp) :: film, momentum
+      real(dp) :: film, velocity
       integer :: i
       logical :: found
 
       do i = 1, 4
-         call follow(maps(:, :, i), 5, start, found, film, momentum)
+         call follow(maps(:, :, i), 5, start, found, film, velocity)
          call checks%check(found, 'linear map: forecast')
          ! Differences of 1e-4 and more, divided by 1 - 0.95: 1e-16/1e-4*20 of 0.05.
          call checks%check_close(film, rest(1), 1.0e-12_dp, 'linear map: film')
-         call checks%check_close(momentum, rest(2), 1.0e-11_dp, 'linear map: momentum')
-         call follow(maps(:, :, i), 4, start, found, film, momentum)
+         call checks%check_close(velocity, rest(2), 1.0e-11_dp, 'linear map: velocity')
+         call follow(maps(:, :, i), 4, start, found, film, velocity)
          call checks%check(.not. found, 'one estimate is none')
       end do
    end subroutine test_linear_maps
@@ -84,24 +84,24 @@ contains
    !> doubled period only over two periods.
    subroutine test_refusals(checks)
       type(check_list_t), intent(inout) :: checks  !> Collects the results
-      real(dp) :: film, momentum
+      real(dp) :: film, velocity
       logical :: found
 
-      call follow(diagonal(1.02_dp, 0.5_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, momentum)
+      call follow(diagonal(1.02_dp, 0.5_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, velocity)
       call checks%check(.not. found, 'unstable')
-      call follow(diagonal(-1.02_dp, 0.5_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, momentum)
+      call follow(diagonal(-1.02_dp, 0.5_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, velocity)
       call checks%check(.not. found, 'leaving towards a doubled period')
-      call follow(diagonal(0.999_dp, 0.5_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, momentum)
+      call follow(diagonal(0.999_dp, 0.5_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, velocity)
       call checks%check(.not. found, 'too slow to tell')
-      call follow(diagonal(0.2_dp, 0.1_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, momentum)
+      call follow(diagonal(0.2_dp, 0.1_dp), 8, [1.0e-3_dp, 1.0e-3_dp], found, film, velocity)
       call checks%check(.not. found, 'settles by itself')
-      call follow(diagonal(0.9_dp, 0.5_dp), 5, [3.0_dp, 1.0_dp], found, film, momentum)
+      call follow(diagonal(0.9_dp, 0.5_dp), 5, [3.0_dp, 1.0_dp], found, film, velocity)
       call checks%check(.not. found, 'far away')
    end subroutine test_refusals
 
    pure function diagonal(first, second) result(map)
       real(dp), intent(in) :: first   !> Multiplier of the film
-      real(dp), intent(in) :: second  !> Multiplier of the momentum
+      real(dp), intent(in) :: second  !> Multiplier of the velocity
       real(dp) :: map(2, 2)
 
       map = reshape([first, 0.0_dp, 0.0_dp, second], [2, 2])

@@ -109,7 +109,7 @@ contains
       end do
    end subroutine test_load_after_flight
 
-   !> The film settles at once, the momentum by one per cent a period: two ratios of the distance are small before the slow
+   !> The film settles at once, the velocity by one per cent a period: two ratios of the distance are small before the slow
    !> direction is all that is left.
    subroutine test_slow_direction(checks)
       type(check_list_t), intent(inout) :: checks

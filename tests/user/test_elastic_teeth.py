@@ -92,8 +92,8 @@ def test_a_sweep_carries_the_springs_along(run, repository: Path, tmp_path: Path
         assert np.ptp(both.acceleration_maximum) < 1e-4 * both.acceleration_maximum.max()
 
 
-# A tooth so soft that it gives by hundreds of films: tens of thousands of steps a period, whose rounding
-# disturbs the period map.
+# A tooth so soft that its compression is hundreds of films: tens of thousands of steps a period, whose
+# rounding disturbs the period map.
 SOFT = """
 &contact radius = 0.0158551134, length = 3.42004741e-3, backlash = 9.3876104e-5, stiffness = 3.1331994e6 /
 &lubricant viscosity = 0.0334465569, pressure_viscosity = 1.94882791e-8 /
@@ -111,7 +111,7 @@ SOFT = """
 # The tooth hits its flank with 0.19 m/s through a film of 24 nm where a period begins, and moves 0.4 mm in a
 # period:
 # what rounding leaves of its velocity is much against that film and nothing against the velocity.
-STRIKING = """
+HARD = """
 &contact radius = 2.20778e-3, length = 0.01475016, backlash = 3.705e-4, stiffness = 3.15849e6 /
 &lubricant viscosity = 6.852661e-3, pressure_viscosity = 1.444374e-8 /
 &kinematics entrainment_speed = 0.3047978 /
@@ -128,8 +128,8 @@ STRIKING = """
 @pytest.mark.parametrize(
     ("text", "multiplier", "error"),
     # The second one by differences of 1e-3 and of 1e-5: the same to 1e-3.
-    [(SOFT, -0.15366, 1e-3), (STRIKING, -4.02e-3, 1e-2)],
-    ids=["soft", "striking"],
+    [(SOFT, -0.15366, 1e-3), (HARD, -4.02e-3, 1e-2)],
+    ids=["soft", "hard"],
 )
 def test_a_motion_of_very_many_steps_repeats_after_its_own_period(
     text: str, multiplier: float, error: float, run, tmp_path: Path

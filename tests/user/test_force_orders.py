@@ -37,7 +37,7 @@ TAYLOR = {
 FILMS = (4.3852019e-07, 2.0769293e-06)
 ACCELERATIONS = (-40.487302, 67.754164)
 HARMONICS = (9.3167804, 18.0493493, 16.1777555, 9.9559708, 7.8172578, 5.8696725, 4.3752847, 3.1695731)
-LOUDNESS = {
+SEVERITY = {
     "acceleration_rms": 21.323978,
     "crest_factor": 3.17737,
     "acceleration_kurtosis": 4.67967,
@@ -74,7 +74,7 @@ def test_motion_under_three_orders_is_the_reference(run, scene_text, tmp_path: P
     assert summary["harmonic_distortion"] == pytest.approx(0.590501, abs=1e-6)
     assert summary["harmonic_count"] == 14
     assert summary["verification"] == "verified"
-    for name, value in LOUDNESS.items():
+    for name, value in SEVERITY.items():
         assert summary[name] == pytest.approx(value, rel=2e-6), name
     assert summary["dissipated_power"] == pytest.approx(600.0 * summary["dissipated_energy"], rel=1e-15)
 

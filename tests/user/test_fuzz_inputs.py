@@ -147,10 +147,10 @@ def is_short(echo: str) -> bool:
     solver = f90nml.reads(echo)["solver"]
     steps = solver["steps_per_period"]
     # A step may take as many iterations as the limit allows.
-    passes = (
+    iterations = (
         min(solver["iteration_limit"], 100) if solver["iteration"] == "newton" else solver["iteration_limit"]
     )
-    return steps * solver["periods"] * passes <= 50 * MOST_STEPS and steps <= MOST_ROWS_A_PERIOD
+    return steps * solver["periods"] * iterations <= 50 * MOST_STEPS and steps <= MOST_ROWS_A_PERIOD
 
 
 def assert_summary(folder: Path, code: int) -> None:

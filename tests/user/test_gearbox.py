@@ -378,11 +378,11 @@ def test_all_pairs_stand_together_in_one_figure(solve, tmp_path: Path) -> None:
     }
     with style.house_style(own=False):
         figure = campaign_map.draw_pairs(sections, ("rattle_class", "film_force_rms"), campaign_map.Options())
-    first, second, loud, louder, bar = figure.axes
+    first, second, force, larger, bar = figure.axes
     assert [axes.get_title(loc="left") for axes in (first, second)] == ["1st", "4th"]
-    assert [axes.get_ylabel() for axes in (first, loud)] == ["Drag torque [N m]"] * 2
-    assert loud.get_xlabel() == "Shaft speed [1/min]" and bar.get_ylabel() == "Film force rms [N]"
-    meshes = [axes.collections[0] for axes in (loud, louder)]
+    assert [axes.get_ylabel() for axes in (first, force)] == ["Drag torque [N m]"] * 2
+    assert force.get_xlabel() == "Shaft speed [1/min]" and bar.get_ylabel() == "Film force rms [N]"
+    meshes = [axes.collections[0] for axes in (force, larger)]
     assert meshes[0].norm.vmin == meshes[1].norm.vmin and meshes[0].norm.vmax == meshes[1].norm.vmax
     for mesh, alone in zip(meshes, campaign.pairs, strict=True):
         assert np.array_equal(np.ravel(mesh.get_array()), alone.grid("film_force_rms").T.ravel())

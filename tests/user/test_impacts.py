@@ -150,7 +150,7 @@ def stated_error(summary: dict, key: str) -> float:
 def test_a_motion_that_is_irregular_now_and_then_is_uncertain(run, scene_text, tmp_path: Path) -> None:
     """A tooth in resonance that hits a flank once in a while: irregular in its window, quiet in the next.
 
-    An independent solution finds the same window quiet: which one holds a strike is chance.
+    An independent solution finds the same window quiet: which one holds an impact is chance.
     """
     text = scene_text(
         contact={"radius": "0.02538974396158362", "length": "0.0072436764857351735"},

@@ -29,7 +29,7 @@ def squeeze_groups(count: int, largest: float) -> np.ndarray:
     return np.concatenate([random.uniform(-5.0, 5.0, count - sizes.size), sizes])
 
 
-# A = 0, where the tables of approach and separation meet, and |A| = 1e9, where a root gives way to |A|.
+# A = 0, where the tables of approach and separation meet, and |A| = 1e9, where |A| takes the place of a root.
 SPECIAL = np.array([0.0, 5e-324, -5e-324, 1e-300, -1e-16, 1e-16, 1e-8, 10.0, 100.0, 3000.0, 1e8, -1e8])
 ENDS = np.array([np.nextafter(side * 1e9, side * way) for side in (-1.0, 1.0) for way in (0.0, 2e9)])
 GROUPS = np.concatenate([squeeze_groups(300, 1e8), SPECIAL, ENDS])

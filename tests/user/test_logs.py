@@ -300,8 +300,8 @@ def told_by_the_table(gear: str, told: Mapping[str, Any]) -> list[str]:
     known = "acceleration_minimum" in told
     peak = max(-told["acceleration_minimum"], told["acceleration_maximum"]) if known else None
     least = 1e6 * told["film_minimum"] if "film_minimum" in told else None
-    loud = [told.get(name) for name in ("acceleration_rms", "film_force_rms", "dissipated_power")]
-    numbers = ["-" if number is None else short(number, 4) for number in (least, peak, *loud)]
+    sizes = [told.get(name) for name in ("acceleration_rms", "film_force_rms", "dissipated_power")]
+    numbers = ["-" if number is None else short(number, 4) for number in (least, peak, *sizes)]
     verdict = told.get("verdict", told["status"])
     return [gear, verdict, word + (", verified" if told.get("verified") else ""), *numbers]
 

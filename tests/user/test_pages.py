@@ -450,9 +450,9 @@ def test_the_page_of_a_gearbox_is_its_table(run, repository, tmp_path):
     assert page.headings[0] == "Rattle of the gear pairs of gearbox"
     head, *rows = next(table for table in page.tables if tuple(table[0]) == PAIRS)
     assert [row[0] for row in rows] == [*box["gears"], "together, uncorrelated", "together, in phase"]
-    loud = [{"film_force_rms": box[f"film_force_rms_{how}"]} for how in ("uncorrelated", "in_phase")]
-    loud[0]["dissipated_power"] = box["dissipated_power"]
-    for row, told in zip(rows, (*box["gears"].values(), *loud), strict=True):
+    sums = [{"film_force_rms": box[f"film_force_rms_{how}"]} for how in ("uncorrelated", "in_phase")]
+    sums[0]["dissipated_power"] = box["dissipated_power"]
+    for row, told in zip(rows, (*box["gears"].values(), *sums), strict=True):
         assert row[1] == told.get("rattle_class", "-")
         assert row[2] == told.get("verdict", "-")
         for cell, (name, unit) in zip(row[3:], COLUMNS.items(), strict=True):

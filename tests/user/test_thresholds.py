@@ -23,7 +23,7 @@ THRESHOLD = {"key": "'load.force_amplitude'", "first": "5.0", "last": "455.0", "
 SPEEDS = {"vary": "'kinematics.entrainment_speed'", "values(:, 1)": "0.8, 1.9, 9.5"}
 # Brackets as narrow as asked for, whatever is verified.
 NARROW = {"periods": "8", "verify": ".false."}
-LOUD = {"criterion": "'film_force_rms'", "level": "100.0"}
+SEVERE = {"criterion": "'film_force_rms'", "level": "100.0"}
 
 
 def threshold_text(scene_text, campaign=SPEEDS, **changes: dict) -> str:
@@ -113,7 +113,7 @@ def test_several_thresholds_on_a_line(found, scene_text) -> None:
 
 def test_every_column_has_the_unit_of_what_it_holds(found, scene_text, tmp_path: Path) -> None:
     threshold = {"key": "'load.mass'", "first": "1.0", "last": "5.0", "count": "3", "tolerance": "0.5"}
-    found(threshold_text(scene_text, threshold={**threshold, **LOUD}))
+    found(threshold_text(scene_text, threshold={**threshold, **SEVERE}))
     units = {"kinematics.entrainment_speed": "m/s", "lower": "kg", "upper": "kg", "width": "kg"}
     units |= {"film_force_rms_below": "N", "film_force_rms_above": "N"}
     told = package.read(tmp_path / "results" / "scene.rattle").units
@@ -171,7 +171,7 @@ def test_ends_go_apart_until_both_are_verified(found, run, scene_text, tmp_path:
 
 
 def test_a_line_without_threshold_is_told(found, scene_text, run, tmp_path: Path) -> None:
-    rows = found(threshold_text(scene_text, threshold={**LOUD, "last": "60.0"}))
+    rows = found(threshold_text(scene_text, threshold={**SEVERE, "last": "60.0"}))
     assert rows["trace"].tolist() == [1, 2, 3]
     alone = rows[rows["crossing"] == 0]
     assert 0 < len(alone) < 3
@@ -206,7 +206,7 @@ def test_several_axes_and_other_scenes(found, scene_text, tmp_path: Path) -> Non
         "last": "4.0, 3.0",
         "count": "2, 3",
     }
-    coarse = {**LOUD, "tolerance": "1e-2"}
+    coarse = {**SEVERE, "tolerance": "1e-2"}
     rows = found(threshold_text(scene_text, campaign=two, threshold=coarse))
     assert rows["trace"].tolist() == [1, 2, 3, 4, 5, 6]
     assert rows["kinematics.entrainment_speed"].tolist() == [1.0] * 3 + [4.0] * 3
@@ -226,7 +226,7 @@ def test_several_axes_and_other_scenes(found, scene_text, tmp_path: Path) -> Non
 
 
 def test_logarithmic_range_and_integers(found, scene_text) -> None:
-    coarse = {**LOUD, "tolerance": "1e-3", "scale": "'logarithmic'"}
+    coarse = {**SEVERE, "tolerance": "1e-3", "scale": "'logarithmic'"}
     rows = found(threshold_text(scene_text, threshold=coarse))
     crossed = rows[rows["crossing"] > 0]
     np.testing.assert_allclose(crossed["upper"] / crossed["lower"], 91.0 ** (1 / 1024))

@@ -21,7 +21,7 @@ module load_pieces
    !> Pieces in an octave of 2 + |A|, and number of the last one, counted from 0.
    integer, parameter, public :: octave_pieces = 4
    integer, parameter, public :: last_piece = 96
-   !> The loads turned round: A in ascending powers of (load - limit - centre)/unit. Binary
+   !> The inverse, A of the load: A in ascending powers of (load - limit - centre)/unit. Binary
    !> logarithm of the least load, and number of the last piece, counted from 0.
    integer, parameter, public :: first_load = -32
    integer, parameter, public :: last_load_piece = 191

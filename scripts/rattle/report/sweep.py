@@ -72,11 +72,11 @@ def numbers(result: Result) -> list[str]:
     values, kept = result[result.names[0]], np.isin(result["status"], SUCCESSES)
     rows = [["Motions", str(result.row_count)], ["of these failed", str(int((~kept).sum()))]]
     if kept.any():
-        loud = int(np.argmax(np.where(kept, peaks(result), -np.inf)))
+        worst = int(np.argmax(np.where(kept, peaks(result), -np.inf)))
         thin = int(np.argmin(np.where(kept, result["film_minimum"], np.inf)))
         rows += [
-            ["Largest acceleration", page.value(float(peaks(result)[loud]), "m/s2", page.FEW_DIGITS)],
-            [f"at a {name} of", page.value(float(values[loud]), unit, page.FEW_DIGITS)],
+            ["Largest acceleration", page.value(float(peaks(result)[worst]), "m/s2", page.FEW_DIGITS)],
+            [f"at a {name} of", page.value(float(values[worst]), unit, page.FEW_DIGITS)],
             ["Thinnest film", page.value(float(result["film_minimum"][thin]), "m", page.FEW_DIGITS)],
             [f"at a {name} of", page.value(float(values[thin]), unit, page.FEW_DIGITS)],
         ]

@@ -139,7 +139,7 @@ static int flanks_rates(const scene_t *p, double drive, const double *s, double 
    return isfinite(d[1]) && isfinite(d[2]) ? 0 : 1;
 }
 
-/* Several orders, two flanks, teeth that give: states y, v or y, z, v or y, z, coast film, v (scenes.py). */
+/* Several orders, two flanks, elastic teeth: states y, v or y, z, v or y, z, coast film, v (scenes.py). */
 static int changed_rates(realtype tau, N_Vector state, N_Vector slope, void *data)
 {
    const scene_t *p = data;

@@ -31,14 +31,14 @@ position of the gear over h0 and e = (Q + m g)/(k h0) the compliance of a tooth,
 
     v' = a (w_1 - w_2 - 1 - sum_n q_n cos(2 pi n tau + phi_n)),
     rigid teeth    w_1 = G(y, v),  w_2 = G(b - y, -v),  y = z,
-    teeth that give    z' = v,  e w_1 = y_1 - z,  e w_2 = y_2 - (b - z),
+    elastic teeth    z' = v,  e w_1 = y_1 - z,  e w_2 = y_2 - (b - z),
                        y_1' = g(y_1, w_1),  y_2' = g(y_2, w_2),
 
 where g is G solved for the velocity: sqrt(y) (1 - y w)/c for (35), -ln(w y^(7/2))/c for (37). With one
 flank w_2 = 0. The motion starts at y_1 = 1, v = 0, the films at no velocity. k is twice the stiffness of the
 steady film. At F0 = 3 Q the film of (37) lets the tooth go: w falls towards 0, g gets infinitely
 steep, and explicit steps do not follow. That scene is a group of its own ("a film that ruptures").
-The motion of (35) with teeth that give at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is
+The motion of (35) with elastic teeth at F0 = 3 Q is chaotic, nobody knows it after 200 periods: it is
 judged in the last ten of 20 periods, timed over 200, and a group of its own as well. With all three changes
 the films of (35) and (37) are a group each.
 
