@@ -61,7 +61,7 @@ WIDE_REGISTERS := $(shell $(FC) $(ARCHITECTURE) -Q --help=target 2>/dev/null | a
 MODULES := $(filter-out bindings,$(shell sed -n 's/^| `\([a-z]*\)\/` |.*/\1/p' fsrc/README.md))
 # Folders within folders that this build takes.
 PARTS := film/coefficients campaign/$(if $(MPI),mpi,serial)
-FOLDERS := $(foreach room,$(MODULES),$(room) $(filter $(room)/%,$(PARTS)))
+FOLDERS := $(foreach folder,$(MODULES),$(folder) $(filter $(folder)/%,$(PARTS)))
 SOURCES := $(foreach folder,$(FOLDERS),$(sort $(wildcard fsrc/$(folder)/*.f90))) $(BUILD)/ready_inputs.f90
 # What rattle --template NAME prints.
 READY_INPUTS := motion=input/loose_pair.nml gearbox=input/gearbox.nml film=input/film.nml sweep=input/sweep.nml \
@@ -140,7 +140,7 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 	@$(FC) $(FFLAGS) -J$(BUILD) -c $< -o $@
 
 # The folders that compute may not even widen a kind unseen. (Elsewhere gfortran 12 warns of text positions.)
-COMPUTING := $(foreach room,$(filter-out foundation scene files run campaign,$(MODULES)),$(wildcard fsrc/$(room)/*.f90))
+COMPUTING := $(foreach folder,$(filter-out foundation scene files run campaign,$(MODULES)),$(wildcard fsrc/$(folder)/*.f90))
 $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),$(WIDENING))
 
 $(BUILD)/film_series.o $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o $(BUILD)/step_nodes.o: private FFLAGS += $(LANE_FLAGS)
@@ -379,10 +379,11 @@ doc:
 	@echo '$(BUILD)/doc/index.html'
 
 # A sample of the stress study: a silent failure fails it.
-stress-sample: $(BUILD)/stress_summaries $(BUILD)/stress_scenes
+stress-sample: $(BUILD)/stress_summaries $(BUILD)/stress_scenes $(BUILD)/rattle $(BUILD)/kernels/built
 	@echo 'stress, a sample'
 	@$(BUILD)/stress_summaries --first 20 --scenes 100 --campaigns 1
 	@$(BUILD)/stress_scenes --scenes 300 --csv $(BUILD)/stress_sample.csv
+	@$(PYTHON) tests/stress/told_alike.py $(BUILD)/rattle --groups 4
 
 # --- style -------------------------------------------------------------------------------------------
 

@@ -209,7 +209,7 @@ def faults_of(program: Path, case: Case, recorded: list[str], folder: Path) -> I
             for word in ("--set", f"{key}={value!r}")
         ]
         ended = _call(program, folder, *settings, "--overwrite", "one.nml")
-        invalid = bool(rows["status"][row] == _invalid_status())
+        invalid = bool(rows["status"][row] == invalid_status())
         if (ended.returncode == 2) != invalid:
             yield f"row {row + 1}: status {rows['status'][row]}, alone it ends with {ended.returncode}"
             continue
@@ -221,7 +221,7 @@ def faults_of(program: Path, case: Case, recorded: list[str], folder: Path) -> I
         yield from (f"row {row + 1}: {line}" for line in _differences(rows, row, alone, recorded))
 
 
-def _invalid_status() -> int:
+def invalid_status() -> int:
     return next(code for code, word in CODES["status"].items() if word == "invalid")
 
 
@@ -254,11 +254,11 @@ def _differences(rows, row: int, alone: dict, recorded: list[str]) -> Iterator[s
             continue
         if coarse and name in SPECTRAL and abs(told - here) <= BY_INTEGRALS * max(told, 1.0):
             continue
-        if not abs(told - here) <= TOLERANCE * max(abs(told), _scale(name, alone)):
+        if not abs(told - here) <= TOLERANCE * max(abs(told), scale(name, alone)):
             yield f"{name} {here!r} for {told!r}"
 
 
-def _scale(name: str, alone: dict) -> float:
+def scale(name: str, alone: dict) -> float:
     """What the rounding of a quantity near 0 is measured by."""
     if name in ("harmonic_distortion", "irregular_fraction"):
         return 1e-4
