@@ -43,6 +43,7 @@ KNOW_FLANKS = {
         "motion/taylor_springs",
     ),
     "how a state stands in a lane, whose numbers the loops over lanes take by name": (
+        "motion/known_motions",
         "motion/lane_block",
         "motion/lane_inner",
         "motion/lane_repetition",
