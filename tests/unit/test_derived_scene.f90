@@ -15,7 +15,7 @@ module test_derived_scene
    private
 
    character(*), parameter :: gear = '&gear teeth_1 = 11, teeth_2 = 38, normal_module = 2.5e-3, helix_angle_deg = 28.96, '// &
-                              'face_width = 0.016, loose_inertia = 1.715e-3, backlash = 1e-4'
+                              'face_width = 0.016, loose_inertia = 1.715e-3, backlash = 1e-4, tooth_stiffness = 0'
    character(*), parameter :: drag = ', drag_torque = 0.1 /'//line_feed
    character(*), parameter :: shaft = '&shaft speed_rpm = 800, orders = 2, 3.5, accelerations = 600, 150 /'//line_feed
    character(*), parameter :: oil = '&oil viscosity_40_cst = 58, viscosity_100_cst = 9.6, temperature_celsius = 40 /'//line_feed
