@@ -72,7 +72,8 @@ def man_page(help_text: str, keys: Keys, version: str) -> Iterator[str]:
             yield f".SS &{group}"
         told = ", ".join(word for word in (key.unit, key.default) if word not in ("", "-"))
         yield from (".TP", rf"\fB{escaped(name)}\fR" + (f" [{escaped(told)}]" if told else ""))
-        yield escaped(key.meaning.replace("`", ""))
+        needed = f" Used with {key.used_with}." if key.used_with else ""
+        yield escaped(f"{key.meaning}{needed}".replace("`", ""))
     yield ".SH FILES"
     for ending, words in FILES:
         yield from (".TP", rf"\fINAME\fB{escaped(ending)}\fR", escaped(words))

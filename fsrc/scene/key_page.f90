@@ -2,13 +2,15 @@
 !> stand in input/README.md between the prose of that page; and the quantities as CSV (--quantities).
 module key_page
    use input_key, only: allowed_text, key_t, list_kind, sensible_text, text_kind
-   use key_table, only: keys, optional_groups, starts_group
+   use key_table, only: find_key, keys, optional_groups, starts_group
    use quantities, only: a_code, kind_names, quantity_t, quantity_table
    use text, only: integer_text, quoted, quoted_words
    implicit none(type, external)
    private
 
    character(1), parameter :: end_of_line = new_line('a')
+   !> How the rule of a key begins that names its tasks
+   character(*), parameter :: by_task = 'scene.task='
 
    public :: template_text, page_text, quantities_text
 
@@ -55,10 +57,9 @@ contains
       end if
    end function template_line
 
-   !> Keys and quantities as tables in Markdown. Keys of a group that are used under the same conditions stand in one table.
+   !> Keys and quantities as tables in Markdown: the keys of a group by the tasks that use them.
    function page_text() result(text)
       character(:), allocatable :: text
-      character(:), allocatable :: conditions
       logical :: is_told(size(keys))
       integer :: first, last, i
 
@@ -72,61 +73,95 @@ contains
             last = last + 1
          end do
          text = text//'## &'//trim(keys(first)%group)//end_of_line//end_of_line
-         call add_table(text, keys(first:last), '', is_told(first:last))
+         if (any([(len(tasks_of(keys(i))) == 0, i=first, last)])) &
+            call add_table(text, keys(first:last), '', is_told(first:last))
          do i = first, last
-            if (is_told(i)) cycle
-            conditions = shared_conditions(keys(i), keys(first:last))
-            text = text//'Only with `'//without_bars(conditions, ' or ')//'`:'//end_of_line//end_of_line
-            call add_table(text, keys(first:last), conditions, is_told(first:last))
+            if (.not. is_told(i)) call add_table(text, keys(first:last), tasks_of(keys(i)), is_told(first:last))
          end do
       end do
       text = text//quantity_rows()
    end function page_text
 
-   !> Add the keys of a group that share certain conditions, if there are any.
-   subroutine add_table(text, group, conditions, is_told)
+   !> Add the keys of a group that certain tasks use.
+   subroutine add_table(text, group, tasks, is_told)
       character(:), allocatable, intent(inout) :: text
       !> All keys of the group
       type(key_t), intent(in) :: group(:)
-      !> Shared by the keys of this table; empty for keys that are always in use, or under conditions of their own
-      character(*), intent(in) :: conditions
+      !> As words between bars; empty: all tasks
+      character(*), intent(in) :: tasks
       !> Whether a key has its row
       logical, intent(inout) :: is_told(:)
-      character(:), allocatable :: rows
+      character(:), allocatable :: column
+      logical :: has_needs
       integer :: i
 
-      rows = ''
+      has_needs = .false.
       do i = 1, size(group)
-         if (shared_conditions(group(i), group) /= conditions) cycle
-         rows = rows//page_row(group(i), conditions)
+         if (tasks_of(group(i)) == tasks) has_needs = has_needs .or. len(needs_of(group(i))) > 0
+      end do
+      column = ''
+      if (has_needs) column = ' used with |'
+      if (len(tasks) > 0) text = text//'For `'//without_bars(tasks, '`, `')//'`:'//end_of_line//end_of_line
+      text = text//'| key | unit | default | allowed | sensible |'//column//' meaning |'//end_of_line// &
+             '|---|---|---|---|---|'//repeat('---|', merge(2, 1, has_needs))//end_of_line
+      do i = 1, size(group)
+         if (tasks_of(group(i)) /= tasks) cycle
+         text = text//page_row(group(i), has_needs)
          is_told(i) = .true.
       end do
-      if (len(rows) == 0) return
-      text = text//'| key | unit | default | allowed | sensible | meaning |'//end_of_line// &
-             '|---|---|---|---|---|---|'//end_of_line//rows//end_of_line
+      text = text//end_of_line
    end subroutine add_table
 
-   !> The first conditions of a key, as many as begin those of another key of its group too.
-   pure function shared_conditions(key, group) result(conditions)
+   !> The tasks that use a key, as words with bars between; empty: all do. A key that another decides on has the tasks of that one.
+   pure recursive function tasks_of(key) result(tasks)
       type(key_t), intent(in) :: key
-      !> All keys of the group, this one among them
-      type(key_t), intent(in) :: group(:)
-      character(:), allocatable :: conditions
-      integer :: i
+      character(:), allocatable :: tasks
+      character(:), allocatable :: decider
+      integer :: dot
 
-      conditions = trim(key%used_when)
-      do while (len(conditions) > 0)
-         if (count([(index(trim(group(i)%used_when)//' & ', conditions//' & ') == 1, i=1, size(group))]) > 1) return
-         conditions = conditions(:max(0, index(conditions, ' & ', back=.true.) - 1))
+      tasks = key%used_when(:index(trim(key%used_when)//' & ', ' & ') - 1)
+      if (index(tasks, by_task) == 1) then
+         tasks = tasks(len(by_task) + 1:)
+      else if (len(tasks) > 0 .and. index(tasks, ' ') == 0) then
+         decider = tasks(:scan(tasks//'=', '=|') - 1)
+         dot = index(decider, '.')
+         tasks = tasks_of(keys(find_key(decider(:dot - 1), decider(dot + 1:))))
+      else
+         tasks = ''
+      end if
+   end function tasks_of
+
+   !> What else must stand in an input for a key to be used, or must not; empty: nothing.
+   pure function needs_of(key) result(needs)
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: needs
+      character(*), parameter :: without = 'without '
+      character(:), allocatable :: rules, rule
+      integer :: behind
+
+      needs = ''
+      if (key%given_by /= '') needs = ', no `&'//trim(key%given_by)//'`'
+      rules = trim(key%used_when)
+      do while (len(rules) > 0)
+         behind = index(rules//' & ', ' & ')
+         rule = rules(:behind - 1)
+         rules = rules(min(len(rules), behind + 2) + 1:)
+         if (index(rule, by_task) == 1) cycle
+         if (index(rule, without) == 1) then
+            needs = needs//', no `'//rule(len(without) + 1:)//'`'
+         else
+            needs = needs//', `'//without_bars(rule, merge('` or `', ' or   ', index(rule, '=') == 0))//'`'
+         end if
       end do
-   end function shared_conditions
+      needs = needs(min(len(needs), 2) + 1:)
+   end function needs_of
 
-   function page_row(key, conditions) result(text)
+   function page_row(key, has_needs) result(text)
       type(key_t), intent(in) :: key
-      !> Those that stand above the table
-      character(*), intent(in) :: conditions
+      !> Whether the table has a column for what else is needed
+      logical, intent(in) :: has_needs
       character(:), allocatable :: text
-      character(:), allocatable :: default, meaning, own, sensible
+      character(:), allocatable :: default, sensible, needs
 
       sensible = sensible_text(key)
       if (len(sensible) == 0) sensible = '-'
@@ -134,17 +169,10 @@ contains
       if (default == 'required') default = '**required**'
       if (default == '') default = '-'
       if (key%with_gear /= '') default = default//'; with &gear '//trim(key%with_gear)
-      meaning = trim(key%sentence)
-      if (key%given_by /= '') meaning = meaning//' Follows from `&'//trim(key%given_by)//'` where that stands.'
-      own = trim(key%used_when(len(conditions) + 1:))
-      if (index(own, ' & ') == 1) own = own(4:)
-      if (index(own, 'without') == 1) then
-         meaning = meaning//' Only `'//own//'`.'
-      else if (own /= '') then
-         meaning = meaning//' Only with `'//without_bars(own, ' or ')//'`.'
-      end if
+      needs = ''
+      if (has_needs) needs = needs_of(key)//' | '
       text = '| `'//trim(key%name)//'` | '//trim(key%unit)//' | '//default//' | '//allowed_text(key)//' | '// &
-             sensible//' | '//meaning//' |'//end_of_line
+             sensible//' | '//needs//trim(key%sentence)//' |'//end_of_line
    end function page_row
 
    !> Quantities for people: a table in Markdown.

@@ -464,7 +464,7 @@ module key_table
             'scene.task=film', &
             'Points of a pressure profile between inlet and rupture.'), &
       key_t('points', 'cells', integer_kind, '-', '4096', range_t(32.0_dp, .false., 1.0e6_dp, .false.), '', &
-            'film.model=numerical', &
+            'scene.task=film & film.model=numerical', &
             'Cells of the finite-volume solution, an even number; its load is extrapolated from these and half of these.'), &
       key_t('sweep', 'key', text_kind, '', 'required', any_number, &
             'frequency force_amplitude steady_force entrainment_speed force_scale backlash stiffness '// &

@@ -11,7 +11,7 @@ _HERE = Path(__file__).resolve().parent
 # Where an installed package has the page, and where the repository has it.
 PAGES = (_HERE / "keys.md", _HERE.parents[1] / "input" / "README.md")
 _GROUP = re.compile(r"## &(\w+)$")
-_CONDITIONS = re.compile(r"(Only with `.+`):$")
+_TASKS = re.compile(r"For (`.+`):$")
 _KEY = re.compile(r"\| `(\w+)` \|")
 
 
@@ -23,6 +23,10 @@ class Key:
     default: str
     allowed: str
     meaning: str
+    tasks: tuple[str, ...] = ()
+    """The tasks that use it; empty: all do."""
+    used_with: str = ""
+    """What else must stand in the input, or must not."""
 
 
 @cache
@@ -35,17 +39,28 @@ def key_table() -> dict[tuple[str, str], Key]:
 def read_page(text: str) -> dict[tuple[str, str], Key]:
     """The keys that a page of `rattle --keys` lists."""
     found: dict[tuple[str, str], Key] = {}
-    group = conditions = ""
+    group = ""
+    tasks: tuple[str, ...] = ()
+    columns: list[str] = []
     for line in text.splitlines():
         if line.startswith("#"):
             head = _GROUP.match(line)
-            group, conditions = head[1] if head else "", ""
-        elif shared := _CONDITIONS.match(line):
-            conditions = f" {shared[1]}."
+            group, tasks = head[1] if head else "", ()
+        elif shared := _TASKS.match(line):
+            tasks = tuple(re.findall(r"`(\w+)`", shared[1]))
+        elif group and line.startswith("| key |"):
+            columns = [name.strip() for name in line.strip("|").split("|")]
         elif group and (name := _KEY.match(line)):
-            _, _, unit, default, allowed, _, meaning = (cell.strip() for cell in line.split("|", 6))
-            words = meaning.removesuffix("|").strip() + conditions
-            found[group, name[1]] = Key(unit, default.strip("*"), allowed, words)
+            cells = (cell.strip() for cell in line.strip("|").split("|", len(columns) - 1))
+            told = dict(zip(columns, cells, strict=True))
+            found[group, name[1]] = Key(
+                told["unit"],
+                told["default"].replace("**", ""),
+                told["allowed"],
+                told["meaning"],
+                tasks,
+                told.get("used with", ""),
+            )
     return found
 
 

@@ -183,22 +183,24 @@ def test_page_of_keys(run, repository: Path, tmp_path: Path) -> None:
 
 
 def test_conditions_of_keys(run, tmp_path: Path) -> None:
-    """Under which conditions a key is used stands above its table, or in its row, and no two times."""
+    """The tasks that use a key stand above its table, what else it needs in a column."""
     told = read_page(run("--keys", cwd=tmp_path).stdout)
-    motions = "`scene.task=motion or sweep or campaign or threshold"
+    motions = ("motion", "sweep", "campaign", "threshold")
     for key, conditions in {
-        ("contact", "length"): [],
-        ("contact", "backlash"): [f"{motions}`"],
-        ("gear", "teeth_1"): [f"{motions}`"],
-        ("gear", "contact_lines"): [f"{motions}`", "`without gear.tip_diameter_1`"],
-        ("gear", "drag_scale"): ["`gear.bearing_mean_diameter or gear.drag_table`"],
-        ("gear", "bearing_width"): ["`gear.bearing_mean_diameter`"],
-        ("gear", "bearing_factor"): ["`gear.bearing_mean_diameter`", "`without gear.bearing_width`"],
-        ("shaft", "signal"): [f"{motions} & without shaft.table`"],
-        ("solver", "accuracy"): ["`solver.method=taylor`"],
-        ("output", "directory"): [],
+        ("contact", "length"): ((), "no `&gear`"),
+        ("contact", "young_modulus"): ((), ""),
+        ("contact", "backlash"): (motions, "no `&gear`"),
+        ("gear", "teeth_1"): (motions, ""),
+        ("gear", "contact_lines"): (motions, "no `gear.tip_diameter_1`"),
+        ("gear", "drag_scale"): (motions, "`gear.bearing_mean_diameter` or `gear.drag_table`"),
+        ("gear", "bearing_factor"): (motions, "`gear.bearing_mean_diameter`, no `gear.bearing_width`"),
+        ("film", "rupture"): (motions, "`film.law=iso-viscous`, `film.model=published`"),
+        ("shaft", "signal"): (motions, "no `shaft.table`"),
+        ("solver", "accuracy"): (motions, "`solver.method=taylor`"),
+        ("solver", "time_limit"): (("motion",), ""),
+        ("output", "directory"): ((), ""),
     }.items():
-        assert sorted(re.findall(r"Only (?:with )?(`.*?`)", told[key].meaning)) == sorted(conditions), key
+        assert (told[key].tasks, told[key].used_with) == conditions, key
 
 
 @pytest.mark.parametrize("scene", ["idle", "creep"])

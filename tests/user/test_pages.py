@@ -96,8 +96,8 @@ def reader_of_keys(given: Mapping[str, Mapping[str, Any]]) -> Callable[[Rows], N
                     expected.append((name, value, DRAWING[name], "Follows from gears, shaft and oil."))
                     continue
                 key = key_table()[group.partition("(")[0], name]
-                meaning = re.split(" Only with(?:out)? ", key.meaning.replace("`", ""))[0]
-                expected.append((name, value, key.unit, meaning.partition(" Follows from ")[0]))
+                meaning = key.meaning.replace("`", "")
+                expected.append((name, value, key.unit, meaning))
         assert [row[0] for row in rows] == [name for name, *_ in expected]
         for row, (name, value, unit, meaning) in zip(rows, expected, strict=True):
             if not name.startswith("&"):

@@ -36,7 +36,7 @@ CONTOURS = tuple(CONTOUR_LOOKS)
 MOST_FORCE_LEVELS = 6
 LIMIT_COLOUR = "#00664C"
 # Ticks stand on the side where the film law does not hold.
-LIMIT_LOOK = [patheffects.withTickedStroke(angle=-90, spacing=7, length=0.6)]
+LIMIT_LOOK = [patheffects.withTickedStroke(angle=90, spacing=7, length=0.6)]
 SHORTEST_LABELLED = 60.0  # pixels
 # Scenes that are spread less across a line than this share of its length lie on it.
 SMALLEST_WIDTH = 1e-6

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from html import escape
 from urllib.parse import quote
 
@@ -80,8 +79,7 @@ def inputs(result: ResultFile) -> list[str]:
             key = known.get((group.partition("(")[0], name))
             unit = key.unit if key else result.derived_units.get((group, name), "")
             meaning = key.meaning if key else "Follows from gears, shaft and oil."
-            meaning = re.split(" Only (?:with )?`| Follows from `", meaning)[0].replace("`", "")
-            rows.append([page.code(name), page.value(given, unit), meaning])
+            rows.append([page.code(name), page.value(given, unit), meaning.replace("`", "")])
     return [
         page.paragraph("Every value that the run used, also those that were left at their defaults.", "note"),
         page.table(("Key", "Value", "Meaning"), rows, kinds=("", "number", "meaning"), kind="explained"),

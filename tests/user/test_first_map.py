@@ -1,0 +1,44 @@
+"""Every command of input/FIRST_MAP.md does what the page says."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import rattle as package
+
+
+def test_the_way_from_a_drawing_to_a_map(rattle: Path, repository: Path, tmp_path: Path) -> None:
+    """All commands in their order, from a folder that is as the repository; the map with fewer values."""
+    page = (repository / "input" / "FIRST_MAP.md").read_text()
+    commands = "".join(re.findall(r"^```sh\n(.*?)^```", page, re.M | re.S))
+    assert commands.count("build/rattle") == 5 and "count = 9, 8" in commands
+    (tmp_path / "build").mkdir()
+    (tmp_path / "build" / "rattle").symlink_to(rattle)
+    for name in ("scripts", ".venv"):
+        (tmp_path / name).symlink_to(repository / name)
+    commands = commands.replace("count = 9, 8", "count = 2, 2")
+    environment = os.environ | {"OMP_NUM_THREADS": "1"}
+    ended = subprocess.run(
+        ["bash", "-e", "-c", commands],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 0, ended.stderr
+    for words in ("inertia ratio Lambda", "drag torque", "largest load expected"):
+        assert ended.stdout.count(words) >= 4
+    assert len(package.read(tmp_path / "results" / "box_map.rattle")["verdict"]) == 4 * 2 * 2
+    for made in ("report.html", "results/box.summary.nml", "results/box_map_pairs.png"):
+        assert (tmp_path / made).stat().st_size > 0
+
+
+def test_keys_of_the_page_are_keys(repository: Path) -> None:
+    page = (repository / "input" / "FIRST_MAP.md").read_text()
+    known = {name for _, name in package.keys.key_table()}
+    named = re.findall(r"`(\w+_\w+)`", page.partition("## 2.")[0])
+    assert {name for name in named if not name.startswith("_")} <= known
