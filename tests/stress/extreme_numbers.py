@@ -133,6 +133,9 @@ NEEDED = {
 }
 
 
+ALLOWED = re.compile(r"Allowed: (a number|numbers|an integer)(.*?)\.(?: Default with .*)?$")
+
+
 class Key(NamedTuple):
     """A numeric key, and the first and last number that it takes."""
 
@@ -149,7 +152,7 @@ def numeric_keys(program: Path) -> list[Key]:
     for line in template.splitlines():
         if line.startswith("&"):
             group = line[1:].strip()
-        elif found := re.search(r"Allowed: (a number|numbers|an integer)(.*)\.$", line):
+        elif found := re.search(ALLOWED, line):
             rule = found[2] + " "
         elif rule:
             name = re.match(r"\W*(\w+) =", line)[1]
