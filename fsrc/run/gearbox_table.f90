@@ -235,6 +235,7 @@ contains
       call log%line('  '//sums%words)
       do i = 1, size(rows)
          associate (row => rows(order(i)))
+            if (ieee_is_nan(row%numbers(place_motions))) cycle
             if (row%numbers(place_motions) > 1.0_dp) call log%line('  '//trim(row%name)//': '//words_of_motions(row))
          end associate
       end do
