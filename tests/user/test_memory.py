@@ -146,7 +146,7 @@ def test_rows_do_not_depend_on_how_many_scenes_fit(run, scene_text, tmp_path: Pa
         files = table(
             scene_text,
             forces,
-            solver={**BASE["solver"], "until": "'periods'"},
+            solver={**BASE["solver"], "until": "'periods'", "starts": "1"},
             spectrum={"periods": "60"},
             campaign={"samples_per_period": "16384"},
         )
