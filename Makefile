@@ -86,7 +86,7 @@ all: $(BUILD)/rattle
 help:
 	@echo 'make              build the program as $(BUILD)/rattle'
 	@echo 'make run          solve the two scenes of the paper, draw its figures, compare idle with creep'
-	@echo 'make test         unit tests (release and debug build) and user tests: at most five minutes'
+	@echo 'make test         unit tests (release and debug build) and user tests: about eight minutes on two cores'
 	@echo 'make test-long    user tests that take long, samples of the studies of stress and faults'
 	@echo 'make lint         compiler warnings, rules of the layout, style of Fortran and Python'
 	@echo 'make debug        build with every run-time check as $(BUILD)/debug/rattle'
