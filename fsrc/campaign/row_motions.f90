@@ -8,7 +8,6 @@ module row_motions
    use irregular_motion, only: follow_irregular
    use kinds, only: dp
    use known_motions, only: are_near, known_motions_t
-   use motion_start, only: characteristic_velocity, gap_of_starts
    use node_extremes, only: seen_film, seen_quantities
    use problem, only: problem_t, state_size
    use rattle_class, only: class_irregular, class_irregular_so_far, rattle_verdict_t
@@ -16,7 +15,7 @@ module row_motions
    use scene_group, only: classify_group, has_window, scene_group_t, solve_group
    use scene_status, only: is_success
    use scene_types, only: spectrum_choice_t
-   use settled_motion, only: same_motion, same_state, settled_motion_t
+   use settled_motion, only: known_of, near_states, same_motion, settled_motion_t
    use signals, only: must_stop
    use vibration_severity, only: severity_of_record, vibration_severity_t
    implicit none(type, external)
@@ -121,29 +120,6 @@ contains
       end do
       orbit = 0
    end function near_orbit
-
-   !> What counts as near of a problem, and the motions that are known of it and repeat.
-   pure type(known_motions_t) function known_of(problem, settled) result(known)
-      type(problem_t), intent(in) :: problem
-      type(settled_motion_t), intent(in) :: settled(:)
-      integer, allocatable :: place(:)
-      integer :: i
-
-      known = near_states(problem)
-      place = pack([(i, i=1, size(settled))], settled%period > 0)
-      allocate (known%motions(size(place)))
-      do i = 1, size(place)
-         known%motions(i)%states = settled(place(i))%states
-      end do
-   end function known_of
-
-   !> What counts as near of a problem.
-   pure type(known_motions_t) function near_states(problem) result(measure)
-      type(problem_t), intent(in) :: problem
-
-      measure%near_film = same_state*gap_of_starts(problem)
-      measure%near_velocity = same_state*characteristic_velocity(problem)
-   end function near_states
 
    !> Solve some starts side by side, and add the motions that they lead to and that are not known yet. After a signal to stop
    !> the motions are of no use.

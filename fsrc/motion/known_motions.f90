@@ -8,7 +8,7 @@ module known_motions
 
    !> A periodic motion by its states.
    type, public :: known_motion_t
-      !> States at the starts of its periods of the force, one after the other: number of the state, period
+      !> States at the starts of its periods of the force, one after the other: number of the state, period; none: it does not repeat
       real(dp), allocatable :: states(:, :)
    end type known_motion_t
 
@@ -24,7 +24,7 @@ module known_motions
 
 contains
 
-   !> The known motion that two successive states both belong to, one period apart, 0: none.
+   !> The known motion that two successive states both belong to, one period apart; 0: none, or several that near each other.
    pure integer function reached_motion(problem, known, older, newer) result(reached)
       !> What moves
       type(problem_t), intent(in) :: problem
@@ -33,20 +33,24 @@ contains
       !> Numbers of the states at the starts of two successive periods
       real(dp), intent(in) :: older(:)
       real(dp), intent(in) :: newer(:)
-      integer :: next, period
+      integer :: place, next, period
 
-      if (allocated(known%motions)) then
-         do reached = 1, size(known%motions)
-            associate (states => known%motions(reached)%states)
-               do period = 1, size(states, 2)
-                  next = modulo(period, size(states, 2)) + 1
-                  if (are_near(problem, known, older, states(:, period)) .and. &
-                      are_near(problem, known, newer, states(:, next))) return
-               end do
-            end associate
-         end do
-      end if
       reached = 0
+      if (.not. allocated(known%motions)) return
+      do place = 1, size(known%motions)
+         associate (states => known%motions(place)%states)
+            do period = 1, size(states, 2)
+               next = modulo(period, size(states, 2)) + 1
+               if (.not. are_near(problem, known, older, states(:, period))) cycle
+               if (.not. are_near(problem, known, newer, states(:, next))) cycle
+               if (reached > 0 .and. reached /= place) then
+                  reached = 0
+                  return
+               end if
+               reached = place
+            end do
+         end associate
+      end do
    end function reached_motion
 
    !> Whether two states count as one by film, velocity and compressions; what films have behind these follows them.

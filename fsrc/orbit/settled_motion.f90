@@ -1,8 +1,9 @@
 !> Motions that repeat, and which of them are the same: a motion of several periods may be met in any of them.
 module settled_motion
    use kinds, only: dp
+   use known_motions, only: are_near, known_motions_t
    use motion_start, only: characteristic_velocity, gap_of_starts
-   use problem, only: of_film, of_velocity, problem_t
+   use problem, only: problem_t
    implicit none(type, external)
    private
 
@@ -21,7 +22,7 @@ module settled_motion
       real(dp) :: acceleration_rms = 0.0_dp
    end type settled_motion_t
 
-   public :: same_motion, is_near
+   public :: same_motion, known_of, near_states
 
 contains
 
@@ -31,27 +32,40 @@ contains
       type(problem_t), intent(in) :: problem
       type(settled_motion_t), intent(in) :: one
       type(settled_motion_t), intent(in) :: other
+      type(known_motions_t) :: measure
       integer :: shift, i
 
       same = .false.
       if (one%period == 0 .or. one%period /= other%period) return
       if (abs(one%acceleration_rms - other%acceleration_rms) > same_rms*max(one%acceleration_rms, other%acceleration_rms)) return
+      measure = near_states(problem)
       do shift = 0, one%period - 1
-         same = all([(is_near(problem, one%states(:, i), other%states(:, modulo(i - 1 + shift, one%period) + 1)), &
+         same = all([(are_near(problem, measure, one%states(:, i), other%states(:, modulo(i - 1 + shift, one%period) + 1)), &
                       i=1, one%period)])
          if (same) return
       end do
    end function same_motion
 
-   !> Whether two states are those of one motion, as far as film and velocity tell.
-   pure logical function is_near(problem, state, other)
+   !> What counts as near of a problem, and the motions that are known of it, each at its place.
+   pure type(known_motions_t) function known_of(problem, settled) result(known)
       type(problem_t), intent(in) :: problem
-      !> Their numbers
-      real(dp), intent(in) :: state(:)
-      real(dp), intent(in) :: other(:)
+      !> Those that do not repeat are reached by no state
+      type(settled_motion_t), intent(in) :: settled(:)
+      integer :: i
 
-      is_near = abs(state(of_film) - other(of_film)) <= same_state*gap_of_starts(problem) .and. &
-                abs(state(of_velocity) - other(of_velocity)) <= same_state*characteristic_velocity(problem)
-   end function is_near
+      known = near_states(problem)
+      allocate (known%motions(size(settled)))
+      do i = 1, size(settled)
+         known%motions(i)%states = settled(i)%states(:, :settled(i)%period)
+      end do
+   end function known_of
+
+   !> What counts as near of a problem.
+   pure type(known_motions_t) function near_states(problem) result(measure)
+      type(problem_t), intent(in) :: problem
+
+      measure%near_film = same_state*gap_of_starts(problem)
+      measure%near_velocity = same_state*characteristic_velocity(problem)
+   end function near_states
 
 end module settled_motion

@@ -12,6 +12,7 @@ module follow_starts
    use irregular_motion, only: follow_irregular
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
+   use known_motions, only: reached_motion
    use many_motions, only: solve_motions
    use motion_start, only: chosen_starts, motion_start_t, motion_starts, one_start_reason, start_count, &
       start_is_given, state_of_start
@@ -22,7 +23,7 @@ module follow_starts
    use resolved_scene, only: request_of
    use scene_status, only: is_success, status_complete
    use scene_types, only: scene_t
-   use settled_motion, only: is_near, same_motion, settled_motion_t
+   use settled_motion, only: known_of, same_motion, settled_motion_t
    use signals, only: must_stop
    use text_output, only: lock_texts, unlock_texts
    use verify_scene, only: nearby_orbit
@@ -217,7 +218,9 @@ contains
          call go_on(judged%resolved%problem, left, followers)
          do i = 1, size(left)
             if (followers%failed(left(i))) cycle
-            followers%motion(left(i)) = known_motion(judged%resolved%problem, followers%past(:, :, left(i)), settled)
+            associate (problem => judged%resolved%problem, past => followers%past(:, longest_period:, left(i)))
+               followers%motion(left(i)) = reached_motion(problem, known_of(problem, settled), past(:, 1), past(:, 2))
+            end associate
             if (followers%motion(left(i)) > 0) cycle
             call look_for_repetition(scene, judged, left(i), followers, settled, error)
             if (allocated(error) .or. must_stop()) return
@@ -254,29 +257,6 @@ contains
          end associate
       end do
    end subroutine go_on
-
-   !> Place of the known motion that a start was next to at the ends of its last two periods; 0: none, or several.
-   pure integer function known_motion(problem, past, settled) result(place)
-      type(problem_t), intent(in) :: problem
-      !> Number of a state, period, the newest last
-      real(dp), intent(in) :: past(:, :)
-      type(settled_motion_t), intent(in) :: settled(:)
-      integer :: i, j, n
-
-      n = size(past, 2)
-      place = 0
-      do i = 1, size(settled)
-         do j = 1, settled(i)%period
-            if (.not. is_near(problem, past(:, n - 1), settled(i)%states(:, j))) cycle
-            if (.not. is_near(problem, past(:, n), settled(i)%states(:, modulo(j, settled(i)%period) + 1))) cycle
-            if (place > 0 .and. place /= i) then
-               place = 0
-               return
-            end if
-            place = i
-         end do
-      end do
-   end function known_motion
 
    !> Where the periods of a start come near each other, find the motion that it settles on.
    subroutine look_for_repetition(scene, judged, place, followers, settled, error)
@@ -425,7 +405,7 @@ contains
       call lock_texts()
       do i = 1, n
          told%restarts = endings(i)%status == status_complete .and. &
-                         known_motion(problem, transpose(states(:, :, i)), settled) == place
+                         reached_motion(problem, known_of(problem, settled), states(1, :, i), states(2, :, i)) == place
          if (.not. told%restarts) cycle
          told%state = settled(place)%states(:, i)
          return

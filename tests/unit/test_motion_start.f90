@@ -4,11 +4,12 @@ module test_motion_start
    use checks, only: check_list_t
    use engine, only: motion_state_t
    use kinds, only: dp
+   use known_motions, only: reached_motion
    use motion_start, only: characteristic_velocity, chosen_starts, gap_of_starts, motion_start_t, motion_starts, one_by_damping, &
       one_by_newmark, one_start_reason, one_without_swing, several_starts, state_of_start
    use problem, only: film_at_rest, of_film, of_velocity, problem_of, problem_t, static_load
    use scene_types, only: law_iso_viscous, method_newmark, method_taylor, scene_t
-   use settled_motion, only: same_motion, same_state, settled_motion_t
+   use settled_motion, only: known_of, same_motion, same_state, settled_motion_t
    implicit none(type, external)
    private
 
@@ -27,6 +28,7 @@ contains
       call test_one_flank(checks)
       call test_one_start(checks)
       call test_same_motion(checks)
+      call test_reached_motion(checks)
    end subroutine run_motion_start_tests
 
    !> v* of three orders, by hand: each order counts by its amplitude over its own circular frequency, whatever its phase.
@@ -158,5 +160,39 @@ contains
       one = settled_motion_t(0, reshape([real(dp) ::], [2, 0]), 10.0_dp)
       call checks%check(.not. same_motion(problem, one, one), 'another: neither repeats')
    end subroutine test_same_motion
+
+   !> A start has reached the one known motion that it is next to after two periods running, in the order of that motion.
+   subroutine test_reached_motion(checks)
+      type(check_list_t), intent(inout) :: checks  !> Collects the results
+      type(settled_motion_t) :: known(3)
+      type(problem_t) :: problem
+      real(dp) :: gap, speed, states(2, 2), near(2)
+
+      problem = problem_of(loose_gear())
+      gap = gap_of_starts(problem)
+      speed = characteristic_velocity(problem)
+      states = reshape([0.1_dp*gap, 0.2_dp*speed, 0.6_dp*gap, -0.3_dp*speed], [2, 2])
+      near = 0.9_dp*same_state*[gap, speed]
+      known(1) = settled_motion_t(0, states(:, :1), 10.0_dp)
+      known(2) = settled_motion_t(2, states, 10.0_dp)
+      known(3) = settled_motion_t(1, reshape([0.3_dp*gap, 0.0_dp], [2, 1]), 10.0_dp)
+      call checks%check(reached(states(:, 1) + near, states(:, 2) - near) == 2, 'reached: next to it twice')
+      call checks%check(reached(states(:, 2), states(:, 1)) == 2, 'reached: from its second period on')
+      call checks%check(reached(states(:, 1), states(:, 1)) == 0, 'not reached: in another order')
+      call checks%check(reached(states(:, 1), states(:, 2) + 1.2_dp*near) == 0, 'not reached: next to it once')
+      known(3) = settled_motion_t(2, states + spread(near, 2, 2), 10.0_dp)
+      call checks%check(reached(states(:, 1) - 0.5_dp*near, states(:, 2)) == 2, 'reached: far enough from the other')
+      call checks%check(reached(states(:, 1) + 0.5_dp*near, states(:, 2)) == 0, 'not reached: next to two')
+
+   contains
+
+      integer function reached(older, newer)
+         real(dp), intent(in) :: older(:)
+         real(dp), intent(in) :: newer(:)
+
+         reached = reached_motion(problem, known_of(problem, known), older, newer)
+      end function reached
+
+   end subroutine test_reached_motion
 
 end module test_motion_start
