@@ -131,6 +131,9 @@ $(BUILD)/depends.mk: $(SOURCES) $(UNIT_SOURCES) $(STRESS_SOURCES) fsrc/main.f90 
 	    for (i = 1; i <= count; i++) if ((list[i] in known) && list[i] != name) print build "/" name ".o: " build "/" list[i] ".o" } }' \
 	  $(SOURCES) $(UNIT_SOURCES) $(STRESS_SOURCES) fsrc/main.f90 > $@
 
+# A module includes the body of its procedures from a file of its own name.
+$(foreach body,$(wildcard fsrc/*/*.inc),$(eval $(patsubst %.inc,$(BUILD)/%.o,$(notdir $(body))): $(body)))
+
 ifeq ($(filter clean help lint format uninstall,$(MAKECMDGOALS)),)
 -include $(BUILD)/depends.mk
 endif

@@ -91,6 +91,12 @@ def faults() -> list[str]:
     found = [f"{entry.name}: does not belong to the layout" for entry in Path().iterdir() if is_stray(entry)]
     sources = sorted(Path("fsrc").glob("*/**/*.f90"))
     found += [
+        f"{body}: no module of its name includes it"
+        for body in sorted(Path("fsrc").glob("*/**/*.inc"))
+        if body.with_suffix(".f90") not in sources
+        or f"include '{body.name}'" not in body.with_suffix(".f90").read_text()
+    ]
+    found += [
         f"fsrc/{folder}: a folder without a module" for folder in {*MODULES} - {*map(module_of, sources)}
     ]
     home = {path.stem.lower(): module_of(path) for path in sources}
@@ -119,17 +125,24 @@ def faults() -> list[str]:
 
 
 def flank_faults(sources: list[Path]) -> Iterator[str]:
-    """Files below problem that name flanks or springs, other than those of the list."""
+    """Modules below problem that name flanks or springs, other than those of the list."""
     listed = {f"fsrc/{name}.f90" for names in KNOW_FLANKS.values() for name in names}
     lower = [path for path in sources if module_of(path) in MODULES and below_problem(module_of(path))]
     for path in lower:
-        lines = enumerate(path.read_text().splitlines(), 1)
-        first = next((number for number, line in lines if FLANKS.search(NO_CODE.sub("", line))), None)
+        first = next(places_of_flanks(path), None)
         if first and str(path) not in listed:
-            yield f"{path}:{first}: names a flank or a spring, which problem and its contacts keep from it"
+            yield f"{first}: names a flank or a spring, which problem and its contacts keep from it"
         if not first and str(path) in listed:
             yield f"{path}: names no flank and no spring; take it off the list KNOW_FLANKS"
     yield from (f"{name}: is on the list KNOW_FLANKS and not there" for name in listed - {*map(str, lower)})
+
+
+def places_of_flanks(path: Path) -> Iterator[str]:
+    """Lines of a module, and of the body that it includes, that name a flank or a spring."""
+    for part in filter(Path.exists, (path, path.with_suffix(".inc"))):
+        for number, line in enumerate(part.read_text().splitlines(), 1):
+            if FLANKS.search(NO_CODE.sub("", line)):
+                yield f"{part}:{number}"
 
 
 def is_stray(entry: Path) -> bool:

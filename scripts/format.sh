@@ -4,6 +4,6 @@
 set -eu
 tools=$1
 cd "$2"
-find fsrc tests -name '*.f90' ! -path '*/coefficients/*' ! -name test_namelist_text.f90 -exec \
+find fsrc tests \( -name '*.f90' -o -name '*.inc' \) ! -path '*/coefficients/*' ! -name test_namelist_text.f90 -exec \
     "$tools/fprettify" --config-file .fprettify.rc --silent {} +
 "$tools/ruff" format --quiet scripts tests

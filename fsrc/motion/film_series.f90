@@ -17,9 +17,9 @@ module film_series
    use squeeze_of_load, only: load_carried, piezo_viscous_squeeze
    use taylor_iso_viscous, only: iso_viscous_series, iso_viscous_series_of_two
    use taylor_piezo_viscous, only: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
-   use taylor_reynolds_piezo, only: reynolds_piezo_series, reynolds_piezo_series_of_two
+   use taylor_reynolds_piezo, only: reynolds_piezo_series
    use taylor_rupture, only: equation_rounding, reject_large_defect, rupture_order, rupture_series, rupture_series_of_two
-   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, reynolds_piezo_springs, rupture_springs, shortest_rest
+   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, rupture_springs, shortest_rest
    use taylor_step_control, only: film_weight, order, rounding
    implicit none(type, external)
    private
@@ -150,8 +150,7 @@ contains
          call iso_viscous_series(block%strength, block%damping, block%static_load, force, block%film, &
                                  block%lienard, block%damping_rate)
       case (kernel_reynolds_piezo)
-         call reynolds_piezo_series(block%strength, block%damping, block%pressing, block%static_load, force, block%film, &
-                                    block%lienard, block%damping_rate, block%piezo_expansion(1))
+         call reynolds_piezo_series(.false., .false., force, block)
       case (kernel_solved_fast, kernel_reynolds_iso)
          call rupture_series(series%pieces, block%strength, block%damping, block%static_load, force, block%film, &
                              block%lienard, block%damping_rate, block%expansion(1))
@@ -180,8 +179,7 @@ contains
          call piezo_viscous_series_of_two(block%strength, block%damping, block%backlash, block%static_load, force, block%film, &
                                           block%lienard, block%damping_rate)
       case (kernel_reynolds_piezo)
-         call reynolds_piezo_series_of_two(block%strength, block%damping, block%pressing, block%backlash, block%static_load, &
-                                           force, block%film, block%lienard, block%damping_rate, block%piezo_expansion)
+         call reynolds_piezo_series(.false., .true., force, block)
       case default
          block%film(:, 1:) = 0.0_dp
          block%lienard(:, 1:) = 0.0_dp
@@ -191,55 +189,56 @@ contains
 
    !> Series of films, gear and compressions of elastic teeth. The film of the coast flank is told apart: it is what backlash, drive
    !> film and springs leave.
-   pure subroutine expand_springs(series, block, films)
+   pure subroutine expand_springs(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
-      !> Series of H and, between two flanks, of C [-]
-      real(dp), intent(out) :: films(lanes, 0:order, 2)
       real(dp) :: force(lanes, order)
       integer :: flanks, flank
 
       call force_derivatives(series%last_order, block%oscillation, force)
       flanks = merge(2, 1, series%two_flanks)
-      films(:, 0, 1) = block%film(:, 0)
+      block%films(:, 0, 1) = block%film(:, 0)
       if (series%two_flanks) then
-         films(:, 0, 2) = block%backlash - block%film(:, 0) + (block%compression(:, 1, 0) + block%compression(:, 2, 0))
+         block%films(:, 0, 2) = block%backlash - block%film(:, 0) + (block%compression(:, 1, 0) + block%compression(:, 2, 0))
          ! A lane that rests has no backlash.
-         films(:, 0, 2) = merge(films(:, 0, 2), 1.0_dp, block%backlash < huge(1.0_dp))
+         block%films(:, 0, 2) = merge(block%films(:, 0, 2), 1.0_dp, block%backlash < huge(1.0_dp))
       end if
       block%damping_rate = 0.0_dp
       select case (series%kernel)
       case (kernel_half_pi)
-         call iso_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, films, &
+         call iso_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, block%films, &
                                   block%lienard, block%compression)
       case (kernel_piezo)
-         call piezo_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, films, &
-                                    block%lienard, block%compression)
+         call piezo_viscous_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, &
+                                    block%films, block%lienard, block%compression)
          block%damping_rate = merge(0.0_dp, unfollowable_rate, block%damping*minval(block%compression(:, :flanks, 0), dim=2) &
                                     > shortest_rest)
       case (kernel_solved_fast, kernel_reynolds_iso)
          do flank = 1, flanks
-            call expand_squeeze(series%pieces, load_group(series, films(:, 0, flank), block%compression(:, flank, 0), block), &
+            call expand_squeeze(series%pieces, &
+                                load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block), &
                                 block%squeeze(flank))
             block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
          end do
          call rupture_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, block%squeeze, &
-                              films, block%lienard, block%compression)
+                              block%films, block%lienard, block%compression)
       case (kernel_reynolds_piezo)
          do flank = 1, flanks
-            call expand_pressed_film(series, flank, films(:, 0, flank), &
-                                     load_group(series, films(:, 0, flank), block%compression(:, flank, 0), block), &
+            call expand_pressed_film(series, flank, block%films(:, 0, flank), &
+                                     load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block), &
                                      (block%piezo_expansion(flank)%lienard), block)
             block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
          end do
-         call reynolds_piezo_springs(flanks, block%strength, block%damping, block%pressing, block%compliance, block%static_load, &
-                                     force, block%piezo_expansion, films, block%lienard, block%compression)
+         call reynolds_piezo_series(.true., series%two_flanks, force, block)
       case default
-         films(:, 1:, :) = 0.0_dp
+         block%films(:, 1:, :) = 0.0_dp
          block%lienard(:, 1:) = 0.0_dp
          block%compression(:, :, 1:) = 0.0_dp
       end select
-      block%film(:, 1:) = films(:, 1:, 1)
+      block%film(:, 1:series%last_order) = block%films(:, 1:series%last_order, 1)
+      ! The sums over all orders take no more than there are.
+      block%film(:, series%last_order + 1:) = 0.0_dp
+      block%lienard(:, series%last_order + 1:) = 0.0_dp
    end subroutine expand_springs
 
    !> Load group W H/a of films with rupture under their springs, less its limit on separation [-].
@@ -347,10 +346,8 @@ contains
    !> Reject the steps of elastic teeth at whose end the series violates the film law. The squeeze group is expanded there, for the
    !> next step to begin with. The defect D of a film's velocity is that of the first terms left out, so D x/(n + 1) estimates the
    !> local error of the film: it must not exceed what the step control grants the last term.
-   pure subroutine check_springs(series, films, next_films, block)
+   pure subroutine check_springs(series, next_films, block)
       type(film_series_t), intent(in) :: series
-      !> Series of H and C [-]
-      real(dp), intent(in) :: films(lanes, 0:order, 2)
       !> H and C at the end of the step [-]
       real(dp), intent(in) :: next_films(lanes, 2)
       type(lane_block_t), intent(inout) :: block
@@ -362,18 +359,19 @@ contains
       thinner = next_films(:, 1)
       if (series%two_flanks) thinner = min(thinner, next_films(:, 2))
       do flank = 1, merge(2, 1, series%two_flanks)
-         start = load_group(series, films(:, 0, flank), block%compression(:, flank, 0), block)
+         start = load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block)
          place = load_group(series, next_films(:, flank), block%next_compression(:, flank), block)
          place = merge(place, start, block%trust > 0.0_dp)
-         rise = real(series%last_order, dp)*films(:, series%last_order, flank)
+         rise = real(series%last_order, dp)*block%films(:, series%last_order, flank)
          do k = series%last_order - 1, 1, -1
-            rise = rise*block%step + real(k, dp)*films(:, k, flank)
+            rise = rise*block%step + real(k, dp)*block%films(:, k, flank)
          end do
          ! What rounding of the load may move the velocity by
          if (series%kernel == kernel_reynolds_piezo) then
             block%trust = block%trust*film_throughout(block%piezo_expansion(flank)%sigma_series, block%step)
-            call expand_pressed_film(series, flank, merge(next_films(:, flank), films(:, 0, flank), block%trust > 0.0_dp), place, &
-                                     rise, block)
+            call expand_pressed_film(series, flank, &
+                                     merge(next_films(:, flank), block%films(:, 0, flank), block%trust > 0.0_dp), place, rise, &
+                                     block)
             associate (there => block%piezo_expansion(flank))
                velocity = there%lienard
                disturbance = (abs(there%group) + abs(place/there%load_slope))*there%film*there%root/block%damping

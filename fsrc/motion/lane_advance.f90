@@ -58,21 +58,21 @@ contains
    pure subroutine take_springs_step(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
-      real(dp) :: films(lanes, 0:order, 2), largest(lanes, 0:order), next_films(lanes, 2), changed(lanes, 2), undamped(lanes)
+      real(dp) :: largest(lanes, 0:order), next_films(lanes, 2), changed(lanes, 2), undamped(lanes)
       integer :: flanks, flank, k, l
 
       call turn_to(block%phase, block%oscillation%phase)
       block%remaining = 1.0_dp - block%phase
-      call expand_springs(series, block, films)
+      call expand_springs(series, block)
       flanks = merge(2, 1, series%two_flanks)
-      largest(:, 0) = films(:, 0, 1)
-      if (flanks == 2) largest(:, 0) = min(films(:, 0, 1), films(:, 0, 2))
+      largest(:, 0) = block%films(:, 0, 1)
+      if (flanks == 2) largest(:, 0) = min(block%films(:, 0, 1), block%films(:, 0, 2))
       do k = series%last_order - 1, series%last_order
          !$omp simd
          do l = 1, lanes
-            largest(l, k) = max(abs(films(l, k, 1)), abs(block%compression(l, 1, k)))
+            largest(l, k) = max(abs(block%films(l, k, 1)), abs(block%compression(l, 1, k)))
          end do
-         if (flanks == 2) largest(:, k) = max(largest(:, k), abs(films(:, k, 2)), abs(block%compression(:, 2, k)))
+         if (flanks == 2) largest(:, k) = max(largest(:, k), abs(block%films(:, k, 2)), abs(block%compression(:, 2, k)))
       end do
       undamped = 0.0_dp
       call lane_steps(series%last_order, series%share, block%accuracy, block%force, largest(:, 0), largest, block%lienard, &
@@ -92,11 +92,11 @@ contains
       if (flanks == 2) then
          next_films(:, 2) = block%backlash - block%next_film + (block%next_compression(:, 1) + block%next_compression(:, 2))
          ! A lane that rests has no backlash.
-         next_films(:, 2) = merge(next_films(:, 2), films(:, 0, 2), block%backlash < huge(1.0_dp))
+         next_films(:, 2) = merge(next_films(:, 2), block%films(:, 0, 2), block%backlash < huge(1.0_dp))
       end if
       block%trust = 1.0_dp
       do flank = 1, flanks
-         changed(:, 1) = next_films(:, flank)/films(:, 0, flank)
+         changed(:, 1) = next_films(:, flank)/block%films(:, 0, flank)
          changed(:, 2) = 1.0_dp
          if (series%never_pulls) changed(:, 2) = block%next_compression(:, flank)/block%compression(:, flank, 0)
          do k = 1, 2
@@ -109,7 +109,7 @@ contains
       end do
       block%trust = block%trust*merge(1.0_dp, 0.0_dp, abs(block%next_lienard) < huge(1.0_dp)) &
          *merge(1.0_dp, 0.0_dp, block%damping_rate < largest_series_rate)
-      call check_springs(series, films, next_films, block)
+      call check_springs(series, next_films, block)
    end subroutine take_springs_step
 
    !> Advance all lanes whose step is accepted; the others try again with a shorter one.

@@ -38,7 +38,9 @@ module lane_block
       real(dp) :: backlash(lanes)
       !> Film of the drive flank at which that of the coast flank counts as lost; huge where there is none, or of elastic teeth
       real(dp) :: widest_film(lanes)
-      !> Of elastic teeth: compliance, scaled; series of the compressions d_1 and d_2
+      !> Of elastic teeth: series of both films H and C
+      real(dp) :: films(lanes, 0:order, 2)
+      !> and compliance, scaled; series of the compressions d_1 and d_2
       real(dp) :: compliance(lanes), compression(lanes, 2, 0:order)
       !> and of collocation, polynomials of both loads in the last step
       real(dp) :: load_polynomial(lanes, stages, 2)

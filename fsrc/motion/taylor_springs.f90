@@ -1,5 +1,5 @@
 !> Taylor series of the motion of elastic teeth, for a block of lanes: with the published films (35) and (37), with the
-!> iso-viscous films whose rupture follows from (18), the exact one and (24), and with the Reynolds piezo-viscous film
+!> iso-viscous films whose rupture follows from (18), the exact one and (24)
 !> (fsrc/THEORY.md, section 4).
 !>
 !> The load of a film is that of its spring, so film laws are taken inverted, as the velocity under a load. Errors count as those of
@@ -8,23 +8,18 @@ module taylor_springs
    use elementary_functions, only: logarithm
    use kinds, only: dp
    use lane_force, only: factor
-   use lane_functions, only: half_block, lanes
+   use lane_functions, only: lanes
    use load_expansion, only: squeeze_expansion_t
-   use reynolds_piezo_expansion, only: first_term, highest_group_power, highest_peak_power, highest_sigma_power, &
-      reynolds_piezo_expansion_t
    use taylor_rupture, only: rupture_order
-   use taylor_step_control, only: inverse, order
+   use taylor_step_control, only: inverse, order, sign_of
    implicit none(type, external)
    private
-
-   !> Signs of the gear's velocity in the springs of both flanks, and of their loads on the gear
-   real(dp), parameter :: sign_of(2) = [1.0_dp, -1.0_dp]
 
    !> Time within which a film and its spring come to rest that a series is to follow: what is faster would overflow the
    !> coefficients [periods]
    real(dp), parameter, public :: shortest_rest = 1.0e-14_dp
 
-   public :: iso_viscous_springs, piezo_viscous_springs, reynolds_piezo_springs, rupture_springs
+   public :: iso_viscous_springs, piezo_viscous_springs, rupture_springs
 
 contains
 
@@ -277,169 +272,5 @@ contains
       lienard(:, rupture_order + 1:) = 0.0_dp
       compression(:, :, rupture_order + 1:) = 0.0_dp
    end subroutine rupture_springs
-
-   !> Coefficients 1 to `rupture_order` with the Reynolds piezo-viscous film.
-   pure subroutine reynolds_piezo_springs(flanks, strength, rate, pressing, compliance, load, force, expansion, films, lienard, &
-                                          compression)
-      !> Flanks: 1 or 2
-      integer, intent(in) :: flanks
-      !> a, c, b, kappa, q [-]
-      real(dp), intent(in) :: strength(lanes)
-      real(dp), intent(in) :: rate(lanes)
-      real(dp), intent(in) :: pressing(lanes)
-      real(dp), intent(in) :: compliance(lanes)
-      real(dp), intent(in) :: load(lanes)
-      !> Derivatives of the force that oscillates, by module lane_force [-]
-      real(dp), intent(in) :: force(lanes, order)
-      !> Psi about both films and their velocities; the series of sigma is added
-      type(reynolds_piezo_expansion_t), intent(inout) :: expansion(2)
-      !> Series of H and C, of V and of d_1 and d_2 [-]; coefficients 0 are given
-      real(dp), intent(inout) :: films(lanes, 0:order, 2)
-      real(dp), intent(inout) :: lienard(lanes, 0:order)
-      real(dp), intent(inout) :: compression(lanes, 2, 0:order)
-      !> Names as in module taylor_reynolds_piezo; d, and root = sqrt(H)
-      integer, parameter :: h = 1, d = 2, p = 3, r = 4, root = 5, group = 6, s = 7, peak = 8, tail = 9, &
-                            z = tail + highest_sigma_power + 1, series = z + highest_group_power(0) - 1
-      !> Lane, series, flank, coefficient
-      real(dp) :: c(half_block, series, 2, 0:rupture_order)
-      real(dp), dimension(half_block, 2) :: half_root, sigma_slope, sigma_by_peak, of_one, group_by_load, unit
-      real(dp) :: stiffness(lanes), share(lanes), of_p, of_r, of_root, of_group, of_load, of_power, of_peak, of_s, of_tail, &
-                  of_velocity
-      integer :: before, flank, low, high, k, i, j, m, l
-
-      stiffness = 1.0_dp/compliance
-      share = 1.0_dp/rate
-      lienard(:, 1) = -load - force(:, 1)
-      do before = 0, lanes - 1, half_block
-         do flank = 1, flanks
-            !$omp simd
-            do l = 1, half_block
-               c(l, h, flank, 0) = films(before + l, 0, flank)
-               c(l, d, flank, 0) = compression(before + l, flank, 0)
-               c(l, p, flank, 0) = expansion(flank)%inverse_film(before + l)
-               c(l, r, flank, 0) = expansion(flank)%root(before + l)
-               c(l, root, flank, 0) = c(l, h, flank, 0)*c(l, r, flank, 0)
-               c(l, group, flank, 0) = expansion(flank)%pressure_group(before + l)
-               c(l, peak, flank, 0) = expansion(flank)%peak(before + l, 0)
-               half_root(l, flank) = 0.5_dp*c(l, root, flank, 0)
-               sigma_slope(l, flank) = -0.5_dp/expansion(flank)%sigma(before + l)
-               sigma_by_peak(l, flank) = sigma_slope(l, flank)*c(l, group, flank, 0)
-               of_one(l, flank) = stiffness(before + l)/strength(before + l)
-               unit(l, flank) = 1.0_dp/expansion(flank)%inverse_unit(before + l)
-               group_by_load(l, flank) = expansion(flank)%inverse_unit(before + l)/expansion(flank)%load_slope(before + l)
-               lienard(before + l, 1) = lienard(before + l, 1) &
-                                         + (sign_of(flank)*stiffness(before + l))*compression(before + l, flank, 0)
-               c(l, h, flank, 1) = expansion(flank)%lienard(before + l)
-               c(l, d, flank, 1) = expansion(flank)%lienard(before + l) - sign_of(flank)*lienard(before + l, 0)
-            end do
-            do j = 1, highest_sigma_power
-               c(:, tail + j, flank, 0) = expansion(flank)%terms(before + 1:before + half_block, first_term(j))
-            end do
-         end do
-         !GCC$ unroll 24
-         do k = 1, rupture_order - 1
-            !$omp simd
-            do l = 1, half_block
-               lienard(before + l, k + 1) = -factor(k + 1)*force(before + l, k + 1)
-            end do
-            do flank = 1, flanks
-               !$omp simd private(low, high, of_p, of_r, of_root, of_group, of_load, of_power, of_peak, of_s, of_tail, of_velocity)
-               do l = 1, half_block
-                  lienard(before + l, k + 1) = lienard(before + l, k + 1) &
-                                                + (inverse(k + 1)*sign_of(flank)*stiffness(before + l))*c(l, d, flank, k)
-                  of_p = 0.0_dp
-                  of_root = c(l, h, flank, k)*c(l, r, flank, 0)
-                  of_load = c(l, d, flank, 0)*c(l, h, flank, k) + c(l, d, flank, k)*c(l, h, flank, 0)
-                  do j = 1, k - 1
-                     of_p = of_p + c(l, p, flank, k - j)*c(l, h, flank, j)
-                     of_root = of_root + c(l, r, flank, k - j)*c(l, h, flank, j)
-                     of_load = of_load + c(l, d, flank, k - j)*c(l, h, flank, j)
-                  end do
-                  c(l, p, flank, k) = -c(l, p, flank, 0)*(of_p + c(l, p, flank, 0)*c(l, h, flank, k))
-                  of_r = 0.0_dp
-                  do j = 1, (k - 1)/2
-                     of_r = of_r + c(l, r, flank, j)*c(l, r, flank, k - j)
-                  end do
-                  of_r = 2.0_dp*of_r
-                  if (mod(k, 2) == 0) of_r = of_r + c(l, r, flank, shiftr(k, 1))*c(l, r, flank, shiftr(k, 1))
-                  c(l, r, flank, k) = half_root(l, flank)*(c(l, p, flank, k) - of_r)
-                  c(l, root, flank, k) = of_root + c(l, h, flank, 0)*c(l, r, flank, k)
-                  of_group = 0.0_dp
-                  do j = 1, k - 1
-                     of_group = of_group + c(l, r, flank, k - j)*c(l, p, flank, j)
-                  end do
-                  c(l, group, flank, k) = pressing(before + l) &
-                     *(of_group + c(l, r, flank, 0)*c(l, p, flank, k) + c(l, r, flank, k)*c(l, p, flank, 0))
-                  !GCC$ unroll 24
-                  do i = min(highest_group_power(0), k), 2, -1
-                     ! Squares, and products of neighbours
-                     low = z - 1 + i/2
-                     high = z - 1 + (i + 1)/2
-                     of_power = 0.0_dp
-                     do j = i/2, merge((k - 1)/2, k - (i + 1)/2, low == high)
-                        of_power = of_power + c(l, low, flank, j)*c(l, high, flank, k - j)
-                     end do
-                     if (low == high) of_power = 2.0_dp*of_power
-                     if (low == high .and. mod(k, 2) == 0) &
-                        of_power = of_power + c(l, low, flank, shiftr(k, 1))*c(l, low, flank, shiftr(k, 1))
-                     c(l, z + i - 1, flank, k) = of_power
-                  end do
-                  of_peak = 0.0_dp
-                  do i = min(highest_peak_power, k), 2, -1
-                     of_peak = of_peak + expansion(flank)%peak(before + l, i)*c(l, z + i - 1, flank, k)
-                  end do
-                  of_s = 0.0_dp
-                  do j = (k - 1)/2, 1, -1
-                     of_s = of_s + c(l, s, flank, j)*c(l, s, flank, k - j)
-                  end do
-                  of_s = 2.0_dp*of_s
-                  if (mod(k, 2) == 0) of_s = of_s + c(l, s, flank, shiftr(k, 1))*c(l, s, flank, shiftr(k, 1))
-                  do j = 0, k - 1
-                     of_s = of_s + c(l, group, flank, k - j)*c(l, peak, flank, j)
-                  end do
-                  of_s = sigma_slope(l, flank)*of_s + sigma_by_peak(l, flank)*of_peak
-                  !GCC$ unroll 8
-                  do j = min(highest_sigma_power - 1, rupture_order - 1 - k), 0, -1
-                     of_tail = 0.0_dp
-                     do i = min(highest_group_power(j), k), 2, -1
-                        of_tail = of_tail + expansion(flank)%terms(before + l, first_term(j) + i)*c(l, z + i - 1, flank, k)
-                     end do
-                     do m = 1, merge(k - 1, 0, j + 1 < highest_sigma_power)
-                        of_tail = of_tail + c(l, s, flank, m)*c(l, tail + j + 1, flank, k - m)
-                     end do
-                     c(l, tail + j, flank, k) = of_tail + of_s*c(l, tail + j + 1, flank, 0)
-                  end do
-                  c(l, z, flank, k) = group_by_load(l, flank)*(of_one(l, flank)*of_load - c(l, tail, flank, k))
-                  c(l, peak, flank, k) = of_peak + expansion(flank)%peak(before + l, 1)*c(l, z, flank, k)
-                  of_peak = sigma_by_peak(l, flank)*expansion(flank)%peak(before + l, 1)*c(l, z, flank, k)
-                  c(l, s, flank, k) = of_s + of_peak
-                  !GCC$ unroll 8
-                  do j = 1, min(highest_sigma_power - 1, rupture_order - 1 - k)
-                     c(l, tail + j, flank, k) = c(l, tail + j, flank, k) + of_peak*c(l, tail + j + 1, flank, 0) &
-                                                + expansion(flank)%terms(before + l, first_term(j) + 1)*c(l, z, flank, k)
-                  end do
-                  of_velocity = 0.0_dp
-                  do j = 1, k
-                     of_velocity = of_velocity + c(l, root, flank, k - j)*c(l, z, flank, j)
-                  end do
-                  of_velocity = unit(l, flank)*of_velocity + expansion(flank)%group(before + l)*c(l, root, flank, k)
-                  c(l, h, flank, k + 1) = (inverse(k + 1)*share(before + l))*of_velocity
-                  c(l, d, flank, k + 1) = c(l, h, flank, k + 1) - (inverse(k + 1)*sign_of(flank))*lienard(before + l, k)
-               end do
-            end do
-         end do
-         do flank = 1, flanks
-            films(before + 1:before + half_block, 1:rupture_order, flank) = c(:, h, flank, 1:)
-            compression(before + 1:before + half_block, flank, 1:rupture_order) = c(:, d, flank, 1:)
-            associate (there => expansion(flank))
-               there%sigma_series(before + 1:before + half_block, 0) = there%sigma(before + 1:before + half_block)
-               there%sigma_series(before + 1:before + half_block, 1:) = c(:, s, flank, 1:rupture_order - 1)
-            end associate
-         end do
-      end do
-      films(:, rupture_order + 1:, :) = 0.0_dp
-      lienard(:, rupture_order + 1:) = 0.0_dp
-      compression(:, :, rupture_order + 1:) = 0.0_dp
-   end subroutine reynolds_piezo_springs
 
 end module taylor_springs

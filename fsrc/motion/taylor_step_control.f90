@@ -26,6 +26,9 @@ module taylor_step_control
    !> Relative error of the load that counts like one of the film
    real(dp), parameter, public :: load_error = 100.0_dp
 
+   !> Signs of the velocity of the gear towards drive and coast flank, and of their loads on it
+   real(dp), parameter, public :: sign_of(2) = [1.0_dp, -1.0_dp]
+
    public :: lane_steps, evaluate_series, film_weight, lienard_weight
 
 contains

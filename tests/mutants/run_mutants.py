@@ -31,6 +31,8 @@ LIST = Path(__file__).with_name("mutants.txt")
 FLAGS = "-O2 -march=x86-64-v3 -fno-math-errno -fno-trapping-math -fopenmp -fPIC"
 # An endless loop is noticed: unit tests may take this many times their processor time, user tests so many s.
 PATIENCE, USER_LIMIT = 6.0, 900.0
+# A module, and the body of its procedures.
+FORTRAN = (".f90", ".inc")
 COLUMNS = ("number", "place", "reason", "outcome", "by", "seconds")
 KILLED, SURVIVED, SAME, BROKEN = "killed", "survived", "no difference", "does not build"
 NEAR = "the tests near it"
@@ -214,7 +216,9 @@ class Scratch:
             if source.exists() and (not target.exists() or target.read_bytes() != source.read_bytes()):
                 target.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(source, target)
-        gone = {path for path in place.glob("fsrc/**/*.f90")} - {place / name for name in listed}
+        gone = {path for path in place.glob("fsrc/**/*.*") if path.suffix in FORTRAN} - {
+            place / name for name in listed
+        }
         for path in gone | set(place.glob("tests/**/__pycache__")):
             path.unlink() if path.is_file() else shutil.rmtree(path)
         if not (place / ".venv").exists():
@@ -257,7 +261,7 @@ class Scratch:
     def keep(self, path: str) -> list[Path]:
         """Copies of a file and of what is made of it alone, for `restore`."""
         built = self._object(path)
-        made = (built, built.with_suffix(".mod")) if path.endswith(".f90") else ()
+        made = (built, built.with_suffix(".mod")) if path.endswith(FORTRAN) else ()
         kept = [self.place / path, *(one for one in made if one.exists())]
         for one in kept:
             shutil.copy2(one, one.with_name(f"{one.name}.kept"))
@@ -358,7 +362,7 @@ def calls_python(file: Path) -> bool:
 def judge(mutant: Mutant, scratch: Scratch, near_only: bool) -> tuple[str, str]:
     """Outcome of one mutant, and the test that killed it."""
     target = scratch.place / mutant.path
-    compiled = mutant.path.endswith(".f90") and not mutant.path.startswith("fsrc/bindings")
+    compiled = mutant.path.endswith(FORTRAN) and not mutant.path.startswith("fsrc/bindings")
     in_module = mutant.path.startswith(KERNEL_ROOMS)
     kept = scratch.keep(mutant.path)
     try:
