@@ -4,7 +4,7 @@ module campaign_record
    use judged_scene, only: judged_scene_t, quantity_list, quantity_value
    use key_table, only: keys
    use kinds, only: dp, int64
-   use quantities, only: a_list, needs_starts, quantity_t, quantity_table
+   use quantities, only: a_list, needs_motion_verdicts, needs_starts, quantity_t, quantity_table
    use result_format, only: column_name_bytes, column_unit_bytes
    use scene_types, only: scene_t
    use text, only: integer_text
@@ -115,7 +115,7 @@ contains
       column = size(row)
       do i = size(scene%campaign%record), 1, -1
          associate (quantity => quantity_table(scene%campaign%record(i)))
-            if (quantity%need == needs_starts) row(column) = quantity_value(quantity%code, judged)
+            if (any(quantity%need == [needs_starts, needs_motion_verdicts])) row(column) = quantity_value(quantity%code, judged)
             column = column - merge(recorded_numbers, 1, quantity%kind == a_list)
          end associate
       end do

@@ -31,13 +31,15 @@ module handed_motions
 contains
 
    !> Motions from all starts of the scenes but the first, rest. After a signal to stop they are of no use.
-   subroutine find_other_motions(scene, resolved, choices, requests, order, space, found, error)
+   subroutine find_other_motions(scene, resolved, choices, requests, with_verdicts, order, space, found, error)
       !> Base scene
       type(scene_t), intent(in) :: scene
       !> Scenes of the batch, limits of their classes, and what was asked of the engine
       type(resolved_scene_t), intent(in) :: resolved(:)
       type(spectrum_choice_t), intent(in) :: choices(:)
       type(request_t), intent(in) :: requests(:)
+      !> Whether the verdicts of the motions are asked for
+      logical, intent(in) :: with_verdicts
       !> Those of them that were solved from rest, in the order in which they are solved
       integer, intent(in) :: order(:)
       !> Work space
@@ -64,13 +66,13 @@ contains
             state = state_of_start(resolved(left(i))%problem, starts(number, i))
             trials(i) = trial_t(left(i), state%numbers)
          end do
-         call solve_trials(resolved, choices, requests, trials(:size(left)), space, found, error)
+         call solve_trials(resolved, choices, requests, with_verdicts, trials(:size(left)), space, found, error)
          if (must_stop() .or. allocated(error)) return
       end do
    end subroutine find_other_motions
 
    !> Hand every motion to the neighbours that have none like it, in rounds ordered by the numbers of the scenes.
-   subroutine hand_on_motions(plan, first, resolved, choices, requests, space, found, error)
+   subroutine hand_on_motions(plan, first, resolved, choices, requests, with_verdicts, space, found, error)
       type(sample_plan_t), intent(in) :: plan
       !> Number of the first scene of the batch
       integer(int64), intent(in) :: first
@@ -78,6 +80,8 @@ contains
       type(resolved_scene_t), intent(in) :: resolved(:)
       type(spectrum_choice_t), intent(in) :: choices(:)
       type(request_t), intent(in) :: requests(:)
+      !> Whether the verdicts of the motions are asked for
+      logical, intent(in) :: with_verdicts
       !> Work space
       type(scene_group_t), intent(inout) :: space
       type(row_motions_t), intent(inout) :: found(:)
@@ -93,7 +97,7 @@ contains
       do
          call next_round(plan, first, resolved, found, handed, trials)
          if (size(trials) == 0) return
-         call solve_trials(resolved, choices, requests, trials, space, found, error)
+         call solve_trials(resolved, choices, requests, with_verdicts, trials, space, found, error)
          if (must_stop() .or. allocated(error)) return
       end do
    end subroutine hand_on_motions

@@ -8,7 +8,7 @@ module row_motions
    use irregular_motion, only: follow_irregular
    use kinds, only: dp
    use known_motions, only: are_near, known_motions_t
-   use node_extremes, only: seen_film, seen_quantities
+   use node_extremes, only: seen_film, seen_load, seen_net_load, seen_quantities
    use problem, only: problem_t, state_size
    use rattle_class, only: class_irregular, class_irregular_so_far, rattle_verdict_t
    use resolved_scene, only: resolved_scene_t
@@ -18,6 +18,8 @@ module row_motions
    use settled_motion, only: known_of, near_states, same_motion, settled_motion_t
    use signals, only: must_stop
    use vibration_severity, only: severity_of_record, vibration_severity_t
+   use window_extremes, only: extremes_of_record
+   use window_impacts, only: impacts_of_record, verdict_of
    implicit none(type, external)
    private
 
@@ -101,6 +103,10 @@ contains
       told%class = group%verdicts(place)%class
       told%period = settled%period
       allocate (told%state, source=settled%states(:, 1))
+      associate (record => group%records(place))
+         if (record%loads%impact_limit > 0.0_dp) &
+            told%verdict = verdict_of(problem, extremes_of_record(record), impacts_of_record(record, problem%frequency))
+      end associate
       told%starts = 1
       told%acceleration_rms = severity%acceleration_rms
       told%film_force_rms = severity%film_force_rms
@@ -123,11 +129,13 @@ contains
 
    !> Solve some starts side by side, and add the motions that they lead to and that are not known yet. After a signal to stop
    !> the motions are of no use.
-   subroutine solve_trials(resolved, choices, requests, trials, space, found, error)
+   subroutine solve_trials(resolved, choices, requests, with_verdicts, trials, space, found, error)
       !> Scenes of a batch, limits of their classes, and what was asked of the engine
       type(resolved_scene_t), intent(in) :: resolved(:)
       type(spectrum_choice_t), intent(in) :: choices(:)
       type(request_t), intent(in) :: requests(:)
+      !> Whether the verdicts of the motions are asked for
+      logical, intent(in) :: with_verdicts
       !> The starts; the first of those that lead to one motion counts
       type(trial_t), intent(in) :: trials(:)
       !> Work space
@@ -171,7 +179,9 @@ contains
             end do
             wants = .false.
             wants(seen_film) = .true.
-            call solve_group(resolved(scenes)%problem, starts, request, wants, space, known=known)
+            wants([seen_load, seen_net_load]) = with_verdicts
+            call solve_group(resolved(scenes)%problem, starts, request, wants, space, &
+                             merge(choices(scenes)%impact_limit, 0.0_dp, with_verdicts), known)
             call classify_group(resolved(scenes)%problem, choices(scenes), noise, request, space)
             if (allocated(space%error)) call move_alloc(space%error, error)
             if (must_stop() .or. allocated(error)) return

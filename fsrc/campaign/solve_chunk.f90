@@ -14,8 +14,8 @@ module solve_chunk
    use memory_need, only: window_bytes
    use node_extremes, only: seen_quantities
    use periodic_orbit, only: periodic_orbit_t
-   use quantities, only: asks_to_verify, need_count, needs_verification, needs_impacts, needs_starts, needs_of, needs_orbit, &
-      needs_regime, needs_spectrum, needs_verified_impacts
+   use quantities, only: asks_to_verify, need_count, needs_verification, needs_impacts, needs_motion_verdicts, needs_starts, &
+      needs_of, needs_orbit, needs_regime, needs_spectrum, needs_verified_impacts
    use resolved_scene, only: engine_request => request_of, resolve, resolved_scene_t
    use row_motions, only: motion_from_rest, row_motions_t
    use sampling, only: chunk_values, largest_value, method_grid, sample_plan_t
@@ -206,7 +206,8 @@ contains
          end associate
       end do
       if (needed(needs_starts)) then
-         call find_motions(scene, plan, first, resolved, choices, requests, order(:solved), space, found, error)
+         call find_motions(scene, plan, first, resolved, choices, requests, needed(needs_motion_verdicts), order(:solved), space, &
+                           found, error)
          if (must_stop() .or. allocated(error)) return
          do i = 1, solved
             space%judged%judged = allocated(found(order(i))%told%motions)
@@ -221,7 +222,7 @@ contains
    end subroutine solve_batch
 
    !> Motions of scenes from other starts than rest, and from their neighbours.
-   subroutine find_motions(scene, plan, first, resolved, choices, requests, order, space, found, error)
+   subroutine find_motions(scene, plan, first, resolved, choices, requests, with_verdicts, order, space, found, error)
       !> Base scene
       type(scene_t), intent(in) :: scene
       !> The plan, and number of the first scene
@@ -230,6 +231,8 @@ contains
       type(resolved_scene_t), intent(in) :: resolved(:)
       type(spectrum_choice_t), intent(in) :: choices(:)
       type(request_t), intent(in) :: requests(:)
+      !> Whether the verdicts of the motions are asked for
+      logical, intent(in) :: with_verdicts
       !> Scenes that were solved, in this order
       integer, intent(in) :: order(:)
       type(chunk_space_t), intent(inout) :: space
@@ -243,10 +246,10 @@ contains
          if (.not. allocated(found(i)%settled)) allocate (found(i)%settled(0))
       end do
       if (.not. has_starts(scene)) return
-      call find_other_motions(scene, resolved, choices, requests, order, space%tight, found, error)
+      call find_other_motions(scene, resolved, choices, requests, with_verdicts, order, space%tight, found, error)
       if (must_stop() .or. allocated(error)) return
       if (scene%campaign%neighbours .and. plan%method == method_grid) &
-         call hand_on_motions(plan, first, resolved, choices, requests, space%tight, found, error)
+         call hand_on_motions(plan, first, resolved, choices, requests, with_verdicts, space%tight, found, error)
    end subroutine find_motions
 
    !> Solve scenes that ask for the same, find their classes, and whether they stand, as far as columns ask for it.

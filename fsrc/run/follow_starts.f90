@@ -29,6 +29,7 @@ module follow_starts
    use verify_scene, only: nearby_orbit
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use window_extremes, only: extremes_of_record, window_extremes_t
+   use window_impacts, only: impacts_of_record, verdict_of
    implicit none(type, external)
    private
 
@@ -144,6 +145,7 @@ contains
       else if (judged%repeats_after > 0 .and. orbit%period == 0) then
          own%period = judged%repeats_after
       end if
+      if (judged%impacts%exists) own%verdict = verdict_of(judged%resolved%problem, judged%extremes, judged%impacts)
       own%from_own_start = .true.
       own%starts = 1
       own%acceleration_rms = judged%severity%acceleration_rms
@@ -339,6 +341,8 @@ contains
       told%class = verdict%class
       severity = severity_of_record(window%record, judged%resolved%problem%frequency)
       extremes = extremes_of_record(window%record)
+      told%verdict = verdict_of(judged%resolved%problem, extremes, &
+                                impacts_of_record(window%record, judged%resolved%problem%frequency))
       told%acceleration_rms = severity%acceleration_rms
       told%film_force_rms = severity%film_force_rms
       told%film_minimum = extremes%lowest(seen_film)%value

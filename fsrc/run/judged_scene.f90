@@ -1,7 +1,7 @@
 !> A judged scene, whether a single one, a value of a sweep or a row of a campaign, and the values of all quantities of it.
 module judged_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use coexisting_motions, only: coexisting_motions_t, loudest_motion, quietest_motion
+   use coexisting_motions, only: coexisting_motions_t, loudest_motion, quietest_motion, unknown_verdict
    use verification, only: verification_t
    use engine, only: motion_count_t
    use force, only: inertia_ratio
@@ -38,7 +38,8 @@ module judged_scene
       quantity_harmonics_by_integrals, &
       quantity_load_maximum, quantity_load_minimum, &
       quantity_loudest_acceleration_rms, quantity_loudest_class, &
-      quantity_loudest_film_force_rms, quantity_loudest_film_minimum, quantity_motions, quantity_quietest_acceleration_rms, &
+      quantity_loudest_film_force_rms, quantity_loudest_film_minimum, quantity_loudest_verdict, quantity_motions, &
+      quantity_quietest_acceleration_rms, &
       quantity_quietest_class, quantity_starts_solved, quantity_unsettled_starts, &
       quantity_severity_error, quantity_model_limit, quantity_natural_frequency, &
       quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, quantity_pressure_maximum, &
@@ -241,7 +242,7 @@ contains
             value = real(judged%rattle%class, dp)
          case (quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_loudest_class, &
                quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, quantity_loudest_film_minimum, &
-               quantity_quietest_class, quantity_quietest_acceleration_rms)
+               quantity_quietest_class, quantity_quietest_acceleration_rms, quantity_loudest_verdict)
             if (allocated(judged%coexisting%motions)) value = value_of_motions(quantity, judged%coexisting)
          case (quantity_lyapunov_exponent)
             if (judged%rattle%parting%periods > 0) value = judged%rattle%parting%exponent
@@ -289,6 +290,7 @@ contains
       !> With one motion at least
       type(coexisting_motions_t), intent(in) :: coexisting
 
+      value = ieee_value(value, ieee_quiet_nan)
       associate (loudest => coexisting%motions(loudest_motion(coexisting)), &
                  quietest => coexisting%motions(quietest_motion(coexisting)))
          select case (quantity)
@@ -300,6 +302,8 @@ contains
             value = real(coexisting%unsettled_starts, dp)
          case (quantity_loudest_class)
             value = real(loudest%class, dp)
+         case (quantity_loudest_verdict)
+            if (loudest%verdict /= unknown_verdict) value = real(loudest%verdict, dp)
          case (quantity_loudest_acceleration_rms)
             value = loudest%acceleration_rms
          case (quantity_loudest_film_force_rms)

@@ -14,7 +14,8 @@ module quantities
                                  needs_load_range = 4, needs_regime = 5, needs_coast_load_range = 6, needs_net_load_range = 7, &
                                  needs_coast_film_range = 8, needs_position_range = 9, needs_deflection = 10, &
                                  needs_spectrum = 11, needs_verification = 12, needs_impacts = 13, needs_verified_impacts = 14, &
-                                 needs_orbit = 15, needs_closure_range = 16, needs_starts = 17, need_count = 17
+                                 needs_orbit = 15, needs_closure_range = 16, needs_starts = 17, needs_motion_verdicts = 18, &
+                                 need_count = 18
 
    !> Parts of the summary, in their order.
    integer, parameter :: part_scene = 1, part_window = 2, part_spectrum = 3, part_class = 4, part_errors = 5, &
@@ -45,7 +46,8 @@ module quantities
          quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, &
          quantity_irregular_fraction_is_bound, quantity_sampling_sufficient, quantity_rattle_class, &
          quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_loudest_class, &
-         quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, quantity_loudest_film_minimum, &
+         quantity_loudest_verdict, quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, &
+         quantity_loudest_film_minimum, &
          quantity_quietest_class, quantity_quietest_acceleration_rms, &
          quantity_lyapunov_exponent, quantity_verified, &
          quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
@@ -293,6 +295,9 @@ module quantities
       quantity_t(quantity_loudest_class, 'loudest_class', '-', a_code, part_class, needs_starts, 'summary campaign', &
          'Class of the motion with the largest acceleration_rms that a start leads to.', &
          'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &
+      quantity_t(quantity_loudest_verdict, 'loudest_verdict', '-', a_code, part_class, needs_motion_verdicts, 'summary campaign', &
+         'Its verdict, of separation and impacts.', &
+         'no separation|separation|single-sided impacts|double-sided impacts'), &
       quantity_t(quantity_loudest_acceleration_rms, 'loudest_acceleration_rms', 'm/s2', a_number, part_class, needs_starts, &
          'summary campaign', &
          'Its acceleration_rms.', digits=4), &
@@ -428,7 +433,8 @@ contains
       integer :: i
 
       needed = [(any(quantity_table(quantities)%need == i), i=1, need_count)]
-      needed(needs_impacts) = any(needed([needs_impacts, needs_verified_impacts]))
+      needed(needs_impacts) = any(needed([needs_impacts, needs_verified_impacts, needs_motion_verdicts]))
+      needed(needs_starts) = any(needed([needs_starts, needs_motion_verdicts]))
       needed(needs_verification) = any(needed([needs_verification, needs_verified_impacts]))
       needed(needs_load_range) = any(needed([needs_load_range, needs_deflection, needs_impacts, needs_closure_range]))
       needed(needs_regime) = any(needed([needs_regime, needs_closure_range]))

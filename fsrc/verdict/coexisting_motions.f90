@@ -7,10 +7,15 @@ module coexisting_motions
    implicit none(type, external)
    private
 
+   !> Of a motion whose impacts nobody asked for.
+   integer, parameter, public :: unknown_verdict = -1
+
    !> One of them.
    type, public :: told_motion_t
       !> Code of its class
       integer :: class = 0
+      !> Its verdict, as of verdict_of, or unknown_verdict
+      integer :: verdict = unknown_verdict
       !> Periods of the force after which it repeats; 0: it does not
       integer :: period = 0
       !> Numbers of its state at the start of a period of the force, from which it is the same motion again

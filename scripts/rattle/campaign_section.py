@@ -20,6 +20,9 @@ KEY_WORDS = {
     "pressure_angle_deg": "pressure angle",
     "helix_angle_deg": "helix angle",
     "frequency": "excitation frequency",
+    "loudest_verdict": "verdict of the loudest motion",
+    "loudest_class": "class of the loudest motion",
+    "quietest_class": "class of the quietest motion",
 }
 
 

@@ -91,8 +91,8 @@ contains
       judged%orbit%multipliers = [(0.3_dp, -0.4_dp), (0.1_dp, 0.0_dp)]
       judged%coexisting%motions = [told_motion_t(class=class_idle, acceleration_rms=82.0_dp, film_force_rms=83.0_dp, &
                                                 film_minimum=84.0_dp), &
-                                   told_motion_t(class=class_irregular, acceleration_rms=85.0_dp, film_force_rms=86.0_dp, &
-                                                 film_minimum=87.0_dp), &
+                                   told_motion_t(class=class_irregular, verdict=1, acceleration_rms=85.0_dp, &
+                                                 film_force_rms=86.0_dp, film_minimum=87.0_dp), &
                                    told_motion_t(class=class_creep, acceleration_rms=81.0_dp, film_force_rms=88.0_dp, &
                                                  film_minimum=89.0_dp)]
       judged%coexisting%starts_solved = 29
@@ -176,6 +176,7 @@ contains
       call expect('starts_solved', 29.0_dp)
       call expect('unsettled_starts', 2.0_dp)
       call expect('loudest_class', real(class_irregular, dp))
+      call expect('loudest_verdict', 1.0_dp)
       call expect('loudest_acceleration_rms', 85.0_dp)
       call expect('loudest_film_force_rms', 86.0_dp)
       call expect('loudest_film_minimum', 87.0_dp)

@@ -12,7 +12,7 @@ module test_quantities
    use key_table, only: find_key
    use kinds, only: dp, int64
    use problem, only: has_elastic_teeth
-   use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, needs_starts, &
+   use quantities, only: a_list, a_number, least_verdict_with_impacts, needs_impacts, needs_motion_verdicts, needs_starts, &
                          quantity_impacts_per_period_drive, &
                          quantity_gear_acceleration_maximum, quantity_gear_acceleration_rms, &
                          quantity_impacts_verified, quantity_verdict, quantity_verdict_verified, verification_of, &
@@ -100,7 +100,7 @@ contains
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of no gear')
          else if (i == quantity_closure_range) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of rigid flanks')
-         else if (quantity_table(i)%need == needs_starts) then
+         else if (any(quantity_table(i)%need == [needs_starts, needs_motion_verdicts])) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of one start')
          else if (i == quantity_lyapunov_exponent) then
             call checks%check(ieee_is_nan(quantity_value(i, single)), trim(quantity_table(i)%name)//' of a motion that repeats')
@@ -136,7 +136,7 @@ contains
             end associate
             column = column + 7
          else if (.not. any(told(i) == [quantity_verified, quantity_periods_solved]) .and. &
-                  quantity_table(told(i))%need /= needs_starts) then
+                  all(quantity_table(told(i))%need /= [needs_starts, needs_motion_verdicts])) then
             ! Motions from other starts are looked for beside the judged one: tests/user/test_coexisting_rows.py.
             call check_same(told(i), row(column), 'in a campaign')
          end if

@@ -18,7 +18,8 @@ import rattle as package
 
 COLUMNS = (
     "'rattle_class', 'acceleration_rms', 'film_force_rms', 'film_minimum', 'steady_film', 'verified', "
-    "'motions', 'starts_solved', 'unsettled_starts', 'loudest_class', 'loudest_acceleration_rms', "
+    "'verdict', 'motions', 'starts_solved', 'unsettled_starts', 'loudest_class', 'loudest_verdict', "
+    "'loudest_acceleration_rms', "
     "'loudest_film_force_rms', 'loudest_film_minimum', 'quietest_class', 'quietest_acceleration_rms'"
 )
 OF_STARTS = ("motions", "starts_solved", "unsettled_starts", "loudest", "quietest")
@@ -89,9 +90,13 @@ def test_rows_tell_the_motions_of_single_scenes(run, folder: Path) -> None:
         assert result["quietest_acceleration_rms"][row] == pytest.approx(rms[0], rel=1e-4)
         words = package.codes.CLASSES
         assert words[int(result["loudest_class"][row])] == loudest["rattle_class"]
+        words = package.codes.CODES["verdict"]
+        assert words[int(result["loudest_verdict"][row])] == loudest["verdict"], row
     one = result["motions"] == 1.0
-    for name in ("acceleration_rms", "film_force_rms", "film_minimum"):
+    for name in ("acceleration_rms", "film_force_rms", "film_minimum", "verdict"):
         np.testing.assert_array_equal(result[f"loudest_{name}"][one], result[name][one])
+    # The verdicts of loudest motions are told by their own impacts, not by those of the motion from rest.
+    assert (result["loudest_verdict"] != result["verdict"]).any()
 
 
 def test_other_columns_are_those_of_the_motion_from_rest(run, folder: Path) -> None:

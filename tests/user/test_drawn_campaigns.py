@@ -193,21 +193,31 @@ def test_what_is_not_verified_is_hatched_over_its_colour(made, tmp_path, column)
 
 
 @pytest.mark.parametrize(
-    ("column", "drawn_motion"), [("loudest_class", "the loudest"), ("film_minimum", "that from rest")]
+    ("column", "drawn_motion"),
+    [
+        ("loudest_class", "the loudest"),
+        ("loudest_verdict", "the loudest"),
+        ("film_minimum", "that from rest"),
+    ],
 )
 def test_several_motions_are_hatched_crosswise(made, tmp_path, column, drawn_motion):
     """The legend says which of them is drawn; the usual map is that of the loudest."""
     motions = 1.0 + (made.column("film_minimum") > np.nanmedian(made.column("film_minimum")))
     assert campaign_figure.usual_columns(read(made, tmp_path)) == ["rattle_class"]
-    made.rows = np.column_stack([made.rows, motions, made.column("rattle_class")])
-    made.columns = [*made.columns, ("motions", "-"), ("loudest_class", "-")]
+    verdicts = np.arange(300) % 4
+    made.rows = np.column_stack([made.rows, motions, made.column("rattle_class"), verdicts])
+    made.columns = [*made.columns, ("motions", "-"), ("loudest_class", "-"), ("loudest_verdict", "-")]
     campaign = read(made, tmp_path)
     figure = draw_map(campaign, column, contours=())
     several = motions.reshape(15, 20) > 1.0
     np.testing.assert_array_equal(hatched(figure.axes[0])[look.SEVERAL_HATCH], several)
     share = look.share(int(several.sum()), 300)
     assert f"several motions, {drawn_motion} drawn ({share})" in drawn.legend_words(figure)
-    assert campaign_figure.usual_columns(campaign) == ["loudest_class"]
+    assert campaign_figure.usual_columns(campaign) == ["loudest_verdict"]
+    if column.startswith("loudest"):
+        title = figure.axes[0].get_title(loc="left")
+        words = column.removeprefix("loudest_").capitalize()
+        assert title.startswith(f"{words} of the loudest motion, campaign map")
 
 
 def test_a_map_of_verifications_needs_no_hatch(made, tmp_path):

@@ -364,7 +364,7 @@ def test_ready_gearbox_has_a_map(run, repository: Path, tmp_path: Path) -> None:
     assert package.read_campaign(path).gears == ("1st", "2nd", "3rd", "4th")
     drawn = call_script("plot.py", "campaign", path, "--output", tmp_path, "--format", "png")
     assert drawn.returncode == 0, drawn.stderr
-    assert len(list(tmp_path.glob("gearbox_map.*_map_verdict.png"))) == 4
+    assert len(list(tmp_path.glob("gearbox_map.*_map_loudest_verdict.png"))) == 4
     assert run("--check", repository / "input" / "gearbox.nml", cwd=tmp_path).returncode == 0
 
 

@@ -13,14 +13,15 @@ from rattle import command, rerun
 from rattle.campaign_plan import GRID
 from rattle.campaign_result import Campaign
 from rattle.campaign_section import new_section
+from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, campaign_slice, campaign_summary, style
 from rattle.figures.fit import is_narrow
 from rattle.outputs import Writer
 from rattle.thresholds import thresholds
 
 DESCRIPTION = (
-    "Draw a campaign: a map of the verdict, or where that is not recorded of the class, that of the loudest "
-    "motion if there are several, or of any column "
+    "Draw a campaign: a map of the verdict, or where that is not recorded of the class, of the loudest "
+    "motion where that is recorded, or of any column "
     "over two varied keys (default), columns along one key (--along), or one page on all of it (--summary)."
 )
 PAGE_WIDTH = 150.0  # mm, the least in which a page can be read
@@ -158,10 +159,10 @@ def draw_maps(
 def usual_columns(campaign: Campaign) -> list[str]:
     """What a map shows unless a column is asked for: the verdict where that is recorded, else the class.
 
-    Of several motions it is the class of the loudest.
+    Of several motions it is that of the loudest.
     """
-    usual = ("verdict", "loudest_class", "rattle_class")
-    return [next((name for name in usual if name in campaign), "rattle_class")]
+    usual = "verdict" if "verdict" in campaign or "loudest_verdict" in campaign else "rattle_class"
+    return [look.loudest(campaign, usual)]
 
 
 def overlay_of(options: Namespace) -> campaign_map.Options:

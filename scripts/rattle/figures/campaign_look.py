@@ -55,6 +55,13 @@ IRREGULAR_SO_FAR = 6
 SO_FAR_HATCH = "\\\\\\\\\\\\"
 SO_FAR_WORDS = "irregular so far"
 CLASSES = ("rattle_class", "loudest_class", "quietest_class")
+VERDICTS = ("verdict", "loudest_verdict")
+# Columns of the motion from rest, and what stands for them of the loudest.
+LOUDEST = {
+    "verdict": "loudest_verdict",
+    "rattle_class": "loudest_class",
+    "film_force_rms": "loudest_film_force_rms",
+}
 SEVERAL_HATCH = "xxx"
 MICROMETRES = "\N{MICRO SIGN}m"
 
@@ -73,15 +80,21 @@ def code_colours(column: str) -> Mapping[int, str] | None:
     words = words_of(column)
     if words is None:
         return None
-    if column == "verdict" or column in CLASSES:
+    if column in VERDICTS or column in CLASSES:
         return CLASS_COLOURS if column in CLASSES else VERDICT_COLOURS
     return FLAG_COLOURS.get(column) or dict(zip(words, OTHER_COLOURS, strict=False))
+
+
+def loudest(campaign: Campaign, column: str) -> str:
+    """The column of the loudest motion that stands for one of the motion from rest, where it is recorded."""
+    found = LOUDEST.get(column, column)
+    return found if found in campaign else column
 
 
 def words_in_legends(column: str, code: int) -> str:
     """The word of a code, and more where it stands alone."""
     words = spoken(word(column, code))
-    return f"{words} without impact" if (column, words) == ("verdict", "separation") else words
+    return f"{words} without impact" if column in VERDICTS and words == "separation" else words
 
 
 def gaps(campaign: Campaign, column: str) -> list[Gap]:
@@ -122,7 +135,7 @@ def doubts(campaign: Campaign, column: str) -> list[Doubt]:
         return []
     nowhere = np.zeros(campaign.row_count, dtype=bool)
     so_far, lacking = nowhere, nowhere
-    if column == "verdict":
+    if column in VERDICTS:
         lacking = campaign.done & (verdict_flags(campaign) == 0.0)
     else:
         if "rattle_class" in campaign:

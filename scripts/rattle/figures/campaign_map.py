@@ -53,7 +53,7 @@ class Options:
     def contours_of(self, column: str) -> tuple[str, ...]:
         if self.contours is not None:
             return tuple(self.contours)
-        return ("force",) if column == "verdict" else ("frequency", "damping")
+        return ("force",) if column in look.VERDICTS else ("frequency", "damping")
 
 
 def draw(section: Section, column: str, options: Options) -> Figure:
@@ -68,8 +68,8 @@ def draw(section: Section, column: str, options: Options) -> Figure:
 
 def draw_over(axes: Axes, section: Section, column: str, options: Options) -> list[Line2D]:
     """Limit of the film law, contours and thresholds over the cells; returns legend entries."""
-    handles = draw_limit(axes, section) if column == "verdict" else []
-    handles += draw_contours(axes, section, options.contours_of(column))
+    handles = draw_limit(axes, section) if column in look.VERDICTS else []
+    handles += draw_contours(axes, section, options.contours_of(column), column in look.LOUDEST.values())
     for found in options.thresholds:
         handles += threshold_curves.draw_over_map(axes, section, found)
     return handles
@@ -78,7 +78,7 @@ def draw_over(axes: Axes, section: Section, column: str, options: Options) -> li
 def title(campaign: Campaign, column: str, held: str = "") -> str:
     """What is drawn, of which campaign; under a verdict with which film, and whether it was verified."""
     lines = [f"{look.capital(look.short_name(column))}, {look.headline(campaign)}", held]
-    if column == "verdict":
+    if column in look.VERDICTS:
         checked = "" if "verdict_verified" in campaign else "; whether it is verified was not recorded"
         lines.insert(1, f"{look.capital(style.film_words(campaign))}{checked}")
     return "\n".join(filter(None, lines))
@@ -97,7 +97,7 @@ def draw_pairs(
         drawn = []
         for (pair, section), axes in zip(sections.items(), row, strict=True):
             entries, mesh = draw_cells(axes, section, column, options.colours)
-            entries += draw_over(axes, section, column, options) if column == "verdict" else []
+            entries += draw_over(axes, section, column, options) if column in look.VERDICTS else []
             drawn += [mesh] if mesh else []
             for entry in entries:
                 words = entry.get_label()
@@ -131,9 +131,12 @@ def draw_pairs(
             axes.set_xlabel("")
         middle = (len(sections) - 1) // 2
         grid[-1][middle].set_xlabel(look.axis_label(section.free[0]), x=0.5 if len(sections) % 2 else 1.05)
-    if "verdict" in columns:
+    for column in set(columns).intersection(look.VERDICTS):
         figure.suptitle(
-            f"Verdict by pair, {style.film_words(section.campaign)}", x=0.01, ha="left", fontsize="medium"
+            f"{look.capital(look.short_name(column))} by pair, {style.film_words(section.campaign)}",
+            x=0.01,
+            ha="left",
+            fontsize="medium",
         )
     figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=3)
     return figure
@@ -262,14 +265,14 @@ def draw_limit(axes: Axes, section: Section) -> list[Line2D]:
     return [Line2D([], [], color=LIMIT_COLOUR, linewidth=1.4, path_effects=LIMIT_LOOK, label=words)]
 
 
-def draw_contours(axes: Axes, section: Section, names: Sequence[str]) -> list[Line2D]:
-    """Contours over the cells of a grid; returns legend entries."""
+def draw_contours(axes: Axes, section: Section, names: Sequence[str], loudest: bool = False) -> list[Line2D]:
+    """Contours over the cells of a grid, of the loudest motion or that from rest; returns legend entries."""
     x, y = section.free
     if min(x.values.size, y.values.size) < 2:
         return []
     campaign, handles = section.campaign, []
     for name in names:
-        column = _contoured(campaign, name)
+        column = _contoured(campaign, name, loudest)
         if column is None:
             continue
         grid = np.full(campaign.shape, np.nan)
@@ -328,10 +331,12 @@ def _triangles(campaign: Campaign, x: str, y: str, known: np.ndarray) -> Triangu
     return Triangulation(campaign[x][known], campaign[y][known], Triangulation(*places).triangles)
 
 
-def _contoured(campaign: Campaign, name: str) -> np.ndarray | None:
+def _contoured(campaign: Campaign, name: str, loudest: bool = False) -> np.ndarray | None:
     if name == "frequency":
         return look.frequency_ratio(campaign)
     column = {"damping": "damping_ratio", "force": "film_force_rms"}[name]
+    if loudest:
+        column = look.loudest(campaign, column)
     if column not in campaign:
         return None
     return campaign[column]
@@ -410,7 +415,7 @@ def _code_patches(column: str, values: np.ndarray, palette: Mapping[int, str], w
     patches = []
     for code, colour in palette.items():
         count = int((values == code).sum())
-        if count or column == "verdict" or column in look.CLASSES:
+        if count or column in look.VERDICTS or column in look.CLASSES:
             words = f"{look.words_in_legends(column, code)} ({look.share(count, whole)})"
             patches.append(Patch(facecolor=colour, edgecolor=look.HATCH_COLOUR, linewidth=0.5, label=words))
     return patches

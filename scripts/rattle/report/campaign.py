@@ -110,6 +110,12 @@ def sentences_on(campaign: Campaign) -> Iterator[str]:
             for name, count in counted(campaign, "verdict").most_common()
         ]
         yield f"Verdict: {', '.join(shares)}." if shares else "No scene has a verdict."
+    if "motions" in campaign:
+        several = campaign.done & (campaign["motions"] > 1.0)
+        yield (
+            f"{int(several.sum())} scenes have several motions: numbers are those of the motion from rest, "
+            "maps of verdict and class show the loudest and hatch these scenes crosswise."
+        )
     if "verdict_verified" in campaign:
         flags = campaign["verdict_verified"][campaign.done]
         lacking, known = int((flags == 0.0).sum()), int(np.isfinite(flags).sum())
@@ -186,14 +192,20 @@ def figures(campaign: Campaign) -> tuple[list[str], list[str]]:
         if alone.done.any()
     }
     names = [name for name in DRAWN if name in campaign][:MOST_SEEN]
+    drawn = {name: drawn_column(campaign, name) for name in names}
     return [
         page.drawing(
-            partial(campaign_map.draw_pairs, sections, [name], campaign_map.Options()),
+            partial(campaign_map.draw_pairs, sections, [drawn[name]], campaign_map.Options()),
             DRAWN[name],
-            f"{campaign.name} pairs {name}",
+            f"{campaign.name} pairs {drawn[name]}",
         )
         for name in names
     ], others
+
+
+def drawn_column(campaign: Campaign, column: str) -> str:
+    """What a map of a column shows: verdict and class of the loudest motion, where they are recorded."""
+    return look.loudest(campaign, column) if column in ("verdict", "rattle_class") else column
 
 
 def figures_of_pair(campaign: Campaign) -> list[str]:
@@ -208,10 +220,11 @@ def figures_of_pair(campaign: Campaign) -> list[str]:
         return [page.paragraph("A sample of one key only has no map.", "note")]
     x, y = campaign.varied[:2]
     drawn = []
-    for name, words in DRAWN.items():
-        if name not in campaign:
+    for column, words in DRAWN.items():
+        if column not in campaign:
             continue
-        options = campaign_map.Options(None if name in ("verdict", "rattle_class") else ())
+        options = campaign_map.Options(None if column in ("verdict", "rattle_class") else ())
+        name = drawn_column(campaign, column)
         if campaign.kind == GRID:
             section = new_section(campaign, (x, y), {})
             held = f" Held: {section.words}." if section.held else ""
