@@ -357,7 +357,18 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@cp $(PICTURE_RUNS)/sweep_overlay.png $(PICTURES)/stiff_or_not.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/loose_gear.nml
 	@$(PYTHON) scripts/plot.py motion --overwrite --figures flanks --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle
+	@$(PYTHON) scripts/plot.py motion --overwrite --animate --output $(PICTURE_RUNS) $(PICTURE_RUNS)/loose_gear.rattle
 	@cp $(PICTURE_RUNS)/flanks_loose_gear.png $(PICTURES)/loose_gear.png
+	@cp $(PICTURE_RUNS)/motion_loose_gear.gif $(PICTURES)/loose_gear.gif
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/gearbox_orders.nml
+	@$(PYTHON) scripts/plot.py orders --overwrite --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_orders.rattle
+	@cp $(PICTURE_RUNS)/orders_gearbox_orders.4th.png $(PICTURES)/orders.png
+	@cp input/gearbox_tolerances.nml $(PICTURE_RUNS)
+	@$(PYTHON) scripts/sensitivity.py design --overwrite $(PICTURE_RUNS)/gearbox_tolerances.nml
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_tolerances_design.nml
+	@$(PYTHON) scripts/sensitivity.py --overwrite --output $(PICTURE_RUNS) $(PICTURE_RUNS)/gearbox_tolerances_design.rattle \
+	  > $(PICTURE_RUNS)/sensitivity.txt
+	@cp $(PICTURE_RUNS)/sensitivity_gearbox_tolerances_design.png $(PICTURES)/sensitivity.png
 	@$(MAKE) --no-print-directory $(BUILD)/newmark_outcomes
 	@$(BUILD)/newmark_outcomes input/idle.nml input/creep.nml input/creep_false_harmonic.nml > $(PICTURE_RUNS)/newmark_outcomes.csv
 	@$(PYTHON) tests/stress/newmark_outcome_map.py $(PICTURE_RUNS)/newmark_outcomes.csv $(PICTURES)/newmark_outcomes.png

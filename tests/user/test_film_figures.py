@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from drawn import all_words
-from figure_files import call, stems
+from figure_files import stems
 from film_writer import FILM_INPUT, write_points, write_profiles
 from result_writer import write_motion, write_result
+from script_calls import call_script
 
 import rattle
 from rattle.figures import film_points, film_pressures, style
@@ -28,7 +29,7 @@ def film(tmp_path) -> Path:
 
 
 def test_a_film_task_gives_the_figures_of_the_paper(film, tmp_path):
-    done = call("plot.py", "film", film, "--output", tmp_path / "figures")
+    done = call_script("plot.py", "film", film, "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
     assert stems(tmp_path / "figures") == PAPER
     assert len(done.stdout.splitlines()) == 2 * len(PAPER)
@@ -36,7 +37,7 @@ def test_a_film_task_gives_the_figures_of_the_paper(film, tmp_path):
 
 def test_profiles_may_be_named_in_place_of_the_table(film, tmp_path):
     profiles = film.with_name("film.profiles.rattle")
-    done = call("plot.py", "film", profiles, "--figures", "3", "--output", tmp_path / "figures")
+    done = call_script("plot.py", "film", profiles, "--figures", "3", "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
     assert stems(tmp_path / "figures") == ["figure_03_film"]
 
@@ -44,7 +45,10 @@ def test_profiles_may_be_named_in_place_of_the_table(film, tmp_path):
 @pytest.mark.long
 def test_same_film_gives_the_same_bytes(film, tmp_path):
     for name in ("first", "second"):
-        assert call("plot.py", "film", film, "--figures", "3,5", "--output", tmp_path / name).returncode == 0
+        assert (
+            call_script("plot.py", "film", film, "--figures", "3,5", "--output", tmp_path / name).returncode
+            == 0
+        )
     for first in (tmp_path / "first").iterdir():
         assert first.read_bytes() == (tmp_path / "second" / first.name).read_bytes(), first.name
 
@@ -101,7 +105,7 @@ def test_a_column_that_was_not_asked_for_is_named(tmp_path, figure, column):
     path = write_points(
         tmp_path / "a.rattle", np.geomspace(5e-5, 1e-4, 5), **without if figure == "4" else {}
     )
-    done = call("plot.py", "film", path, "--figures", figure, "--output", tmp_path)
+    done = call_script("plot.py", "film", path, "--figures", figure, "--output", tmp_path)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert f"has no column '{column}'" in done.stderr
@@ -109,44 +113,46 @@ def test_a_column_that_was_not_asked_for_is_named(tmp_path, figure, column):
 
 def test_without_the_piezo_viscous_slopes_the_others_are_drawn(tmp_path):
     path = write_points(tmp_path / "a.rattle", np.geomspace(5e-5, 1e-4, 5), without="stiffness_piezo_viscous")
-    done = call("plot.py", "film", path, "--figures", "4", "--output", tmp_path / "figures")
+    done = call_script("plot.py", "film", path, "--figures", "4", "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
     assert stems(tmp_path / "figures") == ["figure_04a_a", "figure_04b_a"]
 
 
 def test_without_profiles_figure_4_is_drawn_and_the_rest_explained(tmp_path):
     path = write_points(tmp_path / "a.rattle", np.geomspace(5e-5, 1e-4, 5))
-    done = call("plot.py", "film", path, "--output", tmp_path / "figures")
+    done = call_script("plot.py", "film", path, "--output", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
     assert stems(tmp_path / "figures") == ["figure_04a_a", "figure_04b_a"]
     assert done.stderr.count("was not asked for 'profile'") == 2
-    asked = call("plot.py", "film", path, "--figures", "3", "--output", tmp_path / "figures")
+    asked = call_script("plot.py", "film", path, "--figures", "3", "--output", tmp_path / "figures")
     assert asked.returncode == 2 and asked.stderr.count("\n") == 1
 
 
 def test_a_single_film_thickness_gives_no_figure_4(tmp_path):
     path = write_points(tmp_path / "a.rattle", np.array([7e-5]))
-    done = call("plot.py", "film", path, "--figures", "4", "--output", tmp_path)
+    done = call_script("plot.py", "film", path, "--figures", "4", "--output", tmp_path)
     assert done.returncode == 2
     assert "has a single film thickness; figure 4 needs several." in done.stderr
 
 
 def test_a_film_that_the_result_does_not_hold_is_refused(film, tmp_path):
-    done = call("plot.py", "film", film, "--figures", "3", "--film-ratio", "8e-5", "--output", tmp_path)
+    done = call_script(
+        "plot.py", "film", film, "--figures", "3", "--film-ratio", "8e-5", "--output", tmp_path
+    )
     assert done.returncode == 2
     assert "has no film_ratio 8e-05; it holds 7e-05." in done.stderr
 
 
 def test_a_motion_is_refused(tmp_path):
     path = write_motion(tmp_path / "idle.rattle", lines={1.0: 1.0})
-    done = call("plot.py", "film", path, "--figures", "4", "--output", tmp_path)
+    done = call_script("plot.py", "film", path, "--figures", "4", "--output", tmp_path)
     assert done.returncode == 2
     assert "is no film but the result of task = 'motion'; 'plot.py motion' draws it." in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [("--figures", "6"), ("--film-ratio", "-1"), ("--speed-group", "fast")])
 def test_wrong_options_of_film_figures_are_explained(film, arguments):
-    done = call("plot.py", "film", film, *arguments)
+    done = call_script("plot.py", "film", film, *arguments)
     assert done.returncode == 2
     assert f"'{arguments[1]}' is not" in done.stderr
 
@@ -167,7 +173,7 @@ def test_curves_beyond_the_most_are_thinned_with_a_word(tmp_path, capsys):
 
 def test_a_result_of_another_task_is_refused_once(tmp_path):
     path = write_motion(tmp_path / "motion.rattle", lines={1.0: 1.0})
-    done = call("plot.py", "film", path, "--output", tmp_path)
+    done = call_script("plot.py", "film", path, "--output", tmp_path)
     assert done.returncode == 2
     assert done.stderr == (
         f"plot.py: {path} is no film but the result of task = 'motion'; 'plot.py motion' draws it.\n"

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from figure_files import call, stems
+from figure_files import stems
 from kernel_module import kernels
+from script_calls import call_script
 
 from rattle.figures import film_fit
 
 
 def test_the_fit_is_printed_and_drawn(tmp_path):
-    done = call("plot.py", "film-fit", "--output", tmp_path / "figures", "--alpha-p", "0.3,1", "0,0.5")
+    done = call_script("plot.py", "film-fit", "--output", tmp_path / "figures", "--alpha-p", "0.3,1", "0,0.5")
     assert done.returncode == 0, done.stderr
     assert stems(tmp_path / "figures") == ["film_fit"]
     rows = done.stdout.splitlines()
@@ -22,7 +23,9 @@ def test_the_fit_is_printed_and_drawn(tmp_path):
 
 def test_the_fit_in_markdown_over_other_ranges(tmp_path):
     ranges = ("--film-ratio", "6e-5,1e-4", "--squeeze-ratio=-4e-4,0", "--speed-group", "2e-7,2e-6")
-    done = call("plot.py", "film-fit", "--output", tmp_path, "--markdown", "--upper-end", "0.95", *ranges)
+    done = call_script(
+        "plot.py", "film-fit", "--output", tmp_path, "--markdown", "--upper-end", "0.95", *ranges
+    )
     assert done.returncode == 0, done.stderr
     assert all(line.startswith("| ") for line in done.stdout.splitlines())
 
@@ -47,7 +50,7 @@ def test_readings_move_the_factor_alone():
     ],
 )
 def test_ranges_that_fit_nothing_are_explained(tmp_path, arguments, sentence):
-    done = call("plot.py", "film-fit", "--output", tmp_path, *arguments)
+    done = call_script("plot.py", "film-fit", "--output", tmp_path, *arguments)
     assert done.returncode == 2
     assert sentence in done.stderr and "Traceback" not in done.stderr
     assert not list(tmp_path.iterdir())

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from figure_files import call, stems
+from figure_files import stems
 from result_writer import write_motion, write_result
+from script_calls import call_script
 
 import rattle
 from rattle.figures import regime_map
@@ -57,7 +58,7 @@ def test_scenes_are_placed_on_the_map(tmp_path):
     idle = write_scene(tmp_path / "idle.rattle")
     (tmp_path / "idle.summary.nml").write_text("&summary\n   name = 'idle'\n   steady_film = 8.889E-7\n/\n")
     light = write_scene(tmp_path / "light.rattle", force=-20.0, speed="rolling_speed = 3.81")
-    done = call(
+    done = call_script(
         "plot.py",
         "regime-map",
         tmp_path / "idle.summary.nml",
@@ -85,7 +86,7 @@ def test_scenes_are_placed_on_the_map(tmp_path):
 
 
 def test_the_bare_map_is_drawn(tmp_path):
-    done = call("plot.py", "regime-map", "--output", tmp_path)
+    done = call_script("plot.py", "regime-map", "--output", tmp_path)
     assert done.returncode == 0 and done.stdout == ""
     assert stems(tmp_path) == ["regime_map"]
 
@@ -103,21 +104,23 @@ def test_grubin_film_of_the_map_is_that_of_the_scene(tmp_path):
 
 def test_scenes_of_different_oil_are_told(tmp_path):
     paths = [write_scene(tmp_path / "a.rattle"), write_scene(tmp_path / "b.rattle", alpha=1e-8)]
-    done = call("plot.py", "regime-map", *paths, "--output", tmp_path)
+    done = call_script("plot.py", "regime-map", *paths, "--output", tmp_path)
     assert done.returncode == 0
     assert "The scenes differ in alpha or E*; the hatched part is that of a." in done.stderr
 
 
 def test_scenes_without_a_place_are_refused(tmp_path):
     (tmp_path / "alone.summary.nml").write_text("&summary\n   name = 'alone'\n/\n")
-    alone = call("plot.py", "regime-map", tmp_path / "alone.summary.nml", "--output", tmp_path)
-    film_task = call(
+    alone = call_script("plot.py", "regime-map", tmp_path / "alone.summary.nml", "--output", tmp_path)
+    film_task = call_script(
         "plot.py", "regime-map", write_scene(tmp_path / "f.rattle", task="film"), "--output", tmp_path
     )
-    bare = call(
+    bare = call_script(
         "plot.py", "regime-map", write_motion(tmp_path / "m.rattle", lines={1.0: 1.0}), "--output", tmp_path
     )
-    many = call("plot.py", "regime-map", *[write_scene(tmp_path / "s.rattle")] * 8, "--output", tmp_path)
+    many = call_script(
+        "plot.py", "regime-map", *[write_scene(tmp_path / "s.rattle")] * 8, "--output", tmp_path
+    )
     for done, sentence in (
         (alone, "alone.rattle, which would, does not exist."),
         (film_task, "is no motion but the result of task = 'film'; 'plot.py film' draws it."),

@@ -17,6 +17,7 @@ from told import SPOKEN, stated_error
 import rattle
 from rattle import codes
 from rattle.keys import key_table
+from rattle.report import page as page_parts
 from rattle.report import report as page_on
 
 CALM = {"steps_per_period": None, "method": None, "periods": "60", "accuracy": "1e-6", "until": "'steady'"}
@@ -47,6 +48,13 @@ def motion(solved) -> Path:
     return solved("calm", solver=CALM) / "calm.rattle"
 
 
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages without their pictures, for tests of words."""
+    monkeypatch.setattr(page_parts, "drawing", lambda draw, caption, salt: "<figure><svg></svg></figure>")
+
+
+@pytest.mark.usefixtures("undrawn")
 def test_every_number_of_the_summary_stands_on_the_page_as_it_is(motion):
     page, summary = read_page(report(motion)), rattle.read_summary(motion.with_suffix(".summary.nml"))
     held = [float(digits) for digits, _ in page.numbers]
@@ -67,6 +75,7 @@ def test_every_number_of_the_summary_stands_on_the_page_as_it_is(motion):
         assert line in held and stated_error(error, line, 6) in held
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_all_numbers_are_shown_as_their_digits_say(motion):
     page = read_page(report(motion))
     assert len(page.numbers) > 80
@@ -78,6 +87,7 @@ def test_all_numbers_are_shown_as_their_digits_say(motion):
         assert known, (digits, shown)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_every_input_stands_there_with_unit_and_meaning(motion):
     page, result = read_page(report(motion)), rattle.read(motion)
     for group, keys in result.input.items():
@@ -92,6 +102,7 @@ def test_every_input_stands_there_with_unit_and_meaning(motion):
                 assert f"{value:g}\xa0{key.unit}" in [row[1] for row in rows]
 
 
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize("verification", ("verified", "uncertain", None))
 def test_verified_stands_there_exactly_if_the_summary_says_so(motion, verification):
     text = "'The reason of this test.'"
@@ -108,12 +119,14 @@ def test_verified_stands_there_exactly_if_the_summary_says_so(motion, verificati
     assert ("not solved a second time" in page.verdicts[0]) == (verification is None)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_scene_that_was_not_verified_is_not_called_so(solved):
     result = solved("plain", spectrum={"verify": ".false."}) / "plain.rattle"
     page = read_page(report(result))
     assert page.badges == ["not examined", "not examined"]
 
 
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(
     ("flag", "word"), ((".true.", "verified"), (".false.", "uncertain"), (None, "not examined"))
 )
@@ -135,6 +148,7 @@ def test_of_what_is_seen_first_there_are_three_pictures_and_few_numbers(motion):
     assert ".appendix { break-before: page; }" in text
 
 
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize("word", codes.CLASSES.values())
 def test_the_class_is_the_one_of_the_summary(motion, word):
     with_summary(motion, rattle_class=f"'{word}'", harmonic_count="17", orbit_period="3")
@@ -148,6 +162,7 @@ def test_the_class_is_the_one_of_the_summary(motion, word):
     assert ("after 3 periods" in verdict) == (word == "subharmonic")
 
 
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize("regime", ("unknown", "iso-viscous", "piezo-viscous", "elastohydrodynamic"))
 @pytest.mark.parametrize("contradicted", (True, False))
 def test_regime_and_law_are_told_as_the_summary_has_them(motion, regime, contradicted):
@@ -158,6 +173,7 @@ def test_regime_and_law_are_told_as_the_summary_has_them(motion, regime, contrad
     assert ("is not the one of that regime" in verdict) == contradicted
 
 
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(
     ("key", "value", "words"),
     (
@@ -183,6 +199,7 @@ def test_what_must_be_known_beside_the_class_is_told_only_where_it_is_so(motion,
     assert words in read_page(report(motion)).verdicts[0]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_without_a_summary_there_is_no_verdict(motion):
     motion.with_suffix(".summary.nml").unlink()
     page = read_page(report(motion))
@@ -218,6 +235,7 @@ def test_same_results_give_the_same_page(motion):
     assert other.read_bytes() == first.read_bytes()
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_input_on_the_page_repeats_the_run(motion, run, tmp_path):
     (tmp_path / "again.nml").write_text(input_of(report(motion)))
     ended = run("again.nml", "--output", "again", cwd=tmp_path)
@@ -227,6 +245,7 @@ def test_the_input_on_the_page_repeats_the_run(motion, run, tmp_path):
         np.testing.assert_array_equal(again[name], first[name])
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_how_it_was_computed_is_that_of_the_input(solved):
     page = read_page(report(solved("loose", solver=LOOSE) / "loose.rattle"))
     assert page.shown("Method").startswith("Newmark")
@@ -338,6 +357,7 @@ def test_a_motion_without_the_columns_of_a_figure_says_so(tmp_path):
     assert len(figures(output)) == 1
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_names_cannot_break_the_page(tmp_path):
     path = write_motion(tmp_path / "a.rattle", lines={1.0: 2.0}, name="<b>&amp;x")
     text = report(path).read_text()
@@ -422,6 +442,7 @@ def test_lines_are_harmonics_where_there_is_no_shaft(motion):
     assert "engine order" not in page.words
 
 
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(
     ("share", "matters", "rigid", "elastic"),
     (

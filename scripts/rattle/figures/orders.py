@@ -161,7 +161,7 @@ def draw(campaign: Campaign, cuts: Cuts, measured: Cuts | None) -> Figure:
     above.set_ylabel(f"{LEVEL_LABEL}{relative}")
     above.set_xlim(cuts.speeds[0], cuts.speeds[-1])
     above.set_xlabel("Shaft speed [1/min]")
-    above.set_title(f"Engine orders over speed\n{headline(campaign)}")
+    above.set_title(f"Engine orders over speed, {style.film_words(campaign)}\n{headline(campaign)}")
     style.legend_below(figure, above, 4)
     _campbell(figure, below, campaign, cuts)
     return figure

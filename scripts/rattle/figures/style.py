@@ -187,8 +187,10 @@ def file_part(label: str) -> str:
 
 
 def film_words(result: ResultFile) -> str:
-    """The film law and model, as in 'published iso-viscous film'."""
+    """The film law and model, as in 'published iso-viscous film' and 'elastohydrodynamic film (closure)'."""
     model, law = (str(result.value("film", key)).strip() for key in ("model", "law"))
+    if law == "elastohydrodynamic":
+        return f"{law} film ({model})"
     return f"{'Reynolds' if model == 'reynolds' else model} {law} film"
 
 
