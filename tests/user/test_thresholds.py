@@ -503,6 +503,7 @@ def test_every_gear_of_a_box_has_its_curve(run, repository: Path, tmp_path: Path
         "spectrum.verify=.false.",
     ]
     changes += ["campaign.first=800.0", "campaign.last=1600.0", "campaign.count=3"]
+    changes += ["film.law='iso-viscous'", "film.model='reynolds'"]
     options = [part for change in changes for part in ("--set", change)]
     (tmp_path / "box.nml").write_text(text)
     ended = run(*options, "box.nml", cwd=tmp_path, timeout=600.0)

@@ -12,20 +12,19 @@ from matplotlib.figure import Figure
 import rattle
 from rattle import command, outputs
 from rattle.figures import animation, histories, spectra, style
-from rattle.result import Result, ResultError
+from rattle.result import Result
 
 DESCRIPTION = (
-    "Draw figures 6 to 10 of the paper. An iso-viscous result gives figures 06, 07, 08 and 10a, a "
-    "piezo-viscous one 09 and 10b, with the scene's name behind the number. A result with the column "
-    "coast_film also gives flanks_NAME: films and loads of both flanks and the acceleration over a cycle."
+    "Draw figures 6 to 10 of the paper. A piezo-viscous result gives figures 09 and 10b, an iso-viscous one "
+    "06, 07, 08 and 10a, and so does one with a film that the paper has not; the scene's name stands behind "
+    "the number. A result with the column coast_film also gives flanks_NAME: films and loads of both flanks "
+    "and the acceleration over a cycle."
 )
 
 FLANKS = "flanks"
 NUMBERS = (6, 7, 8, 9, 10, FLANKS)
-FIGURES_OF_LAW = {
-    "iso-viscous": {6: "figure_06", 7: "figure_07", 8: "figure_08", 10: "figure_10a", FLANKS: FLANKS},
-    "piezo-viscous": {9: "figure_09", 10: "figure_10b", FLANKS: FLANKS},
-}
+OF_PIEZO_VISCOUS = {9: "figure_09", 10: "figure_10b", FLANKS: FLANKS}
+OF_OTHERS = {6: "figure_06", 7: "figure_07", 8: "figure_08", 10: "figure_10a", FLANKS: FLANKS}
 OVERLAYS = {
     (6,): "figure_06_overlay",
     (7,): "figure_07_overlay",
@@ -123,11 +122,8 @@ def single_figures(
 ) -> Iterator[tuple[str, Figure]]:
     """File stem, which ends with the scene's name, and figure for each result, in the order given."""
     for result, label in zip(results, style.run_labels(results), strict=True):
-        if result.law not in FIGURES_OF_LAW:
-            raise ResultError(
-                f"{result.path} has the film law '{result.law}', which no figure of 6 to 10 shows."
-            )
-        for number, stem in FIGURES_OF_LAW[result.law].items():
+        stems = OF_PIEZO_VISCOUS if result.law == "piezo-viscous" else OF_OTHERS
+        for number, stem in stems.items():
             if number in numbers and (number != FLANKS or histories.FLANK_FILMS[1] in result):
                 yield f"{stem}_{style.file_part(label)}", _draw(number, [result], [label], extent)
 
