@@ -72,7 +72,7 @@ UNIT_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(UNIT_SOURCES)))
 BENCH_SOURCES := $(sort $(wildcard tests/benchmarks/*.f90))
 BENCH_PROGRAMS := $(patsubst %.f90,$(BUILD)/%,$(notdir $(BENCH_SOURCES)))
 
-STRESS_PROGRAMS := $(addprefix $(BUILD)/,stress_scenes stress_summaries lane_independence newmark_outcomes)
+STRESS_PROGRAMS := $(addprefix $(BUILD)/,stress_scenes stress_summaries stress_motions lane_independence newmark_outcomes)
 STRESS_SOURCES := $(sort $(filter-out $(STRESS_PROGRAMS:$(BUILD)/%=tests/stress/%.f90),$(wildcard tests/stress/*.f90)))
 STRESS_OBJECTS := $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(STRESS_SOURCES)))
 
@@ -264,9 +264,10 @@ bench-build: $(PYTHON_ENV)/installed
 # Random scenes: what their summaries and rows of campaigns tell, against a solution that resolves impacts, and every engine
 # against a tighter solution. About an hour and a half on two cores; tests/stress/README.md says what the columns mean.
 SCENES := 100000
-stress: $(BUILD)/stress_summaries $(BUILD)/stress_scenes $(BUILD)/lane_independence
+stress: $(BUILD)/stress_summaries $(BUILD)/stress_scenes $(BUILD)/stress_motions $(BUILD)/lane_independence
 	@$(BUILD)/stress_summaries --scenes $(SCENES) --failures $(BUILD)/stress_failures.txt
 	@$(BUILD)/stress_scenes --scenes $(SCENES) --csv $(BUILD)/stress.csv
+	@$(BUILD)/stress_motions --scenes $$(($(SCENES)/50 + 1)) --csv $(BUILD)/stress_motions.csv
 	@$(BUILD)/lane_independence --scenes 3000
 
 # Does a test notice when the code is broken in one place? Hours; PART=3/20 is every twentieth mutant from the third on.
@@ -393,10 +394,11 @@ doc:
 	@echo '$(BUILD)/doc/index.html'
 
 # A sample of the stress study: a silent failure fails it.
-stress-sample: $(BUILD)/stress_summaries $(BUILD)/stress_scenes $(BUILD)/rattle $(BUILD)/kernels/built
+stress-sample: $(BUILD)/stress_summaries $(BUILD)/stress_scenes $(BUILD)/stress_motions $(BUILD)/rattle $(BUILD)/kernels/built
 	@echo 'stress, a sample'
 	@$(BUILD)/stress_summaries --first 20 --scenes 100 --campaigns 1
 	@$(BUILD)/stress_scenes --scenes 300 --csv $(BUILD)/stress_sample.csv
+	@$(BUILD)/stress_motions --first 10 --scenes 2
 	@$(PYTHON) tests/stress/told_alike.py $(BUILD)/rattle --groups 4
 
 # --- style -------------------------------------------------------------------------------------------
