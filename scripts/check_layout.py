@@ -36,6 +36,7 @@ KNOW_FLANKS = {
         "motion/lane_advance",
         "motion/lane_integration",
         "motion/many_motions",
+        "motion/nodal_engine",
         "motion/taylor_iso_viscous",
         "motion/taylor_piezo_viscous",
         "motion/taylor_reynolds_piezo",

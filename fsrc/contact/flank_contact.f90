@@ -40,6 +40,12 @@ module flank_contact
       real(dp) :: by_other = 0.0_dp
    end type film_equation_t
 
+   !> What the state of a flank whose film is solved in nodes tells of it: its smallest film, its largest pressure, and the gap that
+   !> the gear leaves. The pressures themselves stay with the engine.
+   integer, parameter, public :: of_smallest_film = 1, of_pressure = 2, of_gap = 3
+   character(*), parameter :: nodal_numbers(3) = [character(13) :: 'smallest_film', 'pressure', 'gap']
+   character(*), parameter :: nodal_units(3) = [character(2) :: 'm', 'Pa', 'm']
+
    !> Slope of the load over the velocity of a film without squeeze, over that slope where it tells no velocity any more
    real(dp), parameter :: flattest = 1.0e3_dp
 
@@ -91,6 +97,7 @@ contains
       type(flank_contact_t), intent(in) :: contact
 
       inner_count = count_of_state(contact%state_law)
+      if (contact%film%in_nodes) inner_count = size(nodal_numbers)
    end function inner_count
 
    !> One of them.
@@ -100,7 +107,11 @@ contains
       integer, intent(in) :: which
       type(state_number_t) :: number
 
-      number = number_of_state(contact%state_law, which)
+      if (contact%film%in_nodes) then
+         number = state_number_t(trim(nodal_numbers(which)), trim(nodal_units(which)))
+      else
+         number = number_of_state(contact%state_law, which)
+      end if
    end function inner_number
 
    !> Load of the film and its slopes, at a state of the film's own if it has one.
@@ -285,7 +296,9 @@ contains
       real(dp), intent(in) :: thickness
       real(dp), allocatable :: inner(:)
 
-      if (contact%state_law > 0) then
+      if (contact%film%in_nodes) then
+         inner = [thickness, 0.0_dp, thickness]
+      else if (contact%state_law > 0) then
          inner = rest_of_state(contact%state_law, contact%film, thickness)
       else
          allocate (inner(0))

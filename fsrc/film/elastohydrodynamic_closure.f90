@@ -65,7 +65,7 @@ module elastohydrodynamic_closure
    real(dp), parameter :: beyond_all = 1.0e60_dp
 
    public :: closure_of, closure_velocity, closure_load, closure_steady_film, closure_width, closure_film, closure_pressure, &
-             is_fitted
+             is_fitted, thicken
 
 contains
 

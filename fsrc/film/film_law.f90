@@ -17,7 +17,7 @@ module film_law
    use rupture, only: rupture_tangent_successive, squeeze_group
    use scene_status, only: status_no_rigid_film, status_overflow
    use scene_types, only: film_choice_t, law_elastohydrodynamic, law_iso_viscous, law_piezo_viscous, model_closure, &
-                          model_published, model_reynolds, rupture_half_pi, rupture_solved, rupture_solver_fast, &
+                          model_published, model_resolved, model_reynolds, rupture_half_pi, rupture_solved, rupture_solver_fast, &
                           rupture_solver_successive, scene_t, viscosity_constant
    use squeeze_of_load, only: iso_viscous_squeeze, load_carried, load_too_small, piezo_viscous_squeeze, published_squeeze
    implicit none(type, external)
@@ -41,6 +41,8 @@ module film_law
       logical :: costly = .false.
       !> Whether its flanks bend: their compression follows the width of the contact, too
       logical :: bends = .false.
+      !> Whether its pressure is solved in nodes, so that its smallest film and largest pressure are numbers of a state
+      logical :: in_nodes = .false.
       !> Equivalent radius R of (2) [m]
       real(dp) :: radius = 0.0_dp
       !> Plane-strain modulus E* of (3) [Pa]
@@ -128,6 +130,7 @@ contains
          case (kernel_closure)
             film%exact = .true.
             film%bends = .true.
+            film%in_nodes = scene%film%model == model_resolved
             film%pressure_thickens = lubricant%viscosity_law /= viscosity_constant
             film%speed = 2.0_dp*scene%kinematics%entrainment_speed
             film%closure = closure_of(film%radius, contact%length, film%modulus, film%speed, film%viscosity, &
@@ -153,7 +156,8 @@ contains
 
       kernel = 0
       if (choice%law == law_elastohydrodynamic) then
-         if (choice%model == model_closure) kernel = kernel_closure
+         ! The closure tells what is asked before the films of a motion are solved in nodes.
+         if (choice%model == model_closure .or. choice%model == model_resolved) kernel = kernel_closure
       else if (choice%model == model_reynolds) then
          if (choice%law == law_iso_viscous) kernel = kernel_reynolds_iso
          if (choice%law == law_piezo_viscous) kernel = kernel_reynolds_piezo
@@ -452,6 +456,7 @@ contains
          words = 'Reynolds piezo-viscous film of rigid flanks'
       case (kernel_closure)
          words = 'elastohydrodynamic film, by its closure'
+         if (choice%model == model_resolved) words = 'elastohydrodynamic film, its pressure in nodes'
       case default
          words = 'unknown film law'
       end select

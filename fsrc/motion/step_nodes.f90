@@ -36,7 +36,7 @@ module step_nodes
       real(dp), allocatable :: states(:, :)
    end type step_nodes_t
 
-   public :: take_nodes, interpolate
+   public :: take_nodes, add_piece, interpolate
 
 contains
 
@@ -98,6 +98,23 @@ contains
                                                                          of_velocity + springs + 1:))
       end do
    end subroutine take_nodes
+
+   !> Add a piece whose states are known.
+   pure subroutine add_piece(start, length, states, nodes)
+      !> Phase where it begins, and its length [periods]
+      real(dp), intent(in) :: start
+      real(dp), intent(in) :: length
+      !> Node, number of the state
+      real(dp), intent(in) :: states(:, :)
+      !> Nodes of the period so far
+      type(step_nodes_t), intent(inout) :: nodes
+
+      call provide_room(nodes, nodes%pieces + 1, size(states, 2))
+      nodes%states(nodes_per_piece*nodes%pieces + 1:nodes_per_piece*(nodes%pieces + 1), :) = states
+      nodes%pieces = nodes%pieces + 1
+      nodes%start(nodes%pieces) = start
+      nodes%length(nodes%pieces) = length
+   end subroutine add_piece
 
    !> Compressions of the springs of a lane, one or two.
    pure subroutine take_compressions(block, lane, x, compressions)

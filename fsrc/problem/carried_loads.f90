@@ -6,7 +6,8 @@ module carried_loads
    use film_law, only: film_kernel, film_load, film_over_gap, width_compression
    use film_pressure, only: exact_pressure, exact_pressures
    use film_state, only: load_t, state_number_t
-   use flank_contact, only: carries_positive_loads, inner_at_rest, load_at_rest, loads_of_contact, overflow_load, &
+   use flank_contact, only: carries_positive_loads, inner_at_rest, load_at_rest, loads_of_contact, of_gap, of_pressure, &
+      of_smallest_film, overflow_load, &
       velocity_under
    use force, only: force_at, force_of_period, largest_oscillation
    use kinds, only: dp
@@ -15,6 +16,8 @@ module carried_loads
    use scene_types, only: least_static_load
    implicit none(type, external)
    private
+
+   integer, parameter :: drive_flank = 1, coast_flank = 2
 
    public :: thinnest_film, net_load, net_loads, drive_loads, coast_loads, coast_films, films_of, gear_positions, &
              initial_state, kept_by_contacts, keep_by_contacts, counts_as, sizes_of_state, pressure_of_film, &
@@ -131,12 +134,31 @@ contains
       real(dp), intent(in) :: states(:, :)
       real(dp) :: films(size(states, 1))
 
+      if (problem%contact%film%in_nodes) then
+         films = nodal_numbers(problem, coast_flank, of_smallest_film, states)
+         return
+      end if
       films = problem%backlash - states(:, of_film)
       if (has_elastic_teeth(problem)) films = films + (states(:, of_drive_compression) + states(:, of_coast_compression))
       if (.not. problem%contact%film%bends) return
       films = films + drive_widths(problem, states)
       films = film_over_gap(problem%contact%film, films, states(:, of_coast_compression)/problem%contact%compliance, films)
    end function coast_films
+
+   !> A number of the states of a flank whose film is solved in nodes.
+   pure function nodal_numbers(problem, flank, which, states) result(numbers)
+      type(problem_t), intent(in) :: problem
+      integer, intent(in) :: flank
+      !> One of those of module flank_contact
+      integer, intent(in) :: which
+      !> State, number of it
+      real(dp), intent(in) :: states(:, :)
+      real(dp) :: numbers(size(states, 1))
+      integer :: places(2)
+
+      places = inner_places(problem, flank)
+      numbers = states(:, places(1) + which - 1)
+   end function nodal_numbers
 
    !> Width compressions of the drive flank [m].
    pure function drive_widths(problem, states) result(widths)
@@ -170,6 +192,10 @@ contains
       real(dp), intent(in) :: states(:, :)
       real(dp) :: positions(size(states, 1))
 
+      if (problem%contact%film%in_nodes) then
+         positions = nodal_numbers(problem, drive_flank, of_gap, states)
+         return
+      end if
       positions = states(:, of_film)
       if (has_elastic_teeth(problem)) positions = positions - states(:, of_drive_compression)
       if (problem%contact%film%bends) positions = positions - drive_widths(problem, states)
@@ -292,6 +318,11 @@ contains
       real(dp), intent(out) :: pressures(:)
 
       associate (film => problem%contact%film, compliance => problem%contact%compliance)
+         if (film%in_nodes) then
+            pressures = nodal_numbers(problem, drive_flank, of_pressure, states)
+            if (has_two_flanks(problem)) pressures = max(pressures, nodal_numbers(problem, coast_flank, of_pressure, states))
+            return
+         end if
          if (film%bends) then
             pressures = closure_pressure(film%closure, states(:, of_film), states(:, of_drive_compression)/compliance)
             if (has_two_flanks(problem)) &

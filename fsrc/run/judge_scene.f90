@@ -1,6 +1,6 @@
 !> Judges a solved scene: its window, class and regime, and how far they can be trusted.
 module judge_scene
-   use verify_scene, only: verify_motion
+   use verify_scene, only: verify_in_nodes, verify_motion
    use engine, only: ending_t
    use errors, only: error_t
    use force_signal, only: signal_of_window
@@ -11,11 +11,11 @@ module judge_scene
    use node_extremes, only: seen_pressure
    use carried_loads, only: thinnest_film
    use problem, only: of_velocity
-   use rattle_class, only: note_orbit, rattle_verdict_t
+   use rattle_class, only: classify_steps, note_orbit, rattle_verdict_t
    use regime_check, only: check_regime
    use sample_recorder, only: sample_recorder_t
    use scene_status, only: is_success, status_steady
-   use scene_types, only: scene_t
+   use scene_types, only: model_resolved, scene_t
    use signals, only: must_stop
    use window_extremes, only: extremes_of_record, extremes_of_samples
    use window_impacts, only: impacts_of_record, impacts_of_samples
@@ -70,13 +70,18 @@ contains
       if (.not. judged%judged) return
       judged%series_coarse = .not. judged%rattle%spectrum%sampling_sufficient
       ! What the error-controlled engine has solved can be solved again, sampled finer, from where the window begins.
-      if (judged%series_coarse .and. window%record%periods > 0) &
+      if (judged%series_coarse .and. scene%film%model == model_resolved) then
+         call classify_steps(window%record, judged%resolved%problem%frequency, scene%spectrum, judged%resolved%noise_floor, &
+                             judged%rattle)
+         window%by_integrals = .true.
+      else if (judged%series_coarse .and. window%record%periods > 0) then
          call judge_window(scene, judged%resolved%problem, scene%solver%accuracy, judged%resolved%noise_floor, window, &
                            judged%rattle, error)
+      end if
       judged%judged = .not. allocated(error)
       if (.not. judged%judged) return
       call note_orbit(judged%rattle, judged%repeats_after)
-      call follow_one(ending, judged)
+      if (scene%film%model /= model_resolved) call follow_one(ending, judged)
       judged%judged = .not. must_stop()
       if (.not. judged%judged) return
       judged%window_periods = window%periods
@@ -96,9 +101,14 @@ contains
          signal_of_window(judged%resolved%problem, window%accelerations, window%periods, judged%periods, &
                           judged%status == status_steady, judged%severity%film_force_rms)
       call note_regime(judged)
-      if (scene%spectrum%verify) call verify_motion(scene, judged%resolved, judged%periods, window, judged%extremes, &
+      if (scene%spectrum%verify .and. scene%film%model == model_resolved) then
+         call verify_in_nodes(scene, judged%resolved, judged%nodal, judged%periods, judged%repeats_after, window, &
+                              judged%extremes, judged%severity, judged%impacts, judged%rattle, judged%verification)
+      else if (scene%spectrum%verify) then
+         call verify_motion(scene, judged%resolved, judged%periods, window, judged%extremes, &
                                                judged%severity, judged%impacts, judged%rattle, judged%verification, error, &
                                                judged%orbit)
+      end if
       judged%judged = .not. allocated(error)
    end subroutine judge
 

@@ -10,6 +10,7 @@ module judged_scene
    use kinds, only: dp
    use load_points, only: coast_flank, drive_flank
    use vibration_severity, only: vibration_severity_t
+   use nodal_engine, only: nodal_choice_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
       seen_position, seen_velocity
    use periodic_orbit, only: orbit_stability, periodic_orbit_t
@@ -62,6 +63,8 @@ module judged_scene
    !> A judged scene. Parts that nobody asks for, or that its ending leaves unknown, are those of the scene before.
    type, public :: judged_scene_t
       type(resolved_scene_t) :: resolved
+      !> How it is followed where its films are solved in nodes
+      type(nodal_choice_t) :: nodal
       !> Status of scene_status, when the motion got it [s] and its film there [m], and whether there is a window that was judged
       integer :: status = status_complete
       real(dp) :: time = 0.0_dp, film = 0.0_dp
@@ -267,7 +270,7 @@ contains
          case (quantity_law_contradicted)
             value = flag(regime%law_contradicted)
          case (quantity_closure_range)
-            if (problem%contact%film%bends) &
+            if (problem%contact%film%bends .and. .not. problem%contact%film%in_nodes) &
                value = real(closure_range(problem%contact%film, largest_load(judged), regime%pressure_maximum), dp)
          case (quantity_verdict_verified)
             if (verification%exists .and. judged%impacts%exists) value = flag(verification%impacts%verdict)

@@ -17,6 +17,9 @@ module resolved_scene
    implicit none(type, external)
    private
 
+   !> Acceleration by which films in nodes may be off without any motion, over the accuracy and what the force gives the mass [-]
+   real(dp), parameter :: nodal_share = 0.01_dp
+
    !> What follows from a scene.
    type, public :: resolved_scene_t
       type(problem_t) :: problem = problem_t()
@@ -83,6 +86,8 @@ contains
          ! What is left over of a spring's compression when the iterations of an implicit step end
          if (has_elastic_teeth(problem)) resolved%noise_by_accuracy = &
             max(resolved%noise_by_accuracy, pass_share*minval(rest)/(problem%contact%compliance*mass))
+         ! Steps of films in nodes follow the loads that there are, to shares of them.
+         if (film%in_nodes) resolved%noise_by_accuracy = nodal_share*force/mass
          ! Newmark's steps are not chosen by an accuracy, and at rest they stand still. What a loose tolerance makes of them
          ! is a motion that the verification doubts.
          if (scene%solver%method /= method_newmark) resolved%noise_floor = resolved%noise_floor_at(scene%solver%accuracy)

@@ -12,6 +12,7 @@ module run_scene
    use kinds, only: dp
    use log_file, only: log_t
    use newmark_engine, only: solve_newmark
+   use nodal_scene, only: choice_of, solve_nodal_scene
    use motions_table, only: write_motions
    use output_place, only: has_motions_table, log_path, motions_path, result_path, state_path, summary_path
    use progress, only: progress_t
@@ -21,7 +22,7 @@ module run_scene
    use scene_report, only: report_ending, report_start
    use scene_status, only: is_success, status_complete, status_interrupted, status_not_written
    use scene_summary, only: write_scene_summary
-   use scene_types, only: method_taylor, scene_t
+   use scene_types, only: method_taylor, model_resolved, scene_t
    use signals, only: caught_signal
    use text, only: integer_text
    use text_output, only: lock_texts, unlock_texts
@@ -81,7 +82,11 @@ contains
       if (.not. allocated(error)) then
          call watcher%start(log, 'periods', quiet)
          call unlock_texts()
-         if (scene%solver%method /= method_taylor) then
+         if (scene%film%model == model_resolved) then
+            call choice_of(scene, judged%resolved%problem, judged%nodal)
+            call solve_nodal_scene(scene, judged%resolved%problem, judged%nodal, request_of(scene), recorder, watcher, ending, &
+                                   record, error)
+         else if (scene%solver%method /= method_taylor) then
             call solve_newmark(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
          else
             call solve_controlled(judged%resolved%problem, request_of(scene), recorder, watcher, state, ending, record, error)
@@ -91,7 +96,8 @@ contains
          solve_seconds = wall_seconds() - started
          call note_ending(ending, judged)
          if (.not. allocated(error)) call judge(scene, recorder, record, ending, judged, error)
-         if (judged%judged .and. .not. allocated(error)) call find_all_motions(scene, ending, started, judged, error)
+         if (judged%judged .and. .not. allocated(error) .and. scene%film%model /= model_resolved) &
+            call find_all_motions(scene, ending, started, judged, error)
          ! A signal that came meanwhile has cut the verification short.
          if (is_success(judged%status) .and. caught_signal() /= 0) judged%status = status_interrupted
          if (judged%judged) call recorder%add_extremes(record, judged%periods - judged%window_periods, judged%series_coarse)

@@ -356,7 +356,7 @@ contains
          call log%line('  warning: the film law of the scene does not fit this regime (law_contradicted); '// &
                        fitting_law(judged%regime%regime))
       ! Of films that do not bend it is not a number.
-      if (judged%resolved%problem%contact%film%bends) then
+      if (judged%resolved%problem%contact%film%bends .and. .not. judged%resolved%problem%contact%film%in_nodes) then
          if (nint(quantity_value(quantity_closure_range, judged)) == outside_closure) &
             call log%line('  warning: '//closure_range_sentence(judged%resolved%problem%contact%film, largest_load(judged), &
                                                                 judged%regime%pressure_maximum))

@@ -7,14 +7,16 @@ module verify_scene
       severity_error, no_verification, windows_behind
    use engine, only: ending_t, motion_state_t, start_of
    use errors, only: error_t
-   use fine_window, only: solve_whole_window, window_t
+   use fine_window, only: classify_window, solve_whole_window, window_t
    use kinds, only: dp
+   use nodal_engine, only: nodal_choice_t
+   use nodal_scene, only: solve_finer
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t
    use carried_loads, only: films_of
    use problem, only: problem_t
-   use rattle_class, only: class_irregular, class_irregular_so_far, note_known, note_orbit, rattle_verdict_t
-   use resolved_scene, only: resolved_scene_t
+   use rattle_class, only: classify_steps, class_irregular, class_irregular_so_far, note_known, note_orbit, rattle_verdict_t
+   use resolved_scene, only: request_of, resolved_scene_t
    use scene_status, only: is_success
    use scene_types, only: method_newmark, method_taylor, scene_t
    use text_output, only: lock_texts, unlock_texts
@@ -28,7 +30,10 @@ module verify_scene
    !> A periodic motion farther away than this is not that of the scene [-].
    real(dp), parameter :: orbit_nearness = 0.02_dp
 
-   public :: verify_motion, tighten, nearby_orbit
+   !> Error of a finer solution in nodes, in the unit that module verification multiplies by ten, over the accuracy of the scene
+   real(dp), parameter :: finer_share = 0.03_dp
+
+   public :: verify_motion, verify_in_nodes, tighten, nearby_orbit
 
 contains
 
@@ -104,6 +109,62 @@ contains
                                          impacts_of_record(tight%record, resolved%problem%frequency))
       verification%severity_error = severity_error(severity, severity_of_record(tight%record, resolved%problem%frequency), accuracy)
    end subroutine verify_motion
+
+   !> Verification of a scene whose films are solved in nodes: by twice as many of them and a tighter tolerance. Its window need not
+   !> close to the last digits, as its steps are of third order.
+   subroutine verify_in_nodes(scene, resolved, choice, periods, orbit, window, extremes, severity, impacts, verdict, &
+                              verification)
+      !> Checked scene
+      type(scene_t), intent(in) :: scene
+      !> What follows from it
+      type(resolved_scene_t), intent(in) :: resolved
+      !> How it was followed
+      type(nodal_choice_t), intent(in) :: choice
+      !> Periods solved
+      integer, intent(in) :: periods
+      !> Periods after which it repeats, else 0
+      integer, intent(in) :: orbit
+      !> Window at their end
+      type(window_t), intent(in) :: window
+      !> Its extremes, severity and impacts
+      type(window_extremes_t), intent(in) :: extremes
+      type(vibration_severity_t), intent(in) :: severity
+      type(window_impacts_t), intent(in) :: impacts
+      !> Verdict to be tested
+      type(rattle_verdict_t), intent(in) :: verdict
+      !> Its verification
+      type(verification_t), intent(out) :: verification
+      type(window_t) :: finer
+      type(ending_t) :: ending
+      type(rattle_verdict_t) :: finer_verdict
+
+      finer%periods = window%periods
+      finer%samples_per_period = window%samples_per_period
+      call unlock_texts()
+      call solve_finer(scene, resolved%problem, choice, request_of(scene), periods, finer, ending)
+      call lock_texts()
+      if (.not. is_success(ending%status)) then
+         verification = no_verification(doubt_t(doubt_tighter_ending, counts=[ending%status, 0]))
+         return
+      end if
+      call classify_window(scene%spectrum, resolved%problem, finer%periods, finer%accelerations, finer%record, &
+                           resolved%noise_floor, finer_verdict)
+      if (.not. finer_verdict%spectrum%sampling_sufficient .or. window%by_integrals) &
+         call classify_steps(finer%record, resolved%problem%frequency, scene%spectrum, resolved%noise_floor, finer_verdict)
+      call note_orbit(finer_verdict, orbit)
+      associate (problem => resolved%problem)
+         ! Of the films their extremes count: where one falls by decades in an impact, a millionth of a period is a third of it.
+         call compare_windows(spread(minval(films_of(problem, window%states), dim=1), 1, 1), &
+                              spread(minval(films_of(problem, finer%states), dim=1), 1, 1), extremes, &
+                              extremes_of_record(finer%record), verdict, finer_verdict, &
+                              doubt_of_impacts(verdict, finer_verdict, window%periods), scene%spectrum, &
+                              scene%spectrum%verification_tolerance, finer_share*scene%solver%accuracy, 0.0_dp, verification)
+         verification%impacts = agreement_of(problem, extremes, impacts, extremes_of_record(finer%record), &
+                                             impacts_of_record(finer%record, problem%frequency))
+         verification%severity_error = severity_error(severity, severity_of_record(finer%record, problem%frequency), &
+                                                      finer_share*scene%solver%accuracy)
+      end associate
+   end subroutine verify_in_nodes
 
    !> How a scene is solved tighter.
    pure subroutine tighten(method, own_accuracy, accuracy, by_collocation)

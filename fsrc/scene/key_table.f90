@@ -181,15 +181,18 @@ module key_table
             'Film law of the motion: iso-viscous (35), idle rattle; piezo-viscous (37), creep rattle; elastohydrodynamic, '// &
             'where pressure bends the flanks.', &
             example='iso-viscous', with_gear='elastohydrodynamic'), &
-      key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical closure', '', &
-            'Whose film: published, the paper''s formulas with U as their u; reynolds, exact with u = 2U; closure, of the '// &
-            'elastohydrodynamic law, its default. Film task: absent means both of the first, numerical adds finite volumes.', &
+      key_t('film', 'model', text_kind, '', 'published', any_number, 'published reynolds numerical closure resolved', '', &
+            'Whose film: published, the paper''s with U as u; reynolds, exact with u = 2U; of the elastohydrodynamic law '// &
+            'closure, its default, or resolved, in nodes. Film task: absent means both of the first, numerical adds finite '// &
+            'volumes.', &
             with_gear='reynolds'), &
       key_t('film', 'rupture', text_kind, '', 'half-pi', any_number, 'half-pi solved', &
             'film.law=iso-viscous & film.model=published', &
             'Rupture angle x_e in the squeeze term of (24): half-pi as in (35), or solved from (18) at every evaluation.'), &
       key_t('film', 'rupture_solver', text_kind, '', 'fast', any_number, 'fast successive', 'film.rupture=solved', &
             'Root finder of (18): fast takes a table good to rounding, successive the paper''s substitution; same root.'), &
+      key_t('film', 'nodes', integer_kind, '-', '32', range_t(24.0_dp, .false., 128.0_dp, .false.), '', 'film.model=resolved', &
+            'Nodes of pressure across a contact: 24, 32, 48, 64 or 128.'), &
       key_t('film', 'initial_film', real_kind, 'm', '', positive, '', of_motions, &
             'Film at t = 0; absent: the steady film under Q + m g.', &
             sensible=range_t(lower=1.0e-10_dp, upper=1.0e-2_dp), &
@@ -391,7 +394,8 @@ module key_table
             'Time integration: taylor (error-controlled series, implicit where the film is stiff) or the paper''s newmark.'), &
       key_t('solver', 'accuracy', real_kind, '-', '1.0e-8', range_t(1.0e-12_dp, .false., 1.0e-2_dp, .false.), '', &
             'solver.method=taylor', &
-            'Relative accuracy of the film that an error-controlled method aims at.'), &
+            'Relative accuracy of the film that an error-controlled method aims at; of model = resolved 1e-3 unless given, '// &
+            '1e-5 at least, and that of the peak of the acceleration.'), &
       key_t('solver', 'until', text_kind, '', 'periods', any_number, 'periods steady', 'scene.task=motion|campaign|threshold', &
       'End of the run: all periods, or as soon as the motion is verified to repeat; then one period of the motion is the window.', &
             with_gear='steady'), &

@@ -74,7 +74,7 @@ module quantities
       character(28) :: told_in
       character(160) :: meaning
       !> Words of the codes, from the first code on, a bar between two
-      character(120) :: words = ''
+      character(160) :: words = ''
       integer :: first_code = 0
       !> Digits in the log
       integer :: digits = 5
@@ -84,7 +84,8 @@ module quantities
    type(quantity_t), parameter, private :: quantities_of_motion(*) = [ &
       quantity_t(quantity_status, 'status', '-', a_code, part_scene, needs_nothing, 'sweep', &
          'How the motion ended; in every summary and row.', &
-         'complete|steady|not_converged|film_lost|no_rigid_film|overflow|interrupted|time_limit|not_written|invalid'), &
+         'complete|steady|not_converged|film_lost|no_rigid_film|overflow|interrupted|time_limit|not_written|invalid|'// &
+         'film_cycles|film_torn'), &
       quantity_t(quantity_steady_film, 'steady_film', 'm', a_number, part_scene, needs_nothing, 'summary campaign log', &
          'Film that carries the static load Q + m g without motion.'), &
       quantity_t(quantity_natural_frequency, 'natural_frequency', 'Hz', a_number, part_scene, needs_nothing, &

@@ -333,8 +333,10 @@ contains
       elastic = input%word('scene', 'task') /= 'film' .and. input%word('film', 'law') == 'elastohydrodynamic'
       if (numerical .and. input%word('scene', 'task') /= 'film') &
          call input%add_fault('film', 'model', "'numerical' is for task = 'film' only", faults)
-      if (elastic .and. .not. numerical .and. input%word('film', 'model') /= 'closure') &
-         call input%add_fault('film', 'model', "the model of "//law//" is 'closure'", faults)
+      if (elastic .and. .not. (numerical .or. input%word('film', 'model') == 'closure' &
+                               .or. input%word('film', 'model') == 'resolved')) &
+         call input%add_fault('film', 'model', "the model of "//law//" is 'closure' or 'resolved'", faults)
+      if (input%word('film', 'model') == 'resolved') call check_resolved(input, elastic, faults)
       if (input%word('film', 'model') == 'closure' .and. .not. elastic) &
          call input%add_fault('film', 'model', "'closure' needs "//law, faults)
       if (input%word('lubricant', 'viscosity_law') == 'roelands' .and. .not. (numerical .or. elastic)) &
@@ -348,6 +350,34 @@ contains
          call input%add_fault('contact', 'flattening_included', 'rigid flanks have nothing to include; give a stiffness or '//law, &
                               faults)
    end subroutine check_film_model
+
+   !> Films in nodes of pressure are those of a single motion from rest.
+   subroutine check_resolved(input, elastic, faults)
+      type(scene_input_t), intent(in) :: input
+      !> Whether the law is the elastohydrodynamic one
+      logical, intent(in) :: elastic
+      type(fault_list_t), intent(inout) :: faults
+      real(dp), parameter :: finest = 1.0e-5_dp
+      integer, parameter :: choices(5) = [24, 32, 48, 64, 128]
+
+      if (.not. elastic) then
+         call input%add_fault('film', 'model', "'resolved' needs law = 'elastohydrodynamic'", faults)
+         return
+      end if
+      if (input%word('scene', 'task') /= 'motion') &
+         call input%add_fault('film', 'model', "'resolved' is for task = 'motion'; take 'closure' for many scenes", faults)
+      if (.not. input%is_faulty('film', 'nodes') .and. .not. any(input%count('film', 'nodes') == choices)) &
+         call input%add_fault('film', 'nodes', 'not a number of nodes; allowed: 24, 32, 48, 64, 128', faults)
+      if (.not. input%is_faulty('solver', 'accuracy') .and. input%number('solver', 'accuracy') < finest) &
+         call input%add_fault('solver', 'accuracy', "too fine for model = 'resolved'; allowed: 1e-5 to 1e-2", faults)
+      if (input%is_given('film', 'initial_film')) &
+         call input%add_fault('film', 'initial_film', "model = 'resolved' starts from rest; leave it out", faults)
+      if (input%is_given('film', 'initial_velocity')) &
+         call input%add_fault('film', 'initial_velocity', "model = 'resolved' starts from rest; leave it out", faults)
+      if (input%is_given('solver', 'starts') .and. input%count('solver', 'starts') > 1) &
+         call input%add_fault('solver', 'starts', "model = 'resolved' follows the motion from rest alone; leave it out, or "// &
+                              "look for others with model = 'closure'", faults)
+   end subroutine check_resolved
 
    !> The ends of a sweep differ, its key allows the values between them, and its engine can follow it.
    subroutine check_sweep(input, faults)

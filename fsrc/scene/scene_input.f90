@@ -156,6 +156,12 @@ contains
       end do
       if (self%word('film', 'law') == 'elastohydrodynamic') then
          if (.not. self%is_given('film', 'model')) self%entries(find_key('film', 'model'))%word = 'closure'
+         i = find_key('solver', 'accuracy')
+         if (self%word('film', 'model') == 'resolved' .and. .not. self%entries(i)%given) then
+            key = keys(i)
+            key%default = '1.0e-3'
+            self%entries(i) = new_entry(key, self%file)
+         end if
       else
          i = find_key('lubricant', 'viscosity_law')
          if (.not. self%entries(i)%given) self%entries(i)%word = trim(keys(i)%default)

@@ -13,8 +13,8 @@ module scene_reader
    use odd_numbers, only: odd_numbers_of_input, odd_swings
    use scene_checker, only: check_together
    use scene_input, only: new_scene_input, scene_input_t
-   use scene_types, only: forced_orders, output_t, scene_t, task_campaign, task_motion, task_sweep, &
-      task_threshold
+   use scene_types, only: forced_orders, model_resolved, output_t, scene_t, task_campaign, task_motion, &
+      task_sweep, task_threshold
    use signal_reader, only: take_signal
    use table_reader, only: take_drag_table, take_excitation_table
    use task_reader, only: read_campaign, read_points, read_sweep, read_threshold
@@ -309,6 +309,7 @@ contains
             if (input%is_given('shaft', 'phases')) scene%shaft%phases = input%numbers('shaft', 'phases')
          end if
          scene%oil%base = input%choice('oil', 'base')
+         film%nodes = input%count('film', 'nodes')
          film%rupture = input%choice('film', 'rupture')
          film%rupture_solver = input%choice('film', 'rupture_solver')
          solver%method = input%choice('solver', 'method')
@@ -323,6 +324,7 @@ contains
          if (in_use(input, find_key('solver', 'starts'))) then
             solver%starts = merge(starts_of_motion, starts_of_campaign, scene%task == task_motion)
             if (input%is_given('solver', 'starts')) solver%starts = input%count('solver', 'starts')
+            if (film%model == model_resolved) solver%starts = 1
          end if
          solver%time_limit = input%number('solver', 'time_limit')
          spectrum%verify = input%flag('spectrum', 'verify')

@@ -7,7 +7,7 @@ module scene_status
    integer, parameter, public :: status_complete = 0, status_steady = 1, status_not_converged = 2, &
                                  status_film_lost = 3, status_no_rigid_film = 4, status_overflow = 5, &
                                  status_interrupted = 6, status_time_limit = 7, status_not_written = 8, &
-                                 status_invalid = 9
+                                 status_invalid = 9, status_film_cycles = 10, status_film_torn = 11
 
    public :: status_name, status_sentence, is_success
 
@@ -42,6 +42,12 @@ contains
          sentence = 'The film load exceeds every number that can be represented; the film law does not hold here.'
       case (status_interrupted)
          sentence = 'A signal ended the run; what was computed so far was kept.'
+      case (status_film_cycles)
+         sentence = 'The nodes under pressure cycle however short the step; 64 nodes or more help under heavy loads, and '// &
+                    'model = closure has no nodes.'
+      case (status_film_torn)
+         sentence = 'A cavity opens in a film again and again; 64 nodes or more help under heavy loads, and model = closure '// &
+                    'has no nodes.'
       case (status_invalid)
          sentence = 'The values are no valid scene.'
       case (status_not_written)

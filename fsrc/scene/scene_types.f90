@@ -23,7 +23,8 @@ module scene_types
    integer, parameter, public :: law_iso_viscous = 1, law_piezo_viscous = 2, law_elastohydrodynamic = 3
    character(*), parameter, public :: words_of_laws = 'iso-viscous piezo-viscous elastohydrodynamic'
    !> Whose formulas.
-   integer, parameter, public :: model_published = 1, model_reynolds = 2, model_numerical = 3, model_closure = 4
+   integer, parameter, public :: model_published = 1, model_reynolds = 2, model_numerical = 3, model_closure = 4, &
+                                 model_resolved = 5
    !> Rupture angle in the squeeze term of (24).
    integer, parameter, public :: rupture_half_pi = 1, rupture_solved = 2
    !> Root finder of (18).
@@ -231,6 +232,8 @@ module scene_types
       integer :: model = model_published
       integer :: rupture = rupture_half_pi
       integer :: rupture_solver = rupture_solver_fast
+      !> Nodes of pressure across a contact
+      integer :: nodes = 32
       !> Film at t = 0 [m]; 0: the steady film
       real(dp) :: initial_film = 0.0_dp
       !> Film velocity at t = 0 [m/s]

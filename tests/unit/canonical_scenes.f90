@@ -8,7 +8,7 @@ module canonical_scenes
    use problem, only: problem_of
    use resolved_scene, only: request_of
    use sample_recorder, only: sample_recorder_t
-   use scene_types, only: law_iso_viscous, model_reynolds, scene_t
+   use scene_types, only: law_elastohydrodynamic, law_iso_viscous, model_closure, model_reynolds, scene_t
    use window_record, only: window_record_t
    implicit none(type, external)
    private
@@ -25,7 +25,7 @@ module canonical_scenes
    real(dp), parameter, public :: static_load = 199.2_dp + 3.0_dp*9.80665_dp
    real(dp), parameter, public :: idle_steady_film = 8.889224234368e-7_dp
 
-   public :: canonical_scene, canonical_method, loose_gear, run_window
+   public :: canonical_scene, canonical_method, loose_gear, scene_g, run_window
 
 contains
 
@@ -78,6 +78,32 @@ contains
       scene%film%law = law_iso_viscous
       scene%film%model = model_reynolds
    end function loose_gear
+
+   !> Scene G, a loose gear, with a plane contact beside the stiffness of its teeth, by the closure.
+   type(scene_t) function scene_g(viscosity_law) result(scene)
+      !> Code of scene_types
+      integer, intent(in) :: viscosity_law
+
+      scene%contact%radius = 9.1269e-3_dp
+      scene%contact%length = 0.018943_dp
+      scene%contact%young_modulus = 205.66e9_dp
+      scene%contact%poisson_ratio = 0.3_dp
+      scene%contact%backlash = 110.0e-6_dp
+      scene%contact%stiffness = 2.38e8_dp
+      scene%contact%flattening_included = .false.
+      scene%lubricant%viscosity = 0.0214299_dp
+      scene%lubricant%pressure_viscosity = 1.57335e-8_dp
+      scene%lubricant%viscosity_law = viscosity_law
+      scene%kinematics%entrainment_speed = 0.5_dp*2.83747_dp
+      scene%excitation%mass = 0.620931_dp
+      scene%excitation%steady_force = 2.04527_dp
+      scene%excitation%frequency = 30.0_dp
+      allocate (scene%excitation%force_orders, source=[1, 2])
+      allocate (scene%excitation%force_amplitudes, source=[9.15706_dp, 2.44188_dp])
+      allocate (scene%excitation%force_phases, source=[0.0_dp, 0.0_dp])
+      scene%film%law = law_elastohydrodynamic
+      scene%film%model = model_closure
+   end function scene_g
 
    !> Newmark's iteration for the canonical scenes.
    function canonical_method() result(method)

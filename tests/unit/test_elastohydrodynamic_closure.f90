@@ -1,7 +1,7 @@
 !> Tests of the closure of elastohydrodynamic films: steady films against solutions in nodes and the literature, its limit of rigid
 !> flanks, there and back, slopes, and scene G of a loose gear.
 module test_elastohydrodynamic_closure
-   use canonical_scenes, only: canonical_scene
+   use canonical_scenes, only: canonical_scene, scene_g
    use checks, only: check_list_t
    use constants, only: pi
    use controlled_engine, only: solve_window
@@ -259,31 +259,6 @@ contains
       call checks%check_close(closure_pressure(film%closure, 3.103_dp*film%closure%film_unit, film%closure%load_unit) &
                               /film%closure%pressure_unit/0.225499_dp, 1.0_dp, 0.045_dp, 'largest pressure')
    end subroutine test_units
-
-   !> The contact of scene G, a loose gear, with a plane contact beside the stiffness of its teeth.
-   type(scene_t) function scene_g(viscosity_law) result(scene)
-      integer, intent(in) :: viscosity_law
-
-      scene%contact%radius = 9.1269e-3_dp
-      scene%contact%length = 0.018943_dp
-      scene%contact%young_modulus = 205.66e9_dp
-      scene%contact%poisson_ratio = 0.3_dp
-      scene%contact%backlash = 110.0e-6_dp
-      scene%contact%stiffness = 2.38e8_dp
-      scene%contact%flattening_included = .false.
-      scene%lubricant%viscosity = 0.0214299_dp
-      scene%lubricant%pressure_viscosity = 1.57335e-8_dp
-      scene%lubricant%viscosity_law = viscosity_law
-      scene%kinematics%entrainment_speed = 0.5_dp*2.83747_dp
-      scene%excitation%mass = 0.620931_dp
-      scene%excitation%steady_force = 2.04527_dp
-      scene%excitation%frequency = 30.0_dp
-      allocate (scene%excitation%force_orders, source=[1, 2])
-      allocate (scene%excitation%force_amplitudes, source=[9.15706_dp, 2.44188_dp])
-      allocate (scene%excitation%force_phases, source=[0.0_dp, 0.0_dp])
-      scene%film%law = law_elastohydrodynamic
-      scene%film%model = model_closure
-   end function scene_g
 
    !> Twelfth period of scene G: the closure's own numbers to their last digit, which an independent program told; so the closure
    !> is as far from the films in nodes as it is said to be.

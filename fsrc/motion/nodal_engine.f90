@@ -1,0 +1,661 @@
+!> Motion of a gear whose flanks bend under films solved in nodes of pressure (module nodal_flank): backward differences of third
+!> order of variable step, in Moes' variables,
+!>
+!>     mu Z'' = M_1 - M_2 - F(T) ,   G_1 = Z ,   G_2 = B - Z .
+!>
+!> A pass of Newton's method solves each film for a gap that is still to be corrected, M + S dG, so that the gear has one equation.
+!> A step of a rigid film that ends beyond the bound is thrown away and done again in nodes. Steps end where periods do.
+module nodal_engine
+   use carried_loads, only: films_of, initial_state
+   use clock, only: wall_seconds
+   use elastohydrodynamic_closure, only: closure_t
+   use engine, only: ending_t, motion_watcher_t, motion_state_t, request_t, sample_sink_t, status_of_stop
+   use errors, only: error_t
+   use force, only: force_at, force_of_period
+   use kinds, only: dp, int64
+   use nodal_film, only: grid_of, shares_of_fourth_order
+   use nodal_flank, only: accept_step, begin_step, correct_flank, difference_times, finish_step, is_bent, kept_times, may_soften, &
+                          nodal_contact_t, nodal_flank_t, respond, rigid_gap, share_that_leaves_a_film, soften, step_weights_t, &
+                          stiffen
+   use problem, only: flank_count, has_two_flanks, of_drive_compression, of_film, of_velocity, problem_t, state_size, static_load
+   use repetition, only: longest_orbit
+   use scene_status, only: status_complete, status_film_cycles, status_film_torn, status_interrupted, status_steady
+   use signals, only: must_stop
+   use step_nodes, only: add_piece, node_place, nodes_per_piece, step_nodes_t
+   use window_record, only: record_period, start_record, window_record_t
+   implicit none(type, external)
+   private
+
+   !> How a motion is followed.
+   type, public :: nodal_choice_t
+      integer :: nodes = 32
+      !> Tolerance of a step [-]
+      real(dp) :: tolerance = 3.0e-3_dp
+      !> Bound of bending beyond which films are solved in nodes [-]
+      real(dp) :: bound = 1.0e-2_dp
+      !> S of the grid [-]
+      real(dp) :: scale = 3.0_dp
+   end type nodal_choice_t
+
+   !> Units and coefficients of the gear.
+   type :: gear_t
+      !> Film [m], load [N] and time [s] of Moes' variables
+      real(dp) :: film_unit = 1.0_dp, load_unit = 1.0_dp, time_unit = 1.0_dp
+      !> mu, B, and a period
+      real(dp) :: mass = 1.0_dp, backlash = huge(1.0_dp), period = 1.0_dp
+      integer :: flanks = 1
+   end type gear_t
+
+   !> A motion under way. Places of histories as in module nodal_flank.
+   type :: motion_t
+      type(nodal_flank_t) :: flanks(2)
+      real(dp) :: position(0:kept_times) = 0.0_dp, velocity(0:kept_times) = 0.0_dp
+      !> Times [periods], in the present period; and how many of the last ones are known
+      real(dp) :: time(0:kept_times) = 0.0_dp
+      integer :: known = 0
+      !> Next step [periods]
+      real(dp) :: step = 0.0_dp
+      !> States at the last times, in the unit of each: time, number
+      real(dp), allocatable :: states(:, :)
+   end type motion_t
+
+   !> Film of a flank, largest pressure, and gap: the numbers of a state behind the compressions, flank by flank.
+   integer, parameter :: numbers_of_flank = 3
+
+   !> First step, and the shortest one with which a motion is given up [periods]; largest growth of a step; share of the predicted
+   !> distance that counts as error of a step, of each order
+   real(dp), parameter :: first_step = 1.0e-6_dp, shortest_step = 1.0e-13_dp, most_growth = 1.5_dp, longest_step = 0.02_dp, &
+                          error_shares(3) = [0.5_dp, 0.3_dp, 0.12_dp]
+   !> Load below which errors of loads count as errors of this one [-]
+   real(dp), parameter :: load_floor = 0.05_dp
+   !> Newton's passes: of them all, before nodes change one by one, and the last correction of them [-]
+   integer, parameter :: most_passes = 40, free_passes = 8
+   real(dp), parameter :: last_correction = 1.0e-7_dp
+   !> Rejected steps in a row after which an unloaded film is torn, its load and the times it may be in a period
+   integer, parameter :: most_rejected = 6, most_torn = 20
+   !> Steps of a period after which a motion is given up
+   integer(int64), parameter :: most_steps = 2000000_int64
+
+   !> States at the ends of periods that are kept, and share of the tolerance of a step up to which a motion repeats
+   integer, parameter :: kept_periods = 4*longest_orbit + 1
+   real(dp), parameter :: repetition_share = 2.0_dp
+
+   public :: solve_in_nodes
+
+contains
+
+   !> Solve the motion of a problem from rest.
+   subroutine solve_in_nodes(problem, choice, request, sink, watcher, ending, record, error)
+      !> What moves
+      type(problem_t), intent(in) :: problem
+      type(nodal_choice_t), intent(in) :: choice
+      !> What is asked for; the accuracy is that of the choice
+      type(request_t), intent(in) :: request
+      !> Takes the samples
+      class(sample_sink_t), intent(inout) :: sink
+      !> Told of progress
+      class(motion_watcher_t), intent(inout) :: watcher
+      !> How it ended
+      type(ending_t), intent(out) :: ending
+      !> What is asked for of the window, and then what its steps tell
+      type(window_record_t), intent(inout) :: record
+      !> Set if the sink failed
+      type(error_t), allocatable, intent(out) :: error
+      type(nodal_contact_t) :: contact
+      type(gear_t) :: gear
+      type(motion_t) :: motion
+      type(step_nodes_t) :: nodes
+      real(dp), allocatable :: force(:), states(:, :), accelerations(:), first(:, :)
+      real(dp), allocatable :: watched(:, :)
+      integer :: period, last, n, from
+      logical :: found, searching
+      real(dp) :: started, fastest
+
+      started = wall_seconds()
+      fastest = tiny(1.0_dp)
+      n = request%samples_per_period
+      call set_up(problem, choice, contact, gear)
+      call rest_of_gear(problem, contact, gear, motion, found)
+      allocate (ending%numbers(state_size(problem)), source=initial_state(problem))
+      ending%status = merge(status_complete, status_film_cycles, found)
+      if (.not. found) return
+      allocate (force(n), states(n, state_size(problem)), accelerations(n))
+      call force_of_period(problem%force, force)
+      allocate (first(1, state_size(problem)))
+      first(1, :) = motion%states(1, :)
+      call sink%take(0_int64, [force_at(problem%force, 0.0_dp)], first, &
+                     [acceleration(problem, gear, motion, force_at(problem%force, 0.0_dp), 1)], error)
+      if (allocated(error)) return
+      last = request%periods
+      from = last - request%sampled_periods
+      searching = request%until_steady
+      call sink%begin_window(int(from, int64)*int(n, int64) + 1_int64, request%sampled_periods*n)
+      if (from == 0) call start_record(state_now(motion, 0), record)
+      allocate (watched(state_size(problem), kept_periods), source=0.0_dp)
+      watched(:, 1) = motion%states(1, :)
+      period = 0
+      do while (period < last)
+         period = period + 1
+         call solve_period(problem, contact, gear, force, period > from, motion, nodes, record, states, accelerations, &
+                           ending, choice)
+         ending%film = motion%states(1, of_film)
+         ending%time = (real(period - 1, dp) + motion%time(1))/problem%frequency
+         if (ending%status /= status_complete) return
+         ending%numbers = motion%states(1, :)
+         ending%time = real(period, dp)/problem%frequency
+         ending%periods = period
+         call sink%take(int(period - 1, int64)*int(n, int64) + 1_int64, force, states, accelerations, error)
+         if (allocated(error)) return
+         if (period > from) call record_period(problem, motion%states(1, of_velocity), nodes, record)
+         ! Times count from the start of the period.
+         motion%time = motion%time - 1.0_dp
+         motion%time(1) = 0.0_dp
+         fastest = max(fastest, maxval(abs(states(:, of_velocity))))
+         watched(:, 2:) = watched(:, :kept_periods - 1)
+         watched(:, 1) = motion%states(1, :)
+         if (searching) then
+            ending%orbit = orbit_of(problem, watched(:, :min(period + 1, kept_periods)), fastest, repetition_share*choice%tolerance)
+            if (ending%orbit > last - period) ending%orbit = 0
+            searching = ending%orbit == 0
+            if (.not. searching) then
+               from = period
+               last = period + ending%orbit
+               call sink%begin_window(int(from, int64)*int(n, int64) + 1_int64, ending%orbit*n)
+            end if
+         end if
+         if (period == from) call start_record(state_now(motion, period), record)
+         call watcher%period_done(period, last)
+         if (period == last) exit
+         ending%status = status_of_stop(request, started)
+         if (ending%status /= status_complete) return
+      end do
+      if (ending%orbit > 0) ending%status = status_steady
+   end subroutine solve_in_nodes
+
+   !> Periods after which a motion repeats, 0 if it is not seen to: the states at the ends of successive periods come nearer to
+   !> those before them, and are within the tolerance of where they lead to.
+   pure integer function orbit_of(problem, states, fastest, tolerance) result(orbit)
+      type(problem_t), intent(in) :: problem
+      !> Number of the state, period: the last one first
+      real(dp), intent(in) :: states(:, :)
+      !> Largest velocity so far [m/s]
+      real(dp), intent(in) :: fastest
+      !> Largest distance that is left, relative [-]
+      real(dp), intent(in) :: tolerance
+      !> Ratio of distances that is not trusted
+      real(dp), parameter :: largest_ratio = 0.9_dp
+      real(dp) :: distances(size(states, 2)), ratio
+      integer :: period, age, known
+
+      do orbit = 1, longest_orbit
+         known = min(size(states, 2) - orbit, 3*orbit)
+         if (known < 3*orbit) exit
+         do age = 1, known
+            distances(age) = distance_of(states(:, age), states(:, age + orbit))
+         end do
+         ratio = 0.0_dp
+         do period = 1, orbit
+            if (distances(period + orbit) > 0.0_dp) ratio = max(ratio, distances(period)/distances(period + orbit))
+            if (distances(period + 2*orbit) > 0.0_dp) &
+               ratio = max(ratio, min(sqrt(distances(period)/distances(period + 2*orbit)), 1.0_dp))
+         end do
+         ! Errors of the steps are not worth a ratio.
+         if (maxval(distances(:2*orbit)) <= 0.1_dp*tolerance) return
+         if (ratio > largest_ratio) cycle
+         if (maxval(distances(:orbit))*max(1.0_dp, ratio/(1.0_dp - ratio)) <= tolerance) return
+      end do
+      orbit = 0
+
+   contains
+
+      !> Relative distance of two states: of both films, and of velocities over the largest one.
+      pure real(dp) function distance_of(one, other) result(distance)
+         real(dp), intent(in) :: one(:)
+         real(dp), intent(in) :: other(:)
+         real(dp) :: films(2, 2)
+
+         distance = abs(one(of_velocity) - other(of_velocity))/fastest
+         films(1, :flank_count(problem)) = reshape(films_of(problem, reshape(one, [1, size(one)])), [flank_count(problem)])
+         films(2, :flank_count(problem)) = reshape(films_of(problem, reshape(other, [1, size(other)])), [flank_count(problem)])
+         distance = max(distance, maxval(abs(films(1, :flank_count(problem)) - films(2, :flank_count(problem))) &
+                                         /films(2, :flank_count(problem))))
+      end function distance_of
+
+   end function orbit_of
+
+   !> State at present, as other parts of the program have it.
+   pure type(motion_state_t) function state_now(motion, periods) result(state)
+      type(motion_t), intent(in) :: motion
+      !> Periods done
+      integer, intent(in) :: periods
+
+      state%periods = periods
+      allocate (state%numbers, source=motion%states(1, :))
+   end function state_now
+
+   !> Units, coefficients and grid.
+   pure subroutine set_up(problem, choice, contact, gear)
+      type(problem_t), intent(in) :: problem
+      type(nodal_choice_t), intent(in) :: choice
+      type(nodal_contact_t), intent(out) :: contact
+      type(gear_t), intent(out) :: gear
+
+      associate (oil => problem%contact%film%closure)
+         contact%oil = oil
+         contact%bound = choice%bound
+         contact%compliance = problem%contact%compliance*oil%load_unit/oil%film_unit
+         contact%grid = grid_of(choice%nodes, choice%scale, contact%compliance)
+         gear%film_unit = oil%film_unit
+         gear%load_unit = oil%load_unit
+         gear%time_unit = oil%film_unit/oil%velocity_unit
+         gear%period = 1.0_dp/(problem%frequency*gear%time_unit)
+         gear%mass = problem%mass*oil%film_unit/(gear%time_unit**2*oil%load_unit)
+         gear%flanks = flank_count(problem)
+         if (has_two_flanks(problem)) gear%backlash = problem%backlash/oil%film_unit
+      end associate
+   end subroutine set_up
+
+   !> The gear at rest under its static load: films of the closure are the first iterate, loads in nodes grow step by step.
+   pure subroutine rest_of_gear(problem, contact, gear, motion, found)
+      type(problem_t), intent(in) :: problem
+      type(nodal_contact_t), intent(in) :: contact
+      type(gear_t), intent(in) :: gear
+      type(motion_t), intent(out) :: motion
+      logical, intent(out) :: found
+      type(step_weights_t), parameter :: at_rest = step_weights_t()
+      real(dp) :: start(state_size(problem)), loads(2), target, load(2), by_gap(2), change, changes, correction, share
+      integer :: flank, pass, j
+      logical :: exists
+
+      start = initial_state(problem)
+      found = problem%initial_film > 0.0_dp
+      if (.not. found) return
+      loads = 0.0_dp
+      loads(:gear%flanks) = start(of_drive_compression:of_velocity + gear%flanks)/(problem%contact%compliance*gear%load_unit)
+      do flank = 1, gear%flanks
+         associate (film => motion%flanks(flank))
+            ! A rigid film at rest: M H = 12 Phi(0), of which Phi(0) is 0.2039.
+            film%film = 12.0_dp*0.2039_dp/max(loads(flank), 1.0e-12_dp)
+            film%load = loads(flank)
+            film%gap = rigid_gap(contact, film%film(1), film%load(1))
+            film%bending(0) = 4.0_dp/3.14_dp*film%load(1)/film%film(1)
+            ! Of 0.64 M/sqrt(2 H) as the largest pressure
+            film%bending(0) = max(film%bending(0), 0.064_dp*contact%oil%material*film%load(1)/sqrt(2.0_dp*film%film(1)))
+            if (.not. is_bent(contact, film)) cycle
+            target = min(0.1_dp, film%load(1))
+            film%film = 12.0_dp*0.2039_dp/target
+            film%load = target
+            film%gap = rigid_gap(contact, film%film(1), target)
+            call stiffen(contact, film)
+            film%gap(0) = film%gap(1)
+            film%pressures(:, 0) = film%pressures(:, 1)
+            film%active = film%pressures(:, 0) > 0.0_dp
+            film%fourth = shares_of_fourth_order(film%pressures(:, 0))
+            film%rate = 0.0_dp
+            film%past = 0.0_dp
+            do
+               do pass = 1, 3*most_passes
+                  call respond(contact, pass > 2*most_passes, film, load(1), by_gap(1), exists)
+                  found = exists
+                  if (.not. found) return
+                  call correct_flank(contact, 1.0_dp, (target - load(1))/by_gap(1), film, change)
+                  film%fourth = shares_of_fourth_order(film%pressures(:, 0))
+                  if (change < 1.0e-9_dp) exit
+               end do
+               found = change < 1.0e-9_dp
+               if (.not. found) return
+               if (.not. target < loads(flank)) exit
+               target = min(loads(flank), 1.4_dp*target)
+            end do
+         end associate
+      end do
+      ! Now the gear, with both films.
+      motion%position = motion%flanks(1)%gap(merge(0, 1, motion%flanks(1)%in_nodes))
+      do flank = 1, gear%flanks
+         associate (film => motion%flanks(flank))
+            film%gap(0) = motion%position(0)
+            if (flank == 2) film%gap(0) = gear%backlash - motion%position(0)
+            if (.not. film%in_nodes) film%film(0) = film%film(1)
+            film%rate = 0.0_dp
+            film%past_film = 0.0_dp
+         end associate
+      end do
+      do pass = 1, 3*most_passes
+         load = 0.0_dp
+         by_gap = 0.0_dp
+         do flank = 1, gear%flanks
+            call respond(contact, pass > 2*most_passes, motion%flanks(flank), load(flank), by_gap(flank), found)
+            if (.not. found) return
+         end do
+         correction = (load(1) - load(2) - static_load(problem)/gear%load_unit)/(-sum(by_gap))
+         share = share_that_leaves_a_film(motion%flanks(1), correction)
+         if (gear%flanks == 2) share = min(share, share_that_leaves_a_film(motion%flanks(2), -correction))
+         changes = 0.0_dp
+         do flank = 1, gear%flanks
+            call correct_flank(contact, share, merge(correction, -correction, flank == 1), motion%flanks(flank), change)
+            changes = max(changes, change)
+         end do
+         motion%position(0) = motion%position(0) + share*correction
+         if (changes < 1.0e-10_dp .and. abs(correction) < 1.0e-10_dp*(1.0_dp + abs(motion%position(0)))) exit
+      end do
+      found = changes < 1.0e-6_dp
+      if (.not. found) return
+      do flank = 1, gear%flanks
+         call finish_step(contact, at_rest, motion%flanks(flank))
+         ! It has stood still for long.
+         do j = 1, kept_times
+            call accept_step(contact, motion%flanks(flank))
+         end do
+      end do
+      motion%position = motion%position(0)
+      motion%velocity = 0.0_dp
+      motion%time = 0.0_dp
+      motion%known = 1
+      motion%step = first_step
+      allocate (motion%states(0:kept_times, state_size(problem)))
+      do j = 0, kept_times
+         motion%states(j, :) = state_of(problem, gear, motion, 1)
+      end do
+   end subroutine rest_of_gear
+
+   !> Numbers of the state at a place of the histories.
+   pure function state_of(problem, gear, motion, place) result(state)
+      type(problem_t), intent(in) :: problem
+      type(gear_t), intent(in) :: gear
+      type(motion_t), intent(in) :: motion
+      !> 0 or 1
+      integer, intent(in) :: place
+      real(dp) :: state(state_size(problem))
+      integer :: flank, first
+
+      state(of_film) = motion%flanks(1)%film(place)*gear%film_unit
+      state(of_velocity) = motion%velocity(place)*gear%film_unit/gear%time_unit
+      do flank = 1, gear%flanks
+         state(of_velocity + flank) = problem%contact%compliance*gear%load_unit*motion%flanks(flank)%load(place)
+         first = of_velocity + gear%flanks + numbers_of_flank*(flank - 1) + 1
+         state(first:first + 2) = [motion%flanks(flank)%film(place)*gear%film_unit, &
+                                   motion%flanks(flank)%peak(place)*problem%contact%film%closure%pressure_unit, &
+                                   motion%flanks(flank)%gap(place)*gear%film_unit]
+      end do
+   end function state_of
+
+   !> z'' at a place of the histories [m/s2].
+   pure real(dp) function acceleration(problem, gear, motion, force, place)
+      type(problem_t), intent(in) :: problem
+      type(gear_t), intent(in) :: gear
+      type(motion_t), intent(in) :: motion
+      !> [N]
+      real(dp), intent(in) :: force
+      integer, intent(in) :: place
+
+      acceleration = motion%flanks(1)%load(place)
+      if (gear%flanks == 2) acceleration = acceleration - motion%flanks(2)%load(place)
+      acceleration = (gear%load_unit*acceleration - force - problem%weight)/problem%mass
+   end function acceleration
+
+   !> A period: its steps, the samples of it, and the nodes of its steps where they are recorded.
+   subroutine solve_period(problem, contact, gear, force, recorded, motion, nodes, record, states, accelerations, ending, choice)
+      type(problem_t), intent(in) :: problem
+      type(nodal_contact_t), intent(in) :: contact
+      type(gear_t), intent(in) :: gear
+      !> Of the samples [N]
+      real(dp), intent(in) :: force(:)
+      logical, intent(in) :: recorded
+      type(motion_t), intent(inout) :: motion
+      type(step_nodes_t), intent(inout) :: nodes
+      type(window_record_t), intent(in) :: record
+      !> Sample, number of its state; and z'' [m/s2]
+      real(dp), intent(out) :: states(:, :)
+      real(dp), intent(out) :: accelerations(:)
+      type(ending_t), intent(inout) :: ending
+      type(nodal_choice_t), intent(in) :: choice
+      real(dp), allocatable :: piece(:, :)
+      real(dp) :: phase, length, start, loads
+      integer :: sample, i, pieces, part
+      integer(int64) :: steps
+
+      allocate (piece(nodes_per_piece, size(states, 2)))
+      sample = 0
+      steps = 0
+      do while (motion%time(1) < 1.0_dp)
+         call take_step(problem, contact, gear, choice, motion, ending)
+         if (ending%status /= status_complete) return
+         steps = steps + 1
+         if (steps > most_steps) ending%status = status_film_cycles
+         if (modulo(steps, 256_int64) == 0) then
+            if (must_stop()) ending%status = status_interrupted
+         end if
+         if (ending%status /= status_complete) return
+         do while (sample < size(force))
+            phase = real(sample + 1, dp)/real(size(force), dp)
+            if (phase > motion%time(1) + 1.0e-12_dp) exit
+            sample = sample + 1
+            states(sample, :) = state_at(motion, phase)
+            loads = states(sample, of_velocity + 1)
+            if (gear%flanks == 2) loads = loads - states(sample, of_velocity + 2)
+            accelerations(sample) = (loads/problem%contact%compliance - force(sample) - problem%weight)/problem%mass
+         end do
+         if (.not. recorded) cycle
+         pieces = max(1, ceiling((motion%time(1) - motion%time(2))/record%longest_piece))
+         length = (motion%time(1) - motion%time(2))/real(pieces, dp)
+         do part = 1, pieces
+            start = motion%time(2) + real(part - 1, dp)*length
+            do i = 1, nodes_per_piece
+               piece(i, :) = state_at(motion, start + node_place(i)*length)
+            end do
+            call add_piece(start, length, piece, nodes)
+         end do
+      end do
+      ending%count%steps = ending%count%steps + steps
+   end subroutine solve_period
+
+   !> State within the last step: the polynomial through its end and the times before. What is positive stays positive.
+   pure function state_at(motion, time) result(state)
+      type(motion_t), intent(in) :: motion
+      !> [periods]
+      real(dp), intent(in) :: time
+      real(dp) :: state(size(motion%states, 2)), weight
+      integer :: points, i, j
+
+      points = min(motion%known, kept_times)
+      state = 0.0_dp
+      do i = 1, points
+         weight = 1.0_dp
+         do j = 1, points
+            if (j /= i) weight = weight*(time - motion%time(j))/(motion%time(i) - motion%time(j))
+         end do
+         state = state + weight*motion%states(i, :)
+      end do
+      state(of_film) = max(state(of_film), 0.5_dp*min(motion%states(1, of_film), motion%states(2, of_film)))
+   end function state_at
+
+   !> One step, which is done again shorter, or in nodes, until it may be accepted.
+   subroutine take_step(problem, contact, gear, choice, motion, ending)
+      type(problem_t), intent(in) :: problem
+      type(nodal_contact_t), intent(in) :: contact
+      type(gear_t), intent(in) :: gear
+      type(nodal_choice_t), intent(in) :: choice
+      type(motion_t), intent(inout) :: motion
+      type(ending_t), intent(inout) :: ending
+      type(step_weights_t) :: weights
+      real(dp) :: left, error, growth
+      integer :: order, flank, rejected
+      logical :: solved, changed, at_end
+
+      rejected = 0
+      do
+         left = 1.0_dp - motion%time(1)
+         at_end = motion%step >= left*(1.0_dp - 1.0e-9_dp)
+         if (at_end) then
+            motion%time(0) = 1.0_dp
+         else
+            if (motion%step > 0.5_dp*left) motion%step = 0.5_dp*left
+            motion%time(0) = motion%time(1) + motion%step
+         end if
+         order = min(motion%known, difference_times)
+         weights = weights_of(motion%time*gear%period, order, min(motion%known, kept_times))
+         call solve_step(problem, contact, gear, weights, motion, ending, solved)
+         if (.not. solved) then
+            rejected = rejected + 1
+            if (rejected >= most_rejected) then
+               ! A cavity opens in a film that opens and carries next to nothing: it is that of rigid flanks again.
+               changed = .false.
+               do flank = 1, gear%flanks
+                  associate (film => motion%flanks(flank))
+                     if (film%in_nodes .and. film%load(1) < load_floor .and. film%velocity(1) > 0.0_dp) then
+                        call soften(contact, film)
+                        ending%count%cuts = ending%count%cuts + 1
+                        changed = .true.
+                     end if
+                  end associate
+               end do
+               if (changed) then
+                  rejected = 0
+                  if (ending%count%cuts > most_torn*int(ending%periods + 1, int64)) then
+                     ending%status = status_film_torn
+                     return
+                  end if
+               end if
+            end if
+            motion%step = 0.3_dp*(motion%time(0) - motion%time(1))
+            if (motion%step < shortest_step) then
+               ending%status = status_film_cycles
+               return
+            end if
+            cycle
+         end if
+         changed = .false.
+         do flank = 1, gear%flanks
+            if (motion%flanks(flank)%in_nodes) cycle
+            if (.not. is_bent(contact, motion%flanks(flank))) cycle
+            call stiffen(contact, motion%flanks(flank))
+            changed = .true.
+         end do
+         if (changed) cycle
+         error = error_of_step(gear, motion, order)/choice%tolerance
+         growth = min(most_growth, max(0.2_dp, 0.85_dp*max(error, 1.0e-10_dp)**(-1.0_dp/real(order + 1, dp))))
+         if (error > 1.0_dp) then
+            motion%step = growth*(motion%time(0) - motion%time(1))
+            rejected = rejected + 1
+            if (motion%step < shortest_step) then
+               ending%status = status_film_cycles
+               return
+            end if
+            cycle
+         end if
+         if (.not. at_end) then
+            motion%step = min(growth*motion%step, longest_step)
+         else
+            motion%step = min(max(motion%step, growth*left), longest_step)
+         end if
+         exit
+      end do
+      do flank = 1, gear%flanks
+         call accept_step(contact, motion%flanks(flank))
+         if (may_soften(contact, motion%flanks(flank))) call soften(contact, motion%flanks(flank))
+      end do
+      motion%position(1:) = motion%position(:kept_times - 1)
+      motion%velocity(1:) = motion%velocity(:kept_times - 1)
+      motion%time(1:) = motion%time(:kept_times - 1)
+      motion%known = min(motion%known + 1, kept_times + 1)
+      motion%states(2:, :) = motion%states(1:kept_times - 1, :)
+      motion%states(1, :) = state_of(problem, gear, motion, 1)
+   end subroutine take_step
+
+   !> Weights of a step of some order, and of a prediction by some points.
+   pure type(step_weights_t) function weights_of(time, order, points) result(weights)
+      !> Places as in module nodal_flank [-]
+      real(dp), intent(in) :: time(0:)
+      integer, intent(in) :: order
+      integer, intent(in) :: points
+      real(dp) :: product
+      integer :: i, j
+
+      do i = 1, order
+         weights%rate(0) = weights%rate(0) + 1.0_dp/(time(0) - time(i))
+         product = 1.0_dp
+         do j = 1, order
+            if (j /= i) product = product*(time(0) - time(j))/(time(i) - time(j))
+         end do
+         weights%rate(i) = product/(time(i) - time(0))
+      end do
+      do i = 1, points
+         weights%guess(i) = 1.0_dp
+         do j = 1, points
+            if (j /= i) weights%guess(i) = weights%guess(i)*(time(0) - time(j))/(time(i) - time(j))
+         end do
+      end do
+   end function weights_of
+
+   !> Solve the equations of a step by Newton's method.
+   subroutine solve_step(problem, contact, gear, weights, motion, ending, solved)
+      type(problem_t), intent(in) :: problem
+      type(nodal_contact_t), intent(in) :: contact
+      type(gear_t), intent(in) :: gear
+      type(step_weights_t), intent(in) :: weights
+      type(motion_t), intent(inout) :: motion
+      type(ending_t), intent(inout) :: ending
+      logical, intent(out) :: solved
+      real(dp) :: past_position, past_velocity, force, load(2), by_gap(2), correction, share, change, changes, scale
+      integer :: flank, pass
+
+      associate (a0 => weights%rate(0))
+         past_position = dot_product(weights%rate(1:), motion%position(1:difference_times))
+         past_velocity = dot_product(weights%rate(1:), motion%velocity(1:difference_times))
+         force = (force_at(problem%force, motion%time(0)) + problem%weight)/gear%load_unit
+         motion%position(0) = dot_product(weights%guess, motion%position(1:))
+         do flank = 1, gear%flanks
+            call begin_step(weights, motion%flanks(flank))
+            motion%flanks(flank)%gap(0) = merge(motion%position(0), gear%backlash - motion%position(0), flank == 1)
+         end do
+         solved = .false.
+         do pass = 1, most_passes
+            load = 0.0_dp
+            by_gap = 0.0_dp
+            do flank = 1, gear%flanks
+               call respond(contact, pass > free_passes, motion%flanks(flank), load(flank), by_gap(flank), solved)
+               ending%count%evaluations = ending%count%evaluations + 1
+               if (.not. solved) return
+            end do
+            correction = (load(1) - load(2) - force - gear%mass*(a0*(a0*motion%position(0) + past_position) + past_velocity)) &
+                         /(gear%mass*a0*a0 - sum(by_gap))
+            share = share_that_leaves_a_film(motion%flanks(1), correction)
+            if (gear%flanks == 2) share = min(share, share_that_leaves_a_film(motion%flanks(2), -correction))
+            changes = 0.0_dp
+            scale = huge(1.0_dp)
+            do flank = 1, gear%flanks
+               call correct_flank(contact, share, merge(correction, -correction, flank == 1), motion%flanks(flank), change)
+               changes = max(changes, change)
+               scale = min(scale, motion%flanks(flank)%film(1))
+            end do
+            motion%position(0) = motion%position(0) + share*correction
+            solved = changes <= last_correction .and. abs(correction) <= last_correction*scale .and. share >= 1.0_dp
+            if (solved) exit
+         end do
+         if (.not. solved) return
+         motion%velocity(0) = a0*motion%position(0) + past_position
+         do flank = 1, gear%flanks
+            call finish_step(contact, weights, motion%flanks(flank))
+            solved = solved .and. motion%flanks(flank)%film(0) > 0.0_dp
+         end do
+      end associate
+   end subroutine solve_step
+
+   !> Error of a step: of loads, above a floor, and of films.
+   pure real(dp) function error_of_step(gear, motion, order) result(error)
+      type(gear_t), intent(in) :: gear
+      type(motion_t), intent(in) :: motion
+      integer, intent(in) :: order
+      integer :: flank
+
+      error = 0.0_dp
+      do flank = 1, gear%flanks
+         associate (film => motion%flanks(flank))
+            error = max(error, abs(film%load(0) - film%guessed_load)/(film%load(0) + load_floor), &
+                        abs(film%centre(0) - film%guessed_centre)/film%centre(0))
+         end associate
+      end do
+      error = error_shares(order)*error
+   end function error_of_step
+
+end module nodal_engine

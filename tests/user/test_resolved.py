@@ -1,0 +1,107 @@
+"""Films in nodes of pressure, through the program: one flank, a gear, verification, pairs, carried on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from outcomes import summary_of
+
+import rattle as package
+
+GEAR = """&gear
+   teeth_1 = 19, teeth_2 = 37, normal_module = 2.2e-3, helix_angle_deg = 28.0, face_width = 0.016
+   centre_distance = 0.070, loose_inertia = 8.9e-4, backlash = 9e-5, tooth_stiffness = 14e9
+   drag_torque = 0.08
+/
+&shaft speed_rpm = 800.0, orders = 2.0, 4.0, accelerations = 600.0, 100.0, phases = 0.0, 0.8 /
+&oil viscosity_40_cst = 58.0, viscosity_100_cst = 9.6, temperature_celsius = 50.0 /
+&film law = 'elastohydrodynamic', model = 'resolved' /
+&output columns = 'time', 'applied_force', 'film_thickness', 'squeeze_velocity', 'acceleration', 'film_load',
+        'coast_film', 'coast_load', 'gear_position' /
+"""
+
+
+@pytest.mark.parametrize(
+    ("law", "peak", "film"),
+    (("constant", 242.4, 0.684e-6), ("roelands", 251.0, 1.914e-6)),
+)
+def test_the_load_of_the_paper(law: str, peak: float, film: float, repository: Path) -> None:
+    """Steady motions of an independent program, whose last digits are told."""
+    scene = repository / "input" / "elastohydrodynamic.nml"
+    settings = {
+        "film.model": "resolved",
+        "film.nodes": 64,
+        "solver.accuracy": 3e-4,
+        "lubricant.viscosity_law": law,
+    }
+    told = package.run(scene, set=settings).summary
+    assert told["verification"] == "verified" and told["status"] == "steady" and told["harmonic_count"] == 6
+    assert told["acceleration_maximum"] == pytest.approx(peak, rel=1e-3)
+    assert told["film_minimum"] == pytest.approx(film, rel=4e-3)
+
+
+def test_a_gear_is_near_its_closure_and_within_its_errors() -> None:
+    solved = package.run(GEAR)
+    told, series = solved.summary, solved.result
+    assert told["verification"] == "verified" and told["status"] == "steady"
+    finer = package.run(GEAR, set={"film.nodes": 64, "solver.accuracy": 1e-4}).summary
+    for name in ("acceleration_maximum", "acceleration_minimum", "film_minimum", "film_maximum"):
+        assert abs(told[name] - finer[name]) <= told[f"{name}_error"] + finer[f"{name}_error"], name
+    closure = package.run(GEAR, set={"film.model": "closure", "solver.starts": 1}).summary
+    assert told["acceleration_maximum"] == pytest.approx(closure["acceleration_maximum"], rel=0.02)
+    assert told["film_minimum"] == pytest.approx(closure["film_minimum"], rel=0.05)
+    assert told["verdict"] == closure["verdict"] and told["rattle_class"] == closure["rattle_class"]
+    assert "closure_range" not in told and "motions" not in told
+    # The rows obey the equation of motion, and the gear is where its flanks leave it.
+    net = series["film_load"] - series["coast_load"] - series["applied_force"]
+    mass = np.linalg.lstsq(series["acceleration"][:, None], net, rcond=None)[0][0]
+    assert np.abs(net - mass * series["acceleration"]).max() <= 1e-9 * np.abs(net).max()
+    moved = np.gradient(series["gear_position"], series["time"])
+    assert np.abs(moved - series["squeeze_velocity"]).max() <= 0.02 * np.abs(moved).max()
+
+
+def test_a_run_that_is_carried_on_starts_anew(run, tmp_path: Path) -> None:
+    (tmp_path / "one.nml").write_text(GEAR)
+    periods = (
+        "--set",
+        "solver.until=periods",
+        "--set",
+        "spectrum.periods=1",
+        "--set",
+        "spectrum.verify=false",
+    )
+    for folder, counts in (("whole", (4,)), ("parts", (2, 4))):
+        for count in counts:
+            number = f"solver.periods={count}"
+            ended = run(*periods, "--set", number, "--resume", "--output", folder, "one.nml", cwd=tmp_path)
+            assert ended.returncode == 0, ended.stderr
+    whole, parts = (summary_of(tmp_path / folder / "one.summary.nml") for folder in ("whole", "parts"))
+    for name in ("film_minimum", "acceleration_maximum", "result_checksum"):
+        assert whole[name] == parts[name], name
+    assert (tmp_path / "whole/one.rattle").read_bytes() == (tmp_path / "parts/one.rattle").read_bytes()
+
+
+def test_pairs_of_a_gearbox_may_differ_in_nothing_but_their_own_keys(run, tmp_path: Path) -> None:
+    first = GEAR.partition("/")[0]
+    text = (
+        first.replace("&gear", "&gear name = 'a',")
+        + "/\n"
+        + first.replace("&gear", "&gear name = 'b',")
+        + "/\n"
+    )
+    (tmp_path / "box.nml").write_text(text + GEAR.partition("/")[2])
+    ended = run("--output", "out", "box.nml", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    one, other = (summary_of(tmp_path / f"out/box.{name}.summary.nml") for name in "ab")
+    assert one["acceleration_maximum"] == other["acceleration_maximum"]
+    alone = package.run(GEAR).summary
+    assert one["acceleration_maximum"] == alone["acceleration_maximum"]
+
+
+def test_check_tells_the_model(run, tmp_path: Path) -> None:
+    (tmp_path / "one.nml").write_text(GEAR)
+    shown = run("--check", "one.nml", cwd=tmp_path)
+    assert shown.returncode == 0 and "its pressure in nodes" in shown.stdout
+    assert "nodes = 32" in shown.stdout and "accuracy = 0.001" in shown.stdout
