@@ -15,11 +15,11 @@ module film_series
    use problem, only: has_elastic_teeth, has_two_flanks, problem_t
    use reynolds_piezo_expansion, only: expand_reynolds_piezo, highest_time_power
    use squeeze_of_load, only: load_carried, piezo_viscous_squeeze
-   use taylor_iso_viscous, only: iso_viscous_series, iso_viscous_series_of_two
+   use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
    use taylor_reynolds_piezo, only: reynolds_piezo_series
-   use taylor_rupture, only: equation_rounding, reject_large_defect, rupture_order, rupture_series, rupture_series_of_two
-   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, rupture_springs, shortest_rest
+   use taylor_rupture, only: equation_rounding, reject_large_defect, rupture_order, rupture_series
+   use taylor_springs, only: iso_viscous_springs, piezo_viscous_springs, shortest_rest
    use taylor_step_control, only: film_weight, order, rounding
    implicit none(type, external)
    private
@@ -131,61 +131,34 @@ contains
       end associate
    end subroutine set_coefficients
 
-   !> Series of film and Lienard variable about the states of a block. A law without one has a damping rate that no step follows.
+   !> Series of film and Lienard variable of rigid teeth about the states of a block. A law without one has a damping rate that no step follows.
    pure subroutine expand_motion(series, block)
       type(film_series_t), intent(in) :: series
       type(lane_block_t), intent(inout) :: block
       real(dp) :: force(lanes, order)
 
       call force_derivatives(series%last_order, block%oscillation, force)
-      if (series%two_flanks) then
-         call expand_between_flanks(series, force, block)
-         return
-      end if
       select case (series%kernel)
       case (kernel_piezo)
-         call piezo_viscous_series(block%strength, block%damping, block%static_load, force, block%film, &
-                                   block%lienard, block%damping_rate)
+         if (series%two_flanks) then
+            call piezo_viscous_series_of_two(block%strength, block%damping, block%backlash, block%static_load, force, block%film, &
+                                             block%lienard, block%damping_rate)
+         else
+            call piezo_viscous_series(block%strength, block%damping, block%static_load, force, block%film, block%lienard, &
+                                      block%damping_rate)
+         end if
       case (kernel_half_pi)
-         call iso_viscous_series(block%strength, block%damping, block%static_load, force, block%film, &
-                                 block%lienard, block%damping_rate)
+         call iso_viscous_series(series%two_flanks, force, block)
       case (kernel_reynolds_piezo)
-         call reynolds_piezo_series(.false., .false., force, block)
+         call reynolds_piezo_series(series%springs, series%two_flanks, force, block)
       case (kernel_solved_fast, kernel_reynolds_iso)
-         call rupture_series(series%pieces, block%strength, block%damping, block%static_load, force, block%film, &
-                             block%lienard, block%damping_rate, block%expansion(1))
+         call rupture_series(series%pieces, series%springs, series%two_flanks, force, block)
       case default
          block%film(:, 1:) = 0.0_dp
          block%lienard(:, 1:) = 0.0_dp
          block%damping_rate = unfollowable_rate
       end select
    end subroutine expand_motion
-
-   !> The same between two flanks.
-   pure subroutine expand_between_flanks(series, force, block)
-      type(film_series_t), intent(in) :: series
-      !> Derivatives of the force that oscillates [-]
-      real(dp), intent(in) :: force(lanes, order)
-      type(lane_block_t), intent(inout) :: block
-
-      select case (series%kernel)
-      case (kernel_half_pi)
-         call iso_viscous_series_of_two(block%strength, block%damping, block%backlash, block%static_load, force, block%film, &
-                                        block%lienard, block%damping_rate)
-      case (kernel_solved_fast, kernel_reynolds_iso)
-         call rupture_series_of_two(series%pieces, block%strength, block%damping, block%backlash, block%static_load, force, &
-                                    block%film, block%lienard, block%damping_rate, block%expansion)
-      case (kernel_piezo)
-         call piezo_viscous_series_of_two(block%strength, block%damping, block%backlash, block%static_load, force, block%film, &
-                                          block%lienard, block%damping_rate)
-      case (kernel_reynolds_piezo)
-         call reynolds_piezo_series(.false., .true., force, block)
-      case default
-         block%film(:, 1:) = 0.0_dp
-         block%lienard(:, 1:) = 0.0_dp
-         block%damping_rate = unfollowable_rate
-      end select
-   end subroutine expand_between_flanks
 
    !> Series of films, gear and compressions of elastic teeth. The film of the coast flank is told apart: it is what backlash, drive
    !> film and springs leave.
@@ -220,8 +193,7 @@ contains
                                 block%squeeze(flank))
             block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
          end do
-         call rupture_springs(flanks, block%strength, block%damping, block%compliance, block%static_load, force, block%squeeze, &
-                              block%films, block%lienard, block%compression)
+         call rupture_series(series%pieces, series%springs, series%two_flanks, force, block)
       case (kernel_reynolds_piezo)
          do flank = 1, flanks
             call expand_pressed_film(series, flank, block%films(:, 0, flank), &
@@ -229,7 +201,7 @@ contains
                                      (block%piezo_expansion(flank)%lienard), block)
             block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
          end do
-         call reynolds_piezo_series(.true., series%two_flanks, force, block)
+         call reynolds_piezo_series(series%springs, series%two_flanks, force, block)
       case default
          block%films(:, 1:, :) = 0.0_dp
          block%lienard(:, 1:) = 0.0_dp

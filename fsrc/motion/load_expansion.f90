@@ -1,6 +1,5 @@
 !> Load of films with rupture about the states of a block of lanes, in powers of the squeeze group: what the Taylor series of
-!> module taylor_rupture starts from. Of elastic teeth the squeeze group in powers of the load: what those of module
-!> taylor_springs start from.
+!> module taylor_rupture starts from, and of elastic teeth the squeeze group in powers of the load.
 !>
 !> The polynomials of module load_pieces, moved to where the films are. A step ends where the next one starts. It is looked up
 !> once for both: to hold the end of the step against the equation of motion, and to begin the next series.

@@ -1,14 +1,17 @@
 !> Taylor series of the motion with an iso-viscous film whose rupture follows from (18), for a block of lanes: the Reynolds film,
-!> and the published one (24) with x_e solved, on one flank or between two (fsrc/THEORY.md, section 4).
+!> and the published one (24) with x_e solved, on one flank or between two, of rigid or elastic teeth (fsrc/THEORY.md, section 4).
 !>
 !> Phi has no closed form, but module load_expansion gives its Taylor series about any A. For n = 12 the nested pairs together take
-!> as many products of coefficients as two products of whole series.
+!> as many products of coefficients as two products of whole series. Of elastic teeth A is such a series in the load group.
+!>
+!> The recurrence is written once, in taylor_rupture.inc, and compiled for one flank and two, rigid and elastic.
 module taylor_rupture
    use kinds, only: dp
+   use lane_block, only: lane_block_t
    use lane_force, only: factor
    use lane_functions, only: lanes
-   use load_expansion, only: expand_load, highest_power, load_expansion_t
-   use taylor_step_control, only: free_rate, inverse, load_error, order, rounding
+   use load_expansion, only: expand_load, highest_power
+   use taylor_step_control, only: free_rate, inverse, load_error, order, rounding, sign_of
    implicit none(type, external)
    private
 
@@ -20,221 +23,93 @@ module taylor_rupture
    real(dp), parameter, public :: equation_rounding = 64.0_dp*epsilon(1.0_dp)
 
    !> The series, in one array: their coefficients lie at fixed distances from each other, and one address leads to all.
-   !> Names as above; square = z**2, nest + i: T_i.
+   !> Names as above; square = z**2, nest + i: T_i; of elastic teeth d, the compression, and r is the root of H.
    integer, parameter :: last_pair = (rupture_order - 2)/2
-   integer, parameter :: h = 1, v = 2, p = 3, r = 4, z = 5, square = 6, nest = 7, series = nest + last_pair
+   integer, parameter :: h = 1, d = 2, p = 3, r = 4, z = 5, square = 6, nest = 7, series = nest + last_pair
 
-   public :: rupture_series, rupture_series_of_two, evaluate_rupture_series, reject_large_defect
+   public :: rupture_series, evaluate_rupture_series, reject_large_defect
 
 contains
 
-   !> Coefficients 1 to `rupture_order` of H and V, and the damping rate.
-   pure subroutine rupture_series(law, strength, rate, load, force, film, lienard, damping_rate, expansion)
+   !> Coefficients 1 to `rupture_order`, and of rigid teeth the damping rate; those of elastic teeth about squeeze groups that are
+   !> expanded under the loads of their springs.
+   pure subroutine rupture_series(law, elastic, two_flanks, force, block)
       !> Load, as module load_pieces numbers it
       integer, intent(in) :: law
-      !> a [-]
-      real(dp), intent(in) :: strength(lanes)
-      !> c [periods]
-      real(dp), intent(in) :: rate(lanes)
-      !> q [-]
-      real(dp), intent(in) :: load(lanes)
+      logical, intent(in) :: elastic
+      logical, intent(in) :: two_flanks
       !> Derivatives of the force that oscillates, by module lane_force [-]
       real(dp), intent(in) :: force(lanes, order)
-      !> Series of H [-]; coefficient 0 is given
-      real(dp), intent(inout) :: film(lanes, 0:order)
-      !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: lienard(lanes, 0:order)
-      !> -dV'/dV [1/periods]
-      real(dp), intent(out) :: damping_rate(lanes)
-      !> Films looked up last, those at the point of expansion afterwards
-      type(load_expansion_t), intent(inout) :: expansion
-      real(dp) :: c(lanes, series, 0:rupture_order)
-      real(dp), dimension(lanes) :: half_root, unit_rate
-      real(dp) :: of_p, of_r, of_z, of_square, of_nest, of_force, oscillation
-      integer :: once, k, j, i, l
+      type(lane_block_t), intent(inout) :: block
+      real(dp) :: slope(lanes)
 
-      call expand_load(law, film(:, 0), lienard(:, 0), rate, expansion)
-      !$omp simd
-      do l = 1, lanes
-         c(l, h, 0) = film(l, 0)
-         c(l, v, 0) = lienard(l, 0)
-         c(l, p, 0) = expansion%inverse_film(l)
-         c(l, r, 0) = expansion%root(l)
-         half_root(l) = 0.5_dp*c(l, h, 0)*c(l, r, 0)
-         unit_rate(l) = rate(l)*expansion%inverse_unit(l)
-         c(l, h, 1) = c(l, v, 0)
-         c(l, v, 1) = strength(l)*c(l, p, 0)*expansion%terms(l, 0) - load(l) - force(l, 1)
-         damping_rate(l) = -strength(l)*c(l, p, 0)*rate(l)*c(l, r, 0)*expansion%load_slope(l)
-      end do
-      do i = 0, last_pair
-         c(:, nest + i, 0) = expansion%terms(:, 2*i)
-      end do
-      ! The products with the newest coefficients come last: all others can be summed while those are still under way.
-      ! One loop over lanes an order: its rounds share the instructions, which would not fit into the cache of a
-      ! processor otherwise. gfortran unrolls the orders before it looks for full registers only within another loop.
-      do once = 1, 1
-         !GCC$ unroll 24
-         do k = 1, rupture_order - 1
-            !$omp simd private(of_p, of_r, of_z, of_square, of_nest, of_force, oscillation)
-            do l = 1, lanes
-               of_p = 0.0_dp
-               of_z = 0.0_dp
-               do j = 2, k - 1
-                  of_p = of_p + c(l, p, k - j)*c(l, h, j)
-                  of_z = of_z + c(l, r, k - j)*c(l, v, j)
-               end do
-               of_r = 0.0_dp
-               of_square = 0.0_dp
-               do j = 1, (k - 1)/2
-                  of_r = of_r + c(l, r, j)*c(l, r, k - j)
-                  of_square = of_square + c(l, z, j)*c(l, z, k - j)
-               end do
-               of_r = 2.0_dp*of_r
-               of_square = 2.0_dp*of_square
-               if (mod(k, 2) == 0) then
-                  of_r = of_r + c(l, r, shiftr(k, 1))*c(l, r, shiftr(k, 1))
-                  of_square = of_square + c(l, z, shiftr(k, 1))*c(l, z, shiftr(k, 1))
-               end if
-               if (k > 1) then
-                  of_p = of_p + c(l, p, k - 1)*c(l, h, 1)
-                  of_z = of_z + c(l, r, k - 1)*c(l, v, 1)
-               end if
-               ! p H = 1, r**2 = p, z e = c V r less its value at the start
-               c(l, p, k) = -c(l, p, 0)*(of_p + c(l, p, 0)*c(l, h, k))
-               c(l, r, k) = half_root(l)*(c(l, p, k) - of_r)
-               c(l, z, k) = unit_rate(l)*(of_z + c(l, r, 0)*c(l, v, k) + c(l, r, k)*c(l, v, 0))
-               c(l, square, k) = of_square
-               !GCC$ unroll 8
-               do i = min(last_pair, (rupture_order - 1 - k)/2), 0, -1
-                  of_nest = expansion%terms(l, 2*i + 1)*c(l, z, k)
-                  do j = max(2, k - (rupture_order - 1 - 2*(i + 1))), merge(k, 0, i < last_pair)
-                     of_nest = of_nest + c(l, square, j)*c(l, nest + i + 1, k - j)
-                  end do
-                  c(l, nest + i, k) = of_nest
-               end do
-               of_force = 0.0_dp
-               do j = 1, k - 1
-                  of_force = of_force + c(l, p, k - j)*c(l, nest, j)
-               end do
-               of_force = of_force + c(l, p, k)*c(l, nest, 0) + c(l, p, 0)*c(l, nest, k)
-               oscillation = factor(k + 1)*force(l, k + 1)
-               c(l, h, k + 1) = inverse(k + 1)*c(l, v, k)
-               c(l, v, k + 1) = (inverse(k + 1)*strength(l))*of_force - oscillation
-            end do
-         end do
-      end do
-      film(:, 1:rupture_order) = c(:, h, 1:)
-      lienard(:, 1:rupture_order) = c(:, v, 1:)
+      if (elastic) then
+         if (two_flanks) then
+            call two_elastic_flanks(force, block)
+         else
+            call elastic_flank(force, block)
+         end if
+         return
+      end if
+      associate (drive => block%expansion(1), coast => block%expansion(2))
+         call expand_load(law, block%film(:, 0), block%lienard(:, 0), block%damping, drive)
+         slope = drive%inverse_film*drive%root*drive%load_slope
+         if (two_flanks) then
+            call expand_load(law, block%backlash - block%film(:, 0), -block%lienard(:, 0), block%damping, coast)
+            slope = slope + coast%inverse_film*coast%root*coast%load_slope
+         end if
+         block%damping_rate = -block%strength*block%damping*slope
+      end associate
+      if (two_flanks) then
+         call two_rigid_flanks(force, block)
+      else
+         call rigid_flank(force, block)
+      end if
    end subroutine rupture_series
 
-   !> The same between two flanks.
-   pure subroutine rupture_series_of_two(law, strength, rate, backlash, load, force, film, lienard, damping_rate, expansion)
-      !> Load, as module load_pieces numbers it
-      integer, intent(in) :: law
-      !> a [-]
-      real(dp), intent(in) :: strength(lanes)
-      !> c [periods]
-      real(dp), intent(in) :: rate(lanes)
-      !> B [-]
-      real(dp), intent(in) :: backlash(lanes)
-      !> q [-]
-      real(dp), intent(in) :: load(lanes)
-      !> Derivatives of the force that oscillates, by module lane_force [-]
+   !> One rigid flank.
+   pure subroutine rigid_flank(force, block)
+      !> Derivatives of the force that oscillates [-]
       real(dp), intent(in) :: force(lanes, order)
-      !> Series of H [-]; coefficient 0 is given
-      real(dp), intent(inout) :: film(lanes, 0:order)
-      !> Series of V [-]; coefficient 0 is given
-      real(dp), intent(inout) :: lienard(lanes, 0:order)
-      !> -dV'/dV [1/periods]
-      real(dp), intent(out) :: damping_rate(lanes)
-      !> Films of the drive and the coast flank looked up last, those at the point of expansion afterwards
-      type(load_expansion_t), intent(inout) :: expansion(2)
-      !> Lane, series, flank, coefficient
-      real(dp) :: c(lanes, series, 2, 0:rupture_order)
-      real(dp), dimension(lanes, 2) :: half_root, unit_rate, carried
-      real(dp) :: of_p, of_r, of_z, of_square, of_nest, of_force
-      integer :: once, flank, k, j, i, l
+      type(lane_block_t), intent(inout) :: block
+      integer, parameter :: flanks = 1
+      logical, parameter :: elastic = .false.
 
-      c(:, h, 1, 0) = film(:, 0)
-      c(:, v, 1, 0) = lienard(:, 0)
-      c(:, h, 2, 0) = backlash - film(:, 0)
-      c(:, v, 2, 0) = -lienard(:, 0)
-      do flank = 1, 2
-         call expand_load(law, c(:, h, flank, 0), c(:, v, flank, 0), rate, expansion(flank))
-         !$omp simd
-         do l = 1, lanes
-            c(l, p, flank, 0) = expansion(flank)%inverse_film(l)
-            c(l, r, flank, 0) = expansion(flank)%root(l)
-            half_root(l, flank) = 0.5_dp*c(l, h, flank, 0)*c(l, r, flank, 0)
-            unit_rate(l, flank) = rate(l)*expansion(flank)%inverse_unit(l)
-            carried(l, flank) = c(l, p, flank, 0)*expansion(flank)%terms(l, 0)
-         end do
-         do i = 0, last_pair
-            c(:, nest + i, flank, 0) = expansion(flank)%terms(:, 2*i)
-         end do
-      end do
-      damping_rate = -strength*rate*(c(:, p, 1, 0)*c(:, r, 1, 0)*expansion(1)%load_slope &
-                                     + c(:, p, 2, 0)*c(:, r, 2, 0)*expansion(2)%load_slope)
-      c(:, h, 1, 1) = c(:, v, 1, 0)
-      c(:, v, 1, 1) = strength*(carried(:, 1) - carried(:, 2)) - load - force(:, 1)
-      c(:, h, 2, 1) = -c(:, h, 1, 1)
-      c(:, v, 2, 1) = -c(:, v, 1, 1)
-      do once = 1, 1
-         !GCC$ unroll 24
-         do k = 1, rupture_order - 1
-            do flank = 1, 2
-               !$omp simd private(of_p, of_r, of_z, of_square, of_nest, of_force)
-               do l = 1, lanes
-                  of_p = 0.0_dp
-                  of_z = 0.0_dp
-                  do j = 1, k - 1
-                     of_p = of_p + c(l, p, flank, k - j)*c(l, h, flank, j)
-                     of_z = of_z + c(l, r, flank, k - j)*c(l, v, flank, j)
-                  end do
-                  of_r = 0.0_dp
-                  of_square = 0.0_dp
-                  do j = 1, (k - 1)/2
-                     of_r = of_r + c(l, r, flank, j)*c(l, r, flank, k - j)
-                     of_square = of_square + c(l, z, flank, j)*c(l, z, flank, k - j)
-                  end do
-                  of_r = 2.0_dp*of_r
-                  of_square = 2.0_dp*of_square
-                  if (mod(k, 2) == 0) then
-                     of_r = of_r + c(l, r, flank, shiftr(k, 1))*c(l, r, flank, shiftr(k, 1))
-                     of_square = of_square + c(l, z, flank, shiftr(k, 1))*c(l, z, flank, shiftr(k, 1))
-                  end if
-                  c(l, p, flank, k) = -c(l, p, flank, 0)*(of_p + c(l, p, flank, 0)*c(l, h, flank, k))
-                  c(l, r, flank, k) = half_root(l, flank)*(c(l, p, flank, k) - of_r)
-                  c(l, z, flank, k) = unit_rate(l, flank) &
-                     *(of_z + c(l, r, flank, 0)*c(l, v, flank, k) + c(l, r, flank, k)*c(l, v, flank, 0))
-                  c(l, square, flank, k) = of_square
-                  !GCC$ unroll 8
-                  do i = min(last_pair, (rupture_order - 1 - k)/2), 0, -1
-                     of_nest = expansion(flank)%terms(l, 2*i + 1)*c(l, z, flank, k)
-                     do j = max(2, k - (rupture_order - 1 - 2*(i + 1))), merge(k, 0, i < last_pair)
-                        of_nest = of_nest + c(l, square, flank, j)*c(l, nest + i + 1, flank, k - j)
-                     end do
-                     c(l, nest + i, flank, k) = of_nest
-                  end do
-                  of_force = 0.0_dp
-                  do j = 0, k
-                     of_force = of_force + c(l, p, flank, k - j)*c(l, nest, flank, j)
-                  end do
-                  carried(l, flank) = of_force
-               end do
-            end do
-            !$omp simd
-            do l = 1, lanes
-               c(l, h, 1, k + 1) = inverse(k + 1)*c(l, v, 1, k)
-               c(l, v, 1, k + 1) = (inverse(k + 1)*strength(l))*(carried(l, 1) - carried(l, 2)) - factor(k + 1)*force(l, k + 1)
-               c(l, h, 2, k + 1) = -c(l, h, 1, k + 1)
-               c(l, v, 2, k + 1) = -c(l, v, 1, k + 1)
-            end do
-         end do
-      end do
-      film(:, 1:rupture_order) = c(:, h, 1, 1:)
-      lienard(:, 1:rupture_order) = c(:, v, 1, 1:)
-   end subroutine rupture_series_of_two
+      include 'taylor_rupture.inc'
+   end subroutine rigid_flank
+
+   !> Two rigid flanks.
+   pure subroutine two_rigid_flanks(force, block)
+      !> Derivatives of the force that oscillates [-]
+      real(dp), intent(in) :: force(lanes, order)
+      type(lane_block_t), intent(inout) :: block
+      integer, parameter :: flanks = 2
+      logical, parameter :: elastic = .false.
+
+      include 'taylor_rupture.inc'
+   end subroutine two_rigid_flanks
+
+   !> One elastic flank.
+   pure subroutine elastic_flank(force, block)
+      !> Derivatives of the force that oscillates [-]
+      real(dp), intent(in) :: force(lanes, order)
+      type(lane_block_t), intent(inout) :: block
+      integer, parameter :: flanks = 1
+      logical, parameter :: elastic = .true.
+
+      include 'taylor_rupture.inc'
+   end subroutine elastic_flank
+
+   !> Two elastic flanks.
+   pure subroutine two_elastic_flanks(force, block)
+      !> Derivatives of the force that oscillates [-]
+      real(dp), intent(in) :: force(lanes, order)
+      type(lane_block_t), intent(inout) :: block
+      integer, parameter :: flanks = 2
+      logical, parameter :: elastic = .true.
+
+      include 'taylor_rupture.inc'
+   end subroutine two_elastic_flanks
 
    !> Sums of the series of H, V and V', as evaluate_series takes them.
    pure subroutine evaluate_rupture_series(film, lienard, x, film_sum, lienard_sum, rise_sum)

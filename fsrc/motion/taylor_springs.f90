@@ -1,6 +1,5 @@
-!> Taylor series of the motion of elastic teeth, for a block of lanes: with the published films (35) and (37), with the
-!> iso-viscous films whose rupture follows from (18), the exact one and (24)
-!> (fsrc/THEORY.md, section 4).
+!> Taylor series of the motion of elastic teeth with the published films (35) and (37), for a block of lanes (fsrc/THEORY.md,
+!> section 4). Films with rupture have those of elastic teeth beside those of rigid ones.
 !>
 !> The load of a film is that of its spring, so film laws are taken inverted, as the velocity under a load. Errors count as those of
 !> the films: an error of a compression d moves a film by as much.
@@ -9,8 +8,6 @@ module taylor_springs
    use kinds, only: dp
    use lane_force, only: factor
    use lane_functions, only: lanes
-   use load_expansion, only: squeeze_expansion_t
-   use taylor_rupture, only: rupture_order
    use taylor_step_control, only: inverse, order, sign_of
    implicit none(type, external)
    private
@@ -19,7 +16,7 @@ module taylor_springs
    !> coefficients [periods]
    real(dp), parameter, public :: shortest_rest = 1.0e-14_dp
 
-   public :: iso_viscous_springs, piezo_viscous_springs, rupture_springs
+   public :: iso_viscous_springs, piezo_viscous_springs
 
 contains
 
@@ -164,113 +161,5 @@ contains
          compression(:, flank, 1:) = c(:, d, flank, 1:)
       end do
    end subroutine piezo_viscous_springs
-
-   !> Coefficients 1 to `rupture_order` with a film that ruptures.
-   pure subroutine rupture_springs(flanks, strength, rate, compliance, load, force, expansion, films, lienard, compression)
-      !> Flanks: 1 or 2
-      integer, intent(in) :: flanks
-      !> a, c, kappa, q [-]
-      real(dp), intent(in) :: strength(lanes)
-      real(dp), intent(in) :: rate(lanes)
-      real(dp), intent(in) :: compliance(lanes)
-      real(dp), intent(in) :: load(lanes)
-      !> Derivatives of the force that oscillates, by module lane_force [-]
-      real(dp), intent(in) :: force(lanes, order)
-      !> A about the loads of both films
-      type(squeeze_expansion_t), intent(in) :: expansion(2)
-      !> Series of H and C, of V and of d_1 and d_2 [-]; coefficients 0 are given
-      real(dp), intent(inout) :: films(lanes, 0:order, 2)
-      real(dp), intent(inout) :: lienard(lanes, 0:order)
-      real(dp), intent(inout) :: compression(lanes, 2, 0:order)
-      !> Names as above; square = z**2, nest + i: T_i
-      integer, parameter :: last_pair = (rupture_order - 2)/2
-      integer, parameter :: h = 1, d = 2, r = 3, z = 4, square = 5, nest = 6, series = nest + last_pair
-      !> Lane, series, flank, coefficient
-      real(dp) :: c(lanes, series, 2, 0:rupture_order)
-      real(dp), dimension(lanes, 2) :: inverse_root, unit_share, velocity
-      real(dp) :: stiffness(lanes), share(lanes), of_load, of_root, of_square, of_nest, of_velocity
-      integer :: once, flank, k, j, i, l
-
-      stiffness = 1.0_dp/compliance
-      share = 1.0_dp/rate
-      lienard(:, 1) = -load - force(:, 1)
-      do flank = 1, flanks
-         !$omp simd
-         do l = 1, lanes
-            c(l, h, flank, 0) = films(l, 0, flank)
-            c(l, d, flank, 0) = compression(l, flank, 0)
-            c(l, r, flank, 0) = sqrt(films(l, 0, flank))
-            inverse_root(l, flank) = 1.0_dp/c(l, r, flank, 0)
-            unit_share(l, flank) = stiffness(l)/strength(l)*expansion(flank)%inverse_unit(l)
-            velocity(l, flank) = share(l)*c(l, r, flank, 0)*expansion(flank)%terms(l, 0)
-            lienard(l, 1) = lienard(l, 1) + (sign_of(flank)*stiffness(l))*compression(l, flank, 0)
-            c(l, h, flank, 1) = velocity(l, flank)
-            c(l, d, flank, 1) = velocity(l, flank) - sign_of(flank)*lienard(l, 0)
-         end do
-         do i = 0, last_pair
-            c(:, nest + i, flank, 0) = expansion(flank)%terms(:, 2*i)
-         end do
-      end do
-      ! gfortran unrolls the orders before it looks for full registers only within another loop.
-      do once = 1, 1
-         !GCC$ unroll 24
-         do k = 1, rupture_order - 1
-            !$omp simd
-            do l = 1, lanes
-               lienard(l, k + 1) = -factor(k + 1)*force(l, k + 1)
-            end do
-            do flank = 1, flanks
-               !$omp simd private(of_load, of_root, of_square, of_nest, of_velocity)
-               do l = 1, lanes
-                  of_load = 0.0_dp
-                  do j = 1, k - 1
-                     of_load = of_load + c(l, d, flank, k - j)*c(l, h, flank, j)
-                  end do
-                  of_load = of_load + c(l, d, flank, 0)*c(l, h, flank, k)
-                  of_load = of_load + c(l, d, flank, k)*c(l, h, flank, 0)
-                  of_root = 0.0_dp
-                  of_square = 0.0_dp
-                  do j = 1, (k - 1)/2
-                     of_root = of_root + c(l, r, flank, j)*c(l, r, flank, k - j)
-                     of_square = of_square + c(l, z, flank, j)*c(l, z, flank, k - j)
-                  end do
-                  of_root = 2.0_dp*of_root
-                  of_square = 2.0_dp*of_square
-                  if (mod(k, 2) == 0) then
-                     of_root = of_root + c(l, r, flank, shiftr(k, 1))*c(l, r, flank, shiftr(k, 1))
-                     of_square = of_square + c(l, z, flank, shiftr(k, 1))*c(l, z, flank, shiftr(k, 1))
-                  end if
-                  c(l, r, flank, k) = (0.5_dp*inverse_root(l, flank))*(c(l, h, flank, k) - of_root)
-                  c(l, z, flank, k) = unit_share(l, flank)*of_load
-                  c(l, square, flank, k) = of_square
-                  !GCC$ unroll 8
-                  do i = min(last_pair, (rupture_order - 1 - k)/2), 0, -1
-                     of_nest = 0.0_dp
-                     do j = max(2, k - (rupture_order - 1 - 2*(i + 1))), merge(k, 0, i < last_pair)
-                        of_nest = of_nest + c(l, square, flank, j)*c(l, nest + i + 1, flank, k - j)
-                     end do
-                     c(l, nest + i, flank, k) = of_nest + expansion(flank)%terms(l, 2*i + 1)*c(l, z, flank, k)
-                  end do
-                  of_velocity = 0.0_dp
-                  do j = 1, k - 1
-                     of_velocity = of_velocity + c(l, r, flank, k - j)*c(l, nest, flank, j)
-                  end do
-                  of_velocity = of_velocity + c(l, r, flank, k)*c(l, nest, flank, 0)
-                  velocity(l, flank) = share(l)*(of_velocity + c(l, r, flank, 0)*c(l, nest, flank, k))
-                  lienard(l, k + 1) = lienard(l, k + 1) + (inverse(k + 1)*sign_of(flank)*stiffness(l))*c(l, d, flank, k)
-                  c(l, h, flank, k + 1) = inverse(k + 1)*velocity(l, flank)
-                  c(l, d, flank, k + 1) = inverse(k + 1)*(velocity(l, flank) - sign_of(flank)*lienard(l, k))
-               end do
-            end do
-         end do
-      end do
-      do flank = 1, flanks
-         films(:, 1:rupture_order, flank) = c(:, h, flank, 1:)
-         compression(:, flank, 1:rupture_order) = c(:, d, flank, 1:)
-      end do
-      films(:, rupture_order + 1:, :) = 0.0_dp
-      lienard(:, rupture_order + 1:) = 0.0_dp
-      compression(:, :, rupture_order + 1:) = 0.0_dp
-   end subroutine rupture_springs
 
 end module taylor_springs
