@@ -508,7 +508,8 @@ module key_table
             'campaign.sample=sobol', &
             'Seed of a sample: the same seed gives the same scenes everywhere.'), &
       key_t('campaign', 'csv', text_kind, '', '', any_number, '', of_campaigns, &
-            'Table of scenes instead of vary: a CSV file whose header names group.key, one scene per row.'), &
+            'Table of scenes instead of vary: a CSV file, found from the folder of this input, whose header names group.key, '// &
+            'one scene per row.'), &
       key_t('campaign', 'record', list_kind, '', 'film_minimum film_maximum acceleration_minimum acceleration_maximum '// &
             'natural_frequency damping_ratio harmonic_count harmonic_count_is_bound harmonic_distortion '// &
             'harmonic_distortion_is_bound irregular_fraction irregular_fraction_is_bound reversals_per_period '// &

@@ -497,6 +497,15 @@ def test_samples_and_csv(run, scene_text, tmp_path: Path) -> None:
     (tmp_path / "scene.nml").write_text(grid(scene_text, 1, 1, campaign={**changes, "csv": "'table.csv'"}))
     result = package.read(solve(run, tmp_path, name="csv"))
     assert (result["load.mass"] == [3.0, 2.5, 4.0]).all()
+    # The table lies beside its input, wherever the program is called; a whole path is taken as it is.
+    (tmp_path / "elsewhere").mkdir()
+    whole = ("--set", f"campaign.csv='{tmp_path / 'table.csv'}'")
+    for place, options in ((tmp_path / "a", ()), (tmp_path / "b", whole)):
+        ended = run("../scene.nml", *options, "--output", place, cwd=tmp_path / "elsewhere")
+        assert ended.returncode == 0, ended.stderr
+        moved = package.read(place / "scene.rattle")
+        for name in result.names:
+            assert list(moved[name]) == list(result[name])
 
 
 def test_bad_scene_among_good_ones(run, scene_text, tmp_path: Path) -> None:

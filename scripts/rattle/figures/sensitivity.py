@@ -16,6 +16,7 @@ from rattle.figures.campaign_look import capital
 from rattle.sensitivity import Indices, Study
 
 BAR, PANEL, MARGIN = 0.34, 0.62, 1.0
+TITLE_LETTERS = 50  # that stand side by side above the panels
 KINDS = (("alone", "first", style.RUN_COLOURS[0]), ("with all others", "total", style.RUN_COLOURS[4]))
 
 
@@ -35,16 +36,14 @@ def draw(campaign: Campaign, studies: Sequence[Study]) -> Figure:
                     0.5, 0.5, "the same\nat all points", ha="center", va="center", transform=axes.transAxes
                 )
             if study is studies[0]:
-                axes.set_title(capital(textwrap.fill(short_name(name), 18)))
+                axes.set_title(capital(textwrap.fill(short_name(name), TITLE_LETTERS // len(names))))
         row[0].set_yticks(range(len(keys)), [short_name(key) for key in keys])
         row[0].set_ylim(len(keys) - 0.5, -0.5)
         row[0].set_ylabel(_label(study))
     panels[0, 0].set_xlim(0.0, 1.1)
-    figure.supxlabel("Share of the variance", fontsize=9)
+    panels[-1, 0].set_xticks([0.0, 0.5, 1.0])
     style.legend_below(figure, panels[0, 0], 2)
-    figure.suptitle(
-        f"{campaign.name}: what the spread of each key explains, alone and with all others", fontsize=9.5
-    )
+    figure.suptitle(f"{campaign.name}: share of the variance that each key explains", fontsize=9.5)
     return figure
 
 
