@@ -238,6 +238,7 @@ contains
       integer :: i
 
       found%told%starts_solved = found%told%starts_solved + 1
+      found%told%extra_periods = found%told%extra_periods + group%endings(place)%periods
       if (group%endings(place)%known > 0) return
       if (group%endings(place)%orbit == 0) found%told%unsettled_starts = found%told%unsettled_starts + 1
       if (.not. is_success(group%endings(place)%status)) return

@@ -10,6 +10,7 @@ module follow_starts
    use errors, only: error_t
    use fine_window, only: solve_whole_window, window_t
    use irregular_motion, only: follow_irregular
+   use irregular_states, only: are_of_one_motion
    use judged_scene, only: judged_scene_t
    use kinds, only: dp
    use known_motions, only: reached_motion
@@ -37,6 +38,9 @@ module follow_starts
    real(dp), parameter :: start_accuracy = 1.0e-6_dp
    !> Periods of a round, after which it is seen where starts are, and most periods of a start.
    integer, parameter :: round_periods = 4, most_periods = 120
+   !> Periods after which a start that does not repeat is held against an irregular motion that is known, by how many of the last
+   !> ones, and against how many of the scene's own.
+   integer, parameter :: compared_after = 48, compared_periods = 40, own_periods = 60
    !> Longest period that is looked for, as by the search for periodic motions.
    integer, parameter :: longest_period = 8
    !> Distance between two periods, relative to the film, from which on Newton's method is tried, and by how much it has to fall
@@ -52,6 +56,8 @@ module follow_starts
       type(motion_state_t), allocatable :: states(:)
       !> Number of a state, ends of the last periods (the newest last), start
       real(dp), allocatable :: past(:, :, :)
+      !> Film and velocity at the end of each period: number, period, start
+      real(dp), allocatable :: history(:, :, :)
       !> Periods done, and the motion that it leads to; 0: not known yet
       integer, allocatable :: periods(:), motion(:)
       !> Whether it could not be followed
@@ -92,8 +98,6 @@ contains
             call begin_starts(problem, starts(2:), followers)
             call follow(scene, judged, started, followers, settled, error)
             if (allocated(error) .or. must_stop()) return
-            call note_unsettled(scene, judged, followers, error)
-            if (allocated(error) .or. must_stop()) return
             coexisting%starts_solved = count
             is_unsettled = unsettled(followers, coexisting)
             coexisting%unsettled_starts = coexisting%unsettled_starts + size(pack(is_unsettled, is_unsettled))
@@ -103,7 +107,7 @@ contains
                coexisting%motions(i)%starts = coexisting%motions(i)%starts + size(pack(followers%motion, followers%motion == i))
                call find_restart(problem, i, settled, coexisting%motions(i))
             end do
-            coexisting%extra_periods = sum(followers%periods)
+            coexisting%extra_periods = coexisting%extra_periods + sum(followers%periods)
          end if
       end associate
    end subroutine find_all_motions
@@ -191,6 +195,7 @@ contains
       n = size(starts)
       allocate (followers%states(n), followers%failed(n), followers%tried(n))
       allocate (followers%past(state_size(problem), longest_period + 1, n), source=0.0_dp)
+      allocate (followers%history(of_velocity, most_periods + round_periods, n), source=0.0_dp)
       allocate (followers%periods(n), followers%motion(n), source=0)
       followers%failed = .false.
       followers%tried = huge(1.0_dp)
@@ -199,7 +204,9 @@ contains
       end do
    end subroutine begin_starts
 
-   !> Follow all starts until each is on a known motion, or has had its periods.
+   !> Follow all starts until each is on a known motion, or has had its periods. Where the motion of the scene is irregular, a start
+   !> whose states are like those of that motion has it; else the first start that does not repeat has all its periods, while others
+   !> wait for what it is.
    subroutine follow(scene, judged, started, followers, settled, error)
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(inout) :: judged
@@ -208,15 +215,22 @@ contains
       !> Motions that are known; others are added
       type(settled_motion_t), allocatable, intent(inout) :: settled(:)
       type(error_t), allocatable, intent(out) :: error
+      real(dp), allocatable :: irregular(:, :)
       integer, allocatable :: left(:)
-      integer :: most, i
+      logical :: is_left(size(followers%motion)), none_is_irregular
+      integer :: most, first, i
 
       most = min(most_periods, max(scene%solver%periods, longest_period + 1))
+      none_is_irregular = .false.
+      if (judged%rattle%class == class_irregular) call follow_own(judged, irregular)
       do
-         left = pack([(i, i=1, size(followers%motion))], followers%motion == 0 .and. .not. followers%failed .and. &
-                     followers%periods < most)
-         if (size(left) == 0 .or. must_stop()) return
-         if (status_of_stop(request_of(scene), started) /= status_complete) return
+         is_left = followers%motion == 0 .and. .not. followers%failed .and. followers%periods < most
+         first = findloc(followers%motion == 0 .and. .not. followers%failed, .true., dim=1)
+         if (.not. (allocated(irregular) .or. none_is_irregular)) &
+            is_left = is_left .and. (followers%periods < compared_after .or. [(i == first, i=1, size(is_left))])
+         left = pack([(i, i=1, size(is_left))], is_left)
+         if (size(left) == 0 .or. must_stop()) exit
+         if (status_of_stop(request_of(scene), started) /= status_complete) exit
          call go_on(judged%resolved%problem, left, followers)
          do i = 1, size(left)
             if (followers%failed(left(i))) cycle
@@ -227,8 +241,64 @@ contains
             call look_for_repetition(scene, judged, left(i), followers, settled, error)
             if (allocated(error) .or. must_stop()) return
          end do
+         if (first > 0 .and. .not. (allocated(irregular) .or. none_is_irregular)) then
+            if (followers%motion(first) == 0 .and. .not. followers%failed(first) .and. followers%periods(first) >= most) then
+               call judge_unsettled(scene, judged, followers%states(first), settled, none_is_irregular, error)
+               if (allocated(error) .or. must_stop()) return
+               if (.not. none_is_irregular) irregular = followers%history(:, compared_after + 1:followers%periods(first), first)
+            end if
+         end if
+         if (allocated(irregular)) call join_irregular(judged, irregular, followers)
       end do
+      first = irregular_place(judged)
+      if (first == 0 .or. none_is_irregular) return
+      where (followers%motion == 0 .and. .not. followers%failed .and. followers%periods >= most) followers%motion = first
    end subroutine follow
+
+   !> Place of the irregular motion; 0: none is known.
+   pure integer function irregular_place(judged)
+      type(judged_scene_t), intent(in) :: judged
+
+      irregular_place = findloc(judged%coexisting%motions%class, class_irregular, dim=1)
+   end function irregular_place
+
+   !> Films and velocities of the irregular motion of the scene, beyond its end.
+   subroutine follow_own(judged, irregular)
+      !> Its periods are counted with those of the other starts
+      type(judged_scene_t), intent(inout) :: judged
+      !> Number, period; not allocated where it could not be followed
+      real(dp), allocatable, intent(out) :: irregular(:, :)
+      real(dp), allocatable :: states(:, :, :)
+      type(ending_t) :: endings(1)
+
+      associate (problem => judged%resolved%problem, own => judged%coexisting%motions(1))
+         allocate (states(own_periods, size(own%state), 1), source=0.0_dp)
+         call unlock_texts()
+         call solve_motions([problem], [motion_state_t(numbers=own%state)], &
+                            request_t(accuracy=start_accuracy, periods=own_periods, samples_per_period=1, &
+                                      sampled_periods=own_periods), states, endings)
+         call lock_texts()
+         judged%coexisting%extra_periods = endings(1)%periods
+         if (endings(1)%status == status_complete) irregular = transpose(states(:, :of_velocity, 1))
+      end associate
+   end subroutine follow_own
+
+   !> Starts that have not repeated for long enough have the irregular motion that is known, if their states are like those of it.
+   pure subroutine join_irregular(judged, irregular, followers)
+      type(judged_scene_t), intent(in) :: judged
+      !> Films and velocities of that motion: number, period
+      real(dp), intent(in) :: irregular(:, :)
+      type(follower_t), intent(inout) :: followers
+      integer :: i
+
+      do i = 1, size(followers%motion)
+         if (followers%motion(i) > 0 .or. followers%failed(i) .or. followers%periods(i) < compared_after) cycle
+         associate (last => followers%periods(i))
+            if (are_of_one_motion(followers%history(:, last - compared_periods + 1:last, i), irregular)) &
+               followers%motion(i) = irregular_place(judged)
+         end associate
+      end do
+   end subroutine join_irregular
 
    !> Follow some starts for a round.
    subroutine go_on(problem, left, followers)
@@ -253,6 +323,8 @@ contains
             followers%periods(place) = followers%periods(place) + endings(i)%periods
             followers%failed(place) = endings(i)%status /= status_complete
             if (followers%failed(place)) cycle
+            followers%history(:, followers%periods(place) - round_periods + 1:followers%periods(place), place) = &
+               transpose(states(:, :of_velocity, i))
             followers%states(place) = motion_state_t(numbers=endings(i)%numbers, implicit=endings(i)%implicit)
             followers%past(:, :, place) = eoshift(followers%past(:, :, place), round_periods, dim=2)
             followers%past(:, longest_period + 2 - round_periods:, place) = transpose(states(:, :, i))
@@ -348,35 +420,38 @@ contains
       told%film_minimum = extremes%lowest(seen_film)%value
    end subroutine judge_motion
 
-   !> Starts that do not settle: where their motion is irregular, it is one motion, that of the scene if that is irregular too.
-   subroutine note_unsettled(scene, judged, followers, error)
+   !> Add the motion of a start that does not repeat, if it is irregular.
+   subroutine judge_unsettled(scene, judged, state, settled, is_none, error)
       type(scene_t), intent(in) :: scene
       type(judged_scene_t), intent(inout) :: judged
-      type(follower_t), intent(inout) :: followers
+      !> Where the start has come to
+      type(motion_state_t), intent(in) :: state
+      !> Motions by their places; one that does not repeat has no states
+      type(settled_motion_t), allocatable, intent(inout) :: settled(:)
+      !> Whether it is not
+      logical, intent(out) :: is_none
       type(error_t), allocatable, intent(out) :: error
       type(told_motion_t) :: told
+      type(settled_motion_t) :: without_states
       type(ending_t) :: endings(1)
       type(rattle_verdict_t) :: verdicts(1)
-      integer :: repeat_after(1), first, place
+      integer :: repeat_after(1)
 
-      first = findloc(followers%motion == 0 .and. .not. followers%failed, .true., dim=1)
-      if (first == 0) return
-      place = findloc(judged%coexisting%motions%class, class_irregular, dim=1)
-      if (place == 0) then
-         call judge_motion(scene, judged, followers%states(first), scene%spectrum%periods, told, endings(1), error)
-         if (allocated(error)) return
-         if (told%class /= class_irregular_so_far) return
-         verdicts%class = told%class
-         repeat_after = 0
-         call follow_irregular([judged%resolved%problem], endings, verdicts, repeat_after)
-         if (must_stop() .or. verdicts(1)%class /= class_irregular) return
-         told%class = class_irregular
-         told%state = endings(1)%numbers
-         judged%coexisting%motions = [judged%coexisting%motions, told]
-         place = size(judged%coexisting%motions)
-      end if
-      where (followers%motion == 0 .and. .not. followers%failed) followers%motion = place
-   end subroutine note_unsettled
+      is_none = .true.
+      call judge_motion(scene, judged, state, scene%spectrum%periods, told, endings(1), error)
+      if (allocated(error)) return
+      if (told%class /= class_irregular_so_far) return
+      verdicts%class = told%class
+      repeat_after = 0
+      call follow_irregular([judged%resolved%problem], endings, verdicts, repeat_after)
+      if (must_stop() .or. verdicts(1)%class /= class_irregular) return
+      told%class = class_irregular
+      told%state = endings(1)%numbers
+      allocate (without_states%states(size(told%state), 0))
+      settled = [settled, without_states]
+      judged%coexisting%motions = [judged%coexisting%motions, told]
+      is_none = .false.
+   end subroutine judge_unsettled
 
    !> Take the state of a motion from which film and velocity alone start it again: contacts with numbers of their own begin at
    !> rest then, and come into the motion by themselves, but perhaps into another one.

@@ -41,7 +41,7 @@ module judged_scene
       quantity_loudest_acceleration_rms, quantity_loudest_class, &
       quantity_loudest_film_force_rms, quantity_loudest_film_minimum, quantity_loudest_verdict, quantity_motions, &
       quantity_quietest_acceleration_rms, &
-      quantity_quietest_class, quantity_starts_solved, quantity_unsettled_starts, &
+      quantity_quietest_class, quantity_starts_solved, quantity_start_periods, quantity_unsettled_starts, &
       quantity_severity_error, quantity_model_limit, quantity_natural_frequency, &
       quantity_orbit_period, quantity_orbit_stability, quantity_periods_solved, quantity_pressure_maximum, &
       quantity_rattle_class, quantity_reversals_per_period, quantity_samples_per_period, quantity_sampling_sufficient, &
@@ -243,7 +243,8 @@ contains
             if (spectrum%moving) value = flag(spectrum%sampling_sufficient)
          case (quantity_rattle_class)
             value = real(judged%rattle%class, dp)
-         case (quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_loudest_class, &
+         case (quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_start_periods, &
+               quantity_loudest_class, &
                quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, quantity_loudest_film_minimum, &
                quantity_quietest_class, quantity_quietest_acceleration_rms, quantity_loudest_verdict)
             if (allocated(judged%coexisting%motions)) value = value_of_motions(quantity, judged%coexisting)
@@ -303,6 +304,8 @@ contains
             value = real(coexisting%starts_solved, dp)
          case (quantity_unsettled_starts)
             value = real(coexisting%unsettled_starts, dp)
+         case (quantity_start_periods)
+            value = real(coexisting%extra_periods, dp)
          case (quantity_loudest_class)
             value = real(loudest%class, dp)
          case (quantity_loudest_verdict)

@@ -45,7 +45,8 @@ module quantities
          quantity_harmonics, quantity_first_harmonic, quantity_harmonic_count, quantity_harmonic_count_is_bound, &
          quantity_harmonic_distortion, quantity_harmonic_distortion_is_bound, quantity_irregular_fraction, &
          quantity_irregular_fraction_is_bound, quantity_sampling_sufficient, quantity_rattle_class, &
-         quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_loudest_class, &
+         quantity_motions, quantity_starts_solved, quantity_unsettled_starts, quantity_start_periods, &
+         quantity_loudest_class, &
          quantity_loudest_verdict, quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, &
          quantity_loudest_film_minimum, &
          quantity_quietest_class, quantity_quietest_acceleration_rms, &
@@ -293,6 +294,8 @@ module quantities
          'Starts whose motions were solved, that of the scene with them.'), &
       quantity_t(quantity_unsettled_starts, 'unsettled_starts', '-', a_count, part_class, needs_starts, 'summary campaign', &
          'Starts whose motions were not seen to repeat: irregular ones, and those that take longer or fail.'), &
+      quantity_t(quantity_start_periods, 'start_periods', '-', a_count, part_class, needs_starts, 'summary campaign', &
+         'Periods of the force that were solved from the other starts, beside periods_solved.'), &
       quantity_t(quantity_loudest_class, 'loudest_class', '-', a_code, part_class, needs_starts, 'summary campaign', &
          'Class of the motion with the largest acceleration_rms that a start leads to.', &
          'quiet|creep|idle|irregular|subharmonic|irregular_so_far', first_code=1), &

@@ -36,7 +36,7 @@ TOLERANCE = 1e-9
 # the motion, of 1e-6, stand against the largest harmonic.
 BY_INTEGRALS = 1e-3
 # A single scene is followed from more starts than a row.
-OF_STARTS = re.compile(r"motions|starts_solved|unsettled_starts|loudest_\w+|quietest_\w+")
+OF_STARTS = re.compile(r"motions|starts_solved|start_periods|unsettled_starts|loudest_\w+|quietest_\w+")
 SPECTRAL = ("harmonic_distortion", "irregular_fraction")
 
 

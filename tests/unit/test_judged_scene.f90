@@ -97,6 +97,7 @@ contains
                                                  film_minimum=89.0_dp)]
       judged%coexisting%starts_solved = 29
       judged%coexisting%unsettled_starts = 2
+      judged%coexisting%extra_periods = 90
       judged%impacts%exists = .true.
       judged%impacts%periods = 4
       judged%impacts%unloaded_share = 0.25_dp
@@ -175,6 +176,7 @@ contains
       call expect('motions', 3.0_dp)
       call expect('starts_solved', 29.0_dp)
       call expect('unsettled_starts', 2.0_dp)
+      call expect('start_periods', 90.0_dp)
       call expect('loudest_class', real(class_irregular, dp))
       call expect('loudest_verdict', 1.0_dp)
       call expect('loudest_acceleration_rms', 85.0_dp)

@@ -18,11 +18,11 @@ import rattle as package
 
 COLUMNS = (
     "'rattle_class', 'acceleration_rms', 'film_force_rms', 'film_minimum', 'steady_film', 'verified', "
-    "'verdict', 'motions', 'starts_solved', 'unsettled_starts', 'loudest_class', 'loudest_verdict', "
-    "'loudest_acceleration_rms', "
+    "'verdict', 'motions', 'starts_solved', 'start_periods', 'loudest_class', 'loudest_verdict', "
+    "'unsettled_starts', 'loudest_acceleration_rms', "
     "'loudest_film_force_rms', 'loudest_film_minimum', 'quietest_class', 'quietest_acceleration_rms'"
 )
-OF_STARTS = ("motions", "starts_solved", "unsettled_starts", "loudest", "quietest")
+OF_STARTS = ("motions", "starts_solved", "start_periods", "unsettled_starts", "loudest", "quietest")
 MASS = 3.0
 # A lightly damped contact about its resonance: over a band of frequencies two motions are possible.
 FOLD = f"""
