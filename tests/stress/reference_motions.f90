@@ -219,17 +219,22 @@ contains
    end function repeats_after
 
    !> Whether two motions pass through the same states.
-   pure logical function is_same_motion(tooth, one, other) result(same)
+   pure logical function is_same_motion(tooth, one, other, within) result(same)
       type(tooth_t), intent(in) :: tooth
       type(reference_motion_t), intent(in) :: one
       type(reference_motion_t), intent(in) :: other
+      !> Distance of states that count as one, `alike` unless given [-]
+      real(dp), intent(in), optional :: within
+      real(dp) :: limit
       integer :: shift, i, n
 
+      limit = alike
+      if (present(within)) limit = within
       ! A multiple of the shortest period is the same motion, too.
       n = max(size(one%states), size(other%states))
       do shift = 0, size(other%states) - 1
          same = all([(distance(tooth, one%states(1 + modulo(i, size(one%states))), &
-                               other%states(1 + modulo(i + shift, size(other%states)))) <= alike, i=1, n)])
+                               other%states(1 + modulo(i + shift, size(other%states)))) <= limit, i=1, n)])
          if (same) return
       end do
    end function is_same_motion

@@ -25,6 +25,8 @@ program stress_motions
    real(dp), parameter :: counted = 0.05_dp, looked_into = 0.2_dp
    !> Relative difference of the acceleration rms within which a row tells a motion [-].
    real(dp), parameter :: same_rms = 0.05_dp
+   !> Distance of states within which a motion repeats after a part of its period [-]; the reference is good for a tenth of it.
+   real(dp), parameter :: same_period = 1.0e-3_dp
    !> Ways of the program.
    integer, parameter :: alone = 1, row = 2
    character(*), parameter :: ways(2) = [character(48) :: 'alone, 29 starts', 'row of a campaign, 3 starts and neighbours']
@@ -156,7 +158,7 @@ contains
             do n = 1, motion%period/2
                if (modulo(motion%period, n) /= 0) cycle
                part%states = motions(i)%states(:n)
-               if (.not. is_same_motion(tooth, part, motions(i))) cycle
+               if (.not. is_same_motion(tooth, part, motions(i), same_period)) cycle
                longer = longer + 1
                print '(3a)', 'repeats after '//integer_text(n)//' periods: ', scene_words(drawn, number), ', '//motion_words(motion)
                exit
