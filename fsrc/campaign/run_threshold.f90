@@ -21,7 +21,8 @@ module run_threshold
    use summary_file, only: summary_t
    use table_task, only: table_task_t
    use text, only: counted, integer_text, short_text
-   use threshold_outcome, only: failed_scenes, load_outcome, outcome_t, save_outcome, share_points, solved_scenes, &
+   use threshold_ends, only: has_ends
+   use threshold_outcome, only: end_counts, failed_scenes, load_outcome, outcome_t, save_outcome, share_points, solved_scenes, &
                                 check_earlier_threshold, start_outcome, write_rows_of
    use word_list, only: word_t
    use, intrinsic :: omp_lib, only: omp_get_max_threads
@@ -123,6 +124,9 @@ contains
                          integer_text(self%threshold%axis%count)//' places; two changes between neighbours of the scan that '// &
                          'cancel each other stay unseen: more &threshold count sees them')
       if (self%scene%spectrum%verify) call self%log%line('  the ends of a crossing go apart again until both are verified')
+      if (has_ends(self%scene, self%threshold%axis%whole)) &
+         call self%log%line('  then the motions of both sides, from '//counted(self%scene%solver%starts, 'start')// &
+                            ', are followed along '//key_name(self%threshold%axis%position)//' to where they end')
    end subroutine report_start
 
    subroutine solve(self, error)
@@ -205,6 +209,7 @@ contains
       !> Paths of what was written
       type(word_t), intent(in) :: results(:)
       integer, intent(in) :: status
+      integer(int64) :: counts(3)
 
       call add_head(summary, task%scene, status)
       call add_results(summary, results, status)
@@ -214,6 +219,12 @@ contains
          call summary%add('traces_without_crossing', outcome%uncrossed)
          if (scene%spectrum%verify) call summary%add('crossings_uncertain', outcome%uncertain)
          if (scene%spectrum%verify) call summary%add('crossings_wide', outcome%wide)
+         if (has_ends(scene, task%threshold%axis%whole)) then
+            counts = end_counts(scene, task%threshold, outcome)
+            call summary%add('crossings_followed', counts(1))
+            call summary%add('crossings_either', counts(2))
+            call summary%add('crossings_end_unsure', counts(3))
+         end if
          call summary%add('scenes', solved_scenes(outcome))
          call summary%add('scenes_failed', failed_scenes(outcome))
          call summary%add('scenes_of_a_grid', grid_scenes(scene, task%threshold))
@@ -244,6 +255,7 @@ contains
       type(prepared_threshold_t), intent(in) :: threshold
       type(outcome_t), intent(in) :: outcome
       character(:), allocatable :: line
+      integer(int64) :: counts(3)
 
       line = '  '//counted(outcome%crossings, 'crossing')//'; '//integer_text(outcome%uncrossed)//' of '// &
              counted(threshold%traces%layout%scene_count, 'trace')//' without any'
@@ -252,6 +264,15 @@ contains
       call log%line(line)
       if (outcome%wide > 0_int64) call log%line('  the ends of '//counted(outcome%wide, 'crossing')//' are verified only '// &
                                                 'farther apart than asked for: the width tells how sure that is (column width)')
+      counts = end_counts(scene, threshold, outcome)
+      if (counts(1) > 0_int64) call log%line('  at '//integer_text(counts(2))//' of '//counted(counts(1), 'crossing')// &
+                                             ' either side is possible: motions go on beyond the change from rest (columns '// &
+                                             'last_below, last_above)')
+      if (counts(3) > 0_int64) call log%line('  at '//counted(counts(3), 'crossing')//' an end is that of a motion that does '// &
+                                             'not repeat, to the width of a bracket, or it was lost (columns '// &
+                                             'motion_end_below, motion_end_above)')
+      if (counts(1) > 0_int64 .and. scene%solver%starts > 1) &
+         call log%line('  '//counted(scene%solver%starts, 'start')//' are no proof of others'' absence')
       if (outcome%failed > 0_int64) call log%line('  scenes that failed are a kind of their own: where they begin is a '// &
                                                   'crossing (columns status_below, status_above)')
       ! Where there are more parts than traces, some have none.

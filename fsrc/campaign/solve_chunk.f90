@@ -1,11 +1,12 @@
 !> Solves and judges the scenes of a chunk: the kernels of the single scene, eight scenes to a register.
 module solve_chunk
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use campaign_verification, only: verify_group, compared
    use campaign_record, only: record_motions, record_row
    use errors, only: error_t
-   use engine, only: asks_for_same, ending_t, request_t, reserved_periods, start_of
+   use engine, only: asks_for_same, ending_t, motion_state_t, request_t, reserved_periods, start_of
    use judge_scene, only: note_record, note_regime
-   use judged_scene, only: judged_scene_t
+   use judged_scene, only: judged_scene_t, quantity_value
    use key_table, only: find_key
    use force, only: force_of, largest_oscillation
    use grid_blocks, only: block_scenes
@@ -48,7 +49,7 @@ module solve_chunk
       type(judged_scene_t) :: judged
    end type chunk_space_t
 
-   public :: solve_scenes, scenes_of_block, chunk_bytes
+   public :: solve_scenes, solve_starts, scenes_of_block, chunk_bytes
 
 contains
 
@@ -195,7 +196,8 @@ contains
       together = merge(solved, 1, alike(requests(order(:solved))))
       do start = 1, solved, max(1, together)
          associate (group => order(start:start + together - 1))
-            call solve_side_by_side(resolved(group), choices(group), requests(order(start)), needed, space, error)
+            call solve_side_by_side(resolved(group), start_of(resolved(group)%problem), choices(group), requests(order(start)), &
+                                    needed, space, error)
             if (must_stop() .or. allocated(error)) return
             do i = 1, together
                call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%agree(i), space%judged)
@@ -253,8 +255,10 @@ contains
    end subroutine find_motions
 
    !> Solve scenes that ask for the same, find their classes, and whether they stand, as far as columns ask for it.
-   subroutine solve_side_by_side(resolved, choices, request, needed, space, error)
+   subroutine solve_side_by_side(resolved, starts, choices, request, needed, space, error)
       type(resolved_scene_t), intent(in) :: resolved(:)
+      !> Where each motion starts
+      type(motion_state_t), intent(in) :: starts(:)
       !> Limits of their classes
       type(spectrum_choice_t), intent(in) :: choices(:)
       !> What is asked of the engine
@@ -270,9 +274,9 @@ contains
       allocate (space%agree(size(resolved)))
       associate (problems => resolved%problem)
          if (needed(needs_impacts)) then
-            call solve_group(problems, start_of(problems), request, needed(:seen_quantities), space%group, choices%impact_limit)
+            call solve_group(problems, starts, request, needed(:seen_quantities), space%group, choices%impact_limit)
          else
-            call solve_group(problems, start_of(problems), request, needed(:seen_quantities), space%group)
+            call solve_group(problems, starts, request, needed(:seen_quantities), space%group)
          end if
          if (needed(needs_orbit)) call find_orbits(problems, space%group)
          if (any(needed([needs_spectrum, needs_verification]))) then
@@ -289,6 +293,67 @@ contains
       end if
       if (allocated(space%tight%error)) call move_alloc(space%tight%error, error)
    end subroutine solve_side_by_side
+
+   !> Quantities of scenes whose motions start from given states, and how these end. A motion is followed until it repeats, as far
+   !> as the periods of its scene allow. Where the work must stop, the answers are of no use.
+   subroutine solve_starts(base, positions, values, starts, space, quantities, endings, error)
+      !> Checked base scene; its campaign records the quantities, none of which is a list
+      type(scene_t), intent(in) :: base
+      !> Varied keys, by their positions in the key table
+      integer, intent(in) :: positions(:)
+      !> (key, scene)
+      real(dp), intent(in) :: values(:, :)
+      !> Where each motion starts; without numbers: where its scene says
+      type(motion_state_t), intent(in) :: starts(:)
+      !> Work space
+      type(chunk_space_t), intent(inout) :: space
+      !> (quantity, scene), NaN: unknown
+      real(dp), intent(out) :: quantities(:, :)
+      !> How the motions ended; those of scenes that are none are invalid
+      type(ending_t), intent(out) :: endings(:)
+      !> Set if there is no memory for the samples of a scene
+      type(error_t), allocatable, intent(out) :: error
+      type(scene_t) :: scene
+      type(resolved_scene_t) :: resolved(size(starts))
+      type(motion_state_t) :: from(size(starts))
+      type(spectrum_choice_t) :: choices(size(starts))
+      type(request_t) :: requests(size(starts))
+      logical :: needed(need_count), valid(size(starts))
+      integer, allocatable :: order(:)
+      integer :: i, k, start, together
+
+      needed = needs_of(base%campaign%record)
+      scene = base
+      scene%resolved_input = ''
+      endings = ending_t(status=status_invalid)
+      quantities = ieee_value(0.0_dp, ieee_quiet_nan)
+      do i = 1, size(starts)
+         call set_varied_keys(scene, positions, values(:, i))
+         valid(i) = is_valid_scene(scene, positions, values(:, i))
+         if (.not. valid(i)) cycle
+         resolved(i) = resolve(scene)
+         choices(i) = scene%spectrum
+         requests(i) = request_of(scene, needed)
+         requests(i)%until_steady = .true.
+         requests(i)%forecast = .true.
+         from(i) = start_of(resolved(i)%problem)
+         if (allocated(starts(i)%numbers)) from(i) = starts(i)
+      end do
+      order = pack([(i, i=1, size(starts))], valid)
+      together = merge(size(order), 1, alike(requests(order)))
+      do start = 1, size(order), max(1, together)
+         associate (group => order(start:start + together - 1))
+            call solve_side_by_side(resolved(group), from(group), choices(group), requests(group(1)), needed, space, error)
+            if (must_stop() .or. allocated(error)) return
+            do i = 1, together
+               call judge_scene_of(space%group, i, resolved(group(i)), needed, space%stands(i), space%agree(i), space%judged)
+               endings(group(i)) = space%group%endings(i)
+               quantities(:, group(i)) = [(quantity_value(base%campaign%record(k), space%judged), &
+                                           k=1, size(base%campaign%record))]
+            end do
+         end associate
+      end do
+   end subroutine solve_starts
 
    !> Whether all scenes of a batch ask for the same.
    pure logical function alike(requests)

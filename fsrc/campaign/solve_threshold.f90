@@ -14,7 +14,8 @@ module solve_threshold
    use schedule, only: pace_t
    use signals, only: caught_signal
    use solve_chunk, only: chunk_space_t, solve_scenes
-   use threshold_outcome, only: add_traces, outcome_t, save_outcome, solved_scenes
+   use solve_ends, only: end_traces
+   use threshold_outcome, only: outcome_t, save_outcome, solved_scenes
    use threshold_search, only: known_side, merged_points, missing_middles, missing_scan, new_point, point_t, untested_ends
    use, intrinsic :: omp_lib, only: omp_get_max_threads, omp_get_thread_num
    implicit none(type, external)
@@ -52,7 +53,7 @@ contains
          call solve_points(scene, threshold, wanted, testing, pace, progress, log, outcome, error)
          if (outcome%cut) return
       end do
-      call add_traces(scene, threshold, first, last, outcome)
+      call end_traces(scene, threshold, first, last, progress, log, outcome, error)
    end subroutine search_lines
 
    !> What is to be solved next: the scan, then the middles of brackets that are still wide, then the verifications of their ends.

@@ -21,6 +21,8 @@ module threshold_outcome
    use sampling, only: scene_values
    use scene_status, only: is_success
    use scene_types, only: scene_t
+   use motion_branch, only: end_bracketed
+   use threshold_ends, only: end_numbers, has_ends
    use threshold_search, only: bracket_t, brackets_of, is_verified, new_point, point_t
    use varied_keys, only: varied_name
    implicit none(type, external)
@@ -48,8 +50,8 @@ module threshold_outcome
       procedure :: age
    end type outcome_t
 
-   public :: start_outcome, share_points, add_traces, solved_scenes, failed_scenes, write_rows_of, save_outcome, load_outcome, &
-             check_earlier_threshold
+   public :: start_outcome, share_points, add_traces, solved_scenes, failed_scenes, end_counts, write_rows_of, save_outcome, &
+             load_outcome, check_earlier_threshold
 
 contains
 
@@ -73,15 +75,18 @@ contains
 
    !> Enter some traces of which all is known: a row for each bracket, and one for a trace that has none, from end to end of its
    !> range. Their points are not needed any more.
-   subroutine add_traces(scene, threshold, first, last, outcome)
+   subroutine add_traces(scene, threshold, first, last, outcome, ends)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       !> First and last of the traces
       integer(int64), intent(in) :: first
       integer(int64), intent(in) :: last
       type(outcome_t), intent(inout) :: outcome
+      !> Where the motions on both sides of their brackets end, bracket by bracket, as of threshold_ends; absent: not known
+      real(dp), intent(in), optional :: ends(:, :)
       type(point_t), allocatable :: points(:)
       type(bracket_t), allocatable :: brackets(:)
+      real(dp) :: unknown(end_numbers)
       real(dp), allocatable :: rows(:, :)
       integer(int64) :: trace
       integer :: i, k, start, end, crossing
@@ -90,6 +95,7 @@ contains
       outcome%points = pack(outcome%points, outcome%points%trace > last)
       allocate (brackets, source=brackets_of(points))
       allocate (rows(size(outcome%rows, 1), size(brackets) + last - first + 1_int64))
+      unknown = ieee_value(0.0_dp, ieee_quiet_nan)
       i = 0
       k = 0
       end = 0
@@ -102,13 +108,17 @@ contains
             i = i + 1
             k = k + 1
             crossing = crossing + 1
-            rows(:, k) = row_of(scene, threshold, crossing, brackets(i)%lower, brackets(i)%upper)
+            if (present(ends)) then
+               rows(:, k) = row_of(scene, threshold, crossing, brackets(i)%lower, brackets(i)%upper, ends(:, i))
+            else
+               rows(:, k) = row_of(scene, threshold, crossing, brackets(i)%lower, brackets(i)%upper, unknown)
+            end if
             if (.not. all(is_verified([brackets(i)%lower, brackets(i)%upper]))) outcome%uncertain = outcome%uncertain + 1_int64
             if (brackets(i)%upper%place - brackets(i)%lower%place > 1) outcome%wide = outcome%wide + 1_int64
          end do
          if (crossing > 0) cycle
          k = k + 1
-         rows(:, k) = row_of(scene, threshold, crossing, points(start), points(end))
+         rows(:, k) = row_of(scene, threshold, crossing, points(start), points(end), unknown)
          outcome%uncrossed = outcome%uncrossed + 1_int64
       end do
       outcome%crossings = outcome%crossings + size(brackets, kind=int64)
@@ -119,13 +129,15 @@ contains
    end subroutine add_traces
 
    !> Row of a bracket, or of a trace without one.
-   function row_of(scene, threshold, crossing, lower, upper) result(row)
+   function row_of(scene, threshold, crossing, lower, upper, motion_ends) result(row)
       type(scene_t), intent(in) :: scene
       type(prepared_threshold_t), intent(in) :: threshold
       !> Which one of its trace; 0: the trace has none
       integer, intent(in) :: crossing
       type(point_t), intent(in) :: lower
       type(point_t), intent(in) :: upper
+      !> Where the motions on both sides end
+      real(dp), intent(in) :: motion_ends(:)
       real(dp), allocatable :: row(:)
       real(dp) :: axes(size(threshold%traces%plan%positions)), ends(2), width, verified(2)
 
@@ -138,7 +150,30 @@ contains
       row = [real(lower%trace, dp), axes, real(crossing, dp), ends, width, lower%quantity, upper%quantity, &
              real(lower%status, dp), real(upper%status, dp)]
       if (scene%spectrum%verify) row = [row, verified]
+      if (has_ends(scene, threshold%axis%whole)) row = [row, motion_ends]
    end function row_of
+
+   !> How many crossings have motions that were followed; at how many of them either side is possible, since motions of a side go on
+   !> beyond the bracket; and at how many an end is known to a bracket only, or not at all.
+   pure function end_counts(scene, threshold, outcome) result(counts)
+      type(scene_t), intent(in) :: scene
+      type(prepared_threshold_t), intent(in) :: threshold
+      type(outcome_t), intent(in) :: outcome
+      integer(int64) :: counts(3)
+      integer :: lower, last
+
+      counts = 0_int64
+      if (.not. has_ends(scene, threshold%axis%whole)) return
+      lower = size(threshold%traces%plan%positions) + 3
+      last = size(outcome%rows, 1) - end_numbers
+      associate (below => outcome%rows(last + 1, :), above => outcome%rows(last + 2, :), kinds => outcome%rows(last + 3:, :), &
+                 rows => outcome%rows)
+         ! A comparison with what is unknown is false.
+         counts(1) = count(below >= rows(lower, :) .or. above <= rows(lower + 1, :), kind=int64)
+         counts(2) = count(below > rows(lower + 1, :) .or. above < rows(lower, :), kind=int64)
+         counts(3) = count(any(kinds >= real(end_bracketed, dp), dim=1), kind=int64)
+      end associate
+   end function end_counts
 
    !> Scenes that were solved for some points: those put to the test were solved for that once more.
    pure integer(int64) function scenes_of(points)
@@ -166,6 +201,8 @@ contains
       type(prepared_threshold_t), intent(in) :: threshold
       character(column_name_bytes), allocatable :: names(:)
       character(column_name_bytes), parameter :: sides(2) = [character(column_name_bytes) :: 'verified_below', 'verified_above']
+      character(column_name_bytes), parameter :: ends(end_numbers) = &
+         [character(column_name_bytes) :: 'last_below', 'last_above', 'motion_end_below', 'motion_end_above']
       character(column_name_bytes) :: axes(size(threshold%traces%plan%positions))
       character(:), allocatable :: quantity
       integer :: i
@@ -177,6 +214,7 @@ contains
       names = [character(column_name_bytes) :: 'trace', axes, 'crossing', 'lower', 'upper', 'width', quantity//'_below', &
                quantity//'_above', 'status_below', 'status_above']
       if (scene%spectrum%verify) names = [names, sides]
+      if (has_ends(scene, threshold%axis%whole)) names = [names, ends]
    end function column_names
 
    !> Units of the columns.
@@ -191,6 +229,8 @@ contains
                   quantity]
          where (units == '') units = '-'
          units = [units, [(units(1), i=1, merge(4, 2, scene%spectrum%verify))]]
+         if (has_ends(scene, threshold%axis%whole)) &
+            units = [units, units(size(threshold%traces%plan%positions) + [3, 3]), units(1), units(1)]
       end associate
    end function column_units
 

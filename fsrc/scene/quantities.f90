@@ -49,7 +49,7 @@ module quantities
          quantity_loudest_class, &
          quantity_loudest_verdict, quantity_loudest_acceleration_rms, quantity_loudest_film_force_rms, &
          quantity_loudest_film_minimum, &
-         quantity_quietest_class, quantity_quietest_acceleration_rms, &
+         quantity_quietest_class, quantity_quietest_acceleration_rms, quantity_motion_end, &
          quantity_lyapunov_exponent, quantity_verified, &
          quantity_verdict_verified, quantity_impacts_verified, quantity_film_error, &
          quantity_film_minimum_error, quantity_film_maximum_error, quantity_acceleration_error, &
@@ -317,6 +317,9 @@ module quantities
       quantity_t(quantity_quietest_acceleration_rms, 'quietest_acceleration_rms', 'm/s2', a_number, part_class, needs_starts, &
          'summary campaign', &
          'Its acceleration_rms.', digits=4), &
+      quantity_t(quantity_motion_end, 'motion_end', '-', a_code, part_class, needs_starts, 'threshold', &
+         'How the motions of a side end where they are followed: they lose stability, their side, or the range ends.', &
+         'fold|period_doubling|torus|criterion|end_of_range|bracketed|lost', first_code=1), &
       quantity_t(quantity_lyapunov_exponent, 'lyapunov_exponent', '-', a_number, part_class, needs_spectrum, &
          'summary sweep campaign', &
          'Mean logarithm by which a neighbouring motion parts, a period of the force; where a motion does not repeat.'), &

@@ -1,7 +1,7 @@
 !> Tests of what is kept of a threshold: rows and counts of points that are known, entered at once, trace by trace, in parts of the
 !> traces, and read back from a state.
 module test_threshold_outcome
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use campaign_file_cases, only: line_feed
    use checks, only: check_list_t, same_bits
    use errors, only: error_t
@@ -14,7 +14,7 @@ module test_threshold_outcome
    use scene_types, only: scene_t
    use threshold_cases, only: case_points, creep, crossings, failed, first_force, idle, last_force, traces, new_outcome, prepare, &
                               quiet, solved, speeds, steps, uncertain, uncrossed, wide
-   use threshold_outcome, only: add_traces, failed_scenes, load_outcome, outcome_t, save_outcome, solved_scenes
+   use threshold_outcome, only: add_traces, end_counts, failed_scenes, load_outcome, outcome_t, save_outcome, solved_scenes
    use threshold_search, only: point_t
    implicit none(type, external)
    private
@@ -41,6 +41,7 @@ contains
       call test_state(checks, scene, threshold, outcome)
       call test_part(checks, outcome)
       call test_without_verifications(checks)
+      call test_ends(checks)
    end subroutine run_threshold_outcome_tests
 
    !> Scenes are counted once, whether their traces are done or under way.
@@ -75,7 +76,8 @@ contains
       integer, parameter :: verified_below = 11, verified_above = 12
       integer :: trace
 
-      call checks%check(all(shape(rows) == [12, 7]), 'a row for each crossing and each trace without one')
+      call checks%check(all(shape(rows) == [16, 7]), 'a row for each crossing and each trace without one')
+      call checks%check(all(ieee_is_nan(rows(13:, :))), 'no ends of motions that were not followed')
       if (any(shape(rows) /= [12, 7])) return
       call row(1, 1, 1, [8, 9], [quiet, idle], [status_steady, status_steady])
       call stand(1, [1, 0])
@@ -226,6 +228,38 @@ contains
       call check_same(checks, outcome%rows, whole%rows(:, 5:), 'a part')
    end subroutine test_part
 
+   !> Where motions end stands in the rows of crossings; and it is counted where either side is possible, beyond a bracket, and where
+   !> an end is not sure. With one start there are no such columns.
+   subroutine test_ends(checks)
+      class(check_list_t), intent(inout) :: checks
+      type(scene_t) :: scene
+      type(prepared_threshold_t) :: threshold
+      type(outcome_t) :: outcome
+      real(dp) :: ends(4, 3)
+
+      call prepare(checks, scene, threshold, ' /')
+      call new_outcome(scene, threshold, outcome)
+      ! From 85 to 95 N, from 85 to 115 N, from 235 to 245 N
+      ends(:, 1) = [200.0_dp, 20.0_dp, 1.0_dp, 2.0_dp]
+      ends(:, 2) = [90.0_dp, 90.0_dp, 4.0_dp, 4.0_dp]
+      ends(:, 3) = [260.0_dp, ieee_value(0.0_dp, ieee_quiet_nan), 6.0_dp, ieee_value(0.0_dp, ieee_quiet_nan)]
+      call add_traces(scene, threshold, 1_int64, traces, outcome, ends)
+      call checks%check(all(same_bits(outcome%rows(13:, :3), ends) .or. ieee_is_nan(ends)), &
+                        'ends of the motions of each crossing')
+      call checks%check(all(ieee_is_nan(outcome%rows(13:, 4:))), 'no ends where there is no crossing')
+      call checks%check(all(end_counts(scene, threshold, outcome) == [3, 2, 1]), 'counts of ends')
+      ends(1, 1) = 94.0_dp
+      ends(2, 1) = 86.0_dp
+      call new_outcome(scene, threshold, outcome)
+      call add_traces(scene, threshold, 1_int64, traces, outcome, ends)
+      call checks%check(all(end_counts(scene, threshold, outcome) == [3, 1, 1]), 'ends within a bracket are one change')
+      call prepare(checks, scene, threshold, ' /'//line_feed//'&solver starts = 1 /')
+      call new_outcome(scene, threshold, outcome)
+      call add_traces(scene, threshold, 1_int64, traces, outcome)
+      call checks%check(size(outcome%rows, 1) == 12, 'no ends with one start')
+      call checks%check(all(end_counts(scene, threshold, outcome) == 0), 'nor counts of them')
+   end subroutine test_ends
+
    !> Without verifications rows have no column of them, and nothing is put to the test.
    subroutine test_without_verifications(checks)
       class(check_list_t), intent(inout) :: checks
@@ -237,7 +271,7 @@ contains
       call new_outcome(scene, threshold, outcome)
       outcome%points%tested = .false.
       call add_traces(scene, threshold, 1_int64, traces, outcome)
-      call checks%check(size(outcome%rows, 1) == 10, 'no columns of verifications')
+      call checks%check(size(outcome%rows, 1) == 14, 'no columns of verifications')
       call checks%check(outcome%solved == size(case_points(scene), kind=int64), 'every point is one scene')
       call checks%check(outcome%wide == 0_int64, 'brackets as narrow as asked for')
    end subroutine test_without_verifications

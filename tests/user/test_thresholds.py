@@ -116,10 +116,12 @@ def test_every_column_has_the_unit_of_what_it_holds(found, scene_text, tmp_path:
     found(threshold_text(scene_text, threshold={**threshold, **SEVERE}))
     units = {"kinematics.entrainment_speed": "m/s", "lower": "kg", "upper": "kg", "width": "kg"}
     units |= {"film_force_rms_below": "N", "film_force_rms_above": "N"}
+    units |= {"last_below": "kg", "last_above": "kg"}
     told = package.read(tmp_path / "results" / "scene.rattle").units
     assert {name: unit for name, unit in told.items() if unit != "-"} == units
     assert set(told) - set(units) == {
-        *("trace", "crossing", "status_below", "status_above", "verified_below", "verified_above")
+        *("trace", "crossing", "status_below", "status_above", "verified_below", "verified_above"),
+        *("motion_end_below", "motion_end_above"),
     }
 
 

@@ -1,0 +1,183 @@
+"""Where motions on both sides of a threshold end, against another continuation and scenes solved alone."""
+
+from __future__ import annotations
+
+import resource
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from outcomes import digest, summary_of
+from waiting import let_work, until
+
+import rattle as package
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reference"))
+import pseudo_arclength
+
+# A tooth of little damping; from rest it hits both flanks from 14.63 N on.
+PAIR = {
+    "contact": {"radius": "7.5e-3", "length": "0.02", "backlash": "1.0e-4"},
+    "lubricant": {"viscosity": "0.003", "pressure_viscosity": "2.0e-8"},
+    "kinematics": {"entrainment_speed": "3.3"},
+    "load": {
+        "mass": "0.45",
+        "steady_force": "5.0",
+        "gravity": "0.0",
+        "frequency": "160.0",
+        "force_amplitude": "14.6",
+    },
+    "film": {"law": "'iso-viscous'", "model": "'published'"},
+    "solver": {"method": "'taylor'", "steps_per_period": None, "until": "'steady'", "periods": "400"},
+    "spectrum": {"periods": "4"},
+}
+THRESHOLD = {
+    "key": "'load.force_amplitude'",
+    "first": "2.0",
+    "last": "80.0",
+    "criterion": "'double_sided'",
+}
+
+
+@pytest.fixture
+def found(run, scene_text, tmp_path: Path):
+    """Find the thresholds of the pair; return their result."""
+
+    def find(*options: object, name: str = "scene", threshold: dict | None = None, **changes: dict):
+        groups = {**PAIR, "scene": {"task": "'threshold'"}, **changes}
+        text = scene_text(**groups, threshold={**THRESHOLD, **(threshold or {})})
+        (tmp_path / f"{name}.nml").write_text(text)
+        ended = run(*options, f"{name}.nml", cwd=tmp_path, timeout=600.0)
+        assert ended.returncode == 0, ended.stderr
+        return package.read(tmp_path / "results" / f"{name}.rattle")
+
+    return find
+
+
+@pytest.fixture
+def alone(run, scene_text, tmp_path: Path):
+    """Solve the pair alone; return its summary."""
+
+    def solve(*options: object) -> dict:
+        (tmp_path / "alone.nml").write_text(scene_text(**PAIR))
+        ended = run("--overwrite", *options, "alone.nml", cwd=tmp_path)
+        assert ended.returncode == 0, ended.stderr
+        return summary_of(tmp_path / "results" / "alone.summary.nml")
+
+    return solve
+
+
+def set_to(**settings: object) -> list[str]:
+    return [
+        word for key, value in settings.items() for word in ("--set", f"{key.replace('__', '.')}={value!r}")
+    ]
+
+
+def test_ends_are_the_folds_of_pseudo_arclength_continuation(found, tmp_path: Path) -> None:
+    """Both sides end at folds of one branch, each to 1e-6 of the force that of another continuation."""
+    rows = found().frame()
+    assert len(rows) == 1
+    row = rows.iloc[0]
+    assert row["last_above"] < row["lower"] < row["upper"] < row["last_below"]
+    assert row["motion_end_below_word"] == row["motion_end_above_word"] == "fold"
+    pair = pseudo_arclength.LoosePair(
+        radius=7.5e-3,
+        length=0.02,
+        viscosity=0.003,
+        speed=3.3,
+        backlash=1.0e-4,
+        mass=0.45,
+        static_force=5.0,
+        frequency=160.0,
+    )
+    # Some periods from anywhere lead to the motion that does not hit the coast flank.
+    state, start = np.array([0.9, -0.85]), 14.0
+    for _ in range(10):
+        state, _, _ = pair.period_map(state, start)
+    unit = 10.0
+    folds = pseudo_arclength.folds(pair.period_map, unit, np.append(state, start / unit), 1.0, 2)
+    for (amplitude, point), told in zip(folds, (row["last_below"], row["last_above"]), strict=True):
+        assert abs(point.multipliers - 1.0).min() < 1e-5
+        assert abs(told - amplitude) < 1e-6 * amplitude
+    log = (tmp_path / "results" / "scene.log").read_text()
+    assert "  at 1 of 1 crossing either side is possible" in log
+    told = summary_of(tmp_path / "results" / "scene.summary.nml")
+    assert (told["crossings_followed"], told["crossings_either"], told["crossings_end_unsure"]) == (1, 1, 0)
+
+
+def test_scenes_alone_have_both_sides_between_the_ends_and_one_beyond(found, alone, tmp_path: Path) -> None:
+    row = found().frame().iloc[0]
+    low, high = row["last_above"], row["last_below"]
+    margin = 0.05 * (high - low)
+    for amplitude, sides in ((low - margin, [0]), (0.5 * (low + high), [0, 1]), (high + margin, [1])):
+        alone(*set_to(load__force_amplitude=float(amplitude), solver__starts=29))
+        motions = package.read(tmp_path / "results" / "alone.rattle").motions.frame()
+        told = [
+            alone(
+                *set_to(
+                    load__force_amplitude=float(amplitude),
+                    film__initial_film=motion.film,
+                    film__initial_velocity=motion.velocity,
+                    solver__starts=1,
+                )
+            )["double_sided"]
+            for motion in motions.itertuples()
+        ]
+        assert sorted(map(int, told)) == sides
+
+
+def test_a_motion_that_passes_a_level_smoothly_ends_there(found, alone) -> None:
+    """Both ends are within the bracket and the same, and a scene alone has the level there."""
+    level = {"criterion": "'acceleration_rms'", "level": "10.0"}
+    row = found(threshold=level).frame().iloc[0]
+    assert row["lower"] <= row["last_below"] <= row["upper"]
+    assert row["motion_end_below_word"] == row["motion_end_above_word"] == "criterion"
+    np.testing.assert_allclose(row["last_above"], row["last_below"], rtol=1e-6)
+    told = alone(*set_to(load__force_amplitude=float(row["last_below"]), solver__starts=1))
+    np.testing.assert_allclose(told["acceleration_rms"], 10.0, rtol=1e-6)
+
+
+def test_bytes_depend_on_no_threads_parts_or_cuts(run, rattle, found, tmp_path: Path) -> None:
+    values = {"vary": "'lubricant.viscosity'", "values(:, 1)": "0.003, 0.006, 0.012"}
+    found("--threads", "1", threshold={"tolerance": "1e-3"}, campaign=values)
+    whole = digest(tmp_path / "results" / "scene.rattle")
+    ended = run("--threads", "3", "--output", "three", "scene.nml", cwd=tmp_path, timeout=600.0)
+    assert ended.returncode == 0 and digest(tmp_path / "three" / "scene.rattle") == whole
+    # Cut while motions are followed: all values of the scan are known, and no trace is done.
+    process = subprocess.Popen(
+        [rattle, "--quiet", "--threads", "1", "--output", "cut", "scene.nml"], cwd=tmp_path
+    )
+    log = tmp_path / "cut" / "scene.log"
+    until(log.exists, process)
+    let_work(process, 0.7 * processor_time(tmp_path, rattle))
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(600) in (0, 128 + signal.SIGTERM)
+    ended = run("--resume", "--output", "cut", "scene.nml", cwd=tmp_path, timeout=600.0)
+    assert ended.returncode == 0 and digest(tmp_path / "cut" / "scene.rattle") == whole
+
+
+def processor_time(folder: Path, rattle: Path) -> float:
+    """What the run takes from its start to its end [s]."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    call = [rattle, "--quiet", "--threads", "1", "--output", "timed", "scene.nml"]
+    assert subprocess.run(call, cwd=folder, timeout=600.0).returncode == 0
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def test_one_start_has_no_ends(found) -> None:
+    """The columns that there were are the same bits."""
+    several, one = found(), found("--set", "solver.starts=1", name="one")
+    ends = {"last_below", "last_above", "motion_end_below", "motion_end_above"}
+    assert set(several.names) - set(one.names) == ends
+    for name in one.names:
+        np.testing.assert_array_equal(several[name], one[name])
+
+
+@pytest.mark.parametrize(
+    "criterion", ["'steady_film', level = 1e-6", "'motions', level = 2.0", "'orbit_period', level = 2.0"]
+)
+def test_what_is_not_one_motion_has_no_ends(criterion: str, found) -> None:
+    assert "last_below" not in found(threshold={"criterion": criterion}).names
