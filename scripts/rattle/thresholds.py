@@ -95,6 +95,29 @@ class Thresholds:
         return f"{place} {level:g}{spaced_unit(self.result.units[f'{self.quantity}_below'])}"
 
     @property
+    def has_ends(self) -> bool:
+        """Whether the motions of both sides were followed to where they end."""
+        return "last_below" in self.result
+
+    @property
+    def ends(self) -> tuple[np.ndarray, np.ndarray]:
+        """Smallest value of the motions of the side above, and largest of those below; NaN where not known.
+
+        Where they overlap, a gear on its way up changes at the second, on its way down at the first.
+        """
+        if not self.has_ends:
+            return np.full(self.rows.size, np.nan), np.full(self.rows.size, np.nan)
+        return self.column("last_above"), self.column("last_below")
+
+    @property
+    def either(self) -> np.ndarray:
+        """Crossings with values beyond the bracket at which motions of both sides were found."""
+        last_above, last_below = self.ends
+        crossed = self.column("crossing") > 0
+        beyond = (last_above < self.column("lower")) | (last_below > self.column("upper"))
+        return crossed & beyond & (last_above < last_below)
+
+    @property
     def uncertain(self) -> np.ndarray:
         """Crossings with a side that is not verified, where that was asked for."""
         if "verified_below" not in self.result:

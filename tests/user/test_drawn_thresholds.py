@@ -358,3 +358,43 @@ def groups(rattle: Path, monkeypatch) -> dict:
         "load": {"mass": 3.0, "steady_force": 199.2, "force_amplitude": 205.7, "frequency": 600.0},
         "film": {"law": "iso-viscous"},
     }
+
+
+ENDS = ("last_below", "last_above", "motion_end_below", "motion_end_above")
+
+
+def written_with_ends(path: Path, ends: list[list[float]], lower: list[float]):
+    """One crossing on each trace, at speeds of 1, 2, ... m/s, with the ends of its motions."""
+    names = ["trace", "kinematics.entrainment_speed", "crossing", "lower", "upper", "width"]
+    names += ["rattle_class_below", "rattle_class_above", "status_below", "status_above", *SIDES, *ENDS]
+    newtons = ("lower", "upper", "width", *ENDS[:2])
+    columns = [(name, "N" if name in newtons else "m/s" if name.startswith("kin") else "-") for name in names]
+    rows = [
+        [float(place), float(place), 1.0, value, value + 2.0, 2.0, 1.0, 3.0, 1.0, 1.0, 1.0, 1.0, *end]
+        for place, (value, end) in enumerate(zip(lower, ends, strict=True), 1)
+    ]
+    write_result(path, columns, rows, input_text=threshold_input())
+    return package.read(path)
+
+
+def test_between_the_ends_of_both_sides_either_is_possible(tmp_path):
+    """A band between both ends where they overlap beyond the bracket; none where both end within it."""
+    ends = [[60.0, 20.0, 1.0, 1.0], [70.0, 30.0, 1.0, 6.0], [41.0, 41.0, 4.0, 4.0], [NAN] * 4]
+    result = written_with_ends(tmp_path / "edge.rattle", ends, [40.0] * 4)
+    assert thresholds(result).either.tolist() == [True, True, False, False]
+    made = figure(result)
+    (band,) = (area for area in made.axes[0].collections if area.__class__.__name__.startswith("Fill"))
+    corners = np.concatenate([path.vertices for path in band.get_paths()])
+    assert {(1.0, 20.0), (1.0, 60.0), (2.0, 30.0), (2.0, 70.0)} <= set(map(tuple, corners))
+    assert corners[:, 0].max() == 2.0
+    assert "either is possible (2)" in drawn.legend_words(made)
+    plain = written_with_ends(tmp_path / "edge.rattle", ends[2:], [40.0] * 2)
+    assert not any("either" in words for words in drawn.legend_words(figure(plain)))
+
+
+def test_a_jump_of_a_curve_is_no_line(tmp_path):
+    lower = [30.0, 31.0, 32.0, 70.0, 71.0, 72.0]
+    result = written_with_ends(tmp_path / "edge.rattle", [[NAN] * 4] * 6, lower)
+    x, y = next(line for line in drawn.curves(figure(result).axes[0]) if line[0].size > 6)
+    np.testing.assert_array_equal(x, [1.0, 2.0, 3.0, NAN, 4.0, 5.0, 6.0])
+    np.testing.assert_array_equal(y, [31.0, 32.0, 33.0, NAN, 71.0, 72.0, 73.0])

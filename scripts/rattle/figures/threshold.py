@@ -21,7 +21,7 @@ from rattle.campaign_result import Axis
 from rattle.campaign_section import Section, new_section, short_name, spaced_unit
 from rattle.figures import campaign_look as look
 from rattle.figures import campaign_map, style
-from rattle.figures.threshold_curves import curves, draw_bars
+from rattle.figures.threshold_curves import curves, draw_bars, draw_either, either_entry, unjoined
 from rattle.thresholds import Thresholds, thresholds, words_of_criterion
 
 DESCRIPTION = (
@@ -153,7 +153,7 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
     handles = []
     if section is None:
         look.set_axis(axes, "x", axis, to_edges=False)
-        set_range(axes, found, found.values)
+        set_range(axes, found, np.concatenate((found.values, *found.ends)))
     else:
         handles, _ = campaign_map.draw_cells(axes, section, map_column(section, found))
     x, y, crossed = found.column(axis.key), found.values, found.column("crossing") > 0
@@ -166,6 +166,7 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         dashes = {"linewidth": 1.3, "linestyle": style.RUN_DASHES[place % len(style.RUN_DASHES)]}
         for part in curves(found, axis, chosen) if kind else ():
             axes.plot(*part, zorder=3, color=colour, path_effects=halo, **dashes)
+        draw_either(axes, found, axis, chosen, colour)
         draw_bars(axes, x[chosen], found.column("lower")[chosen], found.column("upper")[chosen], colour)
         marks = {"color": colour, "marker": style.RUN_MARKS[place], "markersize": 3.0, "zorder": 4}
         sure = chosen & ~found.uncertain
@@ -181,6 +182,8 @@ def draw_points(axes: Axes, found: Thresholds, axis: Axis, section: Section | No
         handles.append(Line2D([], [], **dashes, **marks, label=f"{words} ({int(chosen.sum())})"))
     if crossed.any():
         handles.append(bar_entry())
+    if found.either.any():
+        handles.append(either_entry(int(found.either.sum())))
     if found.uncertain.any():
         mark = {"marker": "o", "markersize": 4, "markerfacecolor": "white", "color": style.FORCE_COLOUR}
         handles.append(
@@ -234,19 +237,23 @@ def draw_curves(axes: Axes, found: Thresholds, along: Axis, other: Axis, crossin
     """A curve along one key for each value of another; returns legend entries."""
     look.set_axis(axes, "x", along, to_edges=False)
     values, ends, uncertain = on_plane(found, along, other, crossing)
-    set_range(axes, found, values)
+    lasting = found.column("crossing") == crossing
+    handles: list = []
+    set_range(axes, found, np.concatenate((values.ravel(), *(end[lasting] for end in found.ends))))
     for place, value in enumerate(other.values):
         column, unsure = values[:, place], uncertain[:, place]
         label = f"{short_name(other.key)} {found.words_of_value(other.key, value)}"
         mark = {"marker": style.RUN_MARKS[place], "markersize": 3.0}
         line = style.run_line(place)
         draw_bars(axes, along.values, *ends[:, :, place], line["color"])
-        axes.plot(along.values, column, label=label, **line, **mark)
+        draw_either(axes, found, along, lasting & (found.column(other.key) == value), line["color"])
+        handles += axes.plot(*unjoined(found, along.values, column), label=label, **line, **mark)
         points = {"color": line["color"], "linestyle": "", "markerfacecolor": "white", **mark}
         axes.plot(along.values[unsure], column[unsure], **points)
-    handles = list(axes.get_lines())[::2]
     if np.isfinite(values).any():
         handles.append(bar_entry())
+    if (lasting & found.either).any():
+        handles.append(either_entry(int((lasting & found.either).sum())))
     if uncertain.any():
         mark = {"marker": "o", "markersize": 4, "markerfacecolor": "white", "color": style.FORCE_COLOUR}
         handles.append(Line2D([], [], linestyle="", **mark, label=UNCERTAIN))

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
-from rattle.campaign_plan import GEAR
+from rattle.campaign_plan import GEAR, LOGARITHMIC
 from rattle.campaign_result import Axis
 from rattle.campaign_section import Section, short_name
 from rattle.command import CommandError
 from rattle.figures import style
 from rattle.thresholds import Thresholds, words_of_criterion
 
+EITHER = "either is possible"
+# A curve of fewer steps than these has no usual one.
+LEAST_STEPS = 4
 DASHES = ("-", (0, (4, 1.2)), (0, (1.2, 1.0)))
 
 
@@ -69,16 +74,55 @@ def value_of(section: Section, axis: Axis) -> float | None:
 
 def curves(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
     """Crossings of one kind joined from trace to trace, as long as neighbours have as many of them."""
-    x, y = found.column(axis.key), found.values
-    lines = [y[chosen & (x == value)] for value in axis.values]
+    return [unjoined(found, x, found.values[rows]) for x, rows in joined_rows(found, axis, chosen)]
+
+
+def joined_rows(found: Thresholds, axis: Axis, chosen: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+    """The values of a key along each curve, and the places of its rows."""
+    x = found.column(axis.key)
+    lines = [np.flatnonzero(chosen & (x == value)) for value in axis.values]
     joined, start = [], 0
     for end in range(1, len(lines) + 1):
         if end < len(lines) and len(lines[end]) == len(lines[start]):
             continue
-        part = np.array(lines[start:end])
+        part = np.array(lines[start:end], dtype=int)
         joined += [(axis.values[start:end], part[:, place]) for place in range(part.shape[1])]
         start = end
     return joined
+
+
+def unjoined(found: Thresholds, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A curve with a gap at each of its jumps.
+
+    A jump is a step of more than a twentieth of the range that was searched and five times the median step.
+    """
+    seen = np.log if found.range.scale == LOGARITHMIC else np.asarray
+    steps = np.abs(np.diff(seen(y)))
+    if steps.size < LEAST_STEPS or not np.isfinite(steps).any():
+        return x, y
+    far = max(0.05 * float(np.ptp(seen(found.range.values))), 5.0 * float(np.nanmedian(steps)))
+    jumps = np.flatnonzero(steps > far) + 1
+    return np.insert(x, jumps, np.nan), np.insert(y, jumps, np.nan)
+
+
+def draw_either(axes: Axes, found: Thresholds, axis: Axis, chosen: np.ndarray, colour: str) -> None:
+    """The band in which either side is possible, between the ends of the motions of both sides."""
+    if not (chosen & found.either).any():
+        return
+    low, high = (np.where(chosen & found.either, values, np.nan) for values in found.ends)
+    for x, rows in joined_rows(found, axis, chosen):
+        axes.fill_between(x, low[rows], high[rows], color=colour, alpha=0.16, linewidth=0.0, zorder=1.5)
+        for values in (low[rows], high[rows]):
+            axes.plot(x, values, color=colour, linewidth=0.8, linestyle=(0, (1.2, 1.0)), zorder=2)
+    rows = chosen & found.either
+    # A band of one trace has no width: a bar with feet stands for it.
+    style_of_bar = {"colors": colour, "alpha": 0.4, "linewidth": 0.8, "zorder": 2}
+    axes.vlines(found.column(axis.key)[rows], low[rows], high[rows], **style_of_bar)
+
+
+def either_entry(count: int) -> Patch:
+    edge = {"edgecolor": style.FORCE_COLOUR, "linestyle": (0, (1.2, 1.0)), "linewidth": 0.8}
+    return Patch(facecolor=(*to_rgb(style.FORCE_COLOUR), 0.16), **edge, label=f"{EITHER} ({count})")
 
 
 def draw_bars(axes: Axes, x: np.ndarray, lower: np.ndarray, upper: np.ndarray, colour: str) -> None:

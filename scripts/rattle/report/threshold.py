@@ -68,6 +68,16 @@ def sentences_on(found: Thresholds, summary: Summary | None) -> Iterator[str]:
             yield f"{many} threshold in this range."
         else:
             yield "Every trace has a threshold in this range."
+    if found.has_ends and crossed.any():
+        many = int(found.either.sum())
+        which = f"At {many} of {int(crossed.sum())} thresholds either side is possible beyond it"
+        yield (
+            f"{which}: motions of a side, followed from there, last on while those of the other exist. These "
+            "thresholds are those of the motion from rest; on the way up a gear changes at last_below, on "
+            "the way down at last_above."
+            if many
+            else "Followed along the key from their starts, the motions of both sides end at the thresholds."
+        )
     if "verified_below" in found.result and crossed.any():
         sure = int(crossed.sum() - found.uncertain.sum())
         yield (
