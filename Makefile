@@ -146,7 +146,7 @@ $(BUILD)/%.o: %.f90 $(BUILD)/flags
 COMPUTING := $(foreach folder,$(filter-out foundation scene files run campaign,$(MODULES)),$(wildcard fsrc/$(folder)/*.f90))
 $(patsubst %.f90,$(BUILD)/%.o,$(notdir $(COMPUTING))): private FFLAGS += $(if $(STRICT),$(WIDENING))
 
-$(BUILD)/film_series.o $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o $(BUILD)/step_nodes.o: private FFLAGS += $(LANE_FLAGS)
+$(BUILD)/film_series.o $(BUILD)/lane_advance.o $(BUILD)/lane_integration.o $(BUILD)/reynolds_piezo_under_load.o $(BUILD)/step_nodes.o: private FFLAGS += $(LANE_FLAGS)
 # gfortran 12 negates the stride, never set, of an optional array that is absent and handed on; nobody reads what comes of it.
 $(BUILD)/lane_integration.o: private FFLAGS += $(if $(SANITIZE),-fno-sanitize=signed-integer-overflow)
 $(BUILD)/lane_functions.o $(BUILD)/elementary_functions.o: private FFLAGS += $(ELEMENTARY_FLAGS)

@@ -13,8 +13,8 @@ module film_series
    use load_expansion, only: expand_load, expand_squeeze
    use load_pieces, only: exact_load, load_limit, published_load
    use problem, only: has_elastic_teeth, has_two_flanks, problem_t
-   use reynolds_piezo_expansion, only: expand_reynolds_piezo, highest_time_power
-   use squeeze_of_load, only: load_carried, piezo_viscous_squeeze
+   use reynolds_piezo_expansion, only: expand_reynolds_piezo
+   use reynolds_piezo_under_load, only: expand_under_load, film_throughout
    use taylor_iso_viscous, only: iso_viscous_series
    use taylor_piezo_viscous, only: piezo_viscous_series, piezo_viscous_series_of_two, reject_unresolved_growth
    use taylor_reynolds_piezo, only: reynolds_piezo_series
@@ -196,9 +196,10 @@ contains
          call rupture_series(series%pieces, series%springs, series%two_flanks, force, block)
       case (kernel_reynolds_piezo)
          do flank = 1, flanks
-            call expand_pressed_film(series, flank, block%films(:, 0, flank), &
-                                     load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block), &
-                                     (block%piezo_expansion(flank)%lienard), block)
+            call expand_under_load(block%films(:, 0, flank), &
+                                   load_group(series, block%films(:, 0, flank), block%compression(:, flank, 0), block), &
+                                   (block%piezo_expansion(flank)%lienard), series%share*block%accuracy, block%damping, &
+                                   block%pressing, block%squeeze(flank), block%piezo_expansion(flank))
             block%damping_rate = merge(block%damping_rate, unfollowable_rate, block%squeeze(flank)%inside > 0.0_dp)
          end do
          call reynolds_piezo_series(series%springs, series%two_flanks, force, block)
@@ -229,92 +230,6 @@ contains
       end do
    end function load_group
 
-   !> Expand the load of a Reynolds piezo-viscous film about the velocity at which it carries that of its spring: Newton's method
-   !> from a velocity near by, whose first pass is enough for most, and where it does not lead there the film law inverted. A lane
-   !> whose film and load are what they were is left as it is, or its bits would depend on the others.
-   pure subroutine expand_pressed_film(series, flank, film, load, near, block)
-      type(film_series_t), intent(in) :: series
-      integer, intent(in) :: flank
-      !> H or C, and its load group [-]
-      real(dp), intent(in) :: film(lanes)
-      real(dp), intent(in) :: load(lanes)
-      !> What its velocity is likely to be [-]
-      real(dp), intent(in) :: near(lanes)
-      type(lane_block_t), intent(inout) :: block
-      !> Largest step of asinh A that a pass is trusted with, and share of what a step may be off that a velocity is left off by
-      real(dp), parameter :: longest = 0.5_dp, left = 0.01_dp
-      real(dp), dimension(lanes) :: velocity, of_one, change, tolerance
-      logical :: known(lanes)
-      integer :: l
-
-      associate (squeeze => block%squeeze(flank), expansion => block%piezo_expansion(flank))
-         known = abs(load - squeeze%load) <= 0.0_dp .and. abs(film - expansion%film) <= 0.0_dp
-         if (all(known)) return
-         squeeze%load = load
-         of_one = sqrt(max(film, tiny(1.0_dp)))/block%damping
-         velocity = merge(expansion%lienard, near, known)
-         call expand_reynolds_piezo(film, velocity, block%damping, block%pressing, expansion)
-         change = (load - expansion%terms(:, 0))/expansion%load_slope
-         do l = 1, lanes
-            if (known(l)) cycle
-            squeeze%inside(l) = expansion%inside(l)
-            if (expansion%inside(l) > 0.0_dp .and. abs(change(l)) < longest*sqrt(1.0_dp + expansion%group(l)**2)) then
-               velocity(l) = velocity(l) + change(l)*of_one(l)
-            else
-               call turn_round(load(l), expansion%pressure_group(l), of_one(l), near(l), velocity(l), squeeze%inside(l))
-            end if
-         end do
-         call expand_reynolds_piezo(film, velocity, block%damping, block%pressing, expansion)
-         change = (load - expansion%terms(:, 0))/expansion%load_slope*of_one
-         tolerance = left*series%share*block%accuracy*film_weight(film)
-         do l = 1, lanes
-            if (known(l) .or. abs(change(l)) <= tolerance(l)) cycle
-            call turn_round(load(l), expansion%pressure_group(l), of_one(l), near(l), velocity(l), squeeze%inside(l))
-         end do
-         call expand_reynolds_piezo(film, velocity, block%damping, block%pressing, expansion)
-         squeeze%inside = squeeze%inside*expansion%inside
-      end associate
-   end subroutine expand_pressed_film
-
-   !> The velocity of a Reynolds piezo-viscous film by its law inverted.
-   pure subroutine turn_round(load, pressure_group, of_one, near, velocity, inside)
-      !> Load group, B, velocity of A = 1, and what the velocity is likely to be [-]
-      real(dp), intent(in) :: load
-      real(dp), intent(in) :: pressure_group
-      real(dp), intent(in) :: of_one
-      real(dp), intent(in) :: near
-      !> The velocity [-], and 1; 0 where no film carries the load
-      real(dp), intent(out) :: velocity
-      real(dp), intent(out) :: inside
-      real(dp) :: group, by_load, by_pressure
-      integer :: outcome
-
-      call piezo_viscous_squeeze(load, pressure_group, near/of_one, group, by_load, by_pressure, outcome)
-      velocity = group*of_one
-      inside = merge(1.0_dp, 0.0_dp, outcome == load_carried .and. by_load < 0.0_dp)
-   end subroutine turn_round
-
-   !> Whether a Reynolds piezo-viscous film exists all through the steps, 1 or 0. Under a given load its squeeze group goes
-   !> smoothly on where sigma falls through zero and there is no film any more, and may come back before the step ends.
-   pure function film_throughout(sigma_series, step) result(exists)
-      !> Series of sigma, and the steps
-      real(dp), intent(in) :: sigma_series(lanes, 0:highest_time_power)
-      real(dp), intent(in) :: step(lanes)
-      real(dp) :: exists(lanes)
-      integer, parameter :: places = 16
-      real(dp) :: sigma(lanes)
-      integer :: place, k
-
-      exists = 1.0_dp
-      do place = 1, places
-         sigma = sigma_series(:, highest_time_power)
-         do k = highest_time_power - 1, 0, -1
-            sigma = sigma*(step*(real(place, dp)/real(places, dp))) + sigma_series(:, k)
-         end do
-         exists = exists*merge(1.0_dp, 0.0_dp, sigma > 0.0_dp)
-      end do
-   end function film_throughout
-
    !> Reject the steps of elastic teeth at whose end the series violates the film law. The squeeze group is expanded there, for the
    !> next step to begin with. The defect D of a film's velocity is that of the first terms left out, so D x/(n + 1) estimates the
    !> local error of the film: it must not exceed what the step control grants the last term.
@@ -341,9 +256,9 @@ contains
          ! What rounding of the load may move the velocity by
          if (series%kernel == kernel_reynolds_piezo) then
             block%trust = block%trust*film_throughout(block%piezo_expansion(flank)%sigma_series, block%step)
-            call expand_pressed_film(series, flank, &
-                                     merge(next_films(:, flank), block%films(:, 0, flank), block%trust > 0.0_dp), place, rise, &
-                                     block)
+            call expand_under_load(merge(next_films(:, flank), block%films(:, 0, flank), block%trust > 0.0_dp), place, rise, &
+                                   series%share*block%accuracy, block%damping, block%pressing, block%squeeze(flank), &
+                                   block%piezo_expansion(flank))
             associate (there => block%piezo_expansion(flank))
                velocity = there%lienard
                disturbance = (abs(there%group) + abs(place/there%load_slope))*there%film*there%root/block%damping
