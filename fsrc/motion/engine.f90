@@ -72,6 +72,9 @@ module engine
       integer :: status = status_complete
       !> Time reached, within a period too where the motion failed [s], and the film there [m]
       real(dp) :: time = 0.0_dp, film = 0.0_dp
+      !> Flank whose film in nodes could not be followed, else 0, and its load [N]
+      integer :: lost_film = 0
+      real(dp) :: lost_load = 0.0_dp
       !> Periods after which a steady motion repeats, else 0
       integer :: orbit = 0
       !> Place of the known motion that it has come to, else 0: it is that motion then, and has no samples of its own

@@ -8,6 +8,7 @@
 module nodal_engine
    use carried_loads, only: films_of, initial_state
    use clock, only: wall_seconds
+   use constants, only: two_pi
    use elastohydrodynamic_closure, only: closure_t
    use engine, only: ending_t, motion_watcher_t, motion_state_t, request_t, sample_sink_t, status_of_stop
    use errors, only: error_t
@@ -17,7 +18,8 @@ module nodal_engine
    use nodal_flank, only: accept_step, begin_step, correct_flank, difference_times, finish_step, is_bent, kept_times, may_soften, &
                           nodal_contact_t, nodal_flank_t, respond, rigid_gap, share_that_leaves_a_film, soften, step_weights_t, &
                           stiffen
-   use problem, only: flank_count, has_two_flanks, of_drive_compression, of_film, of_velocity, problem_t, state_size, static_load
+   use problem, only: flank_count, has_two_flanks, largest_applied_force, of_drive_compression, of_film, of_velocity, problem_t, &
+                      state_size, static_load
    use repetition, only: longest_orbit
    use scene_status, only: status_complete, status_film_cycles, status_film_torn, status_interrupted, status_steady
    use signals, only: must_stop
@@ -37,6 +39,10 @@ module nodal_engine
       real(dp) :: scale = 3.0_dp
    end type nodal_choice_t
 
+   !> Largest load below which errors of loads count as errors of it: that of the forces, if these are less [-]; share of the
+   !> velocity that the force gives a free gear
+   real(dp), parameter :: largest_floor = 0.05_dp, floor_share = 0.1_dp
+
    !> Units and coefficients of the gear.
    type :: gear_t
       !> Film [m], load [N] and time [s] of Moes' variables
@@ -44,6 +50,10 @@ module nodal_engine
       !> mu, B, and a period
       real(dp) :: mass = 1.0_dp, backlash = huge(1.0_dp), period = 1.0_dp
       integer :: flanks = 1
+      !> Load below which errors of loads count as errors of this one [-]
+      real(dp) :: load_floor = largest_floor
+      !> Velocity below which errors of velocities count as errors of this one: a share of what the force gives a free gear
+      real(dp) :: velocity_floor = 1.0_dp
    end type gear_t
 
    !> A motion under way. Places of histories as in module nodal_flank.
@@ -53,6 +63,8 @@ module nodal_engine
       !> Times [periods], in the present period; and how many of the last ones are known
       real(dp) :: time(0:kept_times) = 0.0_dp
       integer :: known = 0
+      !> Velocity predicted for the end of a step, and the largest one so far
+      real(dp) :: guessed_velocity = 0.0_dp, fastest = 0.0_dp
       !> Next step [periods]
       real(dp) :: step = 0.0_dp
       !> States at the last times, in the unit of each: time, number
@@ -66,8 +78,6 @@ module nodal_engine
    !> distance that counts as error of a step, of each order
    real(dp), parameter :: first_step = 1.0e-6_dp, shortest_step = 1.0e-13_dp, most_growth = 1.5_dp, longest_step = 0.02_dp, &
                           error_shares(3) = [0.5_dp, 0.3_dp, 0.12_dp]
-   !> Load below which errors of loads count as errors of this one [-]
-   real(dp), parameter :: load_floor = 0.05_dp
    !> Newton's passes: of them all, before nodes change one by one, and the last correction of them [-]
    integer, parameter :: most_passes = 40, free_passes = 8
    real(dp), parameter :: last_correction = 1.0e-7_dp
@@ -140,6 +150,7 @@ contains
                            ending, choice)
          ending%film = motion%states(1, of_film)
          ending%time = (real(period - 1, dp) + motion%time(1))/problem%frequency
+         call note_flank(gear, motion, ending)
          if (ending%status /= status_complete) return
          ending%numbers = motion%states(1, :)
          ending%time = real(period, dp)/problem%frequency
@@ -223,6 +234,28 @@ contains
 
    end function orbit_of
 
+   !> Note which film could not be followed, if one could not, and under which load: the one in nodes, of both the one that carries
+   !> more.
+   pure subroutine note_flank(gear, motion, ending)
+      type(gear_t), intent(in) :: gear
+      type(motion_t), intent(in) :: motion
+      type(ending_t), intent(inout) :: ending
+      integer :: flank
+
+      if (ending%status /= status_film_cycles .and. ending%status /= status_film_torn) return
+      ending%lost_film = 1
+      ending%lost_load = -1.0_dp
+      do flank = 1, gear%flanks
+         associate (film => motion%flanks(flank))
+            if (.not. film%in_nodes .or. gear%load_unit*film%load(1) < ending%lost_load) cycle
+            ending%lost_film = flank
+            ending%lost_load = gear%load_unit*film%load(1)
+            ending%film = gear%film_unit*film%film(1)
+         end associate
+      end do
+      ending%lost_load = max(ending%lost_load, 0.0_dp)
+   end subroutine note_flank
+
    !> State at present, as other parts of the program have it.
    pure type(motion_state_t) function state_now(motion, periods) result(state)
       type(motion_t), intent(in) :: motion
@@ -251,6 +284,8 @@ contains
          gear%period = 1.0_dp/(problem%frequency*gear%time_unit)
          gear%mass = problem%mass*oil%film_unit/(gear%time_unit**2*oil%load_unit)
          gear%flanks = flank_count(problem)
+         gear%velocity_floor = floor_share*largest_applied_force(problem)/(oil%load_unit*gear%mass)*gear%period/two_pi
+         gear%load_floor = min(largest_floor, largest_applied_force(problem)/oil%load_unit)
          if (has_two_flanks(problem)) gear%backlash = problem%backlash/oil%film_unit
       end associate
    end subroutine set_up
@@ -502,7 +537,7 @@ contains
                changed = .false.
                do flank = 1, gear%flanks
                   associate (film => motion%flanks(flank))
-                     if (film%in_nodes .and. film%load(1) < load_floor .and. film%velocity(1) > 0.0_dp) then
+                     if (film%in_nodes .and. film%load(1) < largest_floor .and. film%velocity(1) > 0.0_dp) then
                         call soften(contact, film)
                         ending%count%cuts = ending%count%cuts + 1
                         changed = .true.
@@ -557,6 +592,7 @@ contains
       motion%position(1:) = motion%position(:kept_times - 1)
       motion%velocity(1:) = motion%velocity(:kept_times - 1)
       motion%time(1:) = motion%time(:kept_times - 1)
+      motion%fastest = max(motion%fastest, abs(motion%velocity(1)))
       motion%known = min(motion%known + 1, kept_times + 1)
       motion%states(2:, :) = motion%states(1:kept_times - 1, :)
       motion%states(1, :) = state_of(problem, gear, motion, 1)
@@ -604,6 +640,7 @@ contains
          past_velocity = dot_product(weights%rate(1:), motion%velocity(1:difference_times))
          force = (force_at(problem%force, motion%time(0)) + problem%weight)/gear%load_unit
          motion%position(0) = dot_product(weights%guess, motion%position(1:))
+         motion%guessed_velocity = dot_product(weights%guess, motion%velocity(1:))
          do flank = 1, gear%flanks
             call begin_step(weights, motion%flanks(flank))
             motion%flanks(flank)%gap(0) = merge(motion%position(0), gear%backlash - motion%position(0), flank == 1)
@@ -641,17 +678,18 @@ contains
       end associate
    end subroutine solve_step
 
-   !> Error of a step: of loads, above a floor, and of films.
+   !> Error of a step: of the velocity, of loads, above a floor, and of films.
    pure real(dp) function error_of_step(gear, motion, order) result(error)
       type(gear_t), intent(in) :: gear
       type(motion_t), intent(in) :: motion
       integer, intent(in) :: order
       integer :: flank
 
-      error = 0.0_dp
+      error = abs(motion%velocity(0) - motion%guessed_velocity)/max(motion%fastest, abs(motion%velocity(0)), &
+                                                                    gear%velocity_floor)
       do flank = 1, gear%flanks
          associate (film => motion%flanks(flank))
-            error = max(error, abs(film%load(0) - film%guessed_load)/(film%load(0) + load_floor), &
+            error = max(error, abs(film%load(0) - film%guessed_load)/(film%load(0) + gear%load_floor), &
                         abs(film%centre(0) - film%guessed_centre)/film%centre(0))
          end associate
       end do

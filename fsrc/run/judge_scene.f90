@@ -35,6 +35,8 @@ contains
       judged%status = ending%status
       judged%time = ending%time
       judged%film = ending%film
+      judged%lost_film = ending%lost_film
+      judged%lost_load = ending%lost_load
       judged%periods = ending%periods
       judged%repeats_after = ending%orbit
       judged%count = ending%count

@@ -69,6 +69,9 @@ module judged_scene
       integer :: status = status_complete
       real(dp) :: time = 0.0_dp, film = 0.0_dp
       logical :: judged = .false.
+      !> Flank whose film could not be followed, else 0, and its load [N]
+      integer :: lost_film = 0
+      real(dp) :: lost_load = 0.0_dp
       !> Periods solved, and those after which their end was seen to repeat, else 0
       integer :: periods = 0, repeats_after = 0
       type(motion_count_t) :: count

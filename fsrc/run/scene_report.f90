@@ -303,6 +303,8 @@ contains
       if (.not. is_success(judged%status)) then
          film = ', without a film to start from'
          if (judged%film > 0.0_dp) film = ', film '//micrometres(judged%film)//' um'
+         if (judged%lost_film > 0) film = film//' on the '//trim(merge('drive', 'coast', judged%lost_film == 1))// &
+            ' flank under M = '//short_text(judged%lost_load/judged%resolved%problem%contact%film%closure%load_unit, 3)
          call log%line('  '//status_name(judged%status)//' at t = '//short_text(judged%time, 6)//' s'//film//': '// &
                        status_sentence(judged%status))
       end if

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -98,6 +99,32 @@ def test_pairs_of_a_gearbox_may_differ_in_nothing_but_their_own_keys(run, tmp_pa
     assert one["acceleration_maximum"] == other["acceleration_maximum"]
     alone = package.run(GEAR).summary
     assert one["acceleration_maximum"] == alone["acceleration_maximum"]
+
+
+HEAVY = """&contact radius = 9.1e-3, length = 0.019, backlash = 110.0e-6, stiffness = 2.4e8 /
+&lubricant viscosity = 0.003, pressure_viscosity = 1.6e-8, viscosity_law = 'constant' /
+&kinematics rolling_speed = 0.3 /
+&load mass = 0.62, steady_force = 2.0, gravity = 0.0, frequency = 30.0, force_amplitude = 366.0 /
+&film law = 'elastohydrodynamic', model = 'resolved', nodes = 24 /
+&solver until = 'periods', periods = 2 /
+&spectrum periods = 1, verify = .false. /
+"""
+
+
+def test_a_stop_tells_when_where_and_under_which_load(run, tmp_path: Path) -> None:
+    """Thin oil under loads of M = 30 and more: 24 nodes lose the film, the closure follows it."""
+    (tmp_path / "heavy.nml").write_text(HEAVY)
+    ended = run("--output", "out", "heavy.nml", cwd=tmp_path)
+    assert ended.returncode == 1, ended.stderr
+    told = summary_of(tmp_path / "out/heavy.summary.nml")
+    assert told["status"] == "film_cycles" and told["film_at_status_time"] > 0.0
+    stop = re.search(
+        r"film_cycles at t = (\S+) s, film \S+ um on the (drive|coast) flank under M = (\S+): .*64 nodes",
+        ended.stdout,
+    )
+    assert stop and float(stop[1]) == pytest.approx(told["status_time"], rel=1e-4) and float(stop[3]) > 5.0
+    light = HEAVY.replace(", nodes = 24", "").replace("resolved", "closure")
+    assert package.run(light, set={"solver.starts": 1}).summary["status"] == "complete"
 
 
 def test_check_tells_the_model(run, tmp_path: Path) -> None:
