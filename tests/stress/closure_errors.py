@@ -28,7 +28,7 @@ import rattle
 
 MODULUS = 226.0e9
 IN_NODES = {"film.nodes": 48, "solver.accuracy": 3e-4}
-CLASSES = ((0.0, 0.15), (0.15, 2.0), (2.0, math.inf))
+CLASSES = ((0.0, 0.15), (0.15, 2.0), (2.0, 6.0), (6.0, math.inf))
 LAWS = ("constant", "roelands")
 
 
