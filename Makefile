@@ -339,7 +339,8 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	@for map in map_idle map_creep; do \
 	  $(PYTHON) scripts/plot.py campaign --overwrite $(PICTURE_RUNS)/$$map.rattle --output $(PICTURE_RUNS) && \
 	  cp $(PICTURE_RUNS)/$${map}_map_rattle_class.png $(PICTURES)/$$map.png; done
-	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/gearbox_map.nml input/gearbox_threshold.nml
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/gearbox_map.nml
+	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/gearbox_threshold.nml
 	@$(PYTHON) scripts/plot.py campaign --overwrite --together --output $(PICTURE_RUNS) \
 	  --thresholds $(PICTURE_RUNS)/gearbox_threshold.rattle $(PICTURE_RUNS)/gearbox_map.rattle
 	@cp $(PICTURE_RUNS)/gearbox_map_pairs.png $(PICTURES)/gearbox.png

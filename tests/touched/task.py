@@ -115,7 +115,7 @@ def change(tree: Tree) -> None:
     tree.change(GROUPS, "model_published, sweep_t", "model_published, rest_t, sweep_t")
     tree.put(GROUPS, "   !> &sweep\n", READ)
     tree.change(READER, "read_points, read_sweep", "read_points, read_rest, read_sweep")
-    tree.change(READER, "task_motion, task_sweep, &", "task_motion, task_rest, task_sweep, &")
+    tree.change(READER, "task_motion, &", "task_motion, task_rest, &")
     read = "      if (scene%task == task_rest) scene%rest = read_rest(input)\n"
     tree.put(READER, "      scene%output = read_output(input)\n", read)
     tree.add("fsrc/run/run_rest.f90", TASK)

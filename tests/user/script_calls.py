@@ -47,7 +47,7 @@ def _be(command: list[str], cwd: Path, environment: dict[str, str], places: list
     time.tzset()
     os.chdir(cwd)
     sys.argv = command
-    sys.path[0:0] = [str(SCRIPTS)]
+    sys.path[0:0] = [str(SCRIPTS), *filter(None, environment.get("PYTHONPATH", "").split(":"))]
     runpy.run_path(command[0], run_name="__main__")
 
 

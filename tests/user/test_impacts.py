@@ -7,6 +7,7 @@ program's in the logarithm of the film and the velocity. They agree to all digit
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import NamedTuple
 
@@ -177,7 +178,8 @@ def test_a_motion_that_is_irregular_now_and_then_is_uncertain(run, scene_text, t
     summary = summary_of(tmp_path / "results" / "scene.summary.nml")
     assert summary["rattle_class"] == "irregular"
     assert summary["verification"] == "uncertain"
-    assert "too few impacts" in summary["verification_text"]
+    # The tighter solution holds an impact or none, as chance has it.
+    assert re.search("too few impacts|the class is quiet", summary["verification_text"])
 
 
 def test_a_row_counts_the_power_beyond_its_harmonics(run, scene_text, tmp_path: Path) -> None:

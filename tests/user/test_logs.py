@@ -512,6 +512,9 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
     given = rows.input["threshold"]
     grid = told["scenes_of_a_grid"]
     wide = told["crossings_wide"]
+    starts, unsure = 3, told["crossings_end_unsure"]  # three by default
+    followed = told["crossings_followed"]
+    assert followed == np.isfinite(rows["last_below"]).sum()
     places = given["count"]
     while places < grid / lines:
         places = 2 * places - 1
@@ -525,6 +528,8 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             "between neighbours of the scan that cancel each other stay unseen: more &threshold count sees "
             "them",
             "  the ends of a crossing go apart again until both are verified",
+            f"  then the motions of both sides, from {counted(starts, 'start')}, are followed along "
+            f"{given['key']} to where they end",
             f"  {told['scenes']} of {told['scenes']} scenes, {ANY} a second, {told['scenes_failed']} failed",
             f"  {counted(told['crossings'], 'crossing')}; {without} of {counted(lines, 'trace')} without "
             f"any; at {counted(doubts, 'crossing')} a side is not verified",
@@ -532,6 +537,13 @@ def test_the_log_of_thresholds_is_their_rows(solve, scene_text):
             "width tells how sure that is (column width)"
             if wide
             else None,
+            f"  at {told['crossings_either']} of {counted(followed, 'crossing')} either side is possible: "
+            "motions go on beyond the change from rest (columns last_below, last_above)",
+            f"  at {counted(unsure, 'crossing')} an end is that of a motion that does not repeat, to "
+            "the width of a bracket, or it was lost (columns motion_end_below, motion_end_above)"
+            if unsure
+            else None,
+            f"  {counted(starts, 'start')} are no proof of others' absence",
             f"  {told['scenes']} scenes; a grid as fine has {int(grid)}, {short(grid / told['scenes'], 3)} "
             "times as many",
             *files(path),
