@@ -354,7 +354,7 @@ pictures: $(BUILD)/rattle $(BUILD)/kernels/built
 	  input/stiff_or_not.nml
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) --set scene.name=idle_teeth_exact --set film.model=reynolds \
 	  input/stiff_or_not.nml
-	@$(PYTHON) scripts/plot.py sweep --overwrite --panels acceleration,lines --mark '1.4e8=steel tooth' --no-title --output $(PICTURE_RUNS) \
+	@$(PYTHON) scripts/plot.py sweep --overwrite --panels acceleration,harmonics --mark '1.4e8=steel tooth' --no-title --output $(PICTURE_RUNS) \
 	  $(addprefix $(PICTURE_RUNS)/,idle_teeth.rattle creep_teeth.rattle idle_teeth_exact.rattle)
 	@cp $(PICTURE_RUNS)/sweep_overlay.png $(PICTURES)/stiff_or_not.png
 	@$(BUILD)/rattle --quiet --overwrite --output $(PICTURE_RUNS) input/loose_gear.nml
