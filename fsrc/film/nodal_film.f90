@@ -139,7 +139,8 @@ contains
          integrals = 0.0_dp
          do interval = 1, nodes - 1
             from = -0.5_dp*pi + real(interval, dp)*step
-            middle = (angle - from)/step
+            middle = 0.0_dp
+            if (has_logarithm) middle = (angle - from)/step
             if (has_logarithm .and. middle > -0.25_dp .and. middle < 1.25_dp) then
                if (middle > 0.25_dp) call add_piece(interval, from, middle, 0.0_dp, has_logarithm, angle, integrals)
                if (middle < 0.75_dp) call add_piece(interval, from, middle, 1.0_dp, has_logarithm, angle, integrals)
@@ -165,7 +166,8 @@ contains
          logical :: singular
          integer :: q, m
 
-         near = (angle - from)/step
+         near = 0.0_dp
+         if (has_logarithm) near = (angle - from)/step
          singular = has_logarithm .and. abs(near - first) < 0.1_dp
          do q = 1, gauss
             u = gauss_place(q)
