@@ -1,7 +1,7 @@
 !> What a threshold has found so far: the rows of its result with their counts, and all points of the traces under way, kept as
 !> NAME.state for --resume.
 module threshold_outcome
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use byte_file, only: put_in_place
    use campaign_axis, only: grid_value
    use clock, only: wall_seconds
@@ -160,20 +160,32 @@ contains
       type(prepared_threshold_t), intent(in) :: threshold
       type(outcome_t), intent(in) :: outcome
       integer(int64) :: counts(3)
-      integer :: lower, last
+      integer :: lower, last, crossing
 
       counts = 0_int64
       if (.not. has_ends(scene, threshold%axis%whole)) return
       lower = size(threshold%traces%plan%positions) + 3
       last = size(outcome%rows, 1) - end_numbers
-      associate (below => outcome%rows(last + 1, :), above => outcome%rows(last + 2, :), kinds => outcome%rows(last + 3:, :), &
-                 rows => outcome%rows)
-         ! A comparison with what is unknown is false.
-         counts(1) = count(below >= rows(lower, :) .or. above <= rows(lower + 1, :), kind=int64)
-         counts(2) = count(below > rows(lower + 1, :) .or. above < rows(lower, :), kind=int64)
-         counts(3) = count(any(kinds >= real(end_bracketed, dp), dim=1), kind=int64)
-      end associate
+      do crossing = 1, size(outcome%rows, 2)
+         associate (row => outcome%rows(:, crossing))
+            associate (below => row(last + 1), above => row(last + 2), kinds => row(last + 3:))
+               if (reaches(below, row(lower)) .or. reaches(-above, -row(lower + 1))) counts(1) = counts(1) + 1_int64
+               if (reaches(below, nearest(row(lower + 1), 1.0_dp)) .or. reaches(-above, nearest(-row(lower), 1.0_dp))) &
+                  counts(2) = counts(2) + 1_int64
+               if (any(reaches(kinds, real(end_bracketed, dp)))) counts(3) = counts(3) + 1_int64
+            end associate
+         end associate
+      end do
    end function end_counts
+
+   !> Whether a number is as large as another; what is unknown, a NaN, is not.
+   elemental logical function reaches(value, limit)
+      real(dp), intent(in) :: value
+      real(dp), intent(in) :: limit
+
+      reaches = .false.
+      if (.not. ieee_is_nan(value)) reaches = value >= limit
+   end function reaches
 
    !> Scenes that were solved for some points: those put to the test were solved for that once more.
    pure integer(int64) function scenes_of(points)
