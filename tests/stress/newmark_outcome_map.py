@@ -23,7 +23,7 @@ from matplotlib.patches import Patch
 from rattle.command import CommandError
 from rattle.figures.style import FAINT_COLOUR, WIDTH, house_style
 
-OUTCOMES = ("right", "wrong amplitudes", "false lines", "wrong reversals", "diverged")
+OUTCOMES = ("right", "wrong amplitudes", "false harmonics", "wrong reversals", "diverged")
 COLOURS = ("#DDEFE7", "#56B4E9", "#E69F00", "#C8385A", "#4D4D4D")
 SCENES = {"idle": "idle", "creep": "creep", "creep_false_harmonic": "creep, false harmonic"}
 METHODS = {

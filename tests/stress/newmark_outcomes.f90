@@ -3,7 +3,7 @@
 !>
 !>    newmark_outcomes INPUT ... > FILE.csv
 !>
-!> Outcomes: diverged (a status other than complete), wrong number of reversals, false lines (another class,
+!> Outcomes: diverged (a status other than complete), wrong number of reversals, false harmonics (another class,
 !> or another number of lines), wrong amplitudes (a line off by more than 5 % of the largest), right.
 program newmark_outcomes
    use engine, only: ending_t, motion_count_t, request_t, start_of
@@ -28,7 +28,7 @@ program newmark_outcomes
    !> Periods solved, and window at their end.
    integer, parameter :: periods = 64, window = 16
    !> A line may be off by this share of the largest one.
-   real(dp), parameter :: line_share = 0.05_dp
+   real(dp), parameter :: harmonic_share = 0.05_dp
    character(*), parameter :: iterations(2) = [character(10) :: 'newton', 'successive']
    character(*), parameter :: predictors(2) = [character(12) :: 'extrapolated', 'previous']
 
@@ -132,14 +132,14 @@ contains
       word = 'diverged'
       if (status /= status_complete) return
       call classify(accelerations, drawn%scene%spectrum, drawn%resolved%noise_floor, verdict)
-      associate (found => verdict%spectrum, right => reference%lines)
+      associate (found => verdict%spectrum, right => reference%spectrum)
          compared = min(size(found%harmonics), size(right%harmonics))
          worst = maxval(abs(found%harmonics(:compared) - right%harmonics(:compared)))
          if (abs(verdict%reversals_per_period - reference%reversals_per_period) > 0.05_dp) then
             word = 'wrong reversals'
          else if (verdict%class /= reference%class .or. abs(found%harmonic_count - right%harmonic_count) > 1) then
-            word = 'false lines'
-         else if (worst > line_share*maxval(right%harmonics)) then
+            word = 'false harmonics'
+         else if (worst > harmonic_share*maxval(right%harmonics)) then
             word = 'wrong amplitudes'
          else
             word = 'right'
