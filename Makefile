@@ -395,7 +395,7 @@ doc:
 	@echo '$(BUILD)/doc/index.html'
 
 # A sample of the stress study: a silent failure fails it.
-stress-sample: $(BUILD)/stress_summaries $(BUILD)/stress_scenes $(BUILD)/stress_motions $(BUILD)/rattle $(BUILD)/kernels/built
+stress-sample: $(STRESS_PROGRAMS) $(BUILD)/rattle $(BUILD)/kernels/built
 	@echo 'stress, a sample'
 	@$(BUILD)/stress_summaries --first 20 --scenes 100 --campaigns 1
 	@$(BUILD)/stress_scenes --scenes 300 --csv $(BUILD)/stress_sample.csv

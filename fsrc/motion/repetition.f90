@@ -1,9 +1,10 @@
-!> Does a motion repeat? It is asked in four ways, each for a purpose of its own (fsrc/THEORY.md, section 7):
+!> Does a motion repeat? It is asked in five ways, each for a purpose of its own (fsrc/THEORY.md, section 7):
 !>
 !>    to the last bit        this module, `look_back`: the periods in between come again for ever and need not be computed;
 !>    within the accuracy    this module, `note_state`: a run until steady ends, with a bound of what the motion is still away;
 !>    in some periods        module lane_repetition, `forecast_rest`: a campaign jumps to where a slow motion will come to rest;
-!>    if it were followed    module periodic_orbit: Newton's method on the period map, for multipliers and for the verification.
+!>    if it were followed    module periodic_orbit: Newton's method on the period map, for multipliers and for the verification;
+!>    by films in nodes      module nodal_engine, `orbit_of`: within the tolerance of its steps, which is far above rounding.
 !>
 !> A small step alone proves nothing: a film that rises ever more slowly has a ratio of steps near one, and its bound stays large.
 module repetition

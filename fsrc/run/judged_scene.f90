@@ -10,7 +10,7 @@ module judged_scene
    use kinds, only: dp
    use load_points, only: coast_flank, drive_flank
    use vibration_severity, only: vibration_severity_t
-   use nodal_engine, only: nodal_choice_t
+   use nodal_step, only: nodal_choice_t
    use node_extremes, only: extreme_t, seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, &
       seen_position, seen_velocity
    use periodic_orbit, only: orbit_stability, periodic_orbit_t

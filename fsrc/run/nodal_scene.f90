@@ -4,13 +4,14 @@ module nodal_scene
    use controlled_engine, only: solve_window
    use constants, only: pi
    use doubt, only: doubt_t, doubt_tighter_ending
-   use engine, only: ending_t, motion_watcher_t, request_t, sample_sink_t, start_of
+   use engine, only: ending_t, motion_watcher_t, request_t, sample_sink_t, start_of, unwatched_t
    use errors, only: error_t
    use fine_window, only: integral_record, window_t
    use kinds, only: dp, int64
-   use nodal_engine, only: nodal_choice_t, solve_in_nodes
+   use nodal_engine, only: solve_in_nodes
+   use nodal_step, only: nodal_choice_t
    use node_extremes, only: seen_film, seen_load, seen_net_load
-   use problem, only: problem_t, state_size
+   use problem, only: largest_applied_force, problem_t, state_size
    use scene_status, only: is_success
    use scene_types, only: scene_t
    use window_record, only: window_record_t
@@ -41,12 +42,6 @@ module nodal_scene
       procedure :: begin_window => make_room
    end type window_keeper_t
 
-   !> Watches nothing.
-   type, extends(motion_watcher_t) :: nobody_t
-   contains
-      procedure :: period_done => ignore_period
-   end type nobody_t
-
    public :: choice_of, solve_nodal_scene, solve_finer
 
 contains
@@ -72,7 +67,7 @@ contains
       by_closure%contact%film%in_nodes = .false.
       periods = min(closure_periods, scene%solver%periods)
       film = problem%initial_film
-      load = largest_force()
+      load = largest_applied_force(problem)
       call solve_window(by_closure, start_of(by_closure), closure_accuracy, closure_samples, periods, periods, states, values, &
                         ending, record)
       if (is_success(ending%status)) then
@@ -83,13 +78,6 @@ contains
       associate (oil => problem%contact%film%closure)
          choice%scale = width_factor*sqrt(2.0_dp*film/oil%film_unit + 8.0_dp/pi*load/oil%load_unit)
       end associate
-
-   contains
-
-      !> Load where the closure has no motion: that of the force [N].
-      pure real(dp) function largest_force()
-         largest_force = abs(problem%force%steady) + problem%weight + hypot(problem%force%cosine, problem%force%sine)
-      end function largest_force
 
    end subroutine choice_of
 
@@ -139,7 +127,7 @@ contains
       type(nodal_choice_t) :: finer
       type(request_t) :: again
       type(window_keeper_t) :: keeper
-      type(nobody_t) :: nobody
+      type(unwatched_t) :: nobody
       type(error_t), allocatable :: error
 
       finer = choice
@@ -183,15 +171,5 @@ contains
       allocate (self%states(samples, self%numbers), self%accelerations(samples))
       self%first = first_step
    end subroutine make_room
-
-   !> Nobody is told.
-   subroutine ignore_period(self, done, all)
-      class(nobody_t), intent(inout) :: self
-      integer, intent(in) :: done
-      integer, intent(in) :: all
-      logical, volatile :: ignored
-
-      ignored = same_type_as(self, self) .and. done <= all
-   end subroutine ignore_period
 
 end module nodal_scene

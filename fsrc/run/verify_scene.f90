@@ -9,7 +9,7 @@ module verify_scene
    use errors, only: error_t
    use fine_window, only: classify_window, solve_whole_window, window_t
    use kinds, only: dp
-   use nodal_engine, only: nodal_choice_t
+   use nodal_step, only: nodal_choice_t
    use nodal_scene, only: solve_finer
    use vibration_severity, only: severity_of_record, vibration_severity_t
    use periodic_orbit, only: attracting_period, find_periodic_orbit, periodic_orbit_t

@@ -4,26 +4,23 @@ module gear_motions
    use campaign_axis, only: campaign_axis_t
    use completed_scene, only: complete_scene
    use coexisting_motions, only: coexisting_motions_t
-   use controlled_engine, only: solve_controlled
-   use engine, only: checkpoint_t, ending_t, motion_watcher_t
+   use engine, only: ending_t
    use errors, only: error_t, fault_list_t
    use follow_starts, only: find_all_motions
-   use judge_scene, only: judge, note_ending
    use judged_scene, only: judged_scene_t
    use kinds, only: dp, int64
    use quantities, only: quantity_acceleration_rms, quantity_loudest_acceleration_rms, quantity_motions, &
       quantity_quietest_acceleration_rms, quantity_starts_solved, quantity_unsettled_starts
    use random_scenes, only: draw
    use random_walk, only: next_uniform, random_state_t
-   use resolved_scene, only: request_of, resolve, resolved_scene_t
-   use sample_recorder, only: sample_recorder_t
+   use resolved_scene, only: resolve, resolved_scene_t
    use sampling, only: plan_grid, sample_plan_t
    use scene_reader, only: override_t, read_scenes
    use scene_status, only: is_success
    use scene_types, only: scene_t, task_campaign, task_motion
    use solve_chunk, only: chunk_space_t, solve_scenes
+   use told_summary, only: solve_and_judge
    use varied_keys, only: find_varied_key, is_valid_scene, set_varied_keys
-   use window_record, only: window_record_t
    implicit none(type, external)
    private
 
@@ -37,7 +34,7 @@ module gear_motions
    real(dp), parameter :: largest_damping = 0.3_dp
    !> Starts of a scene alone and of the rows of a campaign, as by default.
    integer, parameter :: starts_alone = 29, starts_of_row = 3
-   !> Points of the grid along an axis, and their distances, those of input/gearbox_map.nml.
+   !> Points of the grid along an axis, and their distances.
    integer, parameter :: half_grid = 1, grid_points = 2*half_grid + 1
    real(dp), parameter :: grid_steps(2) = [100.0_dp, 5.0_dp]
 
@@ -57,12 +54,6 @@ module gear_motions
       !> Of the motions from rest, loudest and quietest [m/s2]
       real(dp) :: rest_rms = 0.0_dp, loudest_rms = 0.0_dp, quietest_rms = 0.0_dp
    end type told_row_t
-
-   !> Nobody watches.
-   type, extends(motion_watcher_t) :: nobody_t
-   contains
-      procedure :: period_done
-   end type nobody_t
 
    public :: read_pairs, draw_gear_scene, motions_told, row_told
 
@@ -144,10 +135,6 @@ contains
       type(scene_t) :: scene
       type(judged_scene_t) :: result
       type(ending_t) :: ending
-      type(window_record_t) :: record
-      type(sample_recorder_t) :: recorder
-      type(checkpoint_t) :: start
-      type(nobody_t) :: nobody
       type(error_t), allocatable :: error
 
       scene = drawn%scene
@@ -156,11 +143,7 @@ contains
       scene%solver%starts = starts_alone
       scene%solver%periods = 200
       scene%solver%kept_per_period = 512
-      call recorder%open(scene, drawn%resolved%problem, '', 0, error)
-      call solve_controlled(drawn%resolved%problem, request_of(scene), recorder, nobody, start, ending, record, error)
-      result%resolved = drawn%resolved
-      call note_ending(ending, result)
-      if (.not. allocated(error)) call judge(scene, recorder, record, ending, result, error)
+      call solve_and_judge(scene, drawn%resolved, result, ending, error)
       judged = .not. allocated(error) .and. is_success(result%status) .and. result%judged
       periods = 0
       if (.not. judged) return
@@ -215,14 +198,5 @@ contains
          told%quietest_rms = row(7)
       end associate
    end subroutine row_told
-
-   !> Nobody watches.
-   subroutine period_done(self, done, all)
-      class(nobody_t), intent(inout) :: self
-      integer, intent(in) :: done
-      integer, intent(in) :: all
-
-      if (done > all .and. same_type_as(self, self)) return
-   end subroutine period_done
 
 end module gear_motions

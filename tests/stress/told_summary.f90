@@ -3,7 +3,7 @@
 module told_summary
    use verification, only: verification_sentence, verification_word
    use controlled_engine, only: solve_controlled
-   use engine, only: checkpoint_t, ending_t, motion_state_t, motion_watcher_t, request_t, start_of
+   use engine, only: checkpoint_t, ending_t, motion_state_t, unwatched_t, request_t, start_of
    use errors, only: error_t
    use impact_reference, only: compared_harmonics
    use judge_scene, only: judge, note_ending
@@ -17,7 +17,7 @@ module told_summary
                          quantity_film_maximum, quantity_film_minimum, quantity_harmonics, quantity_orbit_period, &
                          quantity_periods_solved, quantity_rattle_class, quantity_sampling_sufficient, quantity_word
    use random_scenes, only: drawn_scene_t
-   use resolved_scene, only: request_of
+   use resolved_scene, only: request_of, resolved_scene_t
    use run_sweep, only: carried_state_t, solve_value
    use sample_recorder, only: sample_recorder_t
    use sampling, only: plan_table, sample_plan_t
@@ -51,13 +51,7 @@ module told_summary
       logical :: sampling_sufficient = .true.
    end type told_t
 
-   !> Nobody watches.
-   type, extends(motion_watcher_t) :: nobody_t
-   contains
-      procedure :: period_done
-   end type nobody_t
-
-   public :: rows_told, steps_expected, summary_told, value_told
+   public :: rows_told, solve_and_judge, steps_expected, summary_told, value_told
 
 contains
 
@@ -83,29 +77,41 @@ contains
                                                       drawn%scene%solver%until == until_steady)
    end function steps_expected
 
-   !> Solve and judge a scene.
+   !> Solve and judge a scene, as the program does it alone.
+   subroutine solve_and_judge(scene, resolved, result, ending, error)
+      type(scene_t), intent(in) :: scene
+      !> What follows from it
+      type(resolved_scene_t), intent(in) :: resolved
+      type(judged_scene_t), intent(out) :: result
+      type(ending_t), intent(out) :: ending
+      type(error_t), allocatable, intent(out) :: error
+      type(window_record_t) :: record
+      type(sample_recorder_t) :: recorder
+      type(checkpoint_t) :: start
+      type(unwatched_t) :: nobody
+
+      call recorder%open(scene, resolved%problem, '', 0, error)
+      if (scene%solver%method == method_taylor) then
+         call solve_controlled(resolved%problem, request_of(scene), recorder, nobody, start, ending, record, error)
+      else
+         call solve_newmark(resolved%problem, request_of(scene), recorder, nobody, start, ending, record, error)
+      end if
+      result%resolved = resolved
+      call note_ending(ending, result)
+      if (.not. allocated(error)) call judge(scene, recorder, record, ending, result, error)
+   end subroutine solve_and_judge
+
+   !> What the summary of a scene tells.
    subroutine summary_told(drawn, told)
       !> The scene with its solver
       type(drawn_scene_t), intent(in) :: drawn
       type(told_t), intent(out) :: told
       type(judged_scene_t) :: result
       type(ending_t) :: ending
-      type(window_record_t) :: record
-      type(sample_recorder_t) :: recorder
-      type(checkpoint_t) :: start
-      type(nobody_t) :: nobody
       type(error_t), allocatable :: error
       integer :: n
 
-      call recorder%open(drawn%scene, drawn%resolved%problem, '', 0, error)
-      if (drawn%scene%solver%method == method_taylor) then
-         call solve_controlled(drawn%resolved%problem, request_of(drawn%scene), recorder, nobody, start, ending, record, error)
-      else
-         call solve_newmark(drawn%resolved%problem, request_of(drawn%scene), recorder, nobody, start, ending, record, error)
-      end if
-      result%resolved = drawn%resolved
-      call note_ending(ending, result)
-      if (.not. allocated(error)) call judge(drawn%scene, recorder, record, ending, result, error)
+      call solve_and_judge(drawn%scene, drawn%resolved, result, ending, error)
       told%status = status_name(result%status)
       if (allocated(error)) told%status = 'not_written'
       told%judged = is_success(result%status) .and. result%judged .and. .not. allocated(error)
@@ -240,14 +246,5 @@ contains
       told%harmonics(1) = judged%rattle%spectrum%harmonics(1)
       told%harmonic_count = 1
    end subroutine value_told
-
-   !> Nobody watches.
-   subroutine period_done(self, done, all)
-      class(nobody_t), intent(inout) :: self
-      integer, intent(in) :: done
-      integer, intent(in) :: all
-
-      if (done > all .and. same_type_as(self, self)) return
-   end subroutine period_done
 
 end module told_summary

@@ -6,7 +6,7 @@ module test_nodal_engine
    use engine, only: ending_t
    use errors, only: error_t
    use kinds, only: dp
-   use nodal_engine, only: nodal_choice_t
+   use nodal_step, only: nodal_choice_t
    use nodal_scene, only: choice_of, solve_nodal_scene, window_keeper_t
    use node_extremes, only: seen_acceleration, seen_coast_film, seen_coast_load, seen_film, seen_load, seen_pressure
    use carried_loads, only: gear_positions
