@@ -253,6 +253,10 @@ contains
       call new_outcome(scene, threshold, outcome)
       call add_traces(scene, threshold, 1_int64, traces, outcome, ends)
       call checks%check(all(end_counts(scene, threshold, outcome) == [3, 1, 1]), 'ends within a bracket are one change')
+      ends(:, 3) = [ends(2, 3), 240.0_dp, ends(4, 3), 1.0_dp]
+      call new_outcome(scene, threshold, outcome)
+      call add_traces(scene, threshold, 1_int64, traces, outcome, ends)
+      call checks%check(all(end_counts(scene, threshold, outcome) == [3, 0, 0]), 'motions of the side above alone')
       call prepare(checks, scene, threshold, ' /'//line_feed//'&solver starts = 1 /')
       call new_outcome(scene, threshold, outcome)
       call add_traces(scene, threshold, 1_int64, traces, outcome)
