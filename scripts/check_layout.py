@@ -37,6 +37,7 @@ KNOW_FLANKS = {
         "motion/lane_integration",
         "motion/many_motions",
         "motion/nodal_engine",
+        "motion/nodal_step",
         "motion/taylor_iso_viscous",
         "motion/taylor_piezo_viscous",
         "motion/taylor_reynolds_piezo",
